@@ -1,0 +1,1 @@
+"""The engine: runs checks on real processes and real DDS, and streams events."""

@@ -1,0 +1,1 @@
+"""Judging: criteria, verdicts, causes and events. Knows neither ROS nor processes."""

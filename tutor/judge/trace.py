@@ -1,0 +1,175 @@
+"""Facts: what was seen of a learner's process, as plain data.
+
+Times are seconds. `source_time`, `stamp` and `at` are wall-clock times since the epoch (all processes of a check share
+one clock); durations and limits are plain seconds.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from enum import IntEnum
+from typing import Any
+
+
+class Level(IntEnum):
+    """Severity of a log message, as `rcl_interfaces/msg/Log` numbers it."""
+
+    DEBUG = 10
+    INFO = 20
+    WARN = 30
+    ERROR = 40
+    FATAL = 50
+
+
+@dataclass(frozen=True, slots=True)
+class Sample:
+    """One message on a topic. `message` maps each field to its value (nested messages are mappings too)."""
+
+    topic: str
+    message: Mapping[str, Any]
+    source_time: float
+    received_at: float
+
+
+@dataclass(frozen=True, slots=True)
+class LogRecord:
+    """One message on `/rosout`. `level` is a severity number (see `Level`)."""
+
+    level: int
+    name: str
+    text: str
+    stamp: float
+    received_at: float
+
+    def __str__(self) -> str:
+        label = Level(self.level).name if self.level in set(Level) else str(self.level)
+        return f"[{label}] [{self.name}]: {self.text}"
+
+
+@dataclass(frozen=True, slots=True)
+class Endpoint:
+    """A publisher or subscription in the graph. `node` is the full node name; QoS values are the policies' short names."""
+
+    topic: str
+    type: str
+    node: str
+    reliability: str
+    durability: str
+
+
+@dataclass(frozen=True, slots=True)
+class Service:
+    """A service server in the graph."""
+
+    name: str
+    type: str
+    node: str
+
+
+@dataclass(frozen=True, slots=True)
+class Graph:
+    """The learner's part of the ROS graph; our own nodes are left out. `nodes` holds full names, one for each node."""
+
+    nodes: tuple[str, ...] = ()
+    publishers: tuple[Endpoint, ...] = ()
+    subscriptions: tuple[Endpoint, ...] = ()
+    services: tuple[Service, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Exit:
+    """How a process ended. Exactly one of `code` and `signal` is set. `after_s`: seconds since it was started."""
+
+    code: int | None
+    signal: int | None
+    after_s: float
+
+    def __str__(self) -> str:
+        return f"exit code {self.code}" if self.code is not None else f"signal {self.signal}"
+
+
+@dataclass(frozen=True, slots=True)
+class OutputLine:
+    """One line that the process wrote. `stream` is "stdout" or "stderr"; a long line is cut."""
+
+    stream: str
+    text: str
+    at: float
+
+
+@dataclass(frozen=True, slots=True)
+class Ending:
+    """What happened from one SIGINT (as Ctrl+C sends it) on.
+
+    `exit` is None where the process was still there after `limit_s` seconds; `output` is what it wrote from then on.
+    """
+
+    exit: Exit | None
+    took_s: float
+    limit_s: float
+    output: tuple[OutputLine, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Parameter:
+    """One parameter of a node. `type` is a name as `ros2 param describe` gives it ("double", "integer", "string", ...)."""
+
+    node: str
+    name: str
+    type: str
+    value: Any
+    read_only: bool = False
+    minimum: float | None = None
+    maximum: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class SetAnswer:
+    """The answer to setting parameters: one (successful, reason) pair, or `answered` False where none came in time."""
+
+    values: Mapping[str, Any]
+    answered: bool
+    successful: bool
+    reason: str
+    asked_at: float
+    answered_at: float
+
+
+@dataclass(frozen=True, slots=True)
+class CallAnswer:
+    """The answer to one service call. `response` is None where none came within `limit_s` seconds."""
+
+    service: str
+    request: Mapping[str, Any]
+    response: Mapping[str, Any] | None
+    asked_at: float
+    answered_at: float
+    limit_s: float
+
+    @property
+    def took_s(self) -> float:
+        """Seconds from the request to the answer, or to the limit."""
+        return self.answered_at - self.asked_at
+
+
+@dataclass(frozen=True, slots=True)
+class Trace:
+    """Everything that was seen of one start of the learner's process.
+
+    `output` is bounded: `dropped_lines` says how many lines in its middle were not kept.
+    """
+
+    file: str
+    parameters: Mapping[str, Any] = field(default_factory=dict)
+    started_at: float = 0.0
+    samples: Mapping[str, tuple[Sample, ...]] = field(default_factory=dict)
+    logs: tuple[LogRecord, ...] = ()
+    graph: Graph = Graph()
+    output: tuple[OutputLine, ...] = ()
+    dropped_lines: int = 0
+    exit: Exit | None = None
+
+    def on(self, topic: str) -> tuple[Sample, ...]:
+        """The samples of one topic, oldest first."""
+        return self.samples.get(topic, ())

@@ -1,0 +1,76 @@
+"""What a criterion ends in, and why."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from enum import Enum
+
+
+class Status(Enum):
+    """How a criterion ended.
+
+    `FAILED` speaks of the learner's code only; a fault of the tool or the machine is `ERROR`.
+    """
+
+    PASSED = "passed"
+    FAILED = "failed"
+    SKIPPED = "skipped"
+    ERROR = "error"
+
+
+@dataclass(frozen=True, slots=True)
+class Cause:
+    """A likely reason for a failure.
+
+    `name` is the short, stable name that a learner can look up ("no spin"), `text` says what that means here, `hint` the
+    next step to take.
+    """
+
+    name: str
+    text: str
+    hint: str
+
+    def __str__(self) -> str:
+        return f"{self.name}: {self.text}"
+
+
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """The diagnosis of one criterion: a status and what was expected, observed, concluded and advised.
+
+    `observed` holds numbers with their units; `evidence` holds single lines to show as they are (log lines, samples,
+    the learner's own code line), oldest first.
+    """
+
+    status: Status
+    expected: str = ""
+    observed: str = ""
+    cause: str = ""
+    hint: str = ""
+    evidence: tuple[str, ...] = ()
+
+    @property
+    def passed(self) -> bool:
+        """Whether the criterion is met."""
+        return self.status is Status.PASSED
+
+
+def passed(expected: str, observed: str, evidence: Iterable[str] = ()) -> Verdict:
+    """The criterion is met."""
+    return Verdict(Status.PASSED, expected=expected, observed=observed, evidence=tuple(evidence))
+
+
+def failed(expected: str, observed: str, cause: Cause, evidence: Iterable[str] = ()) -> Verdict:
+    """The learner's code does not meet the criterion; `cause` names why and what to do next."""
+    return Verdict(Status.FAILED, expected, observed, str(cause), cause.hint, tuple(evidence))
+
+
+def skipped(because: str) -> Verdict:
+    """The criterion was not judged because something that it depends on did not pass."""
+    return Verdict(Status.SKIPPED, cause=because)
+
+
+def fault(what: str, mend: str, evidence: Iterable[str] = ()) -> Verdict:
+    """The tool or the machine could not judge the criterion: `what` went wrong, and how to `mend` it."""
+    return Verdict(Status.ERROR, cause=what, hint=mend, evidence=tuple(evidence))
