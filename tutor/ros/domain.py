@@ -1,0 +1,90 @@
+"""Domain ids: one for each scenario, used by nothing else on this machine for as long as it is held."""
+
+from __future__ import annotations
+
+import itertools
+import os
+import random
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager
+from pathlib import Path
+
+FIRST, LAST = 1, 100
+_PORTS_OF_DOMAIN_0 = 7400
+_PORTS_PER_DOMAIN = 250
+_UDP_TABLES = (Path("/proc/net/udp"), Path("/proc/net/udp6"))
+
+# Every process starts somewhere else and goes round from there, so that a domain that was just given back (whose last
+# packets may still be on their way) is the last to be used again.
+_round = itertools.count(random.SystemRandom().randrange(LAST))
+
+
+class NoFreeDomain(Exception):
+    """Every domain id is taken. `mend` says what to do."""
+
+    mend = (
+        "Close other programs that use ROS on this machine (ps -ef shows them), such as checks or nodes left running, "
+        "and try again."
+    )
+
+    def __init__(self) -> None:
+        super().__init__(f"No ROS domain id from {FIRST} to {LAST} is free on this machine.")
+
+
+@contextmanager
+def reserve_domain() -> Iterator[int]:
+    """Hold a domain id (1 to 100) that nothing else on this machine uses; it is given back at the end of the block.
+
+    Safe among threads and processes, and among other programs that use ROS's domain_coordinator; a process that dies
+    gives its ids back. Raises NoFreeDomain.
+    """
+    claim = _claim()
+    try:
+        domain = claim.__enter__()
+    except RuntimeError:  # the coordinator tried as often as it does
+        raise NoFreeDomain from None
+    # What the block raises is kept from the coordinator: it would take an OSError for a port that is in use, and go on.
+    try:
+        yield domain
+    finally:
+        claim.__exit__(None, None, None)
+
+
+def busy_domains() -> frozenset[int]:
+    """The domain ids whose DDS ports something on this machine has bound (this network namespace, UDP, IPv4 and IPv6)."""
+    ports = (port for table in _UDP_TABLES if table.exists() for port in _bound_ports(table.read_text()))
+    ids = ((port - _PORTS_OF_DOMAIN_0) // _PORTS_PER_DOMAIN for port in ports)
+    return frozenset(domain for domain in ids if 0 <= domain <= LAST)
+
+
+def _claim() -> AbstractContextManager[int]:
+    from domain_coordinator import domain_id  # the sourced ROS's own, where there is one: all must heed the same lock
+
+    avoided = busy_domains() | _users_domain()
+    candidates = iter([domain for domain in _next_round() if domain not in avoided])
+
+    def select() -> int:
+        domain = next((domain for domain in candidates if domain not in busy_domains()), None)
+        if domain is None:
+            raise NoFreeDomain
+        return domain
+
+    selector: Callable[[], int] = select
+    claim: AbstractContextManager[int] = domain_id(selector)
+    return claim
+
+
+def _next_round() -> list[int]:
+    start = next(_round)
+    return [FIRST + (start + step) % (LAST - FIRST + 1) for step in range(LAST - FIRST + 1)]
+
+
+def _users_domain() -> frozenset[int]:
+    given = os.environ.get("ROS_DOMAIN_ID", "")
+    return frozenset({int(given)}) if given.isdecimal() else frozenset()
+
+
+def _bound_ports(table: str) -> Iterator[int]:
+    for line in table.splitlines()[1:]:
+        local = line.split()[1]
+        yield int(local.rpartition(":")[2], 16)

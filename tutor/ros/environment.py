@@ -1,0 +1,198 @@
+"""Which ROS 2 is used, bundled or system, and the environment of every process that uses it. The two are never mixed.
+
+Nothing here imports rclpy.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import sys
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+from tutor.ros import prefixes
+from tutor.ros.isolation import PROFILE, isolated_discovery, loopback_multicast_works
+from tutor.sandbox import interfaces
+
+__all__ = ["RosEnvironment", "detect", "learner_env", "loopback_multicast_works", "tutor_env", "use_in_this_process"]
+
+DISTRO = "jazzy"
+RMW = "rmw_fastrtps_cpp"
+# The wheels' start-up hook starts the interpreter anew to set LD_LIBRARY_PATH, unless this is set.
+BOOTSTRAP_DONE = "_ROS_WHEELS_BOOTSTRAP_COMPLETE"
+
+# What a learner's node must not inherit: it would change its Python, its output or its discovery.
+_ALWAYS_DROPPED = ("RCUTILS_", "PYTEST_", "COV_", "COVERAGE_", "PYTHON", "VIRTUAL_ENV", "__PYVENV_LAUNCHER__")
+_DISCOVERY = ("FASTRTPS_", "FASTDDS_", "CYCLONEDDS_", "ZENOH_", "RMW_")
+_ROS = ("ROS_", "AMENT_", "COLCON_", "CMAKE_PREFIX_PATH", "RCL_")
+_PATHS_OF_ROS = ("CMAKE_PREFIX_PATH", "PKG_CONFIG_PATH")
+# The user's own settings of discovery, which "run" (unlike a check) leaves alone.
+_USERS_DISCOVERY = (
+    "ROS_AUTOMATIC_DISCOVERY_RANGE",
+    "ROS_DISCOVERY_SERVER",
+    "ROS_LOCALHOST_ONLY",
+    "ROS_STATIC_PEERS",
+    "ROS_SUPER_CLIENT",
+)
+_SYSTEM_FACTS = ("ROS_DISTRO", "ROS_VERSION", "ROS_PYTHON_VERSION", "ROS_ETC_DIR", "ROS_PACKAGE_PATH", "AMENT_", "COLCON_")
+
+
+@dataclass(frozen=True, slots=True)
+class RosEnvironment:
+    """The ROS 2 that is used.
+
+    `python` runs the learners' code. `problems` are single sentences about the environment variables around us, such as
+    another distribution that is sourced; they are cleaned away, so that checks work all the same.
+    """
+
+    kind: Literal["bundled", "system"]
+    distro: str
+    python: Path
+    rmw: str
+    problems: tuple[str, ...] = ()
+
+
+def detect(environ: Mapping[str, str] = os.environ) -> RosEnvironment:
+    """Find out which ROS 2 to use: a sourced ROS 2 Jazzy that is whole, else the bundled one."""
+    bundled = Path(sys.executable)
+    sourced = [Path(entry) for entry in prefixes.without_ours(environ, "AMENT_PREFIX_PATH")]
+    distro = environ.get("ROS_DISTRO", "")
+    problems = _problems(environ, distro, sourced)
+    if problems or not distro:
+        return RosEnvironment("bundled", DISTRO, bundled, RMW, problems)
+    home = next(prefix for prefix in sourced if prefixes.rclpy_site(prefix))
+    python = _system_python(home, environ)
+    if python is None:
+        text = f"ROS 2 {DISTRO} is sourced ({home}), but no Python 3.12 was found to run it with."
+        return RosEnvironment("bundled", DISTRO, bundled, RMW, (text,))
+    return RosEnvironment("system", DISTRO, python, RMW)
+
+
+def learner_env(
+    ros: RosEnvironment,
+    *,
+    domain_id: int,
+    log_dir: Path,
+    package_root: Path | None,
+    isolated: bool,
+    environ: Mapping[str, str] = os.environ,
+) -> dict[str, str]:
+    """The environment for a learner's process, to be run with `ros.python`.
+
+    `package_root` is a folder to import the learner's package from. `isolated` keeps the process's DDS traffic on this
+    host (a check); otherwise the user's own discovery settings hold (a run that their other terminals see).
+    """
+    env = _ros_env(ros, environ, first_on_path=[] if package_root is None else [package_root])
+    env.update(_discovery(isolated, environ))
+    env["ROS_DOMAIN_ID"] = str(domain_id)
+    env["ROS_LOG_DIR"] = str(log_dir)
+    return env
+
+
+def tutor_env(ros: RosEnvironment, *, isolated: bool, environ: Mapping[str, str] = os.environ) -> dict[str, str]:
+    """The environment for a process of ours that imports rclpy, to be run with `sys.executable`.
+
+    A process that is started with it need not start itself anew in `use_in_this_process`.
+    """
+    env = _ros_env(ros, environ, first_on_path=[])
+    env.update(_discovery(isolated, environ))
+    for name in ("ROS_DOMAIN_ID", "ROS_LOG_DIR"):
+        if name in environ:
+            env[name] = environ[name]
+    return env
+
+
+def use_in_this_process(ros: RosEnvironment, isolated: bool) -> None:
+    """Prepare this process for `import rclpy` (the observer's side). Call it first of all: before rclpy, threads, output.
+
+    Where this process was started with library folders of the other ROS, it starts itself anew, once, without them: the
+    loader reads LD_LIBRARY_PATH only then. Raises RuntimeError where rclpy is imported already, and whatever
+    `tutor.sandbox.interfaces.activate` raises where the bundled interfaces are missing.
+    """
+    from tutor.ros import this_process  # late: it is about the import system, which nothing else here needs
+
+    this_process.prepare(ros, tutor_env(ros, isolated=isolated))
+
+
+def _problems(environ: Mapping[str, str], distro: str, sourced: list[Path]) -> tuple[str, ...]:
+    foreign_paths = [e for e in prefixes.entries(environ, "PYTHONPATH") if prefixes.is_foreign_ros(e)]
+    if not distro and not sourced and not foreign_paths:
+        return ()
+    if distro and distro != DISTRO:
+        return (f"ROS 2 {distro} is sourced (ROS_DISTRO={distro}); the exercises need {DISTRO}.",)
+    if not distro:
+        left_over = sourced[0] if sourced else foreign_paths[0]
+        return (f"ROS is half sourced: ROS_DISTRO is not set, but {left_over} is in the environment.",)
+    others = sorted({p.parts[3] for p in map(Path, [*map(str, sourced), *foreign_paths]) if _names_a_distro(p)} - {DISTRO})
+    if others:
+        return (f"More than one ROS is sourced: {DISTRO} and {', '.join(others)}.",)
+    homes = [prefix for prefix in sourced if prefixes.rclpy_site(prefix)]
+    if not homes:
+        return (f"ROS_DISTRO is {DISTRO}, but no folder of AMENT_PREFIX_PATH holds rclpy for Python 3.12.",)
+    site = prefixes.rclpy_site(homes[0])
+    own_python = (homes[0] / "bin" / "python3.12").exists()  # it knows its own folders, as one in a conda environment
+    if not own_python and str(site) not in prefixes.entries(environ, "PYTHONPATH"):
+        return (f"ROS is half sourced: {site} is not in PYTHONPATH.",)
+    if not own_python and str(homes[0] / "lib") not in prefixes.entries(environ, "LD_LIBRARY_PATH"):
+        return (f"ROS is half sourced: {homes[0] / 'lib'} is not in LD_LIBRARY_PATH.",)
+    if not any(prefixes.holds_package(prefix, RMW) for prefix in sourced):
+        return (f"The sourced ROS 2 {DISTRO} has no {RMW}, which the checks use.",)
+    return ()
+
+
+def _names_a_distro(path: Path) -> bool:
+    return len(path.parts) > 3 and path.is_relative_to("/opt/ros")
+
+
+def _system_python(home: Path, environ: Mapping[str, str]) -> Path | None:
+    own = [home / "bin" / "python3.12", Path("/usr/bin/python3.12"), Path("/usr/local/bin/python3.12")]
+    base = Path(getattr(sys, "_base_executable", ""))
+    found = shutil.which("python3.12", path=prefixes.joined(prefixes.without_ours(environ, "PATH")))
+    candidates = [*own, base, *([Path(found)] if found else [])]
+    return next((python for python in candidates if python.is_file() and not prefixes.is_ours(python)), None)
+
+
+def _ros_env(ros: RosEnvironment, environ: Mapping[str, str], first_on_path: list[Path]) -> dict[str, str]:
+    kept = _SYSTEM_FACTS if ros.kind == "system" else ()
+    env = {
+        name: value
+        for name, value in environ.items()
+        if not name.startswith(_ALWAYS_DROPPED + _DISCOVERY) and (not name.startswith(_ROS) or name.startswith(kept))
+    }
+    if ros.kind == "bundled":
+        binaries = Path(sys.prefix) / "bin"
+        env["PATH"] = prefixes.joined([binaries, *prefixes.without_ros(environ, "PATH")])
+        env["LD_LIBRARY_PATH"] = prefixes.joined(
+            [*prefixes.bundled_libraries(), *prefixes.without_ros(environ, "LD_LIBRARY_PATH")]
+        )
+        python_path = [*first_on_path, interfaces.site_packages(), *prefixes.without_ros(environ, "PYTHONPATH")]
+        env["AMENT_PREFIX_PATH"] = prefixes.joined([interfaces.prefix(), sys.prefix])
+        rest = {name: prefixes.without_ros(environ, name) for name in _PATHS_OF_ROS}
+    else:
+        python_path = [*first_on_path, *map(Path, prefixes.without_ours(environ, "PYTHONPATH"))]
+        rest = {
+            name: prefixes.without_ours(environ, name)
+            for name in ("PATH", "LD_LIBRARY_PATH", "AMENT_PREFIX_PATH", *_PATHS_OF_ROS)
+        }
+    env["PYTHONPATH"] = prefixes.joined(python_path)
+    for name, left in rest.items():
+        env.pop(name, None)
+        if left:
+            env[name] = prefixes.joined(left)
+    env[BOOTSTRAP_DONE] = "1"
+    env["RMW_IMPLEMENTATION"] = ros.rmw
+    env["PYTHONUNBUFFERED"] = "1"  # a piped print would be held back
+    env["PYTHONDONTWRITEBYTECODE"] = "1"  # no __pycache__ beside a learner's files
+    env["PYTHONIOENCODING"] = "utf-8"
+    return env
+
+
+def _discovery(isolated: bool, environ: Mapping[str, str]) -> dict[str, str]:
+    if isolated:
+        return isolated_discovery()
+    users = {name: value for name, value in environ.items() if name in _USERS_DISCOVERY or name.startswith(_DISCOVERY)}
+    users.pop("RMW_IMPLEMENTATION", None)
+    return {name: value for name, value in users.items() if value != str(PROFILE)}

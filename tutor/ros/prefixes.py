@@ -1,0 +1,77 @@
+"""Which entries of PATH-like variables belong to a ROS installation, and to which: ours, or another."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+
+from tutor.sandbox import interfaces
+
+SITE_PACKAGES = Path("lib") / "python3.12" / "site-packages"
+_INDEX = Path("share") / "ament_index" / "resource_index"
+
+
+def entries(environ: Mapping[str, str], name: str) -> list[str]:
+    """The entries of a PATH-like variable, empty ones left out, each once, in order."""
+    return list(dict.fromkeys(entry for entry in environ.get(name, "").split(os.pathsep) if entry))
+
+
+def joined(parts: Iterable[str | Path]) -> str:
+    """Entries as the value of a PATH-like variable, each once, in order."""
+    return os.pathsep.join(dict.fromkeys(str(part) for part in parts))
+
+
+def is_ours(entry: str | Path) -> bool:
+    """Whether a path is in the bundled ROS: our own environment, or the interfaces built for it."""
+    path = Path(entry)
+    return any(path.is_relative_to(root) for root in _own_roots())
+
+
+def is_foreign_ros(entry: str | Path) -> bool:
+    """Whether a path is in an ament prefix (of ROS itself or of a workspace) that is not the bundled one."""
+    path = Path(entry)
+    if is_ours(path) or not path.is_absolute():
+        return False
+    if path.is_relative_to("/opt/ros"):
+        return True
+    # The deepest entry is <prefix>/lib/python3.12/site-packages.
+    return any((parent / _INDEX).is_dir() for parent in (path, *path.parents[:4]))
+
+
+def without_ros(environ: Mapping[str, str], name: str) -> list[str]:
+    """The entries of a PATH-like variable that belong to no ROS at all."""
+    return [entry for entry in entries(environ, name) if not is_ours(entry) and not is_foreign_ros(entry)]
+
+
+def without_ours(environ: Mapping[str, str], name: str) -> list[str]:
+    """The entries of a PATH-like variable, those of the bundled ROS left out."""
+    return [entry for entry in entries(environ, name) if not is_ours(entry)]
+
+
+def bundled_libraries() -> list[Path]:
+    """The folders with the bundled ROS's shared libraries, always in the same order."""
+    site = Path(sys.prefix) / SITE_PACKAGES
+    return [Path(sys.prefix) / "lib", interfaces.library_dir(), *sorted(site.glob("ros_*.libs"))]
+
+
+def rclpy_site(prefix: Path) -> Path | None:
+    """The folder of an ament prefix that `import rclpy` works from with CPython 3.12, if it holds one."""
+    for site in (SITE_PACKAGES, Path("local") / "lib" / "python3.12" / "dist-packages"):
+        if any((prefix / site / "rclpy").glob("_rclpy_pybind11.cpython-312-*.so")):
+            return prefix / site
+    return None
+
+
+def holds_package(prefix: Path, package: str) -> bool:
+    """Whether an ament prefix holds this ROS package."""
+    return (prefix / _INDEX / "packages" / package).is_file()
+
+
+def _own_roots() -> tuple[Path, ...]:
+    # A prefix such as /usr (no environment of its own) also holds what is not ours: then only the wheels' folders count.
+    prefix = Path(sys.prefix)
+    if sys.prefix != sys.base_prefix:
+        return (prefix, interfaces.prefix())
+    return (prefix / SITE_PACKAGES, interfaces.prefix())

@@ -1,0 +1,76 @@
+"""Our own process as a user of ROS: the right libraries, the right modules, none of the other ROS."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Sequence
+from functools import cached_property
+from importlib.abc import MetaPathFinder
+from importlib.machinery import ModuleSpec, PathFinder
+from importlib.metadata import distributions
+from pathlib import Path
+from types import ModuleType
+
+from tutor.ros import prefixes
+from tutor.ros.environment import RosEnvironment
+
+_NOT_ANEW = "_ROS_TUTOR_STARTED_ANEW"
+
+
+def prepare(ros: RosEnvironment, env: dict[str, str]) -> None:
+    """Make `import rclpy` in this process find exactly one ROS, with the variables of `env`. See `use_in_this_process`."""
+    if "rclpy" in sys.modules:
+        raise RuntimeError("rclpy is imported already: choose the ROS before")
+    if _wrong_libraries(ros) and os.environ.get(_NOT_ANEW) != ros.kind:
+        os.execve(sys.executable, sys.orig_argv, {**env, _NOT_ANEW: ros.kind})
+    for name in set(os.environ) - set(env):
+        if name.startswith(("ROS_", "RMW_", "AMENT_", "FASTRTPS_", "FASTDDS_", "RCUTILS_")):
+            del os.environ[name]
+    for name in env:
+        if name.startswith(("ROS_", "RMW_", "AMENT_", "FASTRTPS_", "FASTDDS_")):
+            os.environ[name] = env[name]
+    if ros.kind == "system":
+        if not any(isinstance(finder, _NoBundledRos) for finder in sys.meta_path):
+            sys.meta_path.insert(0, _NoBundledRos())
+        return
+    sys.path[:] = [entry for entry in sys.path if not prefixes.is_foreign_ros(entry)]
+    from tutor.sandbox import interfaces
+
+    interfaces.activate()
+
+
+def _wrong_libraries(ros: RosEnvironment) -> bool:
+    # What the loader was given when this process started, whatever os.environ says by now.
+    started_with = dict(
+        variable.partition("=")[::2]
+        for variable in Path("/proc/self/environ").read_bytes().decode(errors="surrogateescape").split("\0")
+    )
+    wrong = prefixes.is_ours if ros.kind == "system" else prefixes.is_foreign_ros
+    return any(wrong(entry) for entry in prefixes.entries(started_with, "LD_LIBRARY_PATH"))
+
+
+class _NoBundledRos(MetaPathFinder):
+    """Refuses to import a module of the bundled ROS: with a system ROS, what that one lacks is missing, not mixed in."""
+
+    @cached_property
+    def _bundled(self) -> frozenset[str]:
+        return frozenset(
+            Path(str(file)).parts[0]
+            for distribution in distributions()
+            if (distribution.metadata["Name"] or "").lower().replace("_", "-").startswith("ros-")
+            and not (distribution.metadata["Name"] or "").lower().replace("_", "-").startswith(("ros-tutor", "ros-wheels"))
+            for file in distribution.files or ()
+            if not str(file).startswith("..")
+        )
+
+    def find_spec(
+        self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
+    ) -> ModuleSpec | None:
+        # domain_coordinator is plain Python and only a lock: the bundled one serves where the system has none.
+        if path is not None or fullname == "domain_coordinator" or fullname not in self._bundled:
+            return None
+        found = PathFinder.find_spec(fullname, [entry for entry in sys.path if not prefixes.is_ours(entry)])
+        if found is None:
+            raise ModuleNotFoundError(f"the sourced ROS has no module named {fullname!r}", name=fullname)
+        return found
