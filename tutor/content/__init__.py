@@ -1,0 +1,31 @@
+"""The course: lessons and the self-assessment checklist, as plain data. Knows neither ROS nor the terminal."""
+
+from tutor.content.errors import ContentError, UnknownExercise
+from tutor.content.lint import Problem, lint
+from tutor.content.loader import load_course
+from tutor.content.model import (
+    Checklist,
+    ChecklistGroup,
+    ChecklistItem,
+    Course,
+    CriterionText,
+    Difficulty,
+    Lesson,
+    LessonFile,
+)
+
+__all__ = [
+    "Checklist",
+    "ChecklistGroup",
+    "ChecklistItem",
+    "ContentError",
+    "Course",
+    "CriterionText",
+    "Difficulty",
+    "Lesson",
+    "LessonFile",
+    "Problem",
+    "UnknownExercise",
+    "lint",
+    "load_course",
+]

@@ -1,0 +1,123 @@
+"""YAML with manners: every wrong, missing or misspelt field is an error that names its file and line."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from tutor.content.errors import ContentError
+
+# The C parser is some ten times faster; a PyYAML built without it works just as well. Both are the safe loader.
+_Loader: type[Any] = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+
+
+class Document:
+    """A YAML text with its place in a file. `offset` is the number of the file's lines that come before the text."""
+
+    def __init__(self, file: Path, text: str, offset: int = 0) -> None:
+        self.file = file
+        self._text = text
+        self._offset = offset
+
+    def read(self) -> Fields:
+        """Parse the text, whose outermost value must be a mapping.
+
+        Raises ContentError.
+        """
+        try:
+            value = yaml.load(self._text, Loader=_Loader)
+        except yaml.MarkedYAMLError as error:
+            mark = error.problem_mark or error.context_mark
+            line = None if mark is None else mark.line + 1 + self._offset
+            raise ContentError(self.file, f"not valid YAML: {error.problem}", line=line) from error
+        except yaml.YAMLError as error:
+            raise ContentError(self.file, f"not valid YAML: {error}") from error
+        return Fields(self, (), value)
+
+    def error(self, path: tuple[str | int, ...], message: str) -> ContentError:
+        """Say what is wrong with the value at `path`, at its line or that of the nearest value around it."""
+        field = "".join(f"[{step + 1}]" if isinstance(step, int) else f".{step}" for step in path).lstrip(".")
+        return ContentError(self.file, message, line=self._line(path), field=field)
+
+    def _line(self, path: tuple[str | int, ...]) -> int:
+        # Lines cost a second parse, so they are looked up only when there is something to complain about.
+        node = yaml.compose(self._text, Loader=_Loader)
+        line = node.start_mark.line if node is not None else 0
+        for step in path:
+            if isinstance(node, yaml.SequenceNode) and isinstance(step, int):
+                node = node.value[step]
+                line = node.start_mark.line
+            elif isinstance(node, yaml.MappingNode):
+                found = [(key, value) for key, value in node.value if key.value == step]
+                if not found:
+                    break
+                key, node = found[-1]
+                line = key.start_mark.line
+        return int(line) + 1 + self._offset
+
+
+class Fields:
+    """A mapping whose fields are taken one by one, each as the type it must have; `done` refuses what is left."""
+
+    def __init__(self, document: Document, path: tuple[str | int, ...], value: object) -> None:
+        self._document = document
+        self._path = path
+        if not isinstance(value, dict):
+            raise document.error(path, f"expected fields (name: value), found {_kind(value)}")
+        self._left = dict(value)
+
+    def text(self, name: str) -> str:
+        """A text that is not empty, without the white space around it."""
+        return self._text((*self._path, name), self._take(name))
+
+    def flag(self, name: str, default: bool) -> bool:
+        """True or false; `default` where the field is absent."""
+        value = self._left.pop(name, default)
+        if not isinstance(value, bool):
+            raise self.error(name, f"expected true or false, found {_kind(value)}")
+        return value
+
+    def texts(self, name: str, *, optional: bool = False) -> tuple[str, ...]:
+        """A list of texts; an absent `optional` one is empty."""
+        return self._list(name, optional, self._text)
+
+    def mappings(self, name: str) -> tuple[Fields, ...]:
+        """A list of mappings."""
+        return self._list(name, False, lambda path, value: Fields(self._document, path, value))
+
+    def done(self) -> None:
+        """Refuse fields that nobody asked for: most often they are misspelt."""
+        for name in self._left:
+            raise self.error(str(name), "there is no such field")
+
+    def error(self, name: str, message: str) -> ContentError:
+        """Say what is wrong with one field of this mapping."""
+        return self._document.error((*self._path, name), message)
+
+    def _take(self, name: str) -> object:
+        if name not in self._left:
+            raise self.error(name, "this field is missing")
+        return self._left.pop(name)
+
+    def _text(self, path: tuple[str | int, ...], value: object) -> str:
+        if not isinstance(value, str) or not value.strip():
+            raise self._document.error(path, f"expected a text, found {_kind(value)}")
+        return value.strip()
+
+    def _list[T](self, name: str, optional: bool, read: Callable[[tuple[str | int, ...], object], T]) -> tuple[T, ...]:
+        if optional and name not in self._left:
+            return ()
+        value = self._take(name)
+        if not isinstance(value, list):
+            raise self.error(name, f"expected a list, found {_kind(value)}")
+        return tuple(read((*self._path, name, index), item) for index, item in enumerate(value))
+
+
+def _kind(value: object) -> str:
+    if value is None or value == "":
+        return "nothing"
+    names = {str: "a text", bool: "true or false", int: "a number", float: "a number", list: "a list", dict: "fields"}
+    return names.get(type(value), f"a {type(value).__name__}")

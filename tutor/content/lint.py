@@ -1,0 +1,164 @@
+"""Proves a loaded course right: what the loader cannot see, and what a learner would stumble over."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from tutor.content.model import Course, CriterionText, Lesson
+
+SECTIONS = (
+    "Objective",
+    "Background",
+    "Tasks",
+    "Commands to try",
+    "Pitfalls on Jazzy",
+    "What the checks look at",
+)
+"""The second-level headings of every lesson, in this order."""
+
+HINTS = 3
+
+_CRITERION_ID = re.compile(r"[a-z-]+")
+_CHECKLIST_ID = re.compile(r"[a-z][a-z0-9-]*")
+_CODE_FENCE = re.compile(r"\s*```(.*)")
+_RAW_HTML = re.compile(r"</?[a-zA-Z][^>]*>|<!--")
+
+
+@dataclass(frozen=True, slots=True)
+class Problem:
+    """One thing to mend in a course. `file` is the file, or the folder, to mend it in."""
+
+    file: Path
+    text: str
+
+    def __str__(self) -> str:
+        return f"{self.file}: {self.text}"
+
+
+def lint(course: Course) -> list[Problem]:
+    """Find everything that is wrong with a course, lesson by lesson; an empty list means that it is right."""
+    problems = list(_course(course))
+    for lesson in course.lessons:
+        source = lesson.folder / "lesson.md"
+        problems += [Problem(source, text) for text in (*_front_matter(lesson, course), *_body(lesson.body))]
+        problems += _folder(lesson)
+    return problems
+
+
+def _course(course: Course) -> Iterator[Problem]:
+    for lesson_id in _doubles(lesson.id for lesson in course.lessons):
+        folder = course.find(lesson_id).folder
+        yield Problem(folder / "lesson.md", f"the exercise id {lesson_id} is used twice")
+    checklist = _checklist_file(course)
+    groups = course.checklist.groups
+    for item_id in _doubles([group.id for group in groups] + [item.id for item in course.checklist.items]):
+        yield Problem(checklist, f"the id {item_id} is used twice")
+    for item_id in [group.id for group in groups] + [item.id for item in course.checklist.items]:
+        if not _CHECKLIST_ID.fullmatch(item_id):
+            yield Problem(checklist, f"the id {item_id!r} is not in kebab-case")
+    for group in groups:
+        if not group.items:
+            yield Problem(checklist, f"the group {group.id} has no items")
+
+
+def _checklist_file(course: Course) -> Path:
+    folder = course.lessons[0].folder.parent if course.lessons else Path()
+    return folder / "checklist.yaml"
+
+
+def _front_matter(lesson: Lesson, course: Course) -> Iterator[str]:
+    if not any(file.required for file in lesson.files):
+        yield "it requires no file"
+    for name in _doubles(file.name for file in lesson.files):
+        yield f"the file {name} is named twice"
+    yield from _criteria(lesson.criteria)
+    if len(lesson.hints) != HINTS:
+        yield f"it has {len(lesson.hints)} hints instead of {HINTS}"
+    for hint in _doubles(lesson.hints):
+        yield f"the hint {hint!r} is there twice"
+    known = {item.id for item in course.checklist.items}
+    for item in lesson.checklist:
+        if item not in known:
+            yield f"the checklist has no item {item!r}"
+    for item in _doubles(lesson.checklist):
+        yield f"the checklist item {item} is named twice"
+
+
+def _criteria(criteria: Sequence[CriterionText]) -> Iterator[str]:
+    required = [criterion for criterion in criteria if not criterion.bonus]
+    if not required:
+        yield "it has no criterion that is required"
+    elif not any(criterion.open for criterion in required):
+        yield "the skeleton leaves no required criterion open: there is nothing to do"
+    if list(criteria[: len(required)]) != required:
+        yield "its required criteria belong before the bonus ones"
+    for criterion_id in _doubles(criterion.id for criterion in criteria):
+        yield f"the criterion {criterion_id} is there twice"
+    for criterion in criteria:
+        if not _CRITERION_ID.fullmatch(criterion.id):
+            yield f"the criterion id {criterion.id!r} may only have small letters and hyphens"
+        for name, value in (("text", criterion.text), ("hint", criterion.hint)):
+            if not value:
+                yield f"the criterion {criterion.id} has no {name}"
+
+
+def _body(body: str) -> Iterator[str]:
+    headings = []
+    fenced = False
+    for line in body.splitlines():
+        if "\t" in line:
+            yield f"there is a tab in {line.strip()!r}"
+        fence = _CODE_FENCE.fullmatch(line)
+        if fence:
+            fenced = not fenced
+            if fenced and not fence[1].strip():
+                yield "a code block does not say its language"
+        elif not fenced and line.startswith("# "):
+            yield f"the heading {line!r} is a title: the title is in the front matter"
+        elif not fenced and line.startswith("## "):
+            headings.append(line.removeprefix("## ").strip())
+        elif not fenced and _RAW_HTML.search(re.sub(r"`[^`]*`", "", line)):
+            yield f"there is raw HTML in {line.strip()!r}, which a terminal cannot show"
+    if fenced:
+        yield "a code block is never closed"
+    if tuple(headings) != SECTIONS:
+        yield f"its sections are {', '.join(headings) or 'missing'}; expected {', '.join(SECTIONS)}"
+
+
+def _folder(lesson: Lesson) -> Iterator[Problem]:
+    expected = {lesson.folder / "lesson.md"}
+    for file in lesson.files:
+        expected |= {file.skeleton, file.solution}
+        for path in (file.skeleton, file.solution):
+            if not path.is_file():
+                yield Problem(path, "this file is missing")
+            else:
+                yield from _source(path)
+        if file.skeleton.is_file() and file.solution.is_file() and _same(file.skeleton, file.solution):
+            yield Problem(file.skeleton, "the skeleton is the solution")
+    for path in sorted(lesson.folder.rglob("*")):
+        if path.is_file() and path not in expected and path.parent.name != "__pycache__":
+            yield Problem(path, "this file belongs to no lesson")
+
+
+def _source(path: Path) -> Iterator[Problem]:
+    source = path.read_bytes()
+    if b"\t" in source:
+        yield Problem(path, "there is a tab in it")
+    if path.suffix == ".py":
+        try:
+            compile(source, path, "exec", dont_inherit=True)
+        except (SyntaxError, ValueError) as error:
+            yield Problem(path, f"it does not compile: {error}")
+
+
+def _same(one: Path, other: Path) -> bool:
+    return one.read_bytes() == other.read_bytes()
+
+
+def _doubles(values: Iterable[str]) -> list[str]:
+    return [value for value, times in Counter(values).items() if times > 1]

@@ -1,0 +1,170 @@
+"""Reads a course from disk.
+
+A course is a folder with
+
+- lessons/checklist.yaml: the self-assessment checklist
+- lessons/i1_1/lesson.md: YAML front matter between two --- lines, then the lesson in Markdown
+- lessons/i1_1/skeleton/: what a learner starts from
+- lessons/i1_1/solution/: our own answer
+- checks/i1_1.py: what judges it (not read here)
+"""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from tutor.content.errors import ContentError
+from tutor.content.fields import Document, Fields
+from tutor.content.model import (
+    Checklist,
+    ChecklistGroup,
+    ChecklistItem,
+    Course,
+    CriterionText,
+    Difficulty,
+    Lesson,
+    LessonFile,
+)
+
+# The folders tutor, lessons and checks lie side by side, in the repository as in an installed wheel. Importing
+# `lessons` instead would let a folder of that name in a learner's PYTHONPATH take its place.
+BUNDLED = Path(__file__).resolve().parents[2]
+
+_FENCE = "---"
+_LESSON_FOLDER = re.compile(r"[a-z]+[0-9]+_[0-9]+")
+
+
+def load_course(extra: Path | None = None) -> Course:
+    """Read the bundled course, and after it the one in `extra`: a folder that holds `lessons/` and `checks/`.
+
+    Raises ContentError at the first thing that is wrong.
+    """
+    course = _read(BUNDLED / "lessons")
+    if extra is None:
+        return course
+    more = _read(extra / "lessons")
+    known = {lesson.id for lesson in course.lessons}
+    for lesson in more.lessons:
+        if lesson.id in known:
+            raise ContentError(lesson.folder / "lesson.md", f"there is an exercise {lesson.id} already", field="id")
+    return Course(
+        lessons=course.lessons + more.lessons,
+        checklist=Checklist(course.checklist.groups + more.checklist.groups),
+    )
+
+
+def _read(lessons: Path) -> Course:
+    if not lessons.is_dir():
+        raise ContentError(lessons, "there is no such folder")
+    folders = [folder for folder in lessons.iterdir() if _LESSON_FOLDER.fullmatch(folder.name) and folder.is_dir()]
+    checklist = lessons / "checklist.yaml"
+    return Course(
+        lessons=tuple(_lesson(folder) for folder in sorted(folders, key=_order)),
+        checklist=_checklist(checklist) if checklist.exists() else Checklist(),
+    )
+
+
+def _order(folder: Path) -> tuple[str, int, int]:
+    """The order to do lessons in: i2_9 comes before i2_10."""
+    unit, number = folder.name.split("_")
+    letters = unit.rstrip("0123456789")
+    return letters, int(unit.removeprefix(letters)), int(number)
+
+
+def _text(file: Path) -> str:
+    try:
+        return file.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        reason = error.strerror if isinstance(error, OSError) else "it is not UTF-8 text"
+        raise ContentError(file, f"cannot read it: {reason}") from error
+
+
+def _lesson(folder: Path) -> Lesson:
+    file = folder / "lesson.md"
+    head, fence, body = _split(_text(file))
+    if not fence:
+        raise ContentError(file, f"expected a front matter between two {_FENCE} lines at the top", line=1)
+    fields = Document(file, head, offset=1).read()
+    lesson = Lesson(
+        id=_id(fields, folder),
+        title=fields.text("title"),
+        difficulty=_difficulty(fields),
+        unit=fields.text("unit"),
+        objective=fields.text("objective"),
+        files=tuple(_file(item, folder) for item in fields.mappings("files")),
+        criteria=tuple(_criterion(item) for item in fields.mappings("criteria")),
+        hints=fields.texts("hints"),
+        checklist=fields.texts("checklist", optional=True),
+        body=body.strip("\n") + "\n",
+        folder=folder,
+    )
+    fields.done()
+    return lesson
+
+
+def _split(text: str) -> tuple[str, str, str]:
+    """The front matter, the line that ends it (empty where there is none), and the body."""
+    opening, _, rest = text.partition("\n")
+    if opening.rstrip() != _FENCE:
+        return "", "", ""
+    return rest.partition(f"\n{_FENCE}\n")
+
+
+def _id(fields: Fields, folder: Path) -> str:
+    found = fields.text("id")
+    if found != folder.name.replace("_", "."):
+        raise fields.error("id", f"{found!r} does not belong in the folder {folder.name}")
+    return found
+
+
+def _difficulty(fields: Fields) -> Difficulty:
+    found = fields.text("difficulty")
+    try:
+        return Difficulty(found)
+    except ValueError:
+        raise fields.error("difficulty", f"{found!r} is none of {', '.join(Difficulty)}") from None
+
+
+def _file(fields: Fields, folder: Path) -> LessonFile:
+    name = fields.text("name")
+    if "/" in name or name.startswith("."):
+        raise fields.error("name", f"expected a plain file name, found {name!r}")
+    required = fields.flag("required", True)
+    fields.done()
+    return LessonFile(name, required, skeleton=folder / "skeleton" / name, solution=folder / "solution" / name)
+
+
+def _criterion(fields: Fields) -> CriterionText:
+    criterion = CriterionText(
+        id=fields.text("id"),
+        text=fields.text("text"),
+        bonus=fields.flag("bonus", False),
+        open=fields.flag("open", True),
+        hint=fields.text("hint"),
+    )
+    fields.done()
+    return criterion
+
+
+def _checklist(file: Path) -> Checklist:
+    fields = Document(file, _text(file)).read()
+    groups = tuple(_group(group) for group in fields.mappings("groups"))
+    fields.done()
+    return Checklist(groups)
+
+
+def _group(fields: Fields) -> ChecklistGroup:
+    group = ChecklistGroup(
+        id=fields.text("id"),
+        title=fields.text("title"),
+        items=tuple(_item(item) for item in fields.mappings("items")),
+    )
+    fields.done()
+    return group
+
+
+def _item(fields: Fields) -> ChecklistItem:
+    item = ChecklistItem(id=fields.text("id"), text=fields.text("text"))
+    fields.done()
+    return item

@@ -1,0 +1,118 @@
+"""What a course is made of. Facts only: reading it from disk is `loader`, proving it right is `lint`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+from pathlib import Path
+
+from tutor.content.errors import UnknownExercise
+
+
+class Difficulty(StrEnum):
+    """How hard an exercise is."""
+
+    EASY = "easy"
+    MEDIUM = "medium"
+    CHALLENGE = "challenge"
+
+
+@dataclass(frozen=True, slots=True)
+class LessonFile:
+    """One file of a submission, with the file a learner starts from and our own answer.
+
+    A file that is not `required` may be missing from a submission; what depends on it is then not passed.
+    """
+
+    name: str
+    required: bool
+    skeleton: Path
+    solution: Path
+
+
+@dataclass(frozen=True, slots=True)
+class CriterionText:
+    """One criterion in words.
+
+    `open`: the untouched skeleton does not pass it. `bonus`: it is shown, but never changes the verdict.
+    """
+
+    id: str
+    text: str
+    bonus: bool
+    open: bool
+    hint: str
+
+
+@dataclass(frozen=True, slots=True)
+class Lesson:
+    """One exercise: its text, the files it asks for, and what will be judged.
+
+    `hints` go from gentle to plain. `checklist` holds the ids of the checklist items that passing gives evidence for.
+    `body` is Markdown, without a title. `folder` is where all of it lies.
+    """
+
+    id: str
+    title: str
+    difficulty: Difficulty
+    unit: str
+    objective: str
+    files: tuple[LessonFile, ...]
+    criteria: tuple[CriterionText, ...]
+    hints: tuple[str, ...]
+    checklist: tuple[str, ...]
+    body: str
+    folder: Path
+
+    @property
+    def check(self) -> Path:
+        """The module that judges this exercise, in the `checks` folder beside the lesson's `lessons` folder."""
+        return self.folder.parent.parent / "checks" / f"{self.folder.name}.py"
+
+
+@dataclass(frozen=True, slots=True)
+class ChecklistItem:
+    """One thing that a learner can tick: "I can ..."."""
+
+    id: str
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class ChecklistGroup:
+    """Checklist items of one subject."""
+
+    id: str
+    title: str
+    items: tuple[ChecklistItem, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Checklist:
+    """The self-assessment checklist."""
+
+    groups: tuple[ChecklistGroup, ...] = ()
+
+    @property
+    def items(self) -> tuple[ChecklistItem, ...]:
+        """Every item, in the order of the groups."""
+        return tuple(item for group in self.groups for item in group.items)
+
+
+@dataclass(frozen=True, slots=True)
+class Course:
+    """All lessons, in the order to do them, and the checklist."""
+
+    lessons: tuple[Lesson, ...]
+    checklist: Checklist
+
+    def find(self, text: str) -> Lesson:
+        """Find a lesson by its id, written as i1.1, I1.1 or i1_1.
+
+        Raises UnknownExercise where there is none.
+        """
+        wanted = text.strip().lower().replace("_", ".")
+        for lesson in self.lessons:
+            if lesson.id == wanted:
+                return lesson
+        raise UnknownExercise(text, [lesson.id for lesson in self.lessons])
