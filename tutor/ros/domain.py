@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import importlib
 import itertools
 import os
 import random
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
+from typing import Any
 
 FIRST, LAST = 1, 100
 _PORTS_OF_DOMAIN_0 = 7400
@@ -58,8 +60,8 @@ def busy_domains() -> frozenset[int]:
 
 
 def _claim() -> AbstractContextManager[int]:
-    from domain_coordinator import domain_id  # the sourced ROS's own, where there is one: all must heed the same lock
-
+    # Late, as all of ROS is; the sourced ROS's own, where there is one. It is plain Python, and brings no rclpy.
+    coordinator: Any = importlib.import_module("domain_coordinator")
     avoided = busy_domains() | _users_domain()
     candidates = iter([domain for domain in _next_round() if domain not in avoided])
 
@@ -69,8 +71,7 @@ def _claim() -> AbstractContextManager[int]:
             raise NoFreeDomain
         return domain
 
-    selector: Callable[[], int] = select
-    claim: AbstractContextManager[int] = domain_id(selector)
+    claim: AbstractContextManager[int] = coordinator.domain_id(select)
     return claim
 
 

@@ -37,7 +37,15 @@ _USERS_DISCOVERY = (
     "ROS_STATIC_PEERS",
     "ROS_SUPER_CLIENT",
 )
-_SYSTEM_FACTS = ("ROS_DISTRO", "ROS_VERSION", "ROS_PYTHON_VERSION", "ROS_ETC_DIR", "ROS_PACKAGE_PATH", "AMENT_", "COLCON_")
+_SYSTEM_FACTS = (
+    "ROS_DISTRO",
+    "ROS_VERSION",
+    "ROS_PYTHON_VERSION",
+    "ROS_ETC_DIR",
+    "ROS_PACKAGE_PATH",
+    "AMENT_",
+    "COLCON_",
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,7 +120,7 @@ def use_in_this_process(ros: RosEnvironment, isolated: bool) -> None:
     loader reads LD_LIBRARY_PATH only then. Raises RuntimeError where rclpy is imported already, and whatever
     `tutor.sandbox.interfaces.activate` raises where the bundled interfaces are missing.
     """
-    from tutor.ros import this_process  # late: it is about the import system, which nothing else here needs
+    from tutor.ros import this_process
 
     this_process.prepare(ros, tutor_env(ros, isolated=isolated))
 
@@ -126,7 +134,7 @@ def _problems(environ: Mapping[str, str], distro: str, sourced: list[Path]) -> t
     if not distro:
         left_over = sourced[0] if sourced else foreign_paths[0]
         return (f"ROS is half sourced: ROS_DISTRO is not set, but {left_over} is in the environment.",)
-    others = sorted({p.parts[3] for p in map(Path, [*map(str, sourced), *foreign_paths]) if _names_a_distro(p)} - {DISTRO})
+    others = sorted({name for path in [*sourced, *map(Path, foreign_paths)] if (name := _distro_of(path))} - {DISTRO})
     if others:
         return (f"More than one ROS is sourced: {DISTRO} and {', '.join(others)}.",)
     homes = [prefix for prefix in sourced if prefixes.rclpy_site(prefix)]
@@ -143,8 +151,9 @@ def _problems(environ: Mapping[str, str], distro: str, sourced: list[Path]) -> t
     return ()
 
 
-def _names_a_distro(path: Path) -> bool:
-    return len(path.parts) > 3 and path.is_relative_to("/opt/ros")
+def _distro_of(path: Path) -> str:
+    """The distribution that a path is in, if its place tells: /opt/ros/<distribution>."""
+    return path.parts[3] if len(path.parts) > 3 and path.is_relative_to("/opt/ros") else ""
 
 
 def _system_python(home: Path, environ: Mapping[str, str]) -> Path | None:
@@ -168,16 +177,16 @@ def _ros_env(ros: RosEnvironment, environ: Mapping[str, str], first_on_path: lis
         env["LD_LIBRARY_PATH"] = prefixes.joined(
             [*prefixes.bundled_libraries(), *prefixes.without_ros(environ, "LD_LIBRARY_PATH")]
         )
-        python_path = [*first_on_path, interfaces.site_packages(), *prefixes.without_ros(environ, "PYTHONPATH")]
+        python_path = [str(interfaces.site_packages()), *prefixes.without_ros(environ, "PYTHONPATH")]
         env["AMENT_PREFIX_PATH"] = prefixes.joined([interfaces.prefix(), sys.prefix])
         rest = {name: prefixes.without_ros(environ, name) for name in _PATHS_OF_ROS}
     else:
-        python_path = [*first_on_path, *map(Path, prefixes.without_ours(environ, "PYTHONPATH"))]
+        python_path = prefixes.without_ours(environ, "PYTHONPATH")
         rest = {
             name: prefixes.without_ours(environ, name)
             for name in ("PATH", "LD_LIBRARY_PATH", "AMENT_PREFIX_PATH", *_PATHS_OF_ROS)
         }
-    env["PYTHONPATH"] = prefixes.joined(python_path)
+    env["PYTHONPATH"] = prefixes.joined([*first_on_path, *python_path])
     for name, left in rest.items():
         env.pop(name, None)
         if left:

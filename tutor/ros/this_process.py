@@ -8,7 +8,6 @@ from collections.abc import Sequence
 from functools import cached_property
 from importlib.abc import MetaPathFinder
 from importlib.machinery import ModuleSpec, PathFinder
-from importlib.metadata import distributions
 from pathlib import Path
 from types import ModuleType
 
@@ -16,20 +15,20 @@ from tutor.ros import prefixes
 from tutor.ros.environment import RosEnvironment
 
 _NOT_ANEW = "_ROS_TUTOR_STARTED_ANEW"
+_NOT_ROS = ("ros_tutor", "ros_wheels_bootstrapper")
+_OF_ROS = ("ROS_", "RMW_", "AMENT_", "FASTRTPS_", "FASTDDS_", "RCUTILS_")
 
 
 def prepare(ros: RosEnvironment, env: dict[str, str]) -> None:
-    """Make `import rclpy` in this process find exactly one ROS, with the variables of `env`. See `use_in_this_process`."""
+    """Make `import rclpy` find exactly one ROS here, with the variables of `env`. See `use_in_this_process`."""
     if "rclpy" in sys.modules:
         raise RuntimeError("rclpy is imported already: choose the ROS before")
     if _wrong_libraries(ros) and os.environ.get(_NOT_ANEW) != ros.kind:
         os.execve(sys.executable, sys.orig_argv, {**env, _NOT_ANEW: ros.kind})
     for name in set(os.environ) - set(env):
-        if name.startswith(("ROS_", "RMW_", "AMENT_", "FASTRTPS_", "FASTDDS_", "RCUTILS_")):
+        if name.startswith(_OF_ROS):
             del os.environ[name]
-    for name in env:
-        if name.startswith(("ROS_", "RMW_", "AMENT_", "FASTRTPS_", "FASTDDS_")):
-            os.environ[name] = env[name]
+    os.environ.update({name: value for name, value in env.items() if name.startswith(_OF_ROS)})
     if ros.kind == "system":
         if not any(isinstance(finder, _NoBundledRos) for finder in sys.meta_path):
             sys.meta_path.insert(0, _NoBundledRos())
@@ -50,19 +49,18 @@ def _wrong_libraries(ros: RosEnvironment) -> bool:
     return any(wrong(entry) for entry in prefixes.entries(started_with, "LD_LIBRARY_PATH"))
 
 
+def _lines(record: Path) -> list[str]:
+    return record.read_text(encoding="utf-8", errors="replace").splitlines()
+
+
 class _NoBundledRos(MetaPathFinder):
-    """Refuses to import a module of the bundled ROS: with a system ROS, what that one lacks is missing, not mixed in."""
+    """Refuses to import a module of the bundled ROS: what a system ROS lacks is missing there, never mixed in."""
 
     @cached_property
     def _bundled(self) -> frozenset[str]:
-        return frozenset(
-            Path(str(file)).parts[0]
-            for distribution in distributions()
-            if (distribution.metadata["Name"] or "").lower().replace("_", "-").startswith("ros-")
-            and not (distribution.metadata["Name"] or "").lower().replace("_", "-").startswith(("ros-tutor", "ros-wheels"))
-            for file in distribution.files or ()
-            if not str(file).startswith("..")
-        )
+        records = (Path(sys.prefix) / prefixes.SITE_PACKAGES).glob("ros_*.dist-info/RECORD")
+        lines = (line for record in records if not record.parent.name.startswith(_NOT_ROS) for line in _lines(record))
+        return frozenset(line.partition("/")[0] for line in lines if "/" in line)
 
     def find_spec(
         self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
