@@ -42,18 +42,12 @@ REQUIREMENTS = [
     "ros-jazzy-rmw-fastrtps-cpp>=8.4,<9",
 ]
 
-# What a running node needs of an installed interface package. The headers and CMake files, the introspection type
-# supports (another middleware's) and the record of the build machine's own prefix stay behind.
+# What a running node needs of an installed interface package. The headers, the CMake files and the record of the build
+# machine's own prefix stay behind.
 RUNTIME_FILES = [
-    "lib/*__rosidl_generator_c.so",
-    "lib/*__rosidl_generator_py.so",
-    "lib/*__rosidl_typesupport_c.so",
-    "lib/*__rosidl_typesupport_cpp.so",
-    "lib/*__rosidl_typesupport_fastrtps_c.so",
-    "lib/*__rosidl_typesupport_fastrtps_cpp.so",
+    "lib/*.so",
     "lib/python3.12/site-packages/example_interfaces/**/*.py",
-    "lib/python3.12/site-packages/example_interfaces/*__rosidl_typesupport_c.so",
-    "lib/python3.12/site-packages/example_interfaces/*__rosidl_typesupport_fastrtps_c.so",
+    "lib/python3.12/site-packages/example_interfaces/*.so",
     "share/ament_index/resource_index/packages/*",
     "share/ament_index/resource_index/package_run_dependencies/*",
     "share/ament_index/resource_index/rosidl_interfaces/*",
@@ -158,7 +152,9 @@ def _compile(sources: Path, build: Path, install: Path) -> None:
         )
         if done.returncode:
             sys.stderr.write(done.stdout)
-            sys.exit(f"ros-tutor: building {PACKAGE} failed, see above: {' '.join(command[:2])} ended {done.returncode}")
+            sys.exit(
+                f"ros-tutor: building {PACKAGE} failed, see above: {' '.join(command[:2])} ended {done.returncode}"
+            )
 
 
 def _build_environment() -> Path:
