@@ -1,0 +1,227 @@
+"""Progress is bounded, survives kills and other writers, and is never silently lost."""
+
+from __future__ import annotations
+
+import json
+import multiprocessing
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tutor.judge.result import CriterionResult, ExerciseResult
+from tutor.judge.verdict import Status, Verdict
+from tutor.workspace import Attempt, ExerciseProgress, Progress, ProgressFile, StorageError, Workspace
+from tutor.workspace.progress import decode, encode
+
+
+def result(status: Status, bonus: Status = Status.PASSED) -> ExerciseResult:
+    criteria = (
+        CriterionResult("publishes", "It publishes.", False, Verdict(status), 0.1),
+        CriterionResult("shutdown", "It stops.", True, Verdict(bonus), 0.1),
+    )
+    return ExerciseResult("i1.1", "Lesson", ("a.py",), criteria, 0.2)
+
+
+@pytest.fixture
+def said() -> list[str]:
+    return []
+
+
+@pytest.fixture
+def file(workspace: Workspace, said: list[str]) -> ProgressFile:
+    return workspace.progress(said.append)
+
+
+def test_nothing_yet_is_empty_and_reading_creates_nothing(file: ProgressFile) -> None:
+    assert file.read() == Progress()
+    assert not file.path.parent.exists()
+
+
+def test_what_is_written_is_read(file: ProgressFile) -> None:
+    file.change(lambda p: p.with_start("i1.1").with_attempt(result(Status.FAILED), whole=True).with_tick("timers"))
+    progress = file.read()
+    attempt = progress.of("i1.1").last
+    assert attempt is not None
+    assert (attempt.verdict, attempt.passed, attempt.whole) == (Status.FAILED, ("shutdown",), True)
+    assert progress.of("i1.1").best is Status.FAILED
+    assert set(progress.ticks) == {"timers"}
+    assert json.loads(file.path.read_text())["schema"] == "ros-tutor/progress/1"
+
+
+def test_the_best_result_stays_and_only_a_whole_check_makes_it(file: ProgressFile) -> None:
+    def attempt(status: Status, whole: bool) -> Status | None:
+        return file.change(lambda p: p.with_attempt(result(status), whole=whole)).of("i1.1").best
+
+    assert attempt(Status.PASSED, whole=False) is None
+    assert attempt(Status.FAILED, whole=True) is Status.FAILED
+    assert attempt(Status.PASSED, whole=True) is Status.PASSED
+    assert attempt(Status.FAILED, whole=True) is Status.PASSED
+    assert len(file.read().of("i1.1").attempts) == 4
+
+
+def test_a_fault_of_the_tool_is_no_attempt(file: ProgressFile) -> None:
+    file.change(lambda p: p.with_attempt(result(Status.ERROR), whole=True))
+    assert file.read().of("i1.1").attempts == ()
+
+
+def test_attempts_are_bounded() -> None:
+    progress = Progress()
+    for _ in range(250):
+        progress = progress.with_attempt(result(Status.FAILED), whole=True)
+    assert len(progress.of("i1.1").attempts) == 200
+
+
+def test_hints_come_one_by_one_and_the_last_repeats(file: ProgressFile) -> None:
+    assert [file.next_hint("i1.1", of=3) for _ in range(5)] == [
+        (1, False),
+        (2, False),
+        (3, False),
+        (3, True),
+        (3, True),
+    ]
+
+
+def test_ticks_come_and_go(file: ProgressFile) -> None:
+    first = file.change(lambda p: p.with_tick("a").with_tick("b"))
+    assert file.change(lambda p: p.with_tick("a")).ticks == first.ticks
+    assert set(file.change(lambda p: p.with_tick("a", ticked=False)).ticks) == {"b"}
+    assert set(file.change(lambda p: p.with_tick("never ticked", ticked=False)).ticks) == {"b"}
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        b"",
+        b"{",
+        b"[]",
+        b"null",
+        b"\xff\xfe",
+        b"[" * 100_000,
+        b'{"schema": "ros-tutor/progress/1"}',
+        b'{"schema": "something", "exercises": {}, "checklist": {}}',
+        b'{"schema": "ros-tutor/progress/1", "exercises": {"i1.1": 7}, "checklist": {}}',
+        b'{"schema": "ros-tutor/progress/1", "exercises": {}, "checklist": {"a": 1}}',
+    ],
+)
+def test_a_damaged_file_is_set_aside_with_one_message(file: ProgressFile, said: list[str], content: bytes) -> None:
+    file.path.parent.mkdir(parents=True)
+    file.path.write_bytes(content)
+
+    assert file.read() == Progress()
+    assert file.read() == Progress()
+
+    aside = list(file.path.parent.glob("progress.json.damaged-*"))
+    assert [path.read_bytes() for path in aside] == [content]
+    assert len(said) == 1
+    assert "damaged" in said[0]
+    assert str(aside[0]) in said[0]
+
+
+def test_a_newer_file_is_kept_and_said_to_be_newer(file: ProgressFile, said: list[str]) -> None:
+    file.path.parent.mkdir(parents=True)
+    file.path.write_text('{"schema": "ros-tutor/progress/2", "everything": "else"}')
+    file.change(lambda p: p.with_tick("a"))
+    assert set(file.read().ticks) == {"a"}
+    assert len(list(file.path.parent.glob("progress.json.damaged-*"))) == 1
+    assert len(said) == 1
+    assert "a newer ros-tutor wrote it" in said[0]
+
+
+def test_a_folder_in_its_place_is_a_clear_error(file: ProgressFile) -> None:
+    file.path.mkdir(parents=True)
+    with pytest.raises(StorageError, match=r"cannot read .*progress\.json: Is a directory"):
+        file.read()
+
+
+def tick_many(path: Path, name: str, times: int) -> None:
+    file = ProgressFile(path)
+    for number in range(times):
+        file.change(lambda p, item=f"{name}-{number}": p.with_tick(item))  # type: ignore[misc]
+
+
+def test_two_processes_lose_nothing_of_each_other(file: ProgressFile) -> None:
+    spawn = multiprocessing.get_context("fork")
+    writers = [spawn.Process(target=tick_many, args=(file.path, name, 100)) for name in ("a", "b")]
+    for writer in writers:
+        writer.start()
+    for writer in writers:
+        writer.join(timeout=60)
+    assert [writer.exitcode for writer in writers] == [0, 0]
+    assert set(file.read().ticks) == {f"{name}-{number}" for name in ("a", "b") for number in range(100)}
+
+
+WRITE_FOR_EVER = """
+import sys
+from pathlib import Path
+from tutor.workspace import ProgressFile
+file = ProgressFile(Path(sys.argv[1]))
+number = 0
+while True:
+    file.change(lambda p: p.with_tick(f"{number}-" + "x" * 2000))
+    print(number, flush=True)
+    number += 1
+"""
+
+
+def test_a_kill_at_any_moment_leaves_a_whole_file(file: ProgressFile, said: list[str]) -> None:
+    for kill_after in (1, 7, 13):
+        writer = subprocess.Popen(
+            [sys.executable, "-c", WRITE_FOR_EVER, str(file.path)], stdout=subprocess.PIPE, text=True
+        )
+        assert writer.stdout is not None
+        for line in writer.stdout:
+            if int(line) >= kill_after:
+                break
+        writer.send_signal(signal.SIGKILL)
+        written = [kill_after, *(int(line) for line in writer.stdout)][-1]
+        writer.wait(timeout=10)
+        writer.stdout.close()
+        numbers = {int(item.split("-")[0]) for item in file.read().ticks}
+        assert numbers >= set(range(written + 1))
+    file.change(lambda p: p.with_tick("and on"))
+    assert said == []
+    assert {path.name for path in file.path.parent.iterdir()} == {"progress.json", "progress.lock"}
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason="root may write everywhere")
+def test_an_unwritable_workspace_is_a_clear_error(file: ProgressFile) -> None:
+    file.path.parent.parent.mkdir()
+    file.path.parent.mkdir(mode=0o500)
+    with pytest.raises(StorageError, match=r"cannot write to .*\.ros-tutor: Permission denied"):
+        file.change(lambda p: p.with_tick("a"))
+
+
+statuses = st.sampled_from([Status.PASSED, Status.FAILED])
+attempts = st.builds(Attempt, st.text(), statuses, st.lists(st.text(), max_size=3).map(tuple), st.booleans())
+progresses = st.builds(
+    Progress,
+    st.dictionaries(
+        st.text(),
+        st.builds(
+            ExerciseProgress,
+            st.none() | st.text(),
+            st.lists(attempts, max_size=3).map(tuple),
+            st.none() | statuses,
+            st.integers(0, 3),
+        ),
+        max_size=3,
+    ),
+    st.dictionaries(st.text(), st.text(), max_size=3),
+)
+
+
+@given(progresses)
+def test_every_progress_survives_the_disk(progress: Progress) -> None:
+    assert decode(encode(progress)) == progress
+
+
+@given(st.text() | st.recursive(st.none() | st.integers() | st.text(), st.lists).map(json.dumps))
+def test_no_text_breaks_the_reader(text: str) -> None:
+    with pytest.raises(ValueError):
+        decode(text)

@@ -1,0 +1,32 @@
+"""The learner's workspace: a real colcon workspace, the files in it to check, and the progress."""
+
+from tutor.workspace.atomic import write_atomically
+from tutor.workspace.errors import StorageError, SubmissionError, WorkspaceError
+from tutor.workspace.place import Workspace, find_workspace
+from tutor.workspace.placing import Placed
+from tutor.workspace.progress import Attempt, ExerciseProgress, Progress
+from tutor.workspace.progress_file import ProgressFile
+from tutor.workspace.starting import TEMPLATE, Started, start, start_in
+from tutor.workspace.submissions import find_submission, is_own, is_started, solution
+
+__all__ = [
+    "TEMPLATE",
+    "Attempt",
+    "ExerciseProgress",
+    "Placed",
+    "Progress",
+    "ProgressFile",
+    "Started",
+    "StorageError",
+    "SubmissionError",
+    "Workspace",
+    "WorkspaceError",
+    "find_submission",
+    "find_workspace",
+    "is_own",
+    "is_started",
+    "solution",
+    "start",
+    "start_in",
+    "write_atomically",
+]

@@ -1,0 +1,148 @@
+"""What a learner has done so far, as plain data, and its form on disk."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field, replace
+from datetime import UTC, datetime
+from typing import Any
+
+from tutor.judge.result import ExerciseResult
+from tutor.judge.verdict import Status
+
+SCHEMA = "ros-tutor/progress/1"
+MOST_ATTEMPTS = 200
+"""Older attempts are dropped; the best result is kept apart from them."""
+
+
+@dataclass(frozen=True, slots=True)
+class Attempt:
+    """One check of the workspace's own files. `at` is a UTC time in ISO 8601.
+
+    `passed` holds the ids of the criteria that passed; `whole` is False where only some criteria were asked for.
+    """
+
+    at: str
+    verdict: Status
+    passed: tuple[str, ...]
+    whole: bool = True
+
+
+@dataclass(frozen=True, slots=True)
+class ExerciseProgress:
+    """One exercise: when it was started, the attempts (oldest first), the best verdict, how many hints were shown."""
+
+    started_at: str | None = None
+    attempts: tuple[Attempt, ...] = ()
+    best: Status | None = None
+    hints: int = 0
+
+    @property
+    def last(self) -> Attempt | None:
+        """The latest attempt."""
+        return self.attempts[-1] if self.attempts else None
+
+
+@dataclass(frozen=True, slots=True)
+class Progress:
+    """Everything; `ticks` maps a ticked checklist item to when it was ticked."""
+
+    exercises: Mapping[str, ExerciseProgress] = field(default_factory=dict)
+    ticks: Mapping[str, str] = field(default_factory=dict)
+
+    def of(self, exercise: str) -> ExerciseProgress:
+        """The progress in one exercise; an empty one where there is none."""
+        return self.exercises.get(exercise, ExerciseProgress())
+
+    def with_exercise(self, exercise: str, progress: ExerciseProgress) -> Progress:
+        """A copy in which `exercise` has this progress."""
+        return replace(self, exercises={**self.exercises, exercise: progress})
+
+    def with_start(self, exercise: str) -> Progress:
+        """A copy in which `exercise` is started; the first time counts."""
+        before = self.of(exercise)
+        return self.with_exercise(exercise, replace(before, started_at=before.started_at or now()))
+
+    def with_attempt(self, result: ExerciseResult, *, whole: bool) -> Progress:
+        """A copy with one more attempt. Only a whole check can be the best one, and a fault of ours is no attempt at all."""
+        if result.verdict is Status.ERROR:
+            return self
+        before = self.of(result.id)
+        attempt = Attempt(now(), result.verdict, tuple(c.id for c in result.criteria if c.verdict.passed), whole)
+        best = result.verdict if whole and before.best is not Status.PASSED else before.best
+        attempts = (*before.attempts, attempt)[-MOST_ATTEMPTS:]
+        started_at = before.started_at or attempt.at
+        return self.with_exercise(result.id, replace(before, started_at=started_at, attempts=attempts, best=best))
+
+    def with_hints(self, exercise: str, shown: int) -> Progress:
+        """A copy in which so many hints of `exercise` were shown."""
+        return self.with_exercise(exercise, replace(self.of(exercise), hints=shown))
+
+    def with_tick(self, item: str, ticked: bool = True) -> Progress:
+        """A copy in which one checklist item is ticked or not."""
+        others = {key: at for key, at in self.ticks.items() if key != item}
+        return replace(self, ticks={**others, item: self.ticks.get(item, now())} if ticked else others)
+
+
+def now() -> str:
+    """The time, as progress holds it."""
+    return datetime.now(UTC).isoformat(timespec="seconds").replace("+00:00", "Z")
+
+
+def encode(progress: Progress) -> str:
+    """Write progress as JSON."""
+    exercises = {key: asdict(value) for key, value in progress.exercises.items()}
+    document = {"schema": SCHEMA, "exercises": exercises, "checklist": dict(progress.ticks)}
+    return json.dumps(document, ensure_ascii=False, indent=1, default=lambda status: status.value) + "\n"
+
+
+def decode(text: str) -> Progress:
+    """Read what `encode` wrote. Raises ValueError, which says what is wrong."""
+    try:
+        document = json.loads(text)
+        schema = document["schema"]
+        if schema != SCHEMA:
+            raise ValueError(_other(schema))
+        return Progress(
+            exercises={str(key): _exercise(value) for key, value in document["exercises"].items()},
+            ticks={str(key): _text(at) for key, at in document["checklist"].items()},
+        )
+    except (KeyError, TypeError, AttributeError, RecursionError, json.JSONDecodeError) as error:
+        raise ValueError("it is damaged") from error
+
+
+def _other(schema: object) -> str:
+    family, _, version = str(schema).rpartition("/")
+    newer = family == SCHEMA.rpartition("/")[0] and version.isdecimal() and int(version) > 1
+    return "a newer ros-tutor wrote it" if newer else "it is damaged"
+
+
+def _exercise(fields: dict[str, Any]) -> ExerciseProgress:
+    started, best, hints = fields["started_at"], fields["best"], fields["hints"]
+    if not isinstance(hints, int) or hints < 0:
+        raise TypeError("hints")
+    return ExerciseProgress(
+        started_at=None if started is None else _text(started),
+        attempts=tuple(_attempt(attempt) for attempt in fields["attempts"]),
+        best=None if best is None else _status(best),
+        hints=hints,
+    )
+
+
+def _attempt(fields: dict[str, Any]) -> Attempt:
+    passed = tuple(_text(criterion) for criterion in fields["passed"])
+    return Attempt(_text(fields["at"]), _status(fields["verdict"]), passed, bool(fields["whole"]))
+
+
+def _status(value: Any) -> Status:
+    try:
+        return Status(value)
+    except ValueError as error:
+        raise TypeError(f"no status: {value!r}") from error
+
+
+def _text(value: Any) -> str:
+    if not isinstance(value, str):
+        raise TypeError(f"no text: {value!r}")
+    return value

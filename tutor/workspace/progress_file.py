@@ -1,0 +1,129 @@
+"""The progress file: written atomically, safe with several processes, and never silently lost."""
+
+from __future__ import annotations
+
+import fcntl
+import os
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from datetime import UTC, datetime
+from pathlib import Path
+
+from tutor.workspace.atomic import write_atomically
+from tutor.workspace.errors import StorageError
+from tutor.workspace.progress import Progress, decode, encode
+
+_LOCK_LIMIT_S = 10.0
+_LOCK_RETRY_S = 0.01
+
+
+def to_stderr(message: str) -> None:
+    """Say something to the learner beside the report."""
+    print(f"ros-tutor: {message}", file=sys.stderr)
+
+
+class ProgressFile:
+    """The progress of one workspace. Reading needs no lock, since a write replaces the file as a whole."""
+
+    def __init__(self, path: Path, notify: Callable[[str], None] = to_stderr) -> None:
+        self.path = path
+        self._notify = notify
+
+    def read(self) -> Progress:
+        """What is on disk; empty where there is no file yet. A damaged file is set aside.
+
+        Raises StorageError where the file cannot be read.
+        """
+        try:
+            return self._load()
+        except ValueError:
+            pass
+        try:
+            return self.change(lambda progress: progress)
+        except StorageError as error:
+            self._notify(f"your progress cannot be read ({self.path} is damaged, and {error})")
+            return Progress()
+
+    def change(self, change: Callable[[Progress], Progress]) -> Progress:
+        """Read, change and write under a lock, so that no other process's change is lost; the new state.
+
+        Raises StorageError.
+        """
+        with self._locked():
+            try:
+                before = self._load()
+            except ValueError as reason:
+                self._set_aside(str(reason))
+                before = Progress()
+            after = change(before)
+            if after != before or not self.path.exists():
+                write_atomically(self.path, encode(after))
+            return after
+
+    def next_hint(self, exercise: str, of: int) -> tuple[int, bool]:
+        """Count one more hint as shown, of so many; its number from 1, and whether it had been shown before."""
+        seen_before: list[int] = []
+
+        def count(progress: Progress) -> Progress:
+            seen_before.append(progress.of(exercise).hints)
+            return progress.with_hints(exercise, min(seen_before[0] + 1, of))
+
+        self.change(count)
+        return min(seen_before[0] + 1, of), seen_before[0] >= of
+
+    def _load(self) -> Progress:
+        try:
+            return decode(self.path.read_bytes().decode("utf-8"))
+        except FileNotFoundError:
+            return Progress()
+        except OSError as error:
+            raise StorageError.of(f"read {self.path}", error) from error
+        except UnicodeDecodeError as error:
+            raise ValueError("it is damaged") from error
+
+    def _set_aside(self, reason: str) -> None:
+        stamp = f"{datetime.now(UTC):%Y%m%dT%H%M%S%fZ}"
+        aside = self.path.with_name(f"{self.path.name}.damaged-{stamp}")
+        try:
+            self.path.rename(aside)
+        except OSError as error:
+            raise StorageError.of(f"rename {self.path}", error) from error
+        self._notify(f"your progress could not be read ({reason}); a new file is begun, the old one is kept as {aside}")
+
+    @contextmanager
+    def _locked(self) -> Iterator[None]:
+        """Hold the lock. It has a file of its own, because the progress file itself is replaced at each write."""
+        lock = self.path.with_suffix(".lock")
+        try:
+            lock.parent.mkdir(parents=True, exist_ok=True)
+            handle = os.open(lock, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o666)
+        except OSError as error:
+            raise StorageError.of(f"write to {lock.parent}", error) from error
+        try:
+            self._wait_for(handle)
+            self._sweep()
+            yield
+        finally:
+            os.close(handle)
+
+    def _wait_for(self, handle: int) -> None:
+        """Take the lock within a limit: flock knows none of its own, and its holder may be stopped."""
+        limit = time.monotonic() + _LOCK_LIMIT_S
+        while True:
+            try:
+                return fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError:
+                if time.monotonic() > limit:
+                    raise StorageError(
+                        f"cannot write {self.path}: another ros-tutor has kept it locked for {_LOCK_LIMIT_S:.0f} s"
+                    ) from None
+                time.sleep(_LOCK_RETRY_S)
+            except OSError as error:
+                raise StorageError.of(f"lock {self.path}", error) from error
+
+    def _sweep(self) -> None:
+        """Remove what a writer that was killed left behind: under the lock, nobody else is writing."""
+        for leftover in self.path.parent.glob(f".{self.path.name}.*.tmp"):
+            leftover.unlink(missing_ok=True)

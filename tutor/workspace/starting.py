@@ -1,0 +1,74 @@
+"""Starts an exercise: the workspace around it, and its skeleton files."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from tutor.content import Lesson
+from tutor.workspace.errors import StorageError
+from tutor.workspace.place import Workspace
+from tutor.workspace.placing import Placed, place
+
+TEMPLATE = Path(__file__).parent / "template"
+"""A workspace as it is before the first exercise."""
+
+
+@dataclass(frozen=True, slots=True)
+class Started:
+    """What `start` did."""
+
+    files: Placed
+    created_workspace: bool
+
+
+def start(lesson: Lesson, workspace: Workspace, *, force: bool = False) -> Started:
+    """Put the skeleton of `lesson` into the workspace, and create what is missing of the workspace itself.
+
+    Raises WorkspaceError, with nothing written, where a differing file is in the way and `force` is not set;
+    StorageError where the machine refuses.
+    """
+    created = not workspace.exists
+    skeletons = {workspace.path_of(file.name): _read(file.skeleton) for file in lesson.files}
+    placed = place({**_missing_template(workspace), **skeletons}, force=force)
+    try:
+        (workspace.package / "launch").mkdir(exist_ok=True)
+    except OSError as error:
+        raise StorageError.of(f"make {workspace.package / 'launch'}", error) from error
+    workspace.progress().change(lambda progress: progress.with_start(lesson.id))
+    return Started(_only(placed, skeletons), created)
+
+
+def start_in(lesson: Lesson, folder: Path, *, force: bool = False) -> Started:
+    """Put the bare skeleton files of `lesson` into any folder. Raises what `start` raises."""
+    skeletons = {folder / file.name: _read(file.skeleton) for file in lesson.files}
+    return Started(place(skeletons, force=force), created_workspace=False)
+
+
+def _missing_template(workspace: Workspace) -> dict[Path, bytes]:
+    """The template's files that are not there. One that is there belongs to the learner, whatever is in it."""
+    files = {}
+    for source in sorted(TEMPLATE.rglob("*")):
+        if not source.is_file() or "__pycache__" in source.parts:
+            continue
+        name = source.relative_to(TEMPLATE)
+        target = workspace.root / (".gitignore" if str(name) == "gitignore" else name)
+        if not target.exists():
+            files[target] = _read(source)
+    return files
+
+
+def _only(placed: Placed, wanted: Mapping[Path, bytes]) -> Placed:
+    return Placed(
+        written=tuple(path for path in placed.written if path in wanted),
+        already_there=tuple(path for path in placed.already_there if path in wanted),
+        backups=placed.backups,
+    )
+
+
+def _read(source: Path) -> bytes:
+    try:
+        return source.read_bytes()
+    except OSError as error:
+        raise StorageError.of(f"read {source}", error) from error
