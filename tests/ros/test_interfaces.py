@@ -1,0 +1,208 @@
+"""The bundled example_interfaces is the real one: the same type hash, and a call over DDS that works."""
+
+import ctypes
+import hashlib
+import importlib.util
+import json
+import os
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from domain_coordinator import domain_id
+
+from tutor.sandbox import interfaces
+
+PACKAGE = "example_interfaces"
+SERVICE = f"{PACKAGE}/srv/AddTwoInts"
+
+# As published: the design of rmw_zenoh names it in the key of an AddTwoInts service.
+REAL_HASH = "RIHS01_e118de6bf5eeb66a2491b5bda11202e7b68f198d6f67922cf30364858239c81a"
+
+# Type ids of type_description_interfaces/msg/FieldType.
+NESTED, UINT8, INT32, UINT32, INT64 = 1, 3, 6, 7, 8
+ARRAY, BOUNDED_SEQUENCE = 48, 96
+
+Fields = dict[str, tuple[int, int, str]]
+
+# Every type that the service's description reaches: name of the field -> (type id, capacity, nested type).
+TYPES: dict[str, Fields] = {
+    SERVICE: {
+        "request_message": (NESTED, 0, f"{SERVICE}_Request"),
+        "response_message": (NESTED, 0, f"{SERVICE}_Response"),
+        "event_message": (NESTED, 0, f"{SERVICE}_Event"),
+    },
+    f"{SERVICE}_Request": {"a": (INT64, 0, ""), "b": (INT64, 0, "")},
+    f"{SERVICE}_Response": {"sum": (INT64, 0, "")},
+    f"{SERVICE}_Event": {
+        "info": (NESTED, 0, "service_msgs/msg/ServiceEventInfo"),
+        "request": (NESTED + BOUNDED_SEQUENCE, 1, f"{SERVICE}_Request"),
+        "response": (NESTED + BOUNDED_SEQUENCE, 1, f"{SERVICE}_Response"),
+    },
+    "service_msgs/msg/ServiceEventInfo": {
+        "event_type": (UINT8, 0, ""),
+        "stamp": (NESTED, 0, "builtin_interfaces/msg/Time"),
+        "client_gid": (UINT8 + ARRAY, 16, ""),
+        "sequence_number": (INT64, 0, ""),
+    },
+    "builtin_interfaces/msg/Time": {"sec": (INT32, 0, ""), "nanosec": (UINT32, 0, "")},
+}
+
+# A server and a client in one process of their own, then what was seen, as JSON. {first} makes the import work.
+NODE = """
+{first}
+import json
+import rclpy
+import example_interfaces
+from example_interfaces.srv import AddTwoInts
+from rclpy.qos import QoSProfile
+from rclpy.service_introspection import ServiceIntrospectionState
+
+def add(request, response):
+    response.sum = request.a + request.b
+    return response
+
+def announced(topic):
+    endpoints = [
+        *node.get_publishers_info_by_topic(topic, no_mangle=True),
+        *node.get_subscriptions_info_by_topic(topic, no_mangle=True),
+    ]
+    return sorted({{str(endpoint.topic_type_hash) for endpoint in endpoints}})
+
+rclpy.init()
+node = rclpy.create_node("interfaces_test")
+service = node.create_service(AddTwoInts, "add", add)
+service.configure_introspection(node.get_clock(), QoSProfile(depth=10), ServiceIntrospectionState.CONTENTS)
+client = node.create_client(AddTwoInts, "add")
+assert client.wait_for_service(10)
+answer = client.call_async(AddTwoInts.Request(a=-2, b=2**40))
+rclpy.spin_until_future_complete(node, answer, timeout_sec=10)
+print(json.dumps({{
+    "file": example_interfaces.__file__,
+    "sum": answer.result().sum,
+    "request": announced("rq/addRequest"),
+    "response": announced("rr/addReply"),
+    "event": announced("rt/add/_service_event"),
+}}))
+node.destroy_node()
+rclpy.try_shutdown()
+"""
+
+
+@pytest.fixture
+def environment() -> Iterator[dict[str, str]]:
+    """Nothing of ROS in it but a domain of its own, on this host only."""
+    kept = {name: os.environ[name] for name in ("PATH", "HOME", "TMPDIR") if name in os.environ}
+    with domain_id() as domain:
+        yield {**kept, "ROS_DOMAIN_ID": str(domain), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
+
+
+def python(source: str, environment: dict[str, str]) -> Any:
+    """What a Python process that runs the source prints, read as JSON."""
+    done = subprocess.run(
+        [sys.executable, "-c", source], env=environment, capture_output=True, text=True, timeout=60, check=False
+    )
+    assert done.returncode == 0, done.stderr
+    assert not done.stderr
+    return json.loads(done.stdout)
+
+
+def type_hash(name: str) -> str:
+    """RIHS01 of a type (REP-2011): SHA-256 over its description and all that it refers to, as one line of JSON."""
+
+    def described(name: str) -> dict[str, Any]:
+        fields = [
+            {
+                "name": field,
+                "type": {"type_id": kind, "capacity": capacity, "string_capacity": 0, "nested_type_name": nested},
+            }
+            for field, (kind, capacity, nested) in TYPES[name].items()
+        ]
+        return {"type_name": name, "fields": fields}
+
+    def referenced(name: str) -> set[str]:
+        nested = {nested for _, _, nested in TYPES[name].values() if nested}
+        return nested.union(*map(referenced, nested))
+
+    description = {
+        "type_description": described(name),
+        "referenced_type_descriptions": [described(other) for other in sorted(referenced(name))],
+    }
+    return "RIHS01_" + hashlib.sha256(json.dumps(description).encode()).hexdigest()
+
+
+def carried_hash(name: str) -> str:
+    """The type hash that the built library carries and hands to the middleware."""
+
+    class TypeHash(ctypes.Structure):
+        _fields_ = (("version", ctypes.c_uint8), ("value", ctypes.c_uint8 * 32))
+
+    library = ctypes.CDLL(str(interfaces.library_dir() / f"lib{PACKAGE}__rosidl_generator_c.so"))
+    get_type_hash = library[f"{name.replace('/', '__')}__get_type_hash"]
+    get_type_hash.restype = ctypes.POINTER(TypeHash)
+    carried = get_type_hash(None).contents
+    return f"RIHS{carried.version:02}_{bytes(carried.value).hex()}"
+
+
+def test_the_definition_hashes_to_the_published_constant() -> None:
+    assert type_hash(SERVICE) == REAL_HASH
+
+
+@pytest.mark.parametrize("suffix", ["", "_Request", "_Response", "_Event"])
+def test_the_built_library_carries_the_real_hash(suffix: str) -> None:
+    assert carried_hash(SERVICE + suffix) == type_hash(SERVICE + suffix)
+
+
+def test_a_process_gets_at_it_through_its_environment(environment: dict[str, str]) -> None:
+    environment |= {
+        "PYTHONPATH": str(interfaces.site_packages()),
+        "AMENT_PREFIX_PATH": str(interfaces.prefix()),
+        "LD_LIBRARY_PATH": str(interfaces.library_dir()),
+    }
+    seen = python(NODE.format(first=""), environment)
+    assert Path(seen["file"]).is_relative_to(interfaces.prefix())
+    assert seen["sum"] == 2**40 - 2
+    for kind in ("request", "response", "event"):
+        assert seen[kind] == [type_hash(f"{SERVICE}_{kind.title()}")]
+
+
+def test_activate_makes_it_work_in_the_running_process(environment: dict[str, str]) -> None:
+    seen = python(NODE.format(first="from tutor.sandbox.interfaces import activate; activate()"), environment)
+    assert Path(seen["file"]).is_relative_to(interfaces.prefix())
+    assert seen["sum"] == 2**40 - 2
+
+
+def test_activate_leaves_a_real_one_alone(environment: dict[str, str], tmp_path: Path) -> None:
+    (tmp_path / PACKAGE).mkdir()
+    (tmp_path / PACKAGE / "__init__.py").touch()
+    source = """
+import json, os, sys
+from tutor.sandbox.interfaces import activate
+before = [list(sys.path), dict(os.environ)]
+activate()
+import example_interfaces
+print(json.dumps({"file": example_interfaces.__file__, "untouched": before == [sys.path, dict(os.environ)]}))
+"""
+    seen = python(source, environment | {"PYTHONPATH": str(tmp_path)})
+    assert seen == {"file": str(tmp_path / PACKAGE / "__init__.py"), "untouched": True}
+
+
+def test_a_missing_prefix_is_named_with_its_mend(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setattr(interfaces, "prefix", lambda: tmp_path)
+    monkeypatch.setattr(importlib.util, "find_spec", lambda name: None)
+    with pytest.raises(interfaces.InterfacesNotBuiltError, match="uv sync --inexact --reinstall-package ros-tutor"):
+        interfaces.activate()
+
+
+@pytest.mark.parametrize("kind", ["srv", "idl", "json"])
+def test_the_definition_is_installed(kind: str) -> None:
+    assert (interfaces.prefix() / "share" / PACKAGE / "srv" / f"AddTwoInts.{kind}").is_file()
+
+
+def test_the_package_is_in_the_ament_index() -> None:
+    index = interfaces.prefix() / "share" / "ament_index" / "resource_index"
+    assert (index / "packages" / PACKAGE).is_file()
+    assert "srv/AddTwoInts.srv" in (index / "rosidl_interfaces" / PACKAGE).read_text().split()
