@@ -20,7 +20,8 @@ class InterfacesNotBuiltError(RuntimeError):
 
     def __init__(self, missing: Path) -> None:
         super().__init__(
-            f"the bundled {_PACKAGE} is not built ({missing} is missing); run: uv sync --inexact --reinstall-package ros-tutor"
+            f"the bundled {_PACKAGE} is not built ({missing} is missing);"
+            " run: uv sync --inexact --reinstall-package ros-tutor"
         )
 
 
