@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import pytest
@@ -43,6 +44,15 @@ def home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.delenv("ROS_TUTOR_WORKSPACE", raising=False)
     monkeypatch.chdir(home)
     return home
+
+
+@pytest.fixture
+def bound_by_permissions(tmp_path: Path) -> None:
+    """Skip where permissions do not bind: root may do everything."""
+    probe = tmp_path / "probe"
+    probe.touch(mode=0o000)
+    if os.access(probe, os.R_OK):
+        pytest.skip("this user is above file permissions")
 
 
 @pytest.fixture

@@ -131,7 +131,7 @@ def test_what_cannot_be_run_is_said(publisher: Lesson, folder: Path, tmp_path: P
         find_submission(publisher, folder, None)
 
 
-@pytest.mark.skipif(os.geteuid() == 0, reason="root may read everything")
+@pytest.mark.usefixtures("bound_by_permissions")
 def test_an_unreadable_file_is_said(publisher: Lesson, folder: Path) -> None:
     (folder / "temperature_publisher.py").touch(mode=0o000)
     with pytest.raises(SubmissionError, match=r"cannot read .*temperature_publisher\.py: Permission denied"):

@@ -23,8 +23,8 @@ class Placed:
 def place(files: Mapping[Path, bytes], *, force: bool) -> Placed:
     """Write each content to its path, making folders as needed.
 
-    A file that differs is left alone: nothing at all is written then, and WorkspaceError says so; with `force` it is kept
-    as `name.~1~`, `name.~2~`, ... beside the new one. Raises StorageError, with everything as it was before.
+    A file that differs is left alone: nothing at all is written then, and WorkspaceError says so. With `force` it is
+    kept as `name.~1~`, `name.~2~`, ... beside the new one. Raises StorageError, with everything as it was before.
     """
     there = tuple(path for path, content in files.items() if os.path.lexists(path) and _same(path, content))
     missing = {path: content for path, content in files.items() if path not in there}
@@ -66,10 +66,8 @@ def _same(path: Path, content: bytes) -> bool:
 def _kept(paths: list[Path]) -> str:
     names = " and ".join(str(path) for path in paths)
     if len(paths) == 1:
-        return (
-            f"{names} is there already and is not the skeleton: go on with it, or start over with --force (it is kept)"
-        )
-    return f"{names} are there already and are not the skeleton: go on with them, or start over with --force (they are kept)"
+        return f"{names} is there already and is not the skeleton: go on with it, or use --force (a backup is kept)"
+    return f"{names} are there already and are not the skeleton: go on with them, or use --force (backups are kept)"
 
 
 def _check_folder(folder: Path) -> None:

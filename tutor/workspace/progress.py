@@ -65,7 +65,7 @@ class Progress:
         return self.with_exercise(exercise, replace(before, started_at=before.started_at or now()))
 
     def with_attempt(self, result: ExerciseResult, *, whole: bool) -> Progress:
-        """A copy with one more attempt. Only a whole check can be the best one, and a fault of ours is no attempt at all."""
+        """A copy with one more attempt. Only a whole check can be the best; a fault of ours is no attempt at all."""
         if result.verdict is Status.ERROR:
             return self
         before = self.of(result.id)

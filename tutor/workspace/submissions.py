@@ -87,7 +87,7 @@ def _missing(lesson: Lesson, file: LessonFile, place: Path, workspace: Workspace
 
 
 def _similar(name: str, folder: Path, known: Iterable[str] = ()) -> str:
-    """A hint at what may have been meant: a file of a similar name beside, or one of this name a folder or two below."""
+    """What may have been meant: a file of a similar name beside, or one of this name a folder or two below."""
     if not folder.is_dir():
         return ""
     try:
