@@ -1,0 +1,81 @@
+"""Finding what is left of a run whose warden is gone, so that its processes no longer lead back to anyone of ours."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from tutor.process.warden import Process, processes
+
+MARK = "ROS_TUTOR_RUN"
+
+
+@dataclass(frozen=True, slots=True)
+class Marks:
+    """What tells a run's processes from all others.
+
+    `run` is the value of `MARK` in their environment; `session` the learner's session (None where its number may have
+    been given to someone else since); `pipes` the inodes of the pipes that they write to.
+    """
+
+    run: str
+    session: int | None
+    pipes: frozenset[int]
+
+
+def find(marks: Marks) -> list[Process]:
+    """The living processes that bear one of the marks, and their descendants; never ourselves or our ancestors."""
+    table = processes()
+    spared = set(_ancestors(os.getpid(), table))
+    chosen = {p.pid for p in table.values() if p.pid not in spared and _marked(p, marks)}
+    grew = True
+    while grew:
+        more = {p.pid for p in table.values() if p.parent in chosen and p.pid not in spared} - chosen
+        chosen |= more
+        grew = bool(more)
+    return [table[pid] for pid in sorted(chosen) if table[pid].alive]
+
+
+def command(pid: int) -> str:
+    """The command line of a process, its words parted by spaces; its short name where it has none."""
+    for file in ("cmdline", "comm"):
+        try:
+            with open(f"/proc/{pid}/{file}", "rb") as opened:
+                text = opened.read().replace(b"\0", b" ").strip()
+        except OSError:
+            return ""
+        if text:
+            return text.decode("utf-8", "replace")
+    return ""
+
+
+def _ancestors(pid: int, table: dict[int, Process]) -> Iterable[int]:
+    while pid:
+        yield pid
+        pid = table[pid].parent if pid in table else 0
+
+
+def _marked(process: Process, marks: Marks) -> bool:
+    if process.session == marks.session:
+        return True
+    try:
+        with open(f"/proc/{process.pid}/environ", "rb") as file:
+            if f"{MARK}={marks.run}".encode() in file.read().split(b"\0"):
+                return True
+    except OSError:
+        pass
+    return _writes_to(process.pid, marks.pipes)
+
+
+def _writes_to(pid: int, pipes: frozenset[int]) -> bool:
+    folder = f"/proc/{pid}/fd"
+    try:
+        for name in os.listdir(folder):
+            kind, _, inode = os.readlink(f"{folder}/{name}").partition(":[")
+            # Our own side holds the same pipes open, but only to read.
+            if kind == "pipe" and int(inode[:-1]) in pipes and os.lstat(f"{folder}/{name}").st_mode & 0o200:
+                return True
+    except OSError:
+        pass
+    return False
