@@ -1,0 +1,18 @@
+import random
+
+from rclpy.node import Node
+from std_msgs.msg import Float64
+
+
+class TemperaturePublisher(Node):
+    def __init__(self):
+        super().__init__('temperature_publisher')
+        self.declare_parameter('sensor_name', 'split')
+        self.declare_parameter('publish_rate', 2.0)
+        self.pub = self.create_publisher(Float64, '/sensor/temperature', 10)
+        self.create_timer(1.0 / self.get_parameter('publish_rate').value, self.tick)
+
+    def tick(self):
+        msg = Float64(data=random.uniform(20.0, 30.0))
+        self.pub.publish(msg)
+        self.get_logger().info(f"{self.get_parameter('sensor_name').value}: {msg.data:.2f}")

@@ -1,0 +1,35 @@
+import random
+import rclpy
+from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
+from std_msgs.msg import Float64
+
+
+class TemperaturePublisher(Node):
+    def __init__(self):
+        super().__init__('temperature_publisher')
+        self.declare_parameter('sensor_name', 'x')
+        self.declare_parameter('period_ms', 1000)
+        self.pub = self.create_publisher(Float64, '/sensor/temperature', 10)
+        # TODO is this ms?
+        self.timer = self.create_timer(self.get_parameter('period_ms').value, self.cb)
+        self.get_logger().info(self.get_parameter('sensor_name').value)
+
+    def cb(self):
+        self.pub.publish(Float64(data=random.uniform(20.0, 30.0)))
+
+
+def main():
+    rclpy.init()
+    node = TemperaturePublisher()
+    try:
+        rclpy.spin(node)
+    except (KeyboardInterrupt, ExternalShutdownException):
+        pass
+    finally:
+        node.destroy_node()
+        rclpy.try_shutdown()
+
+
+if __name__ == '__main__':
+    main()

@@ -1,0 +1,41 @@
+import random
+import rclpy
+from rcl_interfaces.msg import SetParametersResult
+from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
+from std_msgs.msg import Float64
+
+
+class TemperaturePublisher(Node):
+    def __init__(self):
+        super().__init__('temperature_publisher')
+        self.declare_parameter('sensor_name', 'x')
+        self.declare_parameter('publish_rate', 1.0)
+        self.pub = self.create_publisher(Float64, '/sensor/temperature', 10)
+        self.timer = self.create_timer(1.0, self.cb)
+        self.add_on_set_parameters_callback(self.changed)
+
+    def changed(self, params):
+        for p in params:
+            if p.name == 'publish_rate':
+                self.timer.cancel()
+                self.timer = self.create_timer(1.0 / p.value, self.cb)
+        return SetParametersResult(successful=True)
+
+    def cb(self):
+        self.pub.publish(Float64(data=random.uniform(20.0, 30.0)))
+        self.get_logger().info(self.get_parameter('sensor_name').value)
+
+
+def main():
+    rclpy.init()
+    node = TemperaturePublisher()
+    try:
+        rclpy.spin(node)
+    except (KeyboardInterrupt, ExternalShutdownException):
+        pass
+    rclpy.try_shutdown()
+
+
+if __name__ == '__main__':
+    main()

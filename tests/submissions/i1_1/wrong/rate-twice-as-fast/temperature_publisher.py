@@ -1,0 +1,36 @@
+import random
+import rclpy
+from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
+from std_msgs.msg import Float64
+
+
+class TemperaturePublisher(Node):
+    def __init__(self):
+        super().__init__('temperature_publisher')
+        self.declare_parameter('sensor_name', 'x')
+        self.declare_parameter('publish_rate', 1.0)
+        self.pub = self.create_publisher(Float64, '/sensor/temperature', 10)
+        self.start()
+        self.start()  # does not seem to hurt
+
+    def start(self):
+        self.timer = self.create_timer(1.0 / self.get_parameter('publish_rate').value, self.cb)
+
+    def cb(self):
+        self.pub.publish(Float64(data=random.uniform(20.0, 30.0)))
+        self.get_logger().info(self.get_parameter('sensor_name').value)
+
+
+def main():
+    rclpy.init()
+    node = TemperaturePublisher()
+    try:
+        rclpy.spin(node)
+    except (KeyboardInterrupt, ExternalShutdownException):
+        pass
+    rclpy.try_shutdown()
+
+
+if __name__ == '__main__':
+    main()

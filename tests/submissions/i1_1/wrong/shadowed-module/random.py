@@ -1,0 +1,4 @@
+# trying out how lists work
+numbers = [3, 1, 2]
+numbers.sort()
+print(numbers)
