@@ -53,7 +53,7 @@ def reserve_domain() -> Iterator[int]:
 
 
 def busy_domains() -> frozenset[int]:
-    """The domain ids whose DDS ports something on this machine has bound (this network namespace, UDP, IPv4 and IPv6)."""
+    """The domain ids whose DDS ports something on this machine has bound (UDP over IPv4 and IPv6)."""
     ports = (port for table in _UDP_TABLES if table.exists() for port in _bound_ports(table.read_text()))
     ids = ((port - _PORTS_OF_DOMAIN_0) // _PORTS_PER_DOMAIN for port in ports)
     return frozenset(domain for domain in ids if 0 <= domain <= LAST)

@@ -114,7 +114,7 @@ def tutor_env(ros: RosEnvironment, *, isolated: bool, environ: Mapping[str, str]
 
 
 def use_in_this_process(ros: RosEnvironment, isolated: bool) -> None:
-    """Prepare this process for `import rclpy` (the observer's side). Call it first of all: before rclpy, threads, output.
+    """Prepare this process for `import rclpy` (the observer's side). Call it before anything else.
 
     Where this process was started with library folders of the other ROS, it starts itself anew, once, without them: the
     loader reads LD_LIBRARY_PATH only then. Raises RuntimeError where rclpy is imported already, and whatever

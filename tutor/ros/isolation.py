@@ -16,7 +16,7 @@ _LOOPBACK = "127.0.0.1"
 def isolated_discovery() -> dict[str, str]:
     """The variables that keep discovery and data on this host.
 
-    Multicast over the loopback interface finds a new participant in milliseconds. Where a machine has no such multicast,
+    Multicast over the loopback interface finds a new participant in milliseconds. Where a machine has none,
     ROS's own LOCALHOST range (unicast to 127.0.0.1) serves: right, but up to some seconds slower.
     """
     if not loopback_multicast_works():

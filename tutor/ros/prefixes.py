@@ -70,7 +70,7 @@ def holds_package(prefix: Path, package: str) -> bool:
 
 
 def _own_roots() -> tuple[Path, ...]:
-    # A prefix such as /usr (no environment of its own) also holds what is not ours: then only the wheels' folders count.
+    # A prefix such as /usr (no environment of its own) also holds what is not ours: then only the wheels count.
     prefix = Path(sys.prefix)
     if sys.prefix != sys.base_prefix:
         return (prefix, interfaces.prefix())
