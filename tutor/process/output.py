@@ -30,7 +30,8 @@ class Output:
     """The output of one process.
 
     Of each stream the first `FIRST_LINES` and the last `LAST_LINES` lines are kept, so that a flood on one never drives
-    out a traceback on the other. A line is cut at `LINE_CHARACTERS`. Lines are kept undecoded: a flood costs the search for a few line ends, and decoding is done for those who look.
+    out a traceback on the other. A line is cut at `LINE_CHARACTERS`. Lines are kept undecoded: a flood costs the search
+    for a few line ends, and decoding is done for those who look.
     """
 
     def __init__(self) -> None:

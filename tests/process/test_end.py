@@ -1,0 +1,378 @@
+"""Whatever a learner's process does, and whatever becomes of us: afterwards nothing of it is left."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import signal
+import time
+from typing import Any
+
+import pytest
+
+from tutor.process import LearnerProcess
+from tutor.process.warden import descendants, processes
+
+CHILD = "if os.fork() == 0:\n    note('child'); forever()\nnote('main'); forever()\n"
+STUBBORN = """
+for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT): signal.signal(number, signal.SIG_IGN)
+if os.fork() == 0:
+    note('child'); forever()
+note('main'); forever()
+"""
+DAEMON = """
+def daemon():
+    if os.fork(): return
+    os.setsid()
+    if os.fork(): os._exit(0)
+    {before}
+    note('child'); forever()
+daemon()
+note('main'); forever()
+"""
+FILES_CLOSED = "os.closerange(0, 100)"
+# An exec with an empty environment leaves nothing to be recognised by: not the mark, not the files, not the session.
+NAMELESS = DAEMON.format(
+    before="os.closerange(0, 100); "
+    "os.execve(sys.executable, [sys.executable, '-I', '-S', '-c', "
+    '\'import os, time; open("x", "w").write(str(os.getpid())); os.rename("x", "child"); time.sleep(1000)\'], {})'
+)
+STOPPED = """
+if os.fork() == 0:
+    note('child'); os.kill(os.getpid(), signal.SIGSTOP)
+note('main'); os.kill(os.getpid(), signal.SIGSTOP)
+"""
+DEEP = """
+for depth in range(8):
+    if os.fork(): break
+else:
+    note('child'); forever()
+note('main') if depth == 0 else None
+forever()
+"""
+SUBREAPER = """
+import ctypes
+ctypes.CDLL(None).prctl(36, 1, 0, 0, 0)
+if os.fork() == 0:
+    if os.fork() == 0:
+        os.setsid(); note('child'); forever()
+    os._exit(0)
+note('main'); forever()
+"""
+CASES = {
+    "child": CHILD,
+    "stubborn": STUBBORN,
+    "daemon": DAEMON.format(before="pass"),
+    "daemon with closed files": DAEMON.format(before=FILES_CLOSED),
+    "nameless daemon": NAMELESS,
+    "stopped": STOPPED,
+    "deep": DEEP,
+    "subreaper": SUBREAPER,
+}
+each_case = pytest.mark.parametrize("source", CASES.values(), ids=CASES.keys())
+
+
+@each_case
+async def test_end_leaves_nothing(bench: Any, source: str) -> None:
+    learner = await bench.start(source)
+    main, child = await bench.noted_pid("main"), await bench.noted_pid("child")
+    assert main == learner.pid
+    assert {main, child} <= {s.pid for s in await learner.survivors()}
+    start = time.monotonic()
+    await learner.end()
+    assert bench.left() == []
+    assert time.monotonic() - start < 2.0
+    assert learner.exit is not None
+    assert learner.exit.signal == signal.SIGKILL
+    await learner.end()
+    assert await learner.survivors() == []
+
+
+@each_case
+async def test_our_own_death_leaves_nothing(bench: Any, source: str) -> None:
+    helper = await asyncio.create_subprocess_exec(*bench.helper(source), env=bench.helper_env, cwd=bench.folder)
+    await bench.noted_pid("main")
+    await bench.noted_pid("child")
+    helper.kill()
+    await helper.wait()
+    await bench.all_gone()
+
+
+async def test_our_own_death_while_a_fork_of_ours_lives_on(bench: Any) -> None:
+    helper = await asyncio.create_subprocess_exec(
+        *bench.helper(CHILD, then="if os.fork() == 0:\n    note('fork')\n    forever()"),
+        env=bench.helper_env,
+        cwd=bench.folder,
+    )
+    main, child = await bench.noted_pid("main"), await bench.noted_pid("child")
+    fork = await bench.noted_pid("fork")
+    helper.kill()
+    await helper.wait()
+    try:
+        await bench.until(lambda: main not in bench.left() and child not in bench.left(), "the learner's to be gone")
+        assert fork in bench.left()
+    finally:
+        os.kill(fork, signal.SIGKILL)
+    await bench.all_gone()
+
+
+async def test_our_own_death_during_the_start(bench: Any) -> None:
+    """At whatever moment it comes."""
+    for step in range(12):
+        helper = await asyncio.create_subprocess_exec(
+            *bench.helper("note('main'); forever()", then="pass", before="note('helper')"),
+            env=bench.helper_env,
+            cwd=bench.folder,
+        )
+        await bench.noted_pid("helper")
+        await asyncio.sleep(step * 0.005)  # not a wait for anything: the moments are the point
+        helper.kill()
+        await helper.wait()
+        await bench.all_gone()
+        for file in ("helper", "main"):
+            (bench.folder / file).unlink(missing_ok=True)
+
+
+async def test_a_grandchild_that_is_left_is_seen(bench: Any) -> None:
+    learner = await bench.start("""
+if os.fork() == 0:
+    note('child'); forever()
+if os.fork() == 0:
+    os._exit(0)  # stays a zombie until the main process ends
+while not os.path.exists('child'): time.sleep(0.001)
+note('main')
+""")
+    child = await bench.noted_pid("child")
+    found = await learner.wait(20)
+    assert found is not None
+    assert found.code == 0
+    (survivor,) = await learner.survivors()
+    assert survivor.pid == child
+    assert "learner_" in survivor.command
+    assert child in bench.left()
+    await learner.end()
+    assert bench.left() == []
+    assert learner.exit == found
+
+
+async def test_zombies_are_no_survivors(bench: Any) -> None:
+    learner = await bench.start("""
+child = os.fork()
+if child == 0: os._exit(0)
+os.waitid(os.P_PID, child, os.WEXITED | os.WNOWAIT)
+note('main'); forever()
+""")
+    main = await bench.noted_pid("main")
+    assert [s.pid for s in await learner.survivors()] == [main]
+
+
+async def test_a_fork_storm(bench: Any) -> None:
+    learner = await bench.start("""
+for n in range(50):
+    if os.fork() == 0:
+        if n % 2: os.setsid()
+        if n % 3 == 0 and os.fork(): os._exit(0)
+        note(f'child{n}'); forever()
+note('main'); forever()
+""")
+    for n in range(50):
+        await bench.noted_pid(f"child{n}")
+    assert len(await learner.survivors()) == 51
+    await learner.end()
+    assert bench.left() == []
+
+
+async def test_a_process_that_runs_away_by_forking(bench: Any) -> None:
+    """A chain in which each process starts the next and ends: no pid lives long enough to be looked at."""
+    learner = await bench.start("""
+note('main')
+while True:
+    if os.fork(): os._exit(0)
+    os.setsid()
+""")
+    await bench.noted_pid("main")
+    await learner.wait(20)
+    await learner.end()
+    assert bench.left() == []
+
+
+async def test_a_keeper_that_restarts_what_is_killed(bench: Any) -> None:
+    learner = await bench.start("""
+note('main')
+while True:
+    child = os.fork()
+    if child == 0:
+        os.setsid(); note('child'); forever()
+    os.waitpid(child, 0)
+""")
+    await bench.noted_pid("child")
+    await learner.end()
+    assert bench.left() == []
+
+
+async def test_the_context_manager_ends_it(bench: Any) -> None:
+    async def check() -> None:
+        async with await bench.start(CHILD):
+            await bench.noted_pid("child")
+            raise ZeroDivisionError
+
+    with pytest.raises(ZeroDivisionError):
+        await check()
+    assert bench.left() == []
+
+
+async def test_cancelled_while_it_runs(bench: Any) -> None:
+    async def check() -> None:
+        async with await bench.start(STUBBORN) as learner:
+            await learner.wait(1000)
+
+    task = asyncio.create_task(check())
+    await bench.noted_pid("child")
+    task.cancel()
+    with pytest.raises(asyncio.CancelledError):
+        await task
+    assert bench.left() == []
+
+
+async def test_cancelled_while_it_ends(bench: Any) -> None:
+    learner = await bench.start(STUBBORN)
+    await bench.noted_pid("child")
+    task = asyncio.create_task(learner.end())
+    await asyncio.sleep(0)
+    for _ in range(3):
+        task.cancel()
+        await asyncio.sleep(0)
+    with pytest.raises(asyncio.CancelledError):
+        await task
+    assert bench.left() == []
+
+
+async def test_cancelled_while_it_starts(bench: Any) -> None:
+    for turns in range(0, 40, 3):
+        task = asyncio.create_task(bench.start(STUBBORN))
+        for _ in range(turns):
+            await asyncio.sleep(0.001)
+            if task.done():
+                break
+        task.cancel()
+        await asyncio.gather(task, return_exceptions=True)
+        if not task.cancelled():
+            await task.result().end()
+        assert bench.left() == []
+
+
+def test_a_loop_that_is_torn_down(bench_sync: Any) -> None:
+    """As asyncio.run does on Ctrl+C: every task is cancelled, and the loop ends."""
+
+    async def check() -> None:
+        async with await bench_sync.start(STUBBORN) as learner:
+            await bench_sync.noted_pid("child")
+            asyncio.get_running_loop().call_soon(os.kill, os.getpid(), signal.SIGINT)
+            await learner.wait(1000)
+
+    with pytest.raises(KeyboardInterrupt):
+        asyncio.run(check())
+    assert bench_sync.left() == []
+
+
+async def warden_of(learner: LearnerProcess) -> int:
+    return processes()[learner.pid].parent
+
+
+@pytest.mark.parametrize("name", [name for name in CASES if name != "nameless daemon"])
+async def test_the_warden_killed(bench: Any, name: str) -> None:
+    learner = await bench.start(CASES[name])
+    await bench.noted_pid("main")
+    await bench.noted_pid("child")
+    os.kill(await warden_of(learner), signal.SIGKILL)
+    assert await learner.wait(20) is not None
+    assert learner.exit is not None
+    assert learner.exit.signal == signal.SIGKILL
+    await learner.end()
+    assert bench.left() == []
+    assert await learner.survivors() == []
+
+
+async def test_the_warden_killed_by_the_learners_own_code(bench: Any) -> None:
+    learner = await bench.start("""
+if os.fork() == 0:
+    os.setsid(); note('child'); forever()
+while not os.path.exists('child'): time.sleep(0.001)
+os.kill(os.getppid(), signal.SIGKILL); forever()
+""")
+    await bench.noted_pid("child")
+    assert str(await learner.wait(20)) == "signal 9"
+    await learner.end()
+    assert bench.left() == []
+
+
+async def test_the_warden_killed_after_the_exit(bench: Any) -> None:
+    learner = await bench.start("""
+if os.fork() == 0:
+    os.setsid(); note('child'); forever()
+while not os.path.exists('child'): time.sleep(0.001)
+""")
+    child = await bench.noted_pid("child")
+    found = await learner.wait(20)
+    os.kill(processes()[child].parent, signal.SIGKILL)
+    await learner.end()
+    assert bench.left() == []
+    assert learner.exit == found
+
+
+async def test_the_warden_told_to_end(bench: Any) -> None:
+    learner = await bench.start(STUBBORN)
+    await bench.noted_pid("child")
+    os.kill(await warden_of(learner), signal.SIGTERM)
+    await bench.all_gone()
+    assert str(await learner.wait(20)) == "signal 9"
+
+
+async def test_the_warden_stopped(bench: Any) -> None:
+    learner = await bench.start(STUBBORN)
+    await bench.noted_pid("child")
+    os.kill(await warden_of(learner), signal.SIGSTOP)
+    await learner.end()
+    assert bench.left() == []
+
+
+async def test_a_warden_that_never_gets_it_done(bench: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("tutor.process.learner._WARDEN_LIMIT_S", 0.0)
+    learner = await bench.start(NAMELESS)
+    await bench.noted_pid("child")
+    await learner.end()
+    assert bench.left() == []
+
+
+async def test_sigchld_and_blocked_signals_of_ours_do_no_harm(bench: Any) -> None:
+    """A parent may have SIGCHLD ignored or signals blocked; a child inherits both."""
+    old = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT, signal.SIGCHLD, signal.SIGTERM])
+    try:
+        learner = await bench.start(CHILD)
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, old)
+    await bench.noted_pid("child")
+    learner.interrupt()
+    found = await learner.wait(20)
+    assert found is not None
+    assert found.code == 1 or found.signal == signal.SIGINT
+    await learner.end()
+    assert bench.left() == []
+
+
+async def test_nobody_else_is_harmed(bench: Any) -> None:
+    one, other = await bench.start("note('one'); forever()"), await bench.start("note('other'); forever()")
+    await bench.noted_pid("one")
+    await bench.noted_pid("other")
+    os.kill(await warden_of(one), signal.SIGKILL)
+    await one.end()
+    assert [s.pid for s in await other.survivors()] == [other.pid]
+    assert bench.left() == [other.pid]
+
+
+async def test_no_warden_and_no_zombie_of_ours_stays(bench: Any) -> None:
+    before = {p.pid for p in descendants(os.getpid())}
+    for _ in range(3):
+        learner = await bench.start(CHILD)
+        await learner.end()
+    assert {p.pid for p in descendants(os.getpid())} <= before
