@@ -22,7 +22,7 @@ class ContentError(Exception):
         super().__init__(f"{place}: {field}: {message}" if field else f"{place}: {message}")
 
 
-class UnknownExercise(Exception):  # noqa: N818  (the name is what the learner is told)
+class UnknownExercise(Exception):
     """Nobody knows this exercise. The message names the known ones, and the one that was probably meant."""
 
     def __init__(self, text: str, known: Sequence[str]) -> None:
