@@ -1,0 +1,37 @@
+"""The command line. `main` is the one place that tells errors and chooses exit codes."""
+
+from __future__ import annotations
+
+import os
+import sys
+import traceback
+from collections.abc import Sequence
+
+from tutor.cli import terminal
+from tutor.cli.errors import INTERRUPTED, describe, exit_code
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run one command and give its exit code: 0 passed, 1 not passed, 2 usage, 3 fault, 130 interrupted."""
+    try:
+        return _run(argv)
+    except KeyboardInterrupt:
+        return INTERRUPTED
+    except SystemExit as end:  # argparse, after --help and --version
+        return end.code if isinstance(end.code, int) else 0
+    except Exception as error:  # the process's border: a learner gets one line, whatever happened
+        if os.environ.get("ROS_TUTOR_DEBUG") == "1":
+            traceback.print_exc(file=sys.stderr)
+        terminal.say(describe(error))
+        return exit_code(error)
+
+
+def _run(argv: Sequence[str] | None) -> int:
+    from tutor.cli import app
+    from tutor.cli.parser import parse
+
+    arguments = parse(argv)
+    if arguments.command is None:
+        return app.run(arguments)
+    code: int = arguments.run(arguments)
+    return code

@@ -1,0 +1,115 @@
+"""`ros-tutor check`: judge exercises headless."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from tutor.cli import context, terminal
+from tutor.cli.errors import FAULT, INTERRUPTED, NOT_PASSED, PASSED, UsageError
+
+if TYPE_CHECKING:
+    from tutor.cli.judging import Engine
+    from tutor.content import Course
+    from tutor.judge.result import Report
+    from tutor.judge.submission import Submission
+    from tutor.workspace import Workspace
+
+_CODES = {"passed": PASSED, "failed": NOT_PASSED, "error": FAULT}
+_FORMATS = ("text", "json", "junit", "markdown")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """EXERCISE [PATH] [--solution] [--criterion ID]... [--format F] [--output FILE]."""
+    parser.add_argument("exercise", metavar="EXERCISE", help="for example i2.1; or all, which judges them in parallel")
+    parser.add_argument("path", metavar="PATH", nargs="?", type=Path, help="a file or folder (or the workspace's own)")
+    parser.add_argument("--solution", action="store_true", help="judge our own solution instead")
+    parser.add_argument("--criterion", metavar="ID", action="append", help="judge only this one (repeatable)")
+    parser.add_argument("--format", choices=_FORMATS, default="text", help="text (default), json, junit or markdown")
+    parser.add_argument("--output", metavar="FILE", type=Path, help="write the report there instead of to stdout")
+
+
+def run(arguments: argparse.Namespace, engine: Engine | None = None) -> int:
+    """Judge, write the report, and remember the result where the workspace's own files were judged."""
+    from tutor.cli.choosing import ALL, choose_lessons, choose_submissions
+    from tutor.cli.judging import display_for, judge
+    from tutor.workspace import find_submission, solution
+
+    _prove_fitting(arguments)
+    course = context.load_course(arguments)
+    workspace = context.workspace(arguments)
+    lessons = choose_lessons(arguments.exercise, arguments.criterion, course)
+    left_out: Sequence[str] = ()
+    if arguments.solution:
+        submissions = [solution(lesson) for lesson in lessons]
+    elif arguments.exercise.lower() == ALL:
+        submissions, left_out = choose_submissions(lessons, arguments.path, workspace)
+    else:
+        submissions = [find_submission(lessons[0], arguments.path, workspace)]
+
+    only = frozenset(arguments.criterion) if arguments.criterion else None
+    to_terminal = arguments.output is None and terminal.is_terminal(sys.stdout)
+    report = judge(engine or _engine(), submissions, course, only, display_for(course, report_follows=to_terminal))
+    if report is None:
+        terminal.say("interrupted; nothing that was started is left")
+        return INTERRUPTED
+    _write(report, arguments)
+    for line in left_out:
+        terminal.say(line)
+    if not arguments.solution:
+        _record(report, submissions, course, workspace)
+    return _CODES[report.verdict.value]
+
+
+def _engine() -> Engine:
+    from tutor.engine import check  # late: nothing but a check needs ROS
+
+    return check
+
+
+def _prove_fitting(arguments: argparse.Namespace) -> None:
+    path, output = arguments.path, arguments.output
+    if arguments.solution and path is not None:
+        raise UsageError("--solution judges our own files: give no PATH with it")
+    if path is not None and arguments.exercise.lower() == "all" and not path.is_dir():
+        raise UsageError(f"check all needs a folder, and {path} is none")
+    if output is not None and not output.absolute().parent.is_dir():
+        raise UsageError(f"--output {output}: there is no folder {output.parent}")
+    if output is not None and output.is_dir():
+        raise UsageError(f"--output {output}: this is a folder, not a file")
+
+
+def _write(report: Report, arguments: argparse.Namespace) -> None:
+    from tutor.report import render
+    from tutor.workspace import write_atomically
+
+    if arguments.output is not None:
+        write_atomically(arguments.output, render(report, arguments.format))
+        terminal.say(f"{report.verdict.value}; the report is in {arguments.output}")
+    else:
+        color, width = terminal.wants_color(sys.stdout), terminal.width(sys.stdout)
+        terminal.out(render(report, arguments.format, color=color, width=width))
+
+
+def _record(report: Report, submissions: Sequence[Submission], course: Course, workspace: Workspace) -> None:
+    """Keep the attempts on the workspace's own files. That it cannot be kept does not change the verdict."""
+    from tutor.workspace import Progress, StorageError, is_own
+
+    own = {submission.exercise for submission in submissions if is_own(submission, workspace)}
+    results = [result for result in report.exercises if result.id in own]
+    if not results:
+        return
+
+    def add(progress: Progress) -> Progress:
+        for result in results:
+            every = {criterion.id for criterion in course.find(result.id).criteria}
+            progress = progress.with_attempt(result, whole=every <= {criterion.id for criterion in result.criteria})
+        return progress
+
+    try:
+        workspace.progress(terminal.say).change(add)
+    except StorageError as error:
+        terminal.say(f"this check is not in your progress: {error}")

@@ -1,0 +1,114 @@
+"""`ros-tutor checklist`: show, tick, untick and export the self-assessment checklist."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from difflib import get_close_matches
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from tutor.cli import context, terminal
+from tutor.cli.errors import PASSED, UsageError
+
+if TYPE_CHECKING:
+    from tutor.content import Checklist, Course
+    from tutor.workspace import Progress
+
+_ACTIONS = ("show", "tick", "untick", "export")
+_FORMATS = ("markdown", "json", "html")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """[show | tick ITEM... | untick ITEM... | export] [--format] [--output]."""
+    actions = f"{', '.join(_ACTIONS[:-1])} or {_ACTIONS[-1]}"
+    parser.add_argument("action", metavar="ACTION", nargs="?", choices=_ACTIONS, default="show", help=actions)
+    parser.add_argument("items", metavar="ITEM", nargs="*", help="for tick and untick: what `show` calls it")
+    parser.add_argument("--format", choices=_FORMATS, help="for export (markdown)")
+    parser.add_argument("--output", metavar="FILE", type=Path, help="for export: write there instead of to stdout")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Do what was asked, and show the checklist afterwards (or write it)."""
+    _prove_fitting(arguments)
+    course = context.load_course(arguments)
+    workspace = context.workspace(arguments)
+    if arguments.action in ("tick", "untick"):
+        for item in arguments.items:
+            _prove_known(item, course.checklist)
+        if not workspace.exists:
+            raise UsageError("ticks are kept in a workspace, and there is none yet; `ros-tutor start i1.1` makes one")
+        ticked = arguments.action == "tick"
+        progress = workspace.progress(terminal.say).change(lambda before: _with_ticks(before, arguments.items, ticked))
+    else:
+        progress = context.read_progress(workspace)
+    if arguments.action == "export":
+        _export(course, progress, arguments.format or "markdown", arguments.output)
+    else:
+        terminal.out(_show(course, progress))
+    return PASSED
+
+
+def _prove_fitting(arguments: argparse.Namespace) -> None:
+    takes_items = arguments.action in ("tick", "untick")
+    if takes_items and not arguments.items:
+        raise UsageError(f"checklist {arguments.action} needs an ITEM; `ros-tutor checklist` shows them")
+    if arguments.items and not takes_items:
+        raise UsageError(f"checklist {arguments.action} takes no ITEM")
+    if arguments.action != "export" and (arguments.format or arguments.output):
+        raise UsageError("--format and --output go with `checklist export`")
+
+
+def _prove_known(item: str, checklist: Checklist) -> None:
+    known = [each.id for each in checklist.items]
+    if item in known:
+        return
+    near = get_close_matches(item.lower(), known, n=1)
+    guess = f" Did you mean {near[0]}?" if near else ""
+    raise UsageError(f"there is no checklist item {item!r}.{guess} `ros-tutor checklist` shows them all")
+
+
+def _with_ticks(progress: Progress, items: list[str], ticked: bool) -> Progress:
+    for item in items:
+        progress = progress.with_tick(item, ticked)
+    return progress
+
+
+def _evidence(course: Course, progress: Progress) -> dict[str, list[str]]:
+    """For each checklist item, the passed exercises that show it."""
+    evidence: dict[str, list[str]] = {}
+    for lesson in course.lessons:
+        best = progress.of(lesson.id).best
+        if best is not None and best.value == "passed":
+            for item in lesson.checklist:
+                evidence.setdefault(item, []).append(lesson.id)
+    return evidence
+
+
+def _show(course: Course, progress: Progress) -> str:
+    evidence = _evidence(course, progress)
+    items = course.checklist.items
+    width = max((len(item.id) for item in items), default=0)
+    lines = []
+    for group in course.checklist.groups:
+        lines += [terminal.style(group.title, "1", sys.stdout)]
+        for item in group.items:
+            box = terminal.style("[x]", "32", sys.stdout) if item.id in progress.ticks else "[ ]"
+            passed = f"  (passed {', '.join(evidence[item.id])})" if item.id in evidence else ""
+            lines += [f"  {box} {item.id:{width}}  {item.text}{passed}"]
+        lines += [""]
+    ticked = sum(item.id in progress.ticks for item in items)
+    lines += [f"{ticked} of {len(items)} ticked. To tick one: ros-tutor checklist tick ITEM"]
+    return "\n".join(lines) + "\n"
+
+
+def _export(course: Course, progress: Progress, format: str, output: Path | None) -> None:
+    from tutor.report.checklist import render_checklist
+    from tutor.workspace import write_atomically
+
+    text = render_checklist(course.checklist, progress.ticks, _evidence(course, progress), format)
+    if output is None:
+        terminal.out(text)
+    else:
+        write_atomically(output, text)
+        terminal.say(f"wrote {output}")

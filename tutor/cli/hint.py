@@ -1,0 +1,43 @@
+"""`ros-tutor hint`: the next hint."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+
+from tutor.cli import context, terminal
+from tutor.cli.errors import PASSED
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """EXERCISE [--all]."""
+    parser.add_argument("exercise", metavar="EXERCISE", help="for example i2.1")
+    parser.add_argument("--all", action="store_true", help="show all hints at once")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Print one hint, each time the next one; or all."""
+    lesson = context.load_course(arguments).find(arguments.exercise)
+    workspace = context.workspace(arguments)
+    of = len(lesson.hints)
+    if arguments.all:
+        if workspace.exists:
+            workspace.progress(terminal.say).change(lambda progress: progress.with_hints(lesson.id, of))
+        terminal.out("\n".join(_hint(number, lesson.hints) for number in range(1, of + 1)))
+    elif not workspace.exists:
+        terminal.out(_hint(1, lesson.hints))
+        terminal.say(
+            f"without a workspace, nobody remembers which hints you have seen; "
+            f"`ros-tutor start {lesson.id}` makes one, `ros-tutor hint {lesson.id} --all` shows them all"
+        )
+    else:
+        number, again = workspace.progress(terminal.say).next_hint(lesson.id, of=of)
+        terminal.out(_hint(number, lesson.hints))
+        if again:
+            terminal.say(f"that was the last hint, again; `ros-tutor solution {lesson.id}` shows our solution")
+    return PASSED
+
+
+def _hint(number: int, hints: tuple[str, ...]) -> str:
+    heading = terminal.style(f"Hint {number} of {len(hints)}", "1", sys.stdout)
+    return f"{heading}\n{terminal.wrap(hints[number - 1].strip(), terminal.width(sys.stdout))}"

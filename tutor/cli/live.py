@@ -1,0 +1,131 @@
+"""What `ros-tutor check` shows on a terminal while it works: a line for each criterion."""
+
+from __future__ import annotations
+
+import sys
+from dataclasses import dataclass
+
+from rich.console import Console, Group, RenderableType
+from rich.live import Live
+from rich.progress_bar import ProgressBar
+from rich.spinner import Spinner
+from rich.table import Table
+from rich.text import Text
+
+from tutor.cli import terminal
+from tutor.content import Course
+from tutor.judge.events import CheckStarted, CriterionJudged, Event, Progress
+from tutor.judge.result import CriterionResult
+from tutor.report.plain import MARKS, printable, seconds
+from tutor.report.text import STYLES
+
+_PER_SECOND = 10
+
+
+@dataclass(slots=True)
+class _Line:
+    """One criterion, so far."""
+
+    fraction: float = 0.0
+    doing: str = ""
+    result: CriterionResult | None = None
+
+
+class LiveDisplay:
+    """Draws on stderr from the first event on, several times a second, until `close`.
+
+    `vanishing`: wipe it at the end, because the report follows on the same terminal.
+    """
+
+    def __init__(self, course: Course, *, vanishing: bool) -> None:
+        self._titles = {lesson.id: lesson.title for lesson in course.lessons}
+        self._lines: dict[str, dict[str, _Line]] = {}
+        self._stopping = False
+        self._spinner = Spinner("dots", style="cyan")
+        self._console = Console(
+            stderr=True, highlight=False, markup=False, emoji=False, no_color=not terminal.wants_color(sys.stderr)
+        )
+        self._live = Live(
+            console=self._console,
+            get_renderable=self._draw,
+            refresh_per_second=_PER_SECOND,
+            transient=vanishing,
+            redirect_stdout=False,  # stdout is the report, and may well go elsewhere
+            redirect_stderr=False,
+        )
+
+    def show(self, event: Event) -> None:
+        """Take in one event. The first one starts the drawing: until then, the engine may start this process anew."""
+        if isinstance(event, CheckStarted):
+            self._lines[event.exercise] = {criterion: _Line() for criterion in event.criteria}
+            if not self._live.is_started:
+                self._live.start()
+        elif isinstance(event, Progress):
+            line = self._lines[event.exercise][event.criterion]
+            line.fraction = max(line.fraction, min(event.fraction, 1.0))
+            line.doing = event.doing
+        elif isinstance(event, CriterionJudged):
+            self._lines[event.exercise][event.result.id].result = event.result
+
+    def stopping(self) -> None:
+        """Say at the bottom that the end takes a moment."""
+        self._stopping = True
+
+    def close(self) -> None:
+        """Stop drawing."""
+        if self._live.is_started:
+            self._live.stop()
+
+    def _draw(self) -> RenderableType:
+        exercises = list(self._lines)  # a copy: another thread draws while events come in
+        needed = sum(len(self._lines[exercise]) + 2 for exercise in exercises)
+        short = len(exercises) > 1 and needed > self._console.height - 2
+        parts = [self._summaries(exercises)] if short else [self._exercise(exercise) for exercise in exercises]
+        if self._stopping:
+            parts.append(Text("Stopping what was started ...", "yellow"))
+        return Group(*parts)
+
+    def _exercise(self, exercise: str) -> RenderableType:
+        lines = self._lines[exercise]
+        heading = Text(f"{exercise} {self._titles.get(exercise, '')}", "bold")
+        grid = _grid(max((len(criterion) for criterion in lines), default=0))
+        for criterion, line in lines.items():
+            grid.add_row(*self._row(criterion, line))
+        return Group(heading, grid, "")
+
+    def _row(self, criterion: str, line: _Line) -> tuple[RenderableType, ...]:
+        if line.result is None:
+            bar = ProgressBar(total=1.0, completed=line.fraction, width=20)
+            return self._spinner, Text(criterion), bar, Text(printable(line.doing), "dim")
+        verdict = line.result.verdict
+        style = STYLES[verdict.status]
+        said = "" if verdict.passed else (verdict.cause or verdict.observed)
+        return (
+            Text(MARKS[verdict.status], style),
+            Text(criterion),
+            Text(f"{verdict.status.value} after {seconds(line.result.duration_s)}", style),
+            Text(" ".join(printable(said).split()), "dim"),
+        )
+
+    def _summaries(self, exercises: list[str]) -> RenderableType:
+        """One line for each exercise, where the terminal is too low for one for each criterion."""
+        grid = _grid(max(len(exercise) for exercise in exercises))
+        for exercise in exercises:
+            lines = self._lines[exercise]
+            results = [line.result for line in lines.values() if line.result is not None]
+            done = sum(1.0 if line.result else line.fraction for line in lines.values())
+            bar = ProgressBar(total=float(max(len(lines), 1)), completed=done, width=20)
+            now = next((line.doing for line in lines.values() if line.result is None and line.doing), "")
+            passed = sum(result.verdict.passed for result in results)
+            mark: RenderableType = self._spinner if len(results) < len(lines) else Text("✓", "dim")
+            grid.add_row(mark, Text(exercise), bar, Text(f"{passed} of {len(lines)} passed  {printable(now)}", "dim"))
+        return grid
+
+
+def _grid(width: int) -> Table:
+    grid = Table.grid(padding=(0, 2, 0, 0))
+    grid.add_column(width=1)
+    grid.add_column(width=width, no_wrap=True)
+    grid.add_column(width=22, no_wrap=True)
+    grid.add_column(no_wrap=True, overflow="ellipsis")
+    return grid

@@ -1,0 +1,81 @@
+"""The command line's grammar."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any, NoReturn
+
+from tutor import __version__
+from tutor.cli import check, checklist, doctor, hint, list_exercises, solution, start
+from tutor.cli.errors import UsageError
+
+Run = Callable[[argparse.Namespace], int]
+
+
+class _Parser(argparse.ArgumentParser):
+    """Raises what is wrong, so that one place prints it."""
+
+    def __init__(self, **options: Any) -> None:
+        super().__init__(allow_abbrev=False, formatter_class=argparse.RawDescriptionHelpFormatter, **options)
+
+    def error(self, message: str) -> NoReturn:
+        raise UsageError(f"{message} (see `{self.prog} --help`)")
+
+
+_EPILOG = """\
+Without a command, the terminal app opens.
+
+exit codes: 0 passed, 1 not everything passed, 2 wrong usage, 3 a fault of the tool or the machine, 130 interrupted
+"""
+
+
+def parse(argv: Sequence[str] | None) -> argparse.Namespace:
+    """Read the command line. `command` is None where there is none. Raises UsageError."""
+    return _build().parse_args(argv)
+
+
+def _build() -> _Parser:
+    everywhere = _global_options()
+    parser = _Parser(
+        prog="ros-tutor",
+        description="Hands-on ROS 2 exercises, judged by what your node really does.",
+        epilog=_EPILOG,
+        parents=[everywhere],
+    )
+    parser.set_defaults(command=None)
+    commands = parser.add_subparsers(title="commands", metavar="COMMAND")
+
+    def add(name: str, run: Run, arguments: Callable[[argparse.ArgumentParser], None], help: str) -> None:
+        command = commands.add_parser(name, help=help, description=_sentence(help), parents=[everywhere])
+        arguments(command)
+        command.set_defaults(command=name, run=run)
+
+    add("list", list_exercises.run, list_exercises.add_arguments, "show the exercises, with your progress")
+    add("start", start.run, start.add_arguments, "put the skeleton of an exercise into the workspace")
+    add("check", check.run, check.add_arguments, "judge an exercise by what your node does")
+    add("hint", hint.run, hint.add_arguments, "show the next hint for an exercise")
+    add("solution", solution.run, solution.add_arguments, "print our solution of an exercise")
+    add("checklist", checklist.run, checklist.add_arguments, "show, tick or export the self-assessment checklist")
+    add("doctor", doctor.run, doctor.add_arguments, "say what ROS is used, and what is wrong with the machine")
+    return parser
+
+
+def _global_options() -> _Parser:
+    """Options that are good before and after the command. Suppressed defaults: the second must not undo the first."""
+    parser = _Parser(add_help=False, argument_default=argparse.SUPPRESS)
+    options = parser.add_argument_group("options for every command")
+    options.add_argument(
+        "--workspace",
+        metavar="DIR",
+        type=Path,
+        help="your workspace (else $ROS_TUTOR_WORKSPACE, the one around the current folder, or ~/ros_tutor_ws)",
+    )
+    options.add_argument("--lessons", metavar="DIR", type=Path, help="a folder with more lessons/ and checks/")
+    options.add_argument("--version", action="version", version=f"ros-tutor {__version__}")
+    return parser
+
+
+def _sentence(text: str) -> str:
+    return f"{text[0].upper()}{text[1:]}."

@@ -1,0 +1,51 @@
+"""The report as one JSON document, for programs."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict
+from typing import Any
+
+from tutor.judge.result import CriterionResult, ExerciseResult, Report
+from tutor.report.plain import printable
+
+SCHEMA = "ros-tutor/report/1"
+
+
+def render(report: Report) -> str:
+    """Write the document; durations are seconds, rounded to milliseconds."""
+    document = {
+        "schema": SCHEMA,
+        "verdict": report.verdict.value,
+        "duration_s": round(report.duration_s, 3),
+        "environment": asdict(report.environment),
+        "exercises": [_exercise(exercise) for exercise in report.exercises],
+    }
+    return json.dumps(document, ensure_ascii=False, indent=2, allow_nan=False) + "\n"
+
+
+def _exercise(exercise: ExerciseResult) -> dict[str, Any]:
+    return {
+        "id": exercise.id,
+        "title": exercise.title,
+        "verdict": exercise.verdict.value,
+        "duration_s": round(exercise.duration_s, 3),
+        "submission": list(exercise.submission),
+        "criteria": [_criterion(criterion) for criterion in exercise.criteria],
+    }
+
+
+def _criterion(criterion: CriterionResult) -> dict[str, Any]:
+    verdict = criterion.verdict
+    return {
+        "id": criterion.id,
+        "text": criterion.text,
+        "bonus": criterion.bonus,
+        "status": verdict.status.value,
+        "duration_s": round(criterion.duration_s, 3),
+        "expected": printable(verdict.expected),
+        "observed": printable(verdict.observed),
+        "cause": printable(verdict.cause),
+        "hint": printable(verdict.hint),
+        "evidence": [printable(line) for line in verdict.evidence],
+    }

@@ -1,0 +1,52 @@
+"""Makes text from a learner's process safe to show, and words that every format shares."""
+
+from __future__ import annotations
+
+import re
+
+from tutor.judge.result import Environment, ExerciseResult
+from tutor.judge.verdict import Status, Verdict
+
+MARKS = {Status.PASSED: "✓", Status.FAILED: "✗", Status.SKIPPED: "-", Status.ERROR: "!"}
+
+_CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\ufffe\uffff]")
+_SURROGATE = re.compile("[\ud800-\udfff]")
+
+
+def printable(text: str) -> str:
+    """Show control characters as escapes, so that no log line can steer the terminal or break a document.
+
+    Line ends stay; tabs become spaces; what is no valid Unicode becomes a replacement character.
+    """
+    text = _SURROGATE.sub("\N{REPLACEMENT CHARACTER}", text.replace("\r\n", "\n").expandtabs(4))
+    return _CONTROL.sub(lambda found: found[0].encode("unicode_escape").decode(), text)
+
+
+def details(verdict: Verdict) -> list[tuple[str, str]]:
+    """What there is to say about a verdict, as (label, text) pairs without the evidence."""
+    pairs = (
+        ("expected", verdict.expected),
+        ("observed", verdict.observed),
+        ("cause", verdict.cause),
+        ("next step", verdict.hint),
+    )
+    return [(label, printable(text).strip()) for label, text in pairs if text.strip()]
+
+
+def tally(exercise: ExerciseResult) -> str:
+    """How many criteria passed: "4 of 6 passed, bonus 1 of 1"."""
+    required = [c.verdict.passed for c in exercise.criteria if not c.bonus]
+    bonus = [c.verdict.passed for c in exercise.criteria if c.bonus]
+    text = f"{sum(required)} of {len(required)} passed" if required else ""
+    extra = f"bonus {sum(bonus)} of {len(bonus)}" if bonus else ""
+    return ", ".join(part for part in (text, extra) if part)
+
+
+def seconds(duration_s: float) -> str:
+    """A duration for people: "3.9 s"."""
+    return f"{duration_s:.1f} s"
+
+
+def describe(environment: Environment) -> str:
+    """What the check ran on, in one line."""
+    return f"ROS 2 {environment.ros_distro} ({environment.ros}), {environment.rmw}, ros-tutor {environment.ros_tutor}"
