@@ -1,0 +1,20 @@
+"""The terminal app. Textual is imported only when it is opened; rclpy never is."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+
+def run(workspace: Path, lessons: Path | None = None) -> int:
+    """Open the terminal app on a workspace (which need not exist yet) and give its exit code when it is closed.
+
+    `lessons` is a folder with further `lessons/` and `checks/`. Raises ContentError where a lesson is broken.
+    """
+    from tutor.content import load_course
+    from tutor.tui.app import TutorApp
+    from tutor.tui.desk import Desk
+    from tutor.workspace import Workspace
+
+    app = TutorApp(Desk(load_course(lessons), Workspace(workspace), lessons))
+    app.run()
+    return app.return_code or 0

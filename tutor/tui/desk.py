@@ -1,0 +1,93 @@
+"""Everything the app asks of the rest of the house: lessons, files, progress, and how to run and to check.
+
+Nothing here imports Textual. The methods that touch the disk are called in worker threads.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+import tempfile
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from tutor.content import Course, Lesson, LessonFile
+from tutor.judge.result import ExerciseResult
+from tutor.tui.node import NodeCommand
+from tutor.workspace import Placed, Progress, Workspace, start
+
+Notify = Callable[[str], None]
+
+
+class Desk:
+    """The learner's desk: a course, and a workspace to do it in. `extra` is where further lessons come from."""
+
+    def __init__(self, course: Course, workspace: Workspace, extra: Path | None = None) -> None:
+        self.course = course
+        self.workspace = workspace
+        self.extra = extra
+        self.notify: Notify = lambda text: None
+        """Told in one line, from any thread, what the learner should know (damaged progress was set aside)."""
+
+    @property
+    def lessons(self) -> tuple[Lesson, ...]:
+        """All lessons, in the order to do them."""
+        return self.course.lessons
+
+    def path(self, file: LessonFile) -> Path:
+        """Where the learner's file is, or will be."""
+        return self.workspace.path_of(file.name)
+
+    def missing(self, lesson: Lesson) -> tuple[str, ...]:
+        """The files that must be there before the lesson can be checked, and are not."""
+        return tuple(file.name for file in lesson.files if file.required and not self.path(file).exists())
+
+    def start(self, lesson: Lesson) -> Placed:
+        """Put those skeleton files into the workspace that are not there; nothing of the learner's is changed.
+
+        Raises WorkspaceError, StorageError.
+        """
+        return start(lesson, self.workspace).files
+
+    def progress(self) -> Progress:
+        """What the learner has done so far. Raises StorageError."""
+        if not self.workspace.exists:
+            return Progress()
+        return self.workspace.progress(self.notify).read()
+
+    def record(self, result: ExerciseResult) -> Progress:
+        """Keep one attempt. Raises StorageError."""
+        return self.workspace.progress(self.notify).change(lambda progress: progress.with_attempt(result, whole=True))
+
+    def show_hint(self, lesson: Lesson) -> Progress:
+        """Count one more hint as shown. Raises StorageError."""
+        file = self.workspace.progress(self.notify)
+        file.next_hint(lesson.id, of=len(lesson.hints))
+        return file.read()
+
+    def check_command(self, lesson: Lesson) -> Sequence[str]:
+        """The command that checks the workspace's own files and prints events, to be run in the workspace."""
+        more = () if self.extra is None else ("--lessons", str(self.extra))
+        # -P: a module in the learner's folder must not take the place of one of ours.
+        return (sys.executable, "-P", "-m", "tutor.engine", lesson.id, str(self.workspace.root), *more)
+
+    def node_command(self, file: LessonFile) -> NodeCommand:
+        """How to run one file in the learner's own ROS domain."""
+        from tutor.ros.environment import detect, learner_env  # late: the first paint does not wait for it
+
+        ros = detect()
+        path = self.path(file)
+        package = path.parent.parent if (path.parent / "__init__.py").is_file() else None
+        log_dir = Path(os.environ.get("ROS_LOG_DIR") or Path(tempfile.gettempdir()) / "ros-tutor-log")
+        env = learner_env(ros, domain_id=domain_id(), log_dir=log_dir, package_root=package, isolated=False)
+        return NodeCommand(file.name, (str(ros.python), str(path)), env, path.parent)
+
+    def editor(self) -> str:
+        """The learner's editor, as a command."""
+        return os.environ.get("VISUAL") or os.environ.get("EDITOR") or "nano"
+
+
+def domain_id() -> int:
+    """The user's own ROS domain: what `ROS_DOMAIN_ID` says, else 0."""
+    text = os.environ.get("ROS_DOMAIN_ID", "").strip()
+    return int(text) if text.isdecimal() else 0

@@ -1,0 +1,68 @@
+"""What workers tell the screens. Only the handlers of these messages touch widgets."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from textual.message import Message
+
+from tutor.judge.events import Event
+from tutor.tui.node import NodeState
+from tutor.workspace import Progress
+
+
+@dataclass
+class CheckEvent(Message):
+    """The running check has something to tell."""
+
+    event: Event
+
+
+@dataclass
+class CheckOver(Message):
+    """The check's process is gone. `fault` says what broke in it, if anything; `evidence` is what it wrote last."""
+
+    exercise: str
+    cancelled: bool = False
+    fault: str = ""
+    evidence: tuple[str, ...] = ()
+
+
+@dataclass
+class NodeChanged(Message):
+    """The learner's node has said something, or its state has changed."""
+
+    state: NodeState
+    first: bool = False
+
+
+@dataclass
+class Started(Message):
+    """An exercise was started; `written` are the files that were put into the workspace."""
+
+    exercise: str
+    written: tuple[str, ...]
+
+
+@dataclass
+class FileRead(Message):
+    """The file that is shown was read: its text, or None where it is not there; `problem` where it cannot be read."""
+
+    path: Path
+    text: str | None
+    problem: str = ""
+
+
+@dataclass
+class ProgressRead(Message):
+    """The learner's progress was read or has changed."""
+
+    progress: Progress
+
+
+@dataclass
+class Trouble(Message):
+    """Something that was asked for could not be done; one line that says why."""
+
+    text: str

@@ -1,0 +1,152 @@
+"""The criteria of a lesson: what is being checked right now, what was found, and the diagnosis of the chosen one."""
+
+from __future__ import annotations
+
+from textual import on
+from textual.app import ComposeResult
+from textual.containers import Container
+from textual.content import Content
+from textual.widgets import ListItem, ListView
+
+from tutor.judge.verdict import Status
+from tutor.tui import words
+from tutor.tui.findings import Finding, Findings
+from tutor.tui.widgets.diagnosis import Diagnosis
+
+
+class CriterionRow(ListItem):
+    """One criterion in one line: at rest, being checked (a bar, and what is done to the node), or judged."""
+
+    def __init__(self, finding: Finding) -> None:
+        super().__init__()
+        self.finding = finding
+
+    def show(self, finding: Finding) -> None:
+        """Show what is known now."""
+        if finding != self.finding:
+            self.finding = finding
+            self.refresh()
+
+    def render(self) -> Content:
+        """One line, made for the width that there is."""
+        found, width = self.finding, self.content_size.width
+        name = Content.assemble(found.id, (" bonus", "$quiet") if found.bonus else "")
+        name = name.pad_right(max(0, 17 - name.cell_length))
+        if found.verdict is not None:
+            ink = words.INKS[found.verdict.status]
+            head = Content.assemble((f"{words.MARKS[found.verdict.status]} ", f"bold {ink}"), name, " ")
+            word = Content.styled(f"{found.verdict.status.value:<8}", ink)
+            tail = Content.styled(found.text, "$quiet")
+        elif found.checking:
+            head = Content.assemble(("◐ ", "$busy"), name, " ")
+            word = _bar(found.fraction, 14 if width > 50 else 8)
+            tail = Content.styled(found.doing or "waiting", "$busy" if found.doing else "$quiet")
+        else:
+            head = Content.assemble(("○ ", "$quiet"), name, " ")
+            word = Content("")
+            tail = Content.styled(found.text, "$quiet")
+        gap = "  " if word else ""
+        return Content.assemble(head, word, gap, tail).truncate(width, ellipsis=True)
+
+
+def _bar(fraction: float, width: int) -> Content:
+    full = round(max(0.0, min(1.0, fraction)) * width)
+    return Content.assemble(("━" * full, "$busy"), ("━" * (width - full), "$line"), f" {fraction:4.0%}")
+
+
+class CriteriaPanel(Container):
+    """The list, and beside or below it the diagnosis of the criterion that is chosen."""
+
+    DEFAULT_CSS = """
+    CriteriaPanel {
+        layout: horizontal;
+        & > ListView {
+            width: 1fr;
+            background: $surface;
+            scrollbar-size: 1 1;
+            &:focus { background-tint: transparent 0%; }
+        }
+        & > ListView > CriterionRow { height: 1; padding: 0 1; text-wrap: nowrap; }
+        & > Diagnosis { display: none; }
+        &.-detail > Diagnosis { display: block; }
+    }
+    """
+
+    def compose(self) -> ComposeResult:
+        yield ListView(id="criteria-list", initial_index=None)
+        yield Diagnosis(id="diagnosis")
+
+    def on_mount(self) -> None:
+        self.border_title = "Criteria"
+        self._findings: Findings | None = None
+        self._goal = ""
+
+    async def show_lesson(self, findings: Findings) -> None:
+        """Show another lesson's criteria, and its first failure if it has one."""
+        self._findings = None
+        listed = self.query_one("#criteria-list", ListView)
+        await listed.clear()
+        await listed.extend(CriterionRow(finding) for finding in findings.criteria)
+        self._show(findings)
+        self._turn_to_result()
+
+    def show_findings(self, findings: Findings) -> None:
+        """Show what the check has found by now."""
+        before = self._findings
+        self._show(findings)
+        if findings.checking and not (before and before.checking):
+            self.remove_class("-detail")
+        if before and before.checking and not findings.checking:
+            self._turn_to_result()
+
+    @property
+    def rows(self) -> list[CriterionRow]:
+        """The rows, in order."""
+        return list(self.query(CriterionRow))
+
+    def _show(self, findings: Findings) -> None:
+        self._findings = findings
+        known = {finding.id: finding for finding in findings.criteria}
+        for row in self.rows:
+            row.show(known[row.finding.id])
+        self.border_subtitle = _headline(findings)
+        self.set_class(bool(findings.result and findings.result.verdict is Status.PASSED), "-passed")
+
+    def _turn_to_result(self) -> None:
+        """After a check: the first failure, or, where all is well, the good news."""
+        found = self._findings
+        listed = self.query_one("#criteria-list", ListView)
+        listed.index = None
+        self.remove_class("-detail")
+        if found is None or not found.judged:
+            return
+        if found.result is not None and found.result.verdict is Status.PASSED:
+            self.query_one(Diagnosis).show_passed(found.result)
+            self.add_class("-detail")
+            return
+        order = (Status.FAILED, Status.ERROR, Status.SKIPPED, Status.PASSED)
+        judged = [(f.bonus, order.index(f.verdict.status), i) for i, f in enumerate(found.criteria) if f.verdict]
+        listed.index = min(judged)[2]
+
+    @on(ListView.Highlighted, "#criteria-list")
+    @on(ListView.Selected, "#criteria-list")
+    def _choose(self, event: ListView.Highlighted | ListView.Selected) -> None:
+        event.stop()
+        row = event.item
+        if not isinstance(row, CriterionRow) or self._findings is None:
+            return
+        if isinstance(event, ListView.Highlighted) and self._findings.checking:
+            return
+        if row.finding.verdict is not None or isinstance(event, ListView.Selected):
+            self.query_one(Diagnosis).show_finding(row.finding)
+            self.add_class("-detail")
+        elif not self._findings.judged:
+            self.remove_class("-detail")
+
+
+def _headline(findings: Findings) -> str:
+    if findings.checking:
+        return f"checking {findings.fraction:.0%} · Esc cancels"
+    if findings.note:
+        return findings.note
+    return words.summary(findings.result) if findings.result else "not checked yet"

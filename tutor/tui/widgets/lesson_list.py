@@ -1,0 +1,92 @@
+"""The lessons at the left, each with its difficulty and how it stands."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from textual.content import Content
+from textual.widgets import ListItem, ListView
+
+from tutor.content import Lesson
+from tutor.tui import words
+from tutor.workspace import ExerciseProgress, Progress
+
+_INK = {"✓": "$good", "◐": "$warn", "○": "$quiet"}
+
+
+class UnitRow(ListItem):
+    """The name of a unit, above its lessons."""
+
+    def __init__(self, unit: str) -> None:
+        super().__init__(disabled=True)
+        self.unit = unit
+
+    def render(self) -> Content:
+        """One line."""
+        return Content(self.unit)
+
+
+class LessonRow(ListItem):
+    """One lesson, in two lines."""
+
+    def __init__(self, lesson: Lesson) -> None:
+        super().__init__()
+        self.lesson = lesson
+        self.progress = ExerciseProgress()
+
+    def render(self) -> Content:
+        """The mark, the title; below it the difficulty, and how it stands in words."""
+        mark, standing = words.standing(self.lesson, self.progress)
+        width = self.content_size.width
+        title = Content(f"{words.label(self.lesson)} {self.lesson.title}").truncate(width - 2, ellipsis=True)
+        level = words.LEVELS[self.lesson.difficulty]
+        gap = " " * max(1, width - 2 - len(level) - len(standing))
+        ink = _INK[mark]
+        return Content.assemble((f"{mark} ", ink), title, "\n  ", (level, "$quiet"), gap, (standing, ink))
+
+
+class LessonList(ListView):
+    """All lessons, under the names of their units."""
+
+    DEFAULT_CSS = """
+    LessonList {
+        background: $surface;
+        scrollbar-size: 1 1;
+        & > ListItem { padding: 0 1; text-wrap: nowrap; text-overflow: ellipsis; }
+        & > LessonRow { height: 2; margin-bottom: 1; }
+        & > LessonRow.-shown { text-style: bold; }
+        & > UnitRow { height: 2; color: $quiet; opacity: 100%; padding: 0 1 1 1; }
+        &:focus { background-tint: transparent 0%; }
+    }
+    """
+
+    def __init__(self, lessons: Iterable[Lesson], id: str | None = None) -> None:
+        rows: list[ListItem] = []
+        unit = ""
+        for lesson in lessons:
+            if lesson.unit != unit:
+                unit = lesson.unit
+                rows.append(UnitRow(unit))
+            rows.append(LessonRow(lesson))
+        super().__init__(*rows, id=id, initial_index=None)
+
+    @property
+    def lesson_rows(self) -> list[LessonRow]:
+        """The rows of the lessons, in order."""
+        return list(self.query(LessonRow))
+
+    def show_lesson(self, lesson: Lesson) -> None:
+        """Mark the lesson that is shown."""
+        for index, row in enumerate(self.children):
+            if isinstance(row, LessonRow):
+                row.set_class(row.lesson is lesson, "-shown")
+                if row.lesson is lesson:
+                    self.index = index
+
+    def show_progress(self, progress: Progress) -> None:
+        """Show how each lesson stands."""
+        for row in self.lesson_rows:
+            row.progress = progress.of(row.lesson.id)
+            row.refresh()
+        passed = sum(words.standing(row.lesson, row.progress)[0] == "✓" for row in self.lesson_rows)
+        self.border_subtitle = f"{passed} of {len(self.lesson_rows)} passed"

@@ -1,0 +1,51 @@
+"""The text of a lesson."""
+
+from __future__ import annotations
+
+from textual.app import ComposeResult
+from textual.containers import VerticalScroll
+from textual.content import Content
+from textual.widgets import Markdown, Static
+
+from tutor.content import Lesson
+from tutor.tui import words
+
+
+class LessonView(VerticalScroll):
+    """Title, objective and body."""
+
+    DEFAULT_CSS = """
+    LessonView {
+        background: $surface;
+        padding: 1 2 0 2;
+        scrollbar-size: 1 1;
+        & > #lesson-head { height: auto; margin-bottom: 1; }
+        & > Markdown {
+            background: transparent;
+            padding: 0;
+            max-width: 100;
+            MarkdownH2 { color: $primary; text-style: bold; margin: 1 0 1 0; }
+            MarkdownH3 { color: $secondary; text-style: bold; margin: 1 0 1 0; }
+            MarkdownFence { background: $background; margin: 0 0 1 0; padding: 0 1; }
+            MarkdownBlockQuote { background: $panel; border-left: outer $accent; margin: 0 0 1 0; padding: 0 1; }
+            MarkdownBullet { color: $accent; }
+        }
+    }
+    """
+
+    def compose(self) -> ComposeResult:
+        yield Static(id="lesson-head")
+        yield Markdown(id="lesson-body", open_links=False)
+
+    async def show_lesson(self, lesson: Lesson) -> None:
+        """Show another lesson from its top."""
+        files = ", ".join(file.name for file in lesson.files)
+        head = Content.assemble(
+            (f"{words.label(lesson)}  {lesson.title}", "bold $primary"),
+            ("   " + words.LEVELS[lesson.difficulty], "$accent"),
+            "\n",
+            (f"{lesson.unit} · {files}", "$quiet"),
+        )
+        self.query_one("#lesson-head", Static).update(head)
+        self.scroll_home(animate=False)
+        await self.query_one(Markdown).update(lesson.body)

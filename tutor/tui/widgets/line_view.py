@@ -1,0 +1,111 @@
+"""A view of many lines of coloured text: the base of the code and the log."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import ClassVar
+
+from rich.cells import cell_len
+from rich.segment import Segment
+from rich.style import Style
+from textual.geometry import Size
+from textual.scroll_view import ScrollView
+from textual.selection import Selection
+from textual.strip import Strip
+
+Piece = tuple[str, str]
+"""A text and its kind: a component class without its prefix, or empty for plain text."""
+
+Row = tuple[Piece, ...]
+
+
+class LineView(ScrollView, can_focus=True):
+    """Shows rows of pieces; colours come from the component classes, so they follow the theme."""
+
+    KINDS = (
+        "gutter", "keyword", "string", "number", "comment", "name", "type",
+        "quiet", "debug", "info", "warn", "error", "fatal",
+    )  # fmt: skip
+    COMPONENT_CLASSES: ClassVar[set[str]] = {f"line--{kind}" for kind in KINDS}
+
+    DEFAULT_CSS = """
+    LineView {
+        background: $surface;
+        color: $foreground;
+        scrollbar-gutter: stable;
+        scrollbar-size: 1 1;
+        & > .line--gutter { color: $quiet; background: $surface; }
+        & > .line--keyword { color: $code-keyword; }
+        & > .line--string { color: $code-string; }
+        & > .line--number { color: $code-number; }
+        & > .line--comment { color: $code-comment; text-style: italic; }
+        & > .line--name { color: $code-name; }
+        & > .line--type { color: $code-type; }
+        & > .line--quiet { color: $quiet; }
+        & > .line--debug { color: $quiet; }
+        & > .line--info { color: $good; }
+        & > .line--warn { color: $warn; }
+        & > .line--error { color: $bad; }
+        & > .line--fatal { color: $bad; text-style: bold reverse; }
+    }
+    """
+
+    def __init__(self, id: str | None = None) -> None:
+        super().__init__(id=id)
+        self.rows: Sequence[Row] = ()
+        self.margins: Sequence[Piece] = ()
+        """What stands at the left of each row, whatever is scrolled sideways; all of one width, or none at all."""
+
+    def show_rows(self, rows: Sequence[Row], margins: Sequence[Piece] = ()) -> None:
+        """Show other rows; the place that is looked at stays."""
+        self.rows, self.margins = rows, margins
+        widest = max((sum(cell_len(text) for text, _ in row) for row in rows), default=0)
+        self.virtual_size = Size(widest + self._margin_width, len(rows))
+        self.refresh()
+
+    @property
+    def plain(self) -> str:
+        """The text, without the gutter."""
+        return "\n".join("".join(text for text, _ in row) for row in self.rows)
+
+    @property
+    def _margin_width(self) -> int:
+        return cell_len(self.margins[0][0]) if self.margins else 0
+
+    def render_line(self, y: int) -> Strip:
+        """One row of the screen."""
+        left, top = self.scroll_offset
+        width, line = self.size.width, top + y
+        base = self.rich_style
+        if line >= len(self.rows):
+            return Strip.blank(width, base)
+        text = Strip([Segment(text, self._style(kind, base)) for text, kind in self.rows[line]])
+        if (selection := self.text_selection) is not None:
+            text = self._selected(text, selection, line)
+        body = width - self._margin_width
+        text = text.crop_extend(left, left + body, base).apply_offsets(left, line)
+        if not self.margins:
+            return text
+        number, kind = self.margins[line]
+        return Strip.join([Strip([Segment(number, self._style(kind, base))]), text])
+
+    def _style(self, kind: str, base: Style) -> Style:
+        return base + self.get_component_rich_style(f"line--{kind}", partial=True) if kind else base
+
+    def _selected(self, text: Strip, selection: Selection, line: int) -> Strip:
+        if (span := selection.get_span(line)) is None:
+            return text
+        start, end = span
+        end = text.cell_length if end == -1 else end
+        before, chosen, after = (text.crop(a, b) for a, b in ((0, start), (start, end), (end, None)))
+        return Strip.join(
+            [before, chosen.apply_style(self.screen.get_component_rich_style("screen--selection")), after]
+        )
+
+    def get_selection(self, selection: Selection) -> tuple[str, str] | None:
+        """The selected text, for the clipboard."""
+        return selection.extract(self.plain), "\n"
+
+    def selection_updated(self, selection: Selection | None) -> None:
+        """Show what is selected."""
+        self.refresh()

@@ -1,0 +1,64 @@
+"""The line at the top: which lesson, and what is going on right now."""
+
+from __future__ import annotations
+
+from textual.app import ComposeResult
+from textual.containers import Horizontal
+from textual.content import Content
+from textual.widgets import Static
+
+from tutor.content import Lesson
+from tutor.tui import words
+from tutor.tui.findings import Findings
+from tutor.tui.node import NodeState, Phase
+
+
+class StatusBar(Horizontal):
+    """Name of the program, the lesson, the check and the node."""
+
+    DEFAULT_CSS = """
+    StatusBar {
+        height: 1;
+        background: $panel;
+        color: $foreground;
+        & > Static { width: auto; padding: 0 1; text-wrap: nowrap; text-overflow: ellipsis; }
+        & > #bar-name { background: $primary; color: $background; text-style: bold; }
+        & > #bar-lesson { width: 1fr; }
+        & > #bar-check { color: $busy; }
+        & > #bar-node { color: $quiet; }
+    }
+    """
+
+    def compose(self) -> ComposeResult:
+        yield Static("ROS Tutor", id="bar-name")
+        yield Static(id="bar-lesson")
+        yield Static(id="bar-check")
+        yield Static(id="bar-node")
+
+    def show_lesson(self, lesson: Lesson) -> None:
+        """Name the lesson."""
+        text = Content.assemble(
+            (words.label(lesson), "bold"), f" {lesson.title}  ", (words.LEVELS[lesson.difficulty], "$quiet")
+        )
+        self.query_one("#bar-lesson", Static).update(text)
+
+    def show_check(self, findings: Findings | None) -> None:
+        """Say how far the running check is; nothing where none runs."""
+        text = (
+            f"checking {findings.exercise.upper()} {findings.fraction:4.0%}" if findings and findings.checking else ""
+        )
+        place = self.query_one("#bar-check", Static)
+        place.update(text)
+        place.display = bool(text)
+
+    def show_node(self, state: NodeState | None, domain: int) -> None:
+        """Say whether the node runs, and on which domain."""
+        if state is None or not state.alive:
+            text = Content.assemble(("○ ", "$quiet"), f"domain {domain}")
+        elif state.phase is Phase.RUNNING:
+            text = Content.assemble(
+                ("● ", "$good"), ("running ", "$good"), (f"{state.file} · domain {domain}", "$foreground")
+            )
+        else:
+            text = Content.assemble(("◐ ", "$warn"), (f"{state.phase.value} {state.file}", "$warn"))
+        self.query_one("#bar-node", Static).update(text)

@@ -1,0 +1,52 @@
+"""How things are said on the screen: a mark (never colour alone), a word, and a short form of paths and times."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from tutor.content import Difficulty, Lesson
+from tutor.judge.result import ExerciseResult
+from tutor.judge.verdict import Status
+from tutor.workspace import ExerciseProgress
+
+MARKS = {Status.PASSED: "✓", Status.FAILED: "✗", Status.SKIPPED: "-", Status.ERROR: "!"}
+"""One cell wide in every terminal font that matters."""
+
+INKS = {Status.PASSED: "$good", Status.FAILED: "$bad", Status.SKIPPED: "$quiet", Status.ERROR: "$warn"}
+"""The theme's colour for each status; it never stands alone, a mark and a word are with it."""
+
+LEVELS = {Difficulty.EASY: "●○○ easy", Difficulty.MEDIUM: "●●○ medium", Difficulty.CHALLENGE: "●●● challenge"}
+
+
+def label(lesson: Lesson) -> str:
+    """The exercise's id as the course writes it."""
+    return lesson.id.upper()
+
+
+def standing(lesson: Lesson, progress: ExerciseProgress) -> tuple[str, str]:
+    """How a lesson stands: a mark and words. The mark is ✓ only where the whole exercise has been passed."""
+    required = [criterion.id for criterion in lesson.criteria if not criterion.bonus]
+    if progress.best is Status.PASSED:
+        return "✓", "passed"
+    if progress.last is not None:
+        met = sum(id in progress.last.passed for id in required)
+        return "◐", f"{met} of {len(required)} met"
+    return ("◐", "started") if progress.started_at else ("○", "new")
+
+
+def summary(result: ExerciseResult) -> str:
+    """The outcome of a check in one line."""
+    required = [c for c in result.criteria if not c.bonus]
+    bonus = [c for c in result.criteria if c.bonus]
+    text = f"{sum(c.verdict.passed for c in required)} of {len(required)} passed"
+    if bonus:
+        text += f" · bonus {sum(c.verdict.passed for c in bonus)} of {len(bonus)}"
+    return f"{text} · {result.duration_s:.1f} s"
+
+
+def short(path: Path) -> str:
+    """A path with the home folder as ~."""
+    try:
+        return f"~/{path.relative_to(Path.home())}"
+    except ValueError:
+        return str(path)
