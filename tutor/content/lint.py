@@ -121,6 +121,8 @@ def _body(body: str) -> Iterator[str]:
             yield f"the heading {line!r} is a title: the title is in the front matter"
         elif not fenced and line.startswith("## "):
             headings.append(line.removeprefix("## ").strip())
+        elif not fenced and line.count("`") % 2:
+            yield f"the code in {line.strip()!r} is broken over two lines"
         elif not fenced and _RAW_HTML.search(re.sub(r"`[^`]*`", "", line)):
             yield f"there is raw HTML in {line.strip()!r}, which a terminal cannot show"
     if fenced:

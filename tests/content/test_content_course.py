@@ -1,0 +1,94 @@
+"""The course as it is shipped."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from tutor.content import Lesson, LessonFile, lint, load_course
+
+CRITERIA = {
+    "i1.1": ("publishes range random echo rate sensor-name", "shutdown"),
+    "i1.2": ("count rate summary restart gaps", "shutdown"),
+    "i1.3": ("services operations divide-by-zero client", "shutdown"),
+    "i2.1": ("defaults launch-params runtime-params validation timer", "atomic launch-validation shutdown"),
+    "i2.2": ("starts topic namespace communicates", "shutdown"),
+    "i2.3": ("blocks timer concurrent shutdown", "parallel shutdown-busy"),
+}
+"""Required and bonus criteria of each exercise: stable ids, which reports and learners' progress files hold."""
+
+FILES = {
+    "i1.1": ("temperature_publisher.py",),
+    "i1.2": ("message_stats.py",),
+    "i1.3": ("calculator_server.py", "calculator_client.py"),
+    "i2.1": ("parameterized_publisher.py",),
+    "i2.2": ("my_launch.py",),
+    "i2.3": ("concurrent_service.py",),
+}
+
+
+def lessons() -> list[Lesson]:
+    return list(load_course().lessons)
+
+
+def sources() -> list[tuple[str, LessonFile]]:
+    return [(lesson.id, file) for lesson in lessons() for file in lesson.files]
+
+
+def test_the_course_is_right() -> None:
+    assert [str(problem) for problem in lint(load_course())] == []
+
+
+@pytest.mark.parametrize("lesson", lessons(), ids=lambda lesson: lesson.id)
+def test_criteria_and_files_are_those_of_the_contract(lesson: Lesson) -> None:
+    required, bonus = CRITERIA[lesson.id]
+    assert [criterion.id for criterion in lesson.criteria if not criterion.bonus] == required.split()
+    assert [criterion.id for criterion in lesson.criteria if criterion.bonus] == bonus.split()
+    assert tuple(file.name for file in lesson.files) == FILES[lesson.id]
+
+
+def test_the_first_three_exercises_are_there() -> None:
+    assert {"i1.1", "i1.3", "i2.1"} <= {lesson.id for lesson in lessons()}
+
+
+def test_only_the_calculators_client_may_be_missing() -> None:
+    assert [(exercise, file.name) for exercise, file in sources() if not file.required] == [
+        ("i1.3", "calculator_client.py")
+    ]
+
+
+@pytest.mark.parametrize(("exercise", "file"), sources(), ids=lambda value: getattr(value, "name", value))
+def test_a_learner_reads_plain_ros_code(exercise: str, file: LessonFile) -> None:
+    for path in (file.skeleton, file.solution):
+        source = path.read_text()
+        compile(source, path, "exec")
+        assert not re.search(r"^\s*(?:from|import) (?:tutor|checks|lessons)\b", source, re.MULTILINE), path
+    assert "TODO" in file.skeleton.read_text()
+    assert "TODO" not in file.solution.read_text()
+
+
+@pytest.mark.parametrize(("exercise", "file"), sources(), ids=lambda value: getattr(value, "name", value))
+def test_a_node_runs_as_a_script_and_as_a_console_script(exercise: str, file: LessonFile) -> None:
+    if exercise == "i2.2":
+        pytest.skip("a launch file is run by the launch command")
+    for path in (file.skeleton, file.solution):
+        source = path.read_text()
+        assert source.startswith("#!/usr/bin/env python3\n"), path
+        assert "\ndef main() -> None:\n" in source, path
+        assert source.endswith('\n\nif __name__ == "__main__":\n    main()\n'), path
+
+
+def test_the_checklist_has_the_four_groups_of_the_course() -> None:
+    groups = load_course().checklist.groups
+    assert [(group.id, len(group.items)) for group in groups] == [
+        ("rclpy-fundamentals", 4),
+        ("communication-patterns", 4),
+        ("configuration-and-launch", 4),
+        ("concurrency", 3),
+    ]
+
+
+@pytest.mark.parametrize("lesson", lessons(), ids=lambda lesson: lesson.id)
+def test_a_lesson_can_be_read_in_one_go(lesson: Lesson) -> None:
+    assert len(lesson.body.splitlines()) <= 150
