@@ -1,0 +1,35 @@
+import signal
+import rclpy
+from rcl_interfaces.msg import SetParametersResult
+from rclpy.node import Node
+from rclpy.signals import SignalHandlerOptions
+from std_msgs.msg import String
+
+
+class ParameterizedPublisher(Node):
+    def __init__(self):
+        super().__init__('parameterized_publisher')
+        self.declare_parameters('', [('message_prefix', 'Hello'), ('publish_rate', 1.0), ('enabled', True)])
+        self.pub = self.create_publisher(String, 'chatter', 10)
+        rate = self.get_parameter('publish_rate').value
+        self.timer = self.create_timer(1.0 / rate, self.tick)
+        self.add_on_set_parameters_callback(self.cb)
+
+    def cb(self, params):
+        for p in params:
+            if p.name == 'publish_rate' and p.value <= 0:
+                return SetParametersResult(successful=False, reason='publish_rate must be > 0')
+        for p in params:
+            if p.name == 'publish_rate':
+                self.timer.timer_period_ns = int(1e9 / p.value)
+                self.timer.reset()
+        return SetParametersResult(successful=True)
+
+    def tick(self):
+        if self.get_parameter('enabled').value:
+            self.pub.publish(String(data=self.get_parameter('message_prefix').value))
+
+
+signal.signal(signal.SIGINT, lambda *args: print('no'))
+rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
+rclpy.spin(ParameterizedPublisher())

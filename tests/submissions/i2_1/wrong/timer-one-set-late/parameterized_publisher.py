@@ -1,0 +1,47 @@
+import rclpy
+from rcl_interfaces.msg import SetParametersResult
+from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
+from std_msgs.msg import String
+
+
+class ParameterizedPublisher(Node):
+    def __init__(self):
+        super().__init__('parameterized_publisher')
+        self.declare_parameter('message_prefix', 'Hello')
+        self.declare_parameter('publish_rate', 1.0)
+        self.declare_parameter('enabled', True)
+        self.pub = self.create_publisher(String, 'chatter', 10)
+        self.timer = None
+        self.make_timer()
+        self.add_on_set_parameters_callback(self.cb)
+
+    def make_timer(self):
+        if self.timer is not None:
+            self.destroy_timer(self.timer)
+        rate = self.get_parameter('publish_rate').value
+        self.timer = self.create_timer(1.0 / rate, self.tick)
+
+    def cb(self, params):
+        if any(p.name == 'publish_rate' and p.value <= 0 for p in params):
+            return SetParametersResult(successful=False, reason='publish_rate must be > 0')
+        if any(p.name == 'publish_rate' for p in params):
+            self.make_timer()
+        return SetParametersResult(successful=True)
+
+    def tick(self):
+        if self.get_parameter('enabled').value:
+            self.pub.publish(String(data=self.get_parameter('message_prefix').value))
+
+
+def main():
+    rclpy.init()
+    try:
+        rclpy.spin(ParameterizedPublisher())
+    except (KeyboardInterrupt, ExternalShutdownException):
+        pass
+    rclpy.try_shutdown()
+
+
+if __name__ == '__main__':
+    main()
