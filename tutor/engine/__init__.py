@@ -1,1 +1,8 @@
-"""The engine: runs checks on real processes and real DDS, and streams events."""
+"""The engine: runs checks on real processes and real DDS, and streams events to whoever shows them."""
+
+from __future__ import annotations
+
+from tutor.engine.check import check
+from tutor.engine.errors import EngineError
+
+__all__ = ["EngineError", "check"]

@@ -154,13 +154,38 @@ class CallAnswer:
 
 
 @dataclass(frozen=True, slots=True)
+class Served:
+    """One request that a server of ours answered."""
+
+    service: str
+    request: Mapping[str, Any]
+    response: Mapping[str, Any]
+    at: float
+
+
+@dataclass(frozen=True, slots=True)
+class Echo:
+    """What `ros2 topic echo` would have shown. `types` are all types on the topic; with more than one, echo refuses."""
+
+    topic: str
+    types: tuple[str, ...]
+    reliability: str
+    durability: str
+    samples: tuple[Sample, ...]
+    limit_s: float
+
+
+@dataclass(frozen=True, slots=True)
 class Trace:
     """Everything that was seen of one start of the learner's process.
 
-    `output` is bounded: `dropped_lines` says how many lines in its middle were not kept.
+    `folder` is where the learner's file lies. `output` is bounded: `dropped_lines` says how many lines in its middle were
+    not kept. `uncalled_main`: the file defines `main` and calls it nowhere (a hint for a diagnosis, never a verdict).
     """
 
     file: str
+    folder: str = ""
+    uncalled_main: bool = False
     parameters: Mapping[str, Any] = field(default_factory=dict)
     started_at: float = 0.0
     samples: Mapping[str, tuple[Sample, ...]] = field(default_factory=dict)

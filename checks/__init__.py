@@ -1,0 +1,1 @@
+"""What is done to a learner's node, and what must be seen: one module for each exercise, named after it."""

@@ -1,0 +1,56 @@
+"""The engine as a process of its own: `python -m tutor.engine EXERCISE PATH` prints one event as JSON to a line.
+
+The terminal app runs checks this way, so that it never shares a process with ROS.
+"""
+
+from __future__ import annotations
+
+import argparse
+import asyncio
+import contextlib
+import signal
+import sys
+from pathlib import Path
+
+from tutor.content import load_course
+from tutor.engine import EngineError, check
+from tutor.judge.events import Event, encode
+from tutor.workspace import find_submission
+
+
+def main() -> int:
+    """Run one check. Exit code 0: judged (whatever the verdict); 3: a fault, told on stderr; 130: interrupted."""
+    parser = argparse.ArgumentParser(prog="python -m tutor.engine")
+    parser.add_argument("exercise")
+    parser.add_argument("path", type=Path)
+    parser.add_argument("--criterion", action="append")
+    parser.add_argument("--lessons", type=Path)
+    arguments = parser.parse_args()
+    course = load_course(arguments.lessons)
+    submission = find_submission(course.find(arguments.exercise), arguments.path, None)
+    only = frozenset(arguments.criterion) if arguments.criterion else None
+
+    def show(event: Event) -> None:
+        print(encode(event), flush=True)
+
+    async def judge() -> None:
+        task = asyncio.ensure_future(check([submission], course, only=only, on_event=show))
+        loop = asyncio.get_running_loop()
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            loop.add_signal_handler(number, task.cancel)
+        await task
+
+    try:
+        asyncio.run(judge())
+    except EngineError as error:
+        print(f"{error}. {error.mend}", file=sys.stderr)
+        return 3
+    except asyncio.CancelledError:
+        return 130
+    return 0
+
+
+if __name__ == "__main__":
+    with contextlib.suppress(KeyboardInterrupt):
+        sys.exit(main())
+    sys.exit(130)

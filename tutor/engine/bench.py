@@ -1,0 +1,103 @@
+"""The live bench: starts the submission's files on domains of their own, watched from before their first instruction."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+import time
+from collections.abc import AsyncIterator, Callable, Mapping
+from contextlib import asynccontextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, TypeVar
+
+from tutor.engine.run import Facts, LiveRun
+from tutor.judge.bench import Handler, Run, Scenario
+from tutor.judge.submission import Submission
+from tutor.judge.trace import Served
+from tutor.process import LearnerProcess
+from tutor.ros.domain import reserve_domain
+from tutor.ros.environment import RosEnvironment, learner_env
+from tutor.ros.observer import Observer
+
+T = TypeVar("T")
+
+
+@dataclass(frozen=True, slots=True)
+class LiveBench:
+    """The `Bench` of `tutor.judge.bench` for one scenario."""
+
+    submission: Submission
+    ros: RosEnvironment
+    share: Callable[[Scenario[Any]], Any]
+    tell: Callable[[float, str], None]
+
+    @asynccontextmanager
+    async def start(
+        self,
+        file: str,
+        *,
+        parameters: Mapping[str, Any] | None = None,
+        watch: Mapping[str, str] | None = None,
+        serve: Mapping[str, tuple[str, Handler]] | None = None,
+    ) -> AsyncIterator[Run]:
+        path = self.submission.files[file].resolve()
+        facts = Facts()
+        with reserve_domain() as domain_id, tempfile.TemporaryDirectory(prefix="ros-tutor-") as log_dir:
+            observer = Observer(domain_id, facts.change)
+            try:
+                observer.watch_logs()
+                for topic, type_name in (watch or {}).items():
+                    observer.watch(topic, type_name)
+                for service, (type_name, handler) in (serve or {}).items():
+                    observer.serve(service, type_name, handler, _recorder(facts, service))
+                async with await LearnerProcess.start(
+                    [str(self.ros.python), str(path), *ros_arguments(parameters or {})],
+                    env=learner_env(
+                        self.ros,
+                        domain_id=domain_id,
+                        log_dir=Path(log_dir),
+                        package_root=package_root(path),
+                        isolated=True,
+                        environ=os.environ,
+                    ),
+                    cwd=path.parent,
+                    on_change=facts.change,
+                ) as process:
+                    yield LiveRun(path, parameters or {}, domain_id, process, observer, facts)
+            finally:
+                observer.close()
+
+    def has(self, file: str) -> bool:
+        return file in self.submission.files
+
+    async def facts(self, scenario: Scenario[T]) -> T:
+        found: T = await self.share(scenario)
+        return found
+
+    def doing(self, fraction: float, text: str) -> None:
+        self.tell(min(1.0, max(0.0, fraction)), text)
+
+
+def ros_arguments(parameters: Mapping[str, Any]) -> list[str]:
+    """The command-line arguments that set these parameters, as a user would type them."""
+    if not parameters:
+        return []
+    arguments = ["--ros-args"]
+    for name, value in parameters.items():
+        written = str(value).lower() if isinstance(value, bool) else str(value)
+        arguments += ["-p", f"{name}:={written}"]
+    return arguments
+
+
+def package_root(path: Path) -> Path | None:
+    """The folder from which the file's own package can be imported, where the file is a module of one."""
+    return path.parent.parent if (path.parent / "__init__.py").is_file() else None
+
+
+def _recorder(facts: Facts, service: str) -> Callable[[Mapping[str, Any], Mapping[str, Any]], None]:
+    def record(request: Mapping[str, Any], response: Mapping[str, Any]) -> None:
+        facts.served.append(Served(service, request, response, time.time()))
+        facts.change()
+
+    return record

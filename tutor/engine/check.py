@@ -1,0 +1,59 @@
+"""Check submissions, all at once, and report."""
+
+from __future__ import annotations
+
+import asyncio
+import time
+from collections.abc import Callable, Sequence
+
+from tutor import __version__
+from tutor.content import Course
+from tutor.engine.errors import EngineError
+from tutor.judge.check import Check
+from tutor.judge.events import CheckFinished, Event
+from tutor.judge.result import Environment, ExerciseResult, Report
+from tutor.judge.submission import Submission
+
+
+async def check(
+    submissions: Sequence[Submission],
+    course: Course,
+    *,
+    only: frozenset[str] | None = None,
+    on_event: Callable[[Event], None] = lambda event: None,
+) -> Report:
+    """Judge each submission, in parallel; nothing that was started is left when this returns, is cancelled or raises.
+
+    `only`: the ids of the criteria to show (None: all). Raises EngineError where checks cannot be run here at all.
+    """
+    from tutor.engine.modules import load_check
+    from tutor.ros.environment import detect, use_in_this_process
+
+    started = time.monotonic()
+    ros = detect()
+    try:
+        use_in_this_process(ros, isolated=True)
+        import rclpy  # noqa: F401  (before the first scenario, so that none of them waits for it)
+    except (ImportError, RuntimeError) as error:
+        raise EngineError(f"ROS 2 cannot be used here: {error}") from error
+    from tutor.engine.runner import Runner
+
+    async def one(submission: Submission) -> ExerciseResult:
+        lesson = course.find(submission.exercise)
+        found: Check = load_check(lesson)
+        return await Runner(found, lesson, submission, ros, only, on_event).run()
+
+    tasks = [asyncio.ensure_future(one(submission)) for submission in submissions]
+    try:
+        results = await asyncio.gather(*tasks)
+    finally:
+        for task in tasks:
+            task.cancel()
+        await asyncio.gather(*tasks, return_exceptions=True)
+    report = Report(
+        environment=Environment(ros_distro=ros.distro, ros=ros.kind, rmw=ros.rmw, ros_tutor=__version__),
+        exercises=tuple(results),
+        duration_s=time.monotonic() - started,
+    )
+    on_event(CheckFinished(report))
+    return report

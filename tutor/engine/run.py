@@ -1,0 +1,199 @@
+"""One start of the learner's process, live: the process, and what an observer on its domain sees of it."""
+
+from __future__ import annotations
+
+import asyncio
+import math
+import time
+from collections.abc import Callable, Coroutine, Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, TypeVar
+
+from tutor.engine.errors import EngineError
+from tutor.engine.source import uncalled_main
+from tutor.judge.trace import (
+    CallAnswer,
+    Echo,
+    Ending,
+    Exit,
+    Graph,
+    LogRecord,
+    OutputLine,
+    Parameter,
+    Sample,
+    Served,
+    SetAnswer,
+    Trace,
+)
+from tutor.process import LearnerProcess
+from tutor.ros import echo, graph, parameters
+from tutor.ros.messages import to_plain
+from tutor.ros.observer import Observer
+
+T = TypeVar("T")
+
+LOOK_EVERY_S = 0.05
+"""How often a wait looks again where no fact comes in by itself: the graph has to be asked."""
+
+IN_FLIGHT_S = 0.5
+"""What a process sent before it ended may arrive this much later."""
+
+
+class Facts:
+    """What has been collected of one run, and a signal for each new fact."""
+
+    def __init__(self) -> None:
+        self.changed = asyncio.Event()
+        self.served: list[Served] = []
+
+    def change(self) -> None:
+        """Wake whoever waits for a new fact."""
+        self.changed.set()
+
+
+class LiveRun:
+    """The `Run` of `tutor.judge.bench`, on a real process and real DDS."""
+
+    def __init__(
+        self,
+        path: Path,
+        given: Mapping[str, Any],
+        domain_id: int,
+        process: LearnerProcess,
+        observer: Observer,
+        facts: Facts,
+    ) -> None:
+        self._path = path
+        self._given = dict(given)
+        self._domain_id = domain_id
+        self._process = process
+        self._observer = observer
+        self._facts = facts
+        self._graph: tuple[float, Graph] = (0.0, Graph())
+
+    @property
+    def started_at(self) -> float:
+        return self._process.started_at
+
+    @property
+    def logs(self) -> Sequence[LogRecord]:
+        return self._observer.logs
+
+    @property
+    def graph(self) -> Graph:
+        asked, seen = self._graph
+        now = time.monotonic()
+        if now - asked >= LOOK_EVERY_S:
+            seen = graph.graph(self._observer.node)
+            self._graph = (now, seen)
+        return seen
+
+    @property
+    def exit(self) -> Exit | None:
+        return self._process.exit
+
+    @property
+    def output(self) -> Sequence[OutputLine]:
+        return self._process.output
+
+    @property
+    def served(self) -> Sequence[Served]:
+        return self._facts.served
+
+    def on(self, topic: str) -> Sequence[Sample]:
+        return self._observer.samples.get(topic, [])
+
+    def now(self) -> float:
+        return time.time()
+
+    async def until(self, seen: Callable[[], bool], limit_s: float) -> bool:
+        loop = asyncio.get_running_loop()
+        deadline = loop.time() + limit_s
+        ended_at: float | None = None
+        while True:
+            self._facts.changed.clear()
+            if self._observer.fault is not None:
+                raise EngineError(f"watching the node failed: {self._observer.fault}")
+            if seen():
+                return True
+            now = loop.time()
+            if self.exit is not None and ended_at is None:
+                ended_at = now
+            if now >= deadline or (ended_at is not None and now - ended_at >= IN_FLIGHT_S):
+                return False
+            try:
+                await asyncio.wait_for(self._facts.changed.wait(), min(LOOK_EVERY_S, deadline - now))
+            except TimeoutError:
+                pass
+
+    async def parameters(self, limit_s: float) -> tuple[Parameter, ...] | None:
+        nodes = [
+            service.name.removesuffix("/list_parameters")
+            for service in self.graph.services
+            if service.type == "rcl_interfaces/srv/ListParameters"
+        ]
+        return await self._while_alive(parameters.ask(self._observer, nodes, limit_s), None)
+
+    async def set_parameters(
+        self, node: str, values: Mapping[str, Any], *, atomic: bool = False, limit_s: float = 5.0
+    ) -> SetAnswer:
+        asked = time.time()
+        return await self._while_alive(
+            parameters.set_values(self._observer, node, values, atomic=atomic, limit_s=limit_s),
+            SetAnswer(values, False, False, "", asked, asked),
+        )
+
+    async def call(self, service: str, type: str, request: Mapping[str, Any], *, limit_s: float) -> CallAnswer:
+        asked = time.time()
+        response = await self._while_alive(self._observer.call(service, type, request, limit_s), None)
+        return CallAnswer(
+            service=service,
+            request=dict(request),
+            response=None if response is None else to_plain(response),
+            asked_at=asked,
+            answered_at=time.time(),
+            limit_s=limit_s,
+        )
+
+    async def echo(self, topic: str, *, samples: int, limit_s: float) -> Echo:
+        shown = await echo.echo(self._domain_id, topic, samples=samples, limit_s=limit_s)
+        # echo asks a graph that has long settled; a newcomer may not have met every publisher yet.
+        settled = {endpoint.type for endpoint in self.graph.publishers if endpoint.topic == topic}
+        return replace(shown, types=tuple(sorted(settled.union(shown.types))))
+
+    async def interrupt(self, limit_s: float = 5.0) -> Ending:
+        pressed = time.time()
+        self._process.interrupt()
+        ended = await self._process.wait(limit_s)
+        took = time.time() - pressed
+        return Ending(ended, took, limit_s, tuple(line for line in self.output if line.at >= pressed))
+
+    def trace(self) -> Trace:
+        return Trace(
+            file=self._path.name,
+            folder=str(self._path.parent),
+            uncalled_main=uncalled_main(self._path),
+            parameters=self._given,
+            started_at=self.started_at,
+            samples={topic: tuple(samples) for topic, samples in self._observer.samples.items()},
+            logs=tuple(self.logs),
+            graph=self._final_graph(),
+            output=tuple(self.output),
+            dropped_lines=self._process.dropped_lines,
+            exit=self.exit,
+        )
+
+    async def _while_alive(self, asking: Coroutine[Any, Any, T], otherwise: T) -> T:
+        """The answer, or `otherwise` where the process ends without one: nobody is left to answer."""
+        task = asyncio.ensure_future(asking)
+        task.add_done_callback(lambda _: self._facts.change())
+        try:
+            await self.until(task.done, math.inf)
+            return task.result() if task.done() else otherwise
+        finally:
+            task.cancel()
+
+    def _final_graph(self) -> Graph:
+        """The graph now, or, where the process has ended, the last that was seen of it."""
+        return self._graph[1] if self.exit is not None else self.graph

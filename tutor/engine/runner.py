@@ -1,0 +1,146 @@
+"""Runs the scenarios of a check at once, judges each criterion as soon as its facts are there, and streams events."""
+
+from __future__ import annotations
+
+import asyncio
+import time
+from collections.abc import Callable, Iterable
+from typing import Any
+
+from tutor.content import Lesson
+from tutor.engine.bench import LiveBench
+from tutor.engine.errors import EngineError
+from tutor.judge.bench import Scenario
+from tutor.judge.check import Check, Criterion
+from tutor.judge.events import CheckStarted, CriterionJudged, Event, ExerciseJudged, Progress
+from tutor.judge.result import CriterionResult, ExerciseResult
+from tutor.judge.submission import Submission
+from tutor.judge.verdict import Verdict, fault, skipped
+from tutor.ros.environment import RosEnvironment
+
+OnEvent = Callable[[Event], None]
+
+
+class Runner:
+    """One check of one submission. `only`: the criteria to show; those that they depend on are judged in silence."""
+
+    def __init__(
+        self,
+        check: Check,
+        lesson: Lesson,
+        submission: Submission,
+        ros: RosEnvironment,
+        only: frozenset[str] | None,
+        on_event: OnEvent,
+    ) -> None:
+        self._check = check
+        self._texts = {text.id: text for text in lesson.criteria}
+        self._lesson = lesson
+        self._submission = submission
+        self._ros = ros
+        self._shown = tuple(c for c in check.criteria if only is None or c.id in only)
+        self._on_event = on_event
+        self._scenarios: dict[Scenario[Any], asyncio.Task[Any]] = {}
+        self._verdicts: dict[str, asyncio.Task[Verdict]] = {}
+        self._progress: dict[Scenario[Any], tuple[float, str]] = {}
+        self._started = time.monotonic()
+
+    async def run(self) -> ExerciseResult:
+        """Judge; gives the result when every scenario has ended and nothing of the learner's is left."""
+        exercise = self._check.exercise
+        self._on_event(CheckStarted(exercise, tuple(c.id for c in self._shown)))
+        needed = _with_dependencies(self._check, self._shown)
+        try:
+            for criterion in needed:
+                for scenario in criterion.facts:
+                    self._share(scenario)
+            for criterion in needed:
+                self._verdicts[criterion.id] = asyncio.create_task(self._judge(criterion))
+            results = await asyncio.gather(*(self._show(criterion) for criterion in self._shown))
+        finally:
+            await _end([*self._verdicts.values(), *self._scenarios.values()])
+        result = ExerciseResult(
+            id=exercise,
+            title=self._lesson.title,
+            submission=tuple(self._submission.files),
+            criteria=tuple(results),
+            duration_s=self._elapsed(),
+        )
+        self._on_event(ExerciseJudged(result))
+        return result
+
+    def _share(self, scenario: Scenario[Any]) -> asyncio.Task[Any]:
+        if scenario not in self._scenarios:
+
+            def tell(fraction: float, text: str) -> None:
+                self._tell(scenario, fraction, text)
+
+            bench = LiveBench(self._submission, self._ros, self._ask, tell)
+            self._scenarios[scenario] = asyncio.ensure_future(scenario(bench))
+        return self._scenarios[scenario]
+
+    async def _ask(self, scenario: Scenario[Any]) -> Any:
+        # Shielded: one scenario that is cancelled must not take down another that was asked by several.
+        return await asyncio.shield(self._share(scenario))
+
+    async def _judge(self, criterion: Criterion) -> Verdict:
+        for dependency in criterion.after:
+            if not (await asyncio.shield(self._verdicts[dependency])).passed:
+                return skipped(f"not judged, because `{dependency}` did not pass")
+        try:
+            facts = [await self._ask(scenario) for scenario in criterion.facts]
+            return criterion.judge(*facts)
+        except EngineError as error:
+            return fault(str(error), error.mend)
+        except Exception as error:  # the check's boundary: a fault of ours must not be shown as the learner's
+            where = _where(error)
+            return fault(
+                f"the check itself failed: {type(error).__name__}: {error}",
+                "this is a fault of ros-tutor, not of your code; please report it with the line below",
+                [where],
+            )
+
+    async def _show(self, criterion: Criterion) -> CriterionResult:
+        verdict = await self._verdicts[criterion.id]
+        text = self._texts.get(criterion.id)
+        result = CriterionResult(
+            criterion.id, text.text if text else criterion.id, criterion.bonus, verdict, self._elapsed()
+        )
+        self._on_event(CriterionJudged(self._check.exercise, result))
+        return result
+
+    def _tell(self, scenario: Scenario[Any], fraction: float, text: str) -> None:
+        self._progress[scenario] = (fraction, text)
+        for criterion in self._shown:
+            if scenario in criterion.facts and not self._judged(criterion):
+                fractions = [self._progress.get(each, (0.0, ""))[0] for each in criterion.facts]
+                fraction = sum(fractions) / len(fractions)
+                self._on_event(Progress(self._check.exercise, criterion.id, fraction, text))
+
+    def _judged(self, criterion: Criterion) -> bool:
+        task = self._verdicts.get(criterion.id)
+        return task is not None and task.done()
+
+    def _elapsed(self) -> float:
+        return time.monotonic() - self._started
+
+
+def _with_dependencies(check: Check, shown: Iterable[Criterion]) -> tuple[Criterion, ...]:
+    wanted = {criterion.id for criterion in shown}
+    for criterion in reversed(check.criteria):
+        if criterion.id in wanted:
+            wanted.update(criterion.after)
+    return tuple(criterion for criterion in check.criteria if criterion.id in wanted)
+
+
+async def _end(tasks: list[asyncio.Task[Any]]) -> None:
+    for task in tasks:
+        task.cancel()
+    await asyncio.gather(*tasks, return_exceptions=True)
+
+
+def _where(error: BaseException) -> str:
+    step = error.__traceback__
+    while step is not None and step.tb_next is not None:
+        step = step.tb_next
+    return f"{step.tb_frame.f_code.co_filename}:{step.tb_lineno}" if step is not None else "unknown place"

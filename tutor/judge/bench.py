@@ -1,0 +1,122 @@
+"""The bench that checks are written against: what can be done to a learner's node, and what can be seen of it.
+
+A check knows nothing of ROS, processes or time-outs of the machine; it asks the bench. The live bench is in
+`tutor.engine`; tests of pure judging need none, since judges take plain facts.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Awaitable, Callable, Mapping, Sequence
+from contextlib import AbstractAsyncContextManager
+from typing import Any, Protocol, TypeVar
+
+from tutor.judge.trace import (
+    CallAnswer,
+    Echo,
+    Ending,
+    Exit,
+    Graph,
+    LogRecord,
+    OutputLine,
+    Parameter,
+    Sample,
+    Served,
+    SetAnswer,
+    Trace,
+)
+
+T = TypeVar("T")
+
+Handler = Callable[[Mapping[str, Any]], Mapping[str, Any]]
+"""Answers one service request (fields to values) with a response (fields to values)."""
+
+
+class Run(Protocol):
+    """One start of the learner's process, on a domain of its own, watched from before its first instruction."""
+
+    @property
+    def started_at(self) -> float:
+        """When the process was started: seconds since the epoch."""
+
+    @property
+    def logs(self) -> Sequence[LogRecord]:
+        """What the process has logged on `/rosout` so far."""
+
+    @property
+    def graph(self) -> Graph:
+        """The learner's part of the graph as it is now."""
+
+    @property
+    def exit(self) -> Exit | None:
+        """How the process ended, or None while it runs."""
+
+    @property
+    def output(self) -> Sequence[OutputLine]:
+        """What the process has written to stdout and stderr so far (bounded)."""
+
+    @property
+    def served(self) -> Sequence[Served]:
+        """The requests that our own servers have answered so far."""
+
+    def on(self, topic: str) -> Sequence[Sample]:
+        """The samples seen on a watched topic so far."""
+
+    def now(self) -> float:
+        """The wall-clock time, in seconds since the epoch, as in every fact."""
+
+    async def until(self, seen: Callable[[], bool], limit_s: float) -> bool:
+        """Wait until `seen()` is true; it is asked again whenever a new fact has come in.
+
+        Gives False when `limit_s` seconds have passed, or soon after the process has ended.
+        """
+
+    async def parameters(self, limit_s: float) -> tuple[Parameter, ...] | None:
+        """Ask every node for its parameters; None where no node answered within the limit."""
+
+    async def set_parameters(
+        self, node: str, values: Mapping[str, Any], *, atomic: bool = False, limit_s: float = 5.0
+    ) -> SetAnswer:
+        """Set parameters as `ros2 param set` does (or, `atomic`, all in one atomic request)."""
+
+    async def call(self, service: str, type: str, request: Mapping[str, Any], *, limit_s: float) -> CallAnswer:
+        """Call a service as `ros2 service call` does: a client of its own, once it is matched."""
+
+    async def echo(self, topic: str, *, samples: int, limit_s: float) -> Echo:
+        """Subscribe as `ros2 topic echo` does: an independent participant with type and QoS taken from the publishers."""
+
+    async def interrupt(self, limit_s: float = 5.0) -> Ending:
+        """Press Ctrl+C (SIGINT to the process group) and watch the process end."""
+
+    def trace(self) -> Trace:
+        """All facts so far, frozen."""
+
+
+class Bench(Protocol):
+    """What one scenario of a check may do."""
+
+    def start(
+        self,
+        file: str,
+        *,
+        parameters: Mapping[str, Any] | None = None,
+        watch: Mapping[str, str] | None = None,
+        serve: Mapping[str, tuple[str, Handler]] | None = None,
+    ) -> AbstractAsyncContextManager[Run]:
+        """Start one of the submission's files; nothing of it is left when the context ends.
+
+        `parameters` are given as `--ros-args -p name:=value`; `watch` maps topics to types and is subscribed before the
+        process starts; `serve` maps service names to a type and a handler, ready before the process starts.
+        """
+
+    def has(self, file: str) -> bool:
+        """Whether the submission has this (optional) file."""
+
+    async def facts(self, scenario: Scenario[T]) -> T:
+        """The facts of another scenario of this check; it is run once, however many ask."""
+
+    def doing(self, fraction: float, text: str) -> None:
+        """Tell the learner how far this scenario is (0 to 1) and what is being done to their node."""
+
+
+Scenario = Callable[[Bench], Awaitable[T]]
+"""Does something to the learner's node and gives the facts seen; the key under which the facts are kept."""

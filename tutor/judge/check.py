@@ -1,0 +1,43 @@
+"""A check: scenarios that gather facts, and criteria that judge them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from tutor.judge.bench import Scenario
+from tutor.judge.verdict import Verdict
+
+Judge = Callable[..., Verdict]
+"""A pure function from the facts of the criterion's scenarios, in their order, to a verdict."""
+
+
+@dataclass(frozen=True, slots=True)
+class Criterion:
+    """One acceptance criterion.
+
+    `facts` are the scenarios whose facts `judge` takes; they run at once with all others. `after` names criteria that
+    must have passed, else this one is skipped: what it says would be about their failure.
+    """
+
+    id: str
+    judge: Judge
+    facts: tuple[Scenario[Any], ...]
+    after: tuple[str, ...] = ()
+    bonus: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Check:
+    """All criteria of one exercise, in the order to show them."""
+
+    exercise: str
+    criteria: tuple[Criterion, ...]
+
+    def __post_init__(self) -> None:
+        seen: set[str] = set()
+        for criterion in self.criteria:
+            if criterion.id in seen or not seen.issuperset(criterion.after):
+                raise ValueError(f"{self.exercise} {criterion.id}: repeated, or after a criterion that is not before it")
+            seen.add(criterion.id)

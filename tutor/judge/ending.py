@@ -1,0 +1,80 @@
+"""The `shutdown` criterion, which means the same in every exercise: a clean end on Ctrl+C."""
+
+from __future__ import annotations
+
+from tutor.judge import causes, tracebacks
+from tutor.judge.trace import Ending, Trace
+from tutor.judge.verdict import Cause, Verdict, failed, passed
+
+EXPECTED = "on Ctrl+C the process ends within {limit:g} s, without a traceback, with exit code 0 or 130"
+
+
+def judge(trace: Trace, ending: Ending | None) -> Verdict:
+    """Judge how a process ended. `ending` is None where it had ended by itself before Ctrl+C could be pressed."""
+    expected = EXPECTED.format(limit=ending.limit_s if ending else 5)
+    if ending is None:
+        cause = causes.of_process(trace) or Cause(
+            "exit at once", "the process had ended before Ctrl+C was pressed", "let the node run until Ctrl+C"
+        )
+        return failed(expected, f"ended by itself with {trace.exit}", cause, causes.last_words(trace))
+    if ending.exit is None:
+        return failed(
+            expected,
+            f"still running {ending.limit_s:g} s after Ctrl+C",
+            Cause(
+                "SIGINT ignored",
+                "the process goes on after Ctrl+C",
+                "let KeyboardInterrupt end the program: no bare `except:` around spin, no loop that never looks at rclpy.ok()",
+            ),
+            causes.last_words(trace),
+        )
+    found = tracebacks.find(ending.output)
+    observed = f"ended {ending.took_s:.2f} s after Ctrl+C with {ending.exit}"
+    if found and not _race_in_rclpy(found[-1]):
+        return failed(expected, f"{observed} and a traceback", _of_traceback(found[-1], trace), [found[-1].raised])
+    if ending.exit.code in (0, 130) or ending.exit.signal == 2 or (found and ending.exit.code == 1):
+        return passed(expected, observed)
+    return failed(
+        expected,
+        observed,
+        Cause(
+            "non-zero exit",
+            f"the process ended with {ending.exit}",
+            "return normally from main() after Ctrl+C; call no sys.exit() with another code",
+        ),
+        causes.last_words(trace),
+    )
+
+
+def _race_in_rclpy(found: tracebacks.Traceback) -> bool:
+    """Whether this is rclpy's own race: `try_shutdown()` asks whether the context is up, and the signal handler's thread
+    shuts it down before the next instruction. The learner's code is right; about 1 run in 50 shows it (rclpy 7.1.6).
+    """
+    return any(frame.function == "try_shutdown" for frame in found.frames) and "already called" in found.message
+
+
+def _of_traceback(found: tracebacks.Traceback, trace: Trace) -> Cause:
+    if found.type.endswith("RCLError") and "already called" in found.message:
+        return Cause(
+            "shutdown() after Ctrl+C",
+            "rclpy has shut its context down already when Ctrl+C arrives, so rclpy.shutdown() raises RCLError",
+            "call rclpy.try_shutdown() instead",
+        )
+    if found.type == "KeyboardInterrupt":
+        return Cause(
+            "traceback on exit",
+            "KeyboardInterrupt reaches the end of the program",
+            "put rclpy.spin(node) in a try block: except (KeyboardInterrupt, ExternalShutdownException): pass",
+        )
+    if found.type.endswith("ExternalShutdownException"):
+        return Cause(
+            "traceback on exit",
+            "ExternalShutdownException reaches the end of the program",
+            "catch it beside KeyboardInterrupt: from rclpy.executors import ExternalShutdownException",
+        )
+    own = found.own(trace.folder)
+    return Cause(
+        "traceback on exit",
+        f"{found.raised}" + (f" ({own})" if own else ""),
+        "after Ctrl+C the node can neither publish nor log over ROS: stop before that, or catch the exception",
+    )

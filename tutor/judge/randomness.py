@@ -1,0 +1,99 @@
+"""Whether numbers vary as random ones do. Coarse but real randomness (whole degrees, a random walk) must pass."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+SURE = 1e-4
+"""A pattern counts when random values would show it by chance less often than this."""
+
+ENOUGH = 8
+"""As many values tell when nothing looks suspicious."""
+
+PLENTY = 24
+"""As many values tell in any case."""
+
+
+@dataclass(frozen=True, slots=True)
+class Pattern:
+    """A regularity: its name ("constant value", "ramp", "short cycle", "not random") and what it is here."""
+
+    name: str
+    text: str
+
+
+def pattern(values: Sequence[float]) -> Pattern | None:
+    """The regularity in `values` (in order of time), or None where they vary as random ones do.
+
+    Fewer than three values show nothing either way.
+    """
+    if len(values) < 3:
+        return None
+    return _constant(values) or _cycle(values) or _ramp(values) or _curve(values)
+
+
+def suspicious(values: Sequence[float]) -> bool:
+    """Whether more values are needed before `pattern` can be trusted to have found nothing, or something."""
+    if len(values) < ENOUGH or pattern(values) is not None:
+        return True
+    return len(set(values)) < len(values) or _monotone(values) or _unexplained(values) < 0.02
+
+
+def _constant(values: Sequence[float]) -> Pattern | None:
+    if len(set(values)) == 1:
+        return Pattern("constant value", f"all {len(values)} values are {values[0]:g}")
+    return None
+
+
+def _cycle(values: Sequence[float]) -> Pattern | None:
+    distinct = len(set(values))
+    for period in range(2, len(values) - 2):
+        repeats = len(values) - period
+        if all(values[i] == values[i + period] for i in range(repeats)) and distinct**-repeats < SURE:
+            return Pattern("short cycle", f"the same {period} values come again and again")
+    return None
+
+
+def _ramp(values: Sequence[float]) -> Pattern | None:
+    steps = [round(b - a, 9) for a, b in zip(values, values[1:], strict=False)]
+    step, times = Counter(step for step in steps if step != 0).most_common(1)[0]
+    # Any other step must be a jump back to the start, else a random walk in equal steps would be taken for a ramp.
+    others = [other for other in steps if other != step]
+    wraps = all(other * step < 0 and abs(other) > 2 * abs(step) for other in others)
+    if len(steps) >= 7 and wraps and times >= 0.6 * len(steps):
+        return Pattern("ramp", f"each value is the one before it {step:+g}")
+    if len(values) >= 10 and _monotone(values):
+        return Pattern("ramp", f"all {len(values)} values only go {'up' if values[-1] > values[0] else 'down'}")
+    return None
+
+
+def _curve(values: Sequence[float]) -> Pattern | None:
+    if len(values) >= 10 and _unexplained(values) < 5e-4:
+        return Pattern("not random", "the values follow a smooth curve, such as a sine: each follows from the two before it")
+    return None
+
+
+def _monotone(values: Sequence[float]) -> bool:
+    pairs = list(zip(values, values[1:], strict=False))
+    return all(a < b for a, b in pairs) or all(a > b for a, b in pairs)
+
+
+def _unexplained(values: Sequence[float]) -> float:
+    """The share of the variance that no linear recurrence x[i] = a x[i-1] + b x[i-2] + c explains (1: all of it).
+
+    Ramps, sines and decays obey such a recurrence exactly; random values do not.
+    """
+    if len(values) < ENOUGH:
+        return 1.0
+    import numpy as np
+
+    series = np.asarray(values, dtype=float)
+    target = series[2:]
+    basis = np.column_stack([series[1:-1], series[:-2], np.ones(len(target))])
+    spread = float(np.sum((target - target.mean()) ** 2))
+    if spread == 0 or not np.isfinite(spread):
+        return 1.0
+    solution = np.linalg.lstsq(basis, target, rcond=None)[0]
+    return float(np.sum((target - basis @ solution) ** 2)) / spread

@@ -1,0 +1,43 @@
+"""Rates, measured on source timestamps."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from tutor.judge.trace import Sample
+
+TOLERANCE = 0.2
+"""A rate is right within this fraction of what was asked for."""
+
+
+@dataclass(frozen=True, slots=True)
+class Rate:
+    """A measured rate: `samples` messages over `span_s` seconds, from the first one's source time to the last one's."""
+
+    hz: float
+    samples: int
+    span_s: float
+
+    def agrees(self, asked_hz: float) -> bool:
+        """Whether this is the rate that was asked for, within the tolerance."""
+        return abs(self.hz - asked_hz) <= TOLERANCE * asked_hz
+
+    def __str__(self) -> str:
+        return f"{self.hz:.2f} Hz ({self.samples} messages in {self.span_s:.2f} s)"
+
+
+def measure(samples: Sequence[Sample]) -> Rate | None:
+    """The rate of these samples; None for fewer than two, or where they bear one and the same time."""
+    times = sorted(sample.source_time for sample in samples)
+    if len(times) < 2 or times[-1] <= times[0]:
+        return None
+    span = times[-1] - times[0]
+    return Rate((len(times) - 1) / span, len(times), span)
+
+
+def describe(rate: Rate | None, samples: int) -> str:
+    """A rate in words, also where there were too few messages to have one."""
+    if rate is not None:
+        return str(rate)
+    return "no message" if samples == 0 else f"only {samples} message{'s' if samples > 1 else ''}"

@@ -1,0 +1,93 @@
+"""Python tracebacks in a process's output, read as facts."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from tutor.judge.trace import OutputLine, Trace
+
+_HEADER = "Traceback (most recent call last):"
+_FRAME = re.compile(r'^\s*File "(?P<path>[^"]+)", line (?P<line>\d+)(?:, in (?P<function>.+))?$')
+_RAISED = re.compile(r"^(?P<type>[A-Za-z_][\w.]*)(?:: (?P<message>.*))?$")
+_MARKERS = re.compile(r"^\s*[~^]+\s*$")
+
+
+@dataclass(frozen=True, slots=True)
+class Frame:
+    """One step of a traceback. `function` is empty for a syntax error, which has no function yet."""
+
+    path: str
+    line: int
+    function: str
+    code: str
+
+    def __str__(self) -> str:
+        return f'{self.path.rsplit("/", 1)[-1]}, line {self.line}: {self.code}'
+
+
+@dataclass(frozen=True, slots=True)
+class Traceback:
+    """One traceback: the exception's type name, its message, and its frames, outermost first."""
+
+    type: str
+    message: str
+    frames: tuple[Frame, ...]
+
+    @property
+    def raised(self) -> str:
+        """The last line of the traceback, as Python prints it."""
+        return f"{self.type}: {self.message}" if self.message else self.type
+
+    def own(self, folder: str) -> Frame | None:
+        """The innermost frame in the learner's own code: the line that they can change."""
+        own = [frame for frame in self.frames if _within(frame.path, folder)]
+        return own[-1] if own else None
+
+
+def find(output: Iterable[OutputLine]) -> tuple[Traceback, ...]:
+    """All tracebacks in the output, oldest first; a syntax error of the main file, which has no header, included."""
+    return tuple(found for block in _blocks([line.text for line in output if line.stream == "stderr"]) for found in block)
+
+
+def last(trace: Trace) -> Traceback | None:
+    """The last traceback that the process wrote, or None."""
+    found = find(trace.output)
+    return found[-1] if found else None
+
+
+def without(output: Sequence[OutputLine]) -> tuple[str, ...]:
+    """The lines of the output that belong to no traceback's frames; the line that names the exception is kept."""
+    kept: list[str] = []
+    inside = False
+    for line in output:
+        text = line.text
+        if line.stream == "stderr" and (text.strip() == _HEADER or _FRAME.match(text)):
+            inside = True
+            continue
+        if inside and (text.startswith((" ", "\t")) or not text.strip()):
+            continue
+        inside = False
+        kept.append(text)
+    return tuple(kept)
+
+
+def _blocks(lines: Sequence[str]) -> Iterable[tuple[Traceback, ...]]:
+    frames: list[Frame] = []
+    for number, text in enumerate(lines):
+        frame = _FRAME.match(text)
+        if text.strip() == _HEADER:
+            frames = []
+        elif frame:
+            code = lines[number + 1].strip() if number + 1 < len(lines) else ""
+            frames.append(Frame(frame["path"], int(frame["line"]), frame["function"] or "", code))
+        elif frames and text and not text[0].isspace() and not _MARKERS.match(text):
+            raised = _RAISED.match(text)
+            if raised:
+                yield (Traceback(raised["type"], raised["message"] or "", tuple(frames)),)
+            frames = []
+
+
+def _within(path: str, folder: str) -> bool:
+    return bool(folder) and path.startswith(folder.rstrip("/") + "/") and "/site-packages/" not in path

@@ -1,0 +1,206 @@
+"""The bridge between rclpy and asyncio: one participant on one domain, with its executor in a thread of its own."""
+
+from __future__ import annotations
+
+import asyncio
+import itertools
+import threading
+import time
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import rclpy
+from rclpy.client import Client
+from rclpy.context import Context
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy, qos_profile_services_default
+from rclpy.service import Service as ServiceServer
+from rclpy.signals import SignalHandlerOptions
+
+from tutor.judge.trace import LogRecord, Sample
+from tutor.ros.messages import fill, interface, to_plain
+
+OUR_PREFIX = "_ros_tutor"
+"""Names of our own nodes begin with this (hidden, as ros2cli's are), so that they are told from the learner's."""
+
+DEEP = 1000
+"""Queue depth of our subscriptions: a default-QoS subscriber can lose a burst that this one gets whole."""
+
+MOST_SAMPLES = 20_000
+"""A topic is no longer listened to after this many samples: a flood must not exhaust us."""
+
+_number = itertools.count(1)
+
+
+class ObserverError(RuntimeError):
+    """The observer failed: a fault of the tool or the machine, never of the learner."""
+
+
+class Observer:
+    """A participant of ours. Every method is called on the event loop's thread; facts arrive there too.
+
+    `on_change` is called (on that thread) after each new fact. Messages and answers are taken in the executor's thread and
+    handed over with `call_soon_threadsafe`.
+    """
+
+    def __init__(self, domain_id: int, on_change: Callable[[], None] = lambda: None) -> None:
+        self.samples: dict[str, list[Sample]] = {}
+        self.logs: list[LogRecord] = []
+        self.fault: Exception | None = None
+        self._loop = asyncio.get_running_loop()
+        self._on_change = on_change
+        self._clients: dict[tuple[str, str], Client] = {}
+        self._servers: list[ServiceServer] = []
+        self._closed = False
+        self._context = Context()
+        rclpy.init(
+            args=[], context=self._context, domain_id=domain_id, signal_handler_options=SignalHandlerOptions.NO
+        )
+        self.node: Node = rclpy.create_node(
+            f"{OUR_PREFIX}_{next(_number)}",
+            context=self._context,
+            use_global_arguments=False,
+            enable_rosout=False,
+            start_parameter_services=False,
+        )
+        self._executor = SingleThreadedExecutor(context=self._context)
+        self._executor.add_node(self.node)
+        self._thread = threading.Thread(target=self._spin, name=f"observer-{domain_id}", daemon=True)
+        self._thread.start()
+
+    def watch_logs(self) -> None:
+        """Subscribe to `/rosout`, with what was logged before (it is transient local)."""
+        qos = QoSProfile(
+            history=HistoryPolicy.KEEP_LAST,
+            depth=DEEP,
+            reliability=ReliabilityPolicy.RELIABLE,
+            durability=DurabilityPolicy.TRANSIENT_LOCAL,
+        )
+
+        def take(message: Any) -> None:
+            stamp = message.stamp.sec + message.stamp.nanosec * 1e-9
+            level = message.level if isinstance(message.level, int) else message.level[0]
+            self._hand_over(self._log, LogRecord(level, message.name, message.msg, stamp, time.time()))
+
+        self.node.create_subscription(interface("rcl_interfaces/msg/Log"), "/rosout", take, qos)
+
+    def watch(
+        self,
+        topic: str,
+        type_name: str,
+        *,
+        reliability: ReliabilityPolicy = ReliabilityPolicy.BEST_EFFORT,
+        durability: DurabilityPolicy = DurabilityPolicy.VOLATILE,
+    ) -> None:
+        """Collect the samples of a topic. The default QoS matches every publisher.
+
+        Raises UnknownType.
+        """
+        self.samples[topic] = []
+        qos = QoSProfile(
+            history=HistoryPolicy.KEEP_LAST, depth=DEEP, reliability=reliability, durability=durability
+        )
+
+        def take(message: Any, info: Mapping[str, int]) -> None:
+            source = info["source_timestamp"] * 1e-9
+            self._hand_over(self._sample, Sample(topic, to_plain(message), source, time.time()))
+            taken.append(None)
+            if len(taken) == MOST_SAMPLES:
+                self.node.destroy_subscription(subscription)
+
+        taken: list[None] = []
+        subscription = self.node.create_subscription(interface(type_name), topic, take, qos)
+
+    def serve(
+        self,
+        service: str,
+        type_name: str,
+        handler: Callable[[Mapping[str, Any]], Mapping[str, Any]],
+        on_served: Callable[[Mapping[str, Any], Mapping[str, Any]], None],
+    ) -> None:
+        """Answer a service with `handler`; `on_served(request, response)` is called on the loop's thread."""
+
+        def answer(request: Any, response: Any) -> Any:
+            asked = to_plain(request)
+            answered = handler(asked)
+            self._hand_over(on_served, asked, answered)
+            return fill(response, answered)
+
+        self._servers.append(self.node.create_service(interface(type_name), service, answer))
+
+    async def call(self, service: str, type_name: str, request: Mapping[str, Any], limit_s: float) -> Any | None:
+        """Call a service once its server is matched; None where no answer came within the limit."""
+        client = self._client(service, type_name)
+        deadline = self._loop.time() + limit_s
+        while not client.service_is_ready():
+            if self._loop.time() >= deadline:
+                return None
+            await asyncio.sleep(0.005)
+        filled = fill(interface(type_name).Request(), request)
+        answer: asyncio.Future[Any] = self._loop.create_future()
+        pending = client.call_async(filled)
+        pending.add_done_callback(lambda done: self._hand_over(_settle, answer, done))
+        try:
+            return await asyncio.wait_for(answer, max(0.0, deadline - self._loop.time()))
+        except TimeoutError:
+            client.remove_pending_request(pending)
+            return None
+
+    def close(self) -> None:
+        """Leave the domain. Safe to call twice."""
+        if self._closed:
+            return
+        self._closed = True
+        self._executor.shutdown(timeout_sec=0)
+        self._context.try_shutdown()
+        self._thread.join(5.0)
+        self.node.destroy_node()
+
+    def _client(self, service: str, type_name: str) -> Client:
+        key = (service, type_name)
+        if key not in self._clients:
+            self._clients[key] = self.node.create_client(
+                interface(type_name), service, qos_profile=qos_profile_services_default
+            )
+            self._executor.wake()
+        return self._clients[key]
+
+    def _spin(self) -> None:
+        try:
+            while self._context.ok():
+                self._executor.spin_once()
+        except ExternalShutdownException:
+            pass
+        except Exception as error:  # the thread's boundary: whatever it is, the loop's thread must hear of it
+            if not self._closed:
+                self._hand_over(self._fail, error)
+
+    def _hand_over(self, callback: Callable[..., None], *args: Any) -> None:
+        try:
+            self._loop.call_soon_threadsafe(callback, *args)
+        except RuntimeError:  # the loop is closed: nobody is interested any more
+            if not self._closed:
+                raise
+
+    def _sample(self, sample: Sample) -> None:
+        self.samples[sample.topic].append(sample)
+        self._on_change()
+
+    def _log(self, record: LogRecord) -> None:
+        if len(self.logs) < MOST_SAMPLES:
+            self.logs.append(record)
+        self._on_change()
+
+    def _fail(self, error: Exception) -> None:
+        self.fault = error
+        self._on_change()
+
+
+def _settle(answer: asyncio.Future[Any], done: Any) -> None:
+    if answer.done():
+        return
+    if (error := done.exception()) is not None:
+        answer.set_exception(error)
+    else:
+        answer.set_result(done.result())
