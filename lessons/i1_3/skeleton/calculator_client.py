@@ -26,7 +26,7 @@ class CalculatorClient(Node):
         #         - log the result.
 
         self.get_logger().warning("This client calls nothing yet")
-        return False
+        return True
 
 
 def main() -> None:
