@@ -6,6 +6,7 @@ import importlib
 import itertools
 import os
 import random
+import socket
 from collections.abc import Iterator
 from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
@@ -57,6 +58,25 @@ def busy_domains() -> frozenset[int]:
     ports = (port for table in _UDP_TABLES if table.exists() for port in _bound_ports(table.read_text()))
     ids = ((port - _PORTS_OF_DOMAIN_0) // _PORTS_PER_DOMAIN for port in ports)
     return frozenset(domain for domain in ids if 0 <= domain <= LAST)
+
+
+def free_domains() -> frozenset[int]:
+    """The domain ids that could be reserved right now."""
+    return frozenset(range(FIRST, LAST + 1)) - busy_domains() - _users_domain() - _reserved()
+
+
+def _reserved() -> frozenset[int]:
+    return frozenset(domain for domain in range(FIRST, LAST + 1) if not _lock_is_free(domain))
+
+
+def _lock_is_free(domain: int) -> bool:
+    coordinator: Any = importlib.import_module("domain_coordinator.impl")
+    with socket.socket(socket.AF_INET, socket.SOCK_STREAM) as lock:
+        try:
+            lock.bind(("", coordinator.PORT_BASE + domain))
+        except OSError:
+            return False
+    return True
 
 
 def _claim() -> AbstractContextManager[int]:

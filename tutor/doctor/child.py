@@ -1,0 +1,102 @@
+"""Probes in child processes: a broken ROS must not take the doctor with it."""
+
+from __future__ import annotations
+
+import json
+import selectors
+import subprocess
+import tempfile
+import time
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from tutor.ros.domain import reserve_domain
+from tutor.ros.environment import RosEnvironment, learner_env
+
+PROBE = Path(__file__).resolve().parent.parent / "ros" / "probe.py"
+
+
+class ProbeFailed(Exception):
+    """A probe did not do what it should; the message says how, in one line."""
+
+
+def ask(ros: RosEnvironment, environ: Mapping[str, str], program: str, limit_s: float) -> dict[str, Any]:
+    """Run one program of the probe to its end, and return its answer. Raises ProbeFailed."""
+    with tempfile.TemporaryDirectory(prefix="ros-tutor-doctor-") as folder:
+        env = learner_env(ros, domain_id=0, log_dir=Path(folder), package_root=None, isolated=True, environ=environ)
+        try:
+            done = subprocess.run(
+                [ros.python, PROBE, program],
+                env=env, cwd=folder, capture_output=True, text=True, errors="replace", timeout=limit_s, check=False,
+            )  # fmt: skip
+        except subprocess.TimeoutExpired:
+            raise ProbeFailed(f"no answer within {limit_s:.0f} s") from None
+        except OSError as error:
+            raise ProbeFailed(f"{ros.python} cannot be run: {error.strerror}") from error
+    if done.returncode != 0:
+        raise ProbeFailed(_last_words(done.returncode, done.stderr))
+    answer: dict[str, Any] = json.loads(done.stdout.splitlines()[-1])
+    return answer
+
+
+def first_message_ms(ros: RosEnvironment, environ: Mapping[str, str], limit_s: float) -> float:
+    """Let two processes find each other on a reserved domain.
+
+    Returns the milliseconds from the start of the publisher's process to the first message in the other. Raises
+    ProbeFailed, NoFreeDomain.
+    """
+    with tempfile.TemporaryDirectory(prefix="ros-tutor-doctor-") as folder, reserve_domain() as domain:
+        env = learner_env(
+            ros, domain_id=domain, log_dir=Path(folder), package_root=None, isolated=True, environ=environ
+        )
+        deadline = time.monotonic() + limit_s
+        with _running(ros, env, folder, "listen") as listener:
+            _line(listener, deadline, "the subscriber did not start")
+            started = time.monotonic()
+            with _running(ros, env, folder, "talk"):
+                _line(listener, deadline, "no message arrived")
+                return (time.monotonic() - started) * 1000
+
+
+@contextmanager
+def _running(ros: RosEnvironment, env: Mapping[str, str], folder: str, program: str) -> Iterator[subprocess.Popen[str]]:
+    with tempfile.TemporaryFile("w+", errors="replace") as said:
+        try:
+            process = subprocess.Popen(
+                [ros.python, PROBE, program, "/ros_tutor_doctor"],
+                env=env, cwd=folder, stdout=subprocess.PIPE, stderr=said, text=True, errors="replace",
+            )  # fmt: skip
+        except OSError as error:
+            raise ProbeFailed(f"{ros.python} cannot be run: {error.strerror}") from error
+        try:
+            yield process
+        except ProbeFailed as failure:
+            if process.poll() not in (None, 0):
+                said.seek(0)
+                raise ProbeFailed(_last_words(process.returncode, said.read())) from failure
+            raise
+        finally:
+            process.kill()
+            process.communicate()
+
+
+def _line(process: subprocess.Popen[str], deadline: float, otherwise: str) -> str:
+    """The next line of a process. A process that ends, or says nothing in time, fails with `otherwise`."""
+    assert process.stdout is not None
+    with selectors.DefaultSelector() as selector:
+        selector.register(process.stdout, selectors.EVENT_READ)
+        if not selector.select(max(0.0, deadline - time.monotonic())):
+            raise ProbeFailed(f"{otherwise} in time")
+    line = process.stdout.readline()
+    if not line:
+        process.wait(timeout=5)
+        raise ProbeFailed(otherwise)
+    return line
+
+
+def _last_words(code: int, stderr: str) -> str:
+    said = [line.strip() for line in stderr.splitlines() if line.strip()]
+    how = f"killed by signal {-code}" if code < 0 else f"exit code {code}"
+    return f"{said[-1]} ({how})" if said else how

@@ -1,0 +1,49 @@
+"""All examinations, side by side."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+from tutor.doctor import machine, ros2, terminal
+from tutor.doctor.finding import Finding
+from tutor.ros.environment import detect
+
+Examination = Callable[[], Finding]
+
+
+def examine(workspace: Path | None, environ: Mapping[str, str] = os.environ) -> tuple[Finding, ...]:
+    """Examine this machine; findings come in the order to show them. Takes a few seconds.
+
+    `workspace` is where the learner's files are, or will be; None leaves that out. Nothing is changed, and no process
+    is left behind.
+    """
+    ros = detect(environ)
+    examinations: list[tuple[str, Examination]] = [
+        ("Python", machine.python_version),
+        ("ROS 2", lambda: ros2.which_ros(ros)),
+        ("ROS variables", lambda: ros2.variables(ros)),
+        ("ROS packages", lambda: ros2.wheels(ros)),
+        ("rclpy", lambda: ros2.rclpy_import(ros, environ)),
+        ("example_interfaces", lambda: ros2.example_interfaces(ros, environ)),
+        ("Loopback network", machine.loopback),
+        ("Loopback multicast", machine.loopback_multicast),
+        ("Domain ids", ros2.domain_ids),
+        ("Discovery", lambda: ros2.discovery(ros, environ)),
+        ("Temporary files", machine.temporary_files),
+        ("Terminal", lambda: terminal.capabilities(environ)),
+    ]
+    if workspace is not None:
+        examinations.insert(-1, ("Workspace", lambda: machine.workspace(workspace)))
+    with ThreadPoolExecutor(len(examinations)) as pool:
+        return tuple(pool.map(lambda examination: _guarded(*examination), examinations))
+
+
+def _guarded(name: str, examination: Examination) -> Finding:
+    try:
+        return examination()
+    except Exception as error:  # the border of one examination: the others must still be told
+        text = f"This could not be examined: {type(error).__name__}: {error}"
+        return Finding(name, False, text, "This is a fault of ros-tutor itself: please report it, with this line.")

