@@ -34,7 +34,7 @@ def run(arguments: argparse.Namespace) -> int:
     lines += ["", f"{passed} of {len(lines)} passed.{_next(course.lessons, words)}"]
     terminal.out("\n".join(lines) + "\n")
     if not workspace.exists:
-        terminal.say(f"there is no workspace yet; `ros-tutor start` makes one at {context.shown(workspace.root)}")
+        terminal.say(f"there is no workspace yet; `ros-tutor start` makes one at {workspace.root}")
     return PASSED
 
 

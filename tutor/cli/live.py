@@ -95,7 +95,7 @@ class LiveDisplay:
 
     def _row(self, criterion: str, line: _Line) -> tuple[RenderableType, ...]:
         if line.result is None:
-            bar = ProgressBar(total=1.0, completed=line.fraction, width=20)
+            bar = ProgressBar(total=1.0, completed=line.fraction, width=20, complete_style="cyan")
             return self._spinner, Text(criterion), bar, Text(printable(line.doing), "dim")
         verdict = line.result.verdict
         style = STYLES[verdict.status]
@@ -114,7 +114,7 @@ class LiveDisplay:
             lines = self._lines[exercise]
             results = [line.result for line in lines.values() if line.result is not None]
             done = sum(1.0 if line.result else line.fraction for line in lines.values())
-            bar = ProgressBar(total=float(max(len(lines), 1)), completed=done, width=20)
+            bar = ProgressBar(total=float(max(len(lines), 1)), completed=done, width=20, complete_style="cyan")
             now = next((line.doing for line in lines.values() if line.result is None and line.doing), "")
             passed = sum(result.verdict.passed for result in results)
             mark: RenderableType = self._spinner if len(results) < len(lines) else Text("✓", "dim")

@@ -24,6 +24,22 @@ class _Parser(argparse.ArgumentParser):
         raise UsageError(f"{message} (see `{self.prog} --help`)")
 
 
+class _Command(_Parser):
+    """Takes options between the positional arguments too: `check i1.1 --format json PATH`."""
+
+    _mixing = False
+
+    # argparse gives no other way in for a subcommand; the method below calls this one in turn.
+    def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
+        if self._mixing:
+            return super().parse_known_args(args, namespace)
+        self._mixing = True
+        try:
+            return self.parse_known_intermixed_args(args, namespace)
+        finally:
+            self._mixing = False
+
+
 _EPILOG = """\
 Without a command, the terminal app opens.
 
@@ -45,7 +61,7 @@ def _build() -> _Parser:
         parents=[everywhere],
     )
     parser.set_defaults(command=None)
-    commands = parser.add_subparsers(title="commands", metavar="COMMAND")
+    commands = parser.add_subparsers(title="commands", metavar="COMMAND", parser_class=_Command)
 
     def add(name: str, run: Run, arguments: Callable[[argparse.ArgumentParser], None], help: str) -> None:
         command = commands.add_parser(name, help=help, description=_sentence(help), parents=[everywhere])
@@ -62,9 +78,9 @@ def _build() -> _Parser:
     return parser
 
 
-def _global_options() -> _Parser:
+def _global_options() -> _Command:
     """Options that are good before and after the command. Suppressed defaults: the second must not undo the first."""
-    parser = _Parser(add_help=False, argument_default=argparse.SUPPRESS)
+    parser = _Command(add_help=False, argument_default=argparse.SUPPRESS)
     options = parser.add_argument_group("options for every command")
     options.add_argument(
         "--workspace",
@@ -73,7 +89,7 @@ def _global_options() -> _Parser:
         help="your workspace (else $ROS_TUTOR_WORKSPACE, the one around the current folder, or ~/ros_tutor_ws)",
     )
     options.add_argument("--lessons", metavar="DIR", type=Path, help="a folder with more lessons/ and checks/")
-    options.add_argument("--version", action="version", version=f"ros-tutor {__version__}")
+    options.add_argument("--version", action="version", version=f"ros-tutor {__version__}", help="show the version")
     return parser
 
 

@@ -8,6 +8,8 @@ import sys
 import textwrap
 from typing import TextIO
 
+from tutor.workspace.errors import StorageError
+
 _PLAIN_WIDTH = 100
 _WIDEST = 120
 
@@ -21,9 +23,9 @@ def out(text: str) -> None:
         sys.stdout.flush()
     except BrokenPipeError:
         _to_nowhere(sys.stdout)
-    except OSError:
+    except OSError as error:
         _to_nowhere(sys.stdout)
-        raise
+        raise StorageError.of("write to stdout", error) from error
 
 
 def say(text: str) -> None:

@@ -52,7 +52,8 @@ def _exercise(exercise: ExerciseResult) -> RenderableType:
     for criterion in exercise.criteria:
         parts.append(_headline(criterion, id_width))
         if not criterion.verdict.passed:
-            parts.append(Padding(_diagnosis(criterion), (0, 0, 1, _INDENT)))
+            below = 0 if criterion.verdict.status is Status.SKIPPED else 1
+            parts.append(Padding(_diagnosis(criterion), (0, 0, below, _INDENT)))
     return Padding(Group(*parts), (0, 0, 1, 0))
 
 
@@ -95,5 +96,5 @@ def _summary(report: Report) -> RenderableType:
     return Text.assemble(
         (f"{MARKS[verdict]} {verdict.value}", f"bold {STYLES[verdict]}"),
         of,
-        (f"  in {seconds(report.duration_s)}  ({describe(report.environment)})", "dim"),
+        (f"  in {seconds(report.duration_s)}\n{describe(report.environment)}", "dim"),
     )

@@ -1,0 +1,59 @@
+"""An engine that starts nothing: it gives the verdicts it was told, with all the events of a real one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+
+from tutor.content import Course
+from tutor.judge.events import CheckFinished, CheckStarted, CriterionJudged, Event, ExerciseJudged, Progress
+from tutor.judge.result import CriterionResult, Environment, ExerciseResult, Report
+from tutor.judge.submission import Submission
+from tutor.judge.verdict import Cause, Verdict, failed, passed
+
+
+@dataclass
+class FakeEngine:
+    """Passes everything, but the criteria in `verdicts`."""
+
+    verdicts: dict[str, Verdict] = field(default_factory=dict)
+    raises: BaseException | None = None
+    asked: list[tuple[list[Submission], frozenset[str] | None]] = field(default_factory=list)
+
+    async def __call__(
+        self,
+        submissions: Sequence[Submission],
+        course: Course,
+        *,
+        only: frozenset[str] | None,
+        on_event: Callable[[Event], None],
+    ) -> Report:
+        self.asked.append((list(submissions), only))
+        if self.raises is not None:
+            raise self.raises
+        report = Report(
+            Environment("jazzy", "bundled", "rmw_fastrtps_cpp", "0.1.0"),
+            tuple(self._judge(submission, course, only, on_event) for submission in submissions),
+            1.23456,
+        )
+        on_event(CheckFinished(report))
+        return report
+
+    def _judge(
+        self, submission: Submission, course: Course, only: frozenset[str] | None, on_event: Callable[[Event], None]
+    ) -> ExerciseResult:
+        lesson = course.find(submission.exercise)
+        criteria = [each for each in lesson.criteria if only is None or each.id in only]
+        on_event(CheckStarted(lesson.id, tuple(each.id for each in criteria)))
+        results = []
+        for each in criteria:
+            on_event(Progress(lesson.id, each.id, 0.5, "waiting for the first message"))
+            verdict = self.verdicts.get(each.id, passed("as asked", "as asked"))
+            results.append(CriterionResult(each.id, each.text, each.bonus, verdict, 0.5))
+            on_event(CriterionJudged(lesson.id, results[-1]))
+        result = ExerciseResult(lesson.id, lesson.title, tuple(submission.files), tuple(results), 1.0)
+        on_event(ExerciseJudged(result))
+        return result
+
+
+FAILURE = failed("5 messages", "0 messages", Cause("no spin", "no callback ran", "call rclpy.spin(node)"), ["a line"])

@@ -1,0 +1,192 @@
+"""The command line as a process: streams, terminals, signals, and what it imports."""
+
+from __future__ import annotations
+
+import fcntl
+import os
+import pty
+import re
+import select
+import signal
+import struct
+import subprocess
+import sys
+import termios
+import time
+from collections.abc import Mapping
+from pathlib import Path
+
+import pytest
+
+LIMIT_S = 30.0
+
+WITH_FAKE_ENGINE = """
+import asyncio, sys
+import tutor.engine
+from tutor.cli import main
+from tests.cli.fake_engine import FAILURE, FakeEngine
+
+class Slow(FakeEngine):
+    async def __call__(self, submissions, course, *, only, on_event):
+        report = await super().__call__(submissions, course, only=only, on_event=on_event)
+        if "--slow" in sys.argv:
+            sys.argv.remove("--slow")
+            print("started", file=sys.stderr, flush=True)
+            try:
+                await asyncio.sleep(60)
+            finally:
+                await asyncio.sleep(0.3)
+                print("cleaned up", file=sys.stderr, flush=True)
+        return report
+
+tutor.engine.check = Slow({"publishes": FAILURE})
+sys.exit(main([argument for argument in sys.argv[1:] if argument != "--slow"]))
+"""
+
+
+def command(*arguments: str) -> list[str]:
+    return [sys.executable, "-c", WITH_FAKE_ENGINE, *arguments]
+
+
+def in_terminal(arguments: list[str], env: Mapping[str, str], rows: int = 40) -> tuple[int, str, str]:
+    """Run with stderr on a terminal of its own and stdout on another; the exit code and what each showed."""
+    (out, out_end), (err, err_end) = pty.openpty(), pty.openpty()
+    for end in (out_end, err_end):
+        fcntl.ioctl(end, termios.TIOCSWINSZ, struct.pack("HHHH", rows, 100, 0, 0))
+    process = subprocess.Popen(arguments, stdin=out_end, stdout=out_end, stderr=err_end, env=dict(env))
+    os.close(out_end)
+    os.close(err_end)
+    texts = {out: b"", err: b""}
+    limit = time.monotonic() + LIMIT_S
+    open_ends = set(texts)
+    while open_ends and time.monotonic() < limit:
+        for end in select.select(list(open_ends), [], [], 1.0)[0]:
+            try:
+                chunk = os.read(end, 65536)
+            except OSError:  # Linux: the other side is closed
+                chunk = b""
+            texts[end] += chunk
+            if not chunk:
+                open_ends.discard(end)
+    code = process.wait(timeout=LIMIT_S)
+    os.close(out)
+    os.close(err)
+    return code, texts[out].decode(), texts[err].decode()
+
+
+@pytest.fixture
+def env(home: Path) -> dict[str, str]:
+    quiet = {"NO_COLOR", "ROS_TUTOR_WORKSPACE", "FORCE_COLOR", "TTY_COMPATIBLE", "COLUMNS", "LINES"}
+    return {**{key: value for key, value in os.environ.items() if key not in quiet}, "TERM": "xterm-256color"}
+
+
+def test_list_needs_neither_ros_nor_the_terminal_app_and_is_quick() -> None:
+    program = (
+        "import sys; from tutor.cli import main; code = main(['list']); "
+        "print(sorted({'rclpy', 'textual', 'rich', 'asyncio', 'tutor.ros', 'tutor.engine'} & set(sys.modules))); "
+        "sys.exit(code)"
+    )
+    process = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, text=True)
+    assert process.stdout is not None
+    output = process.stdout.read()
+    process.stdout.close()
+    _, status, used = os.wait4(process.pid, 0)
+    process.returncode = os.waitstatus_to_exitcode(status)  # it is waited for: the object must not do so again
+    assert process.returncode == 0
+    assert output.splitlines()[-1] == "[]"
+    assert used.ru_utime + used.ru_stime < 0.3  # of the processor: what else runs on the machine does not matter
+
+
+def test_without_a_terminal_nothing_is_coloured_or_drawn() -> None:
+    ran = subprocess.run(
+        command("check", "i1.1", "--solution"), capture_output=True, text=True, timeout=LIMIT_S, check=False
+    )
+    assert ran.returncode == 1
+    assert "\x1b" not in ran.stdout
+    assert ran.stderr == ""
+
+
+def test_a_terminal_sees_the_check_at_work_and_then_the_report(env: dict[str, str]) -> None:
+    code, out, err = in_terminal(command("check", "i1.1", "--solution"), env)
+    assert code == 1
+    assert "\x1b[31m" in out
+    assert "call rclpy.spin(node)" in out
+    assert "publishes" in err
+    assert err.endswith("\x1b[2K") or "\x1b[1A\x1b[2K" in err  # it makes room for the report
+    assert "\x1b[?25h" in err  # the cursor is back
+
+
+def test_many_exercises_on_a_low_terminal_take_a_line_each(env: dict[str, str]) -> None:
+    code, _, err = in_terminal(command("check", "all", "--solution"), env, rows=12)
+    assert code == 1
+    assert re.search(r"i1\.1.*\d of \d passed", err)
+
+
+def test_no_color_and_dumb_terminals_are_honoured(env: dict[str, str]) -> None:
+    _, out, err = in_terminal(command("check", "i1.1", "--solution"), {**env, "NO_COLOR": "1"})
+    assert "\x1b[3" not in out
+    assert not re.search(r"\x1b\[3[0-9]", err)
+    _, out, err = in_terminal(command("check", "i1.1", "--solution"), {**env, "TERM": "dumb"})
+    assert "\x1b" not in out + err
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_an_interrupt_lets_the_engine_clean_up_and_is_130(number: signal.Signals) -> None:
+    process = subprocess.Popen(
+        command("check", "i1.1", "--solution", "--slow"), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+    assert process.stderr is not None
+    assert process.stdout is not None
+    assert process.stderr.readline() == "started\n"
+    process.send_signal(number)
+    assert process.stderr.readline() == "ros-tutor: stopping what was started\n"
+    process.send_signal(number)  # someone is impatient
+    rest = process.stderr.read()
+    assert process.wait(timeout=LIMIT_S) == 130
+    assert rest == "cleaned up\nros-tutor: interrupted; nothing that was started is left\n"
+    assert process.stdout.read() == ""
+    process.stdout.close()
+    process.stderr.close()
+
+
+def test_a_reader_that_goes_away_is_no_error() -> None:
+    read, write = os.pipe()
+    os.close(read)
+    ran = subprocess.run(
+        command("check", "i1.1", "--solution"),
+        stdout=write,
+        stderr=subprocess.PIPE,
+        text=True,
+        timeout=LIMIT_S,
+        check=False,
+    )
+    os.close(write)
+    assert ran.returncode == 1
+    assert ran.stderr == ""
+
+
+def test_a_full_disk_is_told(env: dict[str, str]) -> None:
+    with open("/dev/full", "w") as full:
+        ran = subprocess.run(
+            command("check", "i1.1", "--solution"),
+            stdout=full,
+            stderr=subprocess.PIPE,
+            text=True,
+            timeout=LIMIT_S,
+            check=False,
+        )
+    assert ran.returncode == 3
+    assert ran.stderr == "ros-tutor: cannot write to stdout: No space left on device\n"
+
+
+def test_a_terminal_that_knows_only_ascii_gets_a_report(env: dict[str, str]) -> None:
+    ran = subprocess.run(
+        command("check", "i1.1", "--solution"),
+        capture_output=True,
+        text=True,
+        timeout=LIMIT_S,
+        check=False,
+        env={**env, "PYTHONIOENCODING": "ascii", "PYTHONUTF8": "0"},
+    )
+    assert ran.returncode == 1
+    assert "? passed" in ran.stdout

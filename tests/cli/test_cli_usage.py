@@ -1,0 +1,100 @@
+"""Wrong usage is one clear line on stderr and exit code 2; help and version are on stdout."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from tests.cli.conftest import Run
+
+WORKSPACE = ("--workspace", "ws")
+
+
+@pytest.mark.parametrize(
+    ("argv", "message"),
+    [
+        (["frobnicate"], "invalid choice: 'frobnicate'"),
+        (["check"], "the following arguments are required: EXERCISE"),
+        (["check", "i1.1", "--format", "pdf"], "argument --format: invalid choice: 'pdf'"),
+        (["check", "i1.1", "--frob"], "unrecognized arguments: --frob"),
+        (["check", "i9.9"], "There is no exercise 'i9.9'"),
+        (["start", "x"], "There is no exercise 'x'"),
+        (["hint", "x"], "There is no exercise 'x'"),
+        (["solution", "x"], "There is no exercise 'x'"),
+        (["check", "i1.1"], "there is no workspace at"),
+        (["check", "all"], "there is no workspace at"),
+        (["check", "i1.1", "nowhere.py"], "there is no file or folder"),
+        (["check", "i1.1", "--solution", "x.py"], "give no PATH"),
+        (
+            ["check", "i1.1", "--solution", "--criterion", "rte"],
+            "no criterion 'rte' in i1.1. The criteria are: publishes",
+        ),
+        (["check", "all", "--solution", "--criterion", "rte"], "no criterion 'rte' in any exercise"),
+        (["check", "i1.1", "--solution", "--output", "no/such/file"], "there is no folder no/such"),
+        (["check", "i1.1", "--solution", "--output", "."], "this is a folder"),
+        (["check", "all", "nowhere"], "check all needs a folder"),
+        (["list", "--workspace", "."], "is no workspace; `ros-tutor start i1.1 --workspace"),
+        (["check", "i1.1", "--workspace", "."], "is no workspace"),
+        (["hint", "i1.1", "--workspace", "."], "is no workspace"),
+        (["list", "--lessons", "nowhere"], "--lessons nowhere: there is no folder lessons in it"),
+        (["checklist", "tick"], "checklist tick needs an ITEM"),
+        (["checklist", "show", "timers"], "takes no ITEM"),
+        (["checklist", "--output", "x"], "go with `checklist export`"),
+        (["checklist", "tick", "timer"], "no checklist item 'timer'. Did you mean timers?"),
+        (["checklist", "tick", "timers"], "ticks are kept in a workspace"),
+    ],
+)
+def test_wrong_usage_is_one_line_and_exit_code_2(run: Run, argv: list[str], message: str) -> None:
+    ran = run(*argv)
+    assert ran.code == 2
+    assert ran.out == ""
+    assert message in ran.err
+    assert ran.err.startswith("ros-tutor: ")
+    assert ran.err.count("\n") == 1
+
+
+def test_without_a_terminal_the_app_says_so(run: Run) -> None:
+    ran = run()
+    assert (ran.code, ran.out) == (2, "")
+    assert "the app needs a terminal" in ran.err
+    assert ran.err.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    "argv", [["--help"], ["check", "-h"], ["checklist", "-h"], ["--version"], ["list", "--version"]]
+)
+def test_help_and_version_are_output(run: Run, argv: list[str]) -> None:
+    ran = run(*argv)
+    assert (ran.code, ran.err) == (0, "")
+    assert "ros-tutor" in ran.out
+
+
+@pytest.mark.parametrize(
+    "argv", [[*WORKSPACE, "start", "i1.1"], ["start", *WORKSPACE, "i1.1"], ["start", "i1.1", *WORKSPACE]]
+)
+def test_global_options_go_before_and_after_the_command(run: Run, home: Path, argv: list[str]) -> None:
+    assert run(*argv).code == 0
+    assert (home / "ws" / ".ros-tutor" / "progress.json").is_file()
+
+
+def test_a_fault_of_ours_is_one_line_and_exit_code_3(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    def broken(extra: Path | None = None) -> None:
+        raise RuntimeError("it\nbroke")
+
+    monkeypatch.setattr("tutor.content.load_course", broken)
+    ran = run("list")
+    assert (ran.code, ran.out) == (3, "")
+    assert "RuntimeError: it broke" in ran.err
+    assert ran.err.count("\n") == 1
+
+    monkeypatch.setenv("ROS_TUTOR_DEBUG", "1")
+    assert "Traceback (most recent call last)" in run("list").err
+
+
+def test_an_interrupt_anywhere_is_exit_code_130(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    def interrupted(extra: Path | None = None) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("tutor.content.load_course", interrupted)
+    assert run("list").code == 130

@@ -1,0 +1,41 @@
+"""The shape of the JSON report, as programs that read it rely on it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+TEXT_KEYS = ("id", "text", "expected", "observed", "cause", "hint")
+
+
+def assert_report_shape(document: Any) -> None:
+    """Fail unless `document` has every key of the contract, no other, and the right types."""
+    assert list(document) == ["schema", "verdict", "duration_s", "environment", "exercises"]
+    assert document["schema"] == "ros-tutor/report/1"
+    assert document["verdict"] in ("passed", "failed", "error")
+    assert_duration(document["duration_s"])
+    assert list(document["environment"]) == ["ros_distro", "ros", "rmw", "ros_tutor"]
+    assert all(isinstance(value, str) for value in document["environment"].values())
+    for exercise in document["exercises"]:
+        assert list(exercise) == ["id", "title", "verdict", "duration_s", "submission", "criteria"]
+        assert exercise["verdict"] in ("passed", "failed", "error")
+        assert_duration(exercise["duration_s"])
+        assert all(isinstance(name, str) for name in exercise["submission"])
+        for criterion in exercise["criteria"]:
+            assert_criterion_shape(criterion)
+
+
+def assert_criterion_shape(criterion: Any) -> None:
+    assert list(criterion) == [
+        *("id", "text", "bonus", "status", "duration_s"),
+        *("expected", "observed", "cause", "hint", "evidence"),
+    ]
+    assert all(isinstance(criterion[key], str) for key in TEXT_KEYS)
+    assert isinstance(criterion["bonus"], bool)
+    assert criterion["status"] in ("passed", "failed", "skipped", "error")
+    assert_duration(criterion["duration_s"])
+    assert all(isinstance(line, str) for line in criterion["evidence"])
+
+
+def assert_duration(value: Any) -> None:
+    assert isinstance(value, float)
+    assert value == round(value, 3)

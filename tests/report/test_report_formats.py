@@ -1,0 +1,187 @@
+"""Every format tells the same, and nothing a learner's process writes can break one."""
+
+from __future__ import annotations
+
+import json
+import re
+from xml.etree import ElementTree
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from tests.report.shape import assert_report_shape
+from tutor.content import Checklist, ChecklistGroup, ChecklistItem
+from tutor.judge.result import CriterionResult, Environment, ExerciseResult, Report
+from tutor.judge.verdict import Cause, Status, Verdict, failed, fault, passed, skipped
+from tutor.report import FORMATS, render
+from tutor.report.checklist import render_checklist
+
+ENVIRONMENT = Environment(ros_distro="jazzy", ros="bundled", rmw="rmw_fastrtps_cpp", ros_tutor="0.1.0")
+
+RATE = failed(
+    "2.0 Hz ±20 % with publish_rate:=2.0",
+    "0.5 Hz over 5 samples",
+    Cause("rate used as a period", "the timer fires every 2.0 s", "create the timer with 1.0 / rate"),
+    ["[INFO] [node]: a | b", '  File "my_node.py", line 3, in <module>'],
+)
+
+
+def criterion(identity: str, verdict: Verdict, bonus: bool = False) -> CriterionResult:
+    return CriterionResult(identity, f"What {identity} asks for.", bonus, verdict, 1.23456)
+
+
+def report(*criteria: CriterionResult) -> Report:
+    exercise = ExerciseResult("i1.1", "Sensor Publisher", ("temperature_publisher.py",), criteria, 3.98765)
+    return Report(ENVIRONMENT, (exercise,), 4.19876)
+
+
+@pytest.fixture
+def mixed() -> Report:
+    return report(
+        criterion("publishes", passed("messages", "5 messages")),
+        criterion("rate", RATE),
+        criterion("echo", skipped("not judged, because `publishes` did not pass")),
+        criterion("random", fault("no free domain id", "close other checks")),
+        criterion("shutdown", RATE, bonus=True),
+    )
+
+
+def test_json_is_what_the_contract_says(mixed: Report) -> None:
+    document = json.loads(render(mixed, "json"))
+    assert_report_shape(document)
+    assert document["verdict"] == "failed"
+    assert document["duration_s"] == 4.199
+    assert document["environment"]["ros"] == "bundled"
+    exercise = document["exercises"][0]
+    assert exercise["submission"] == ["temperature_publisher.py"]
+    assert exercise["criteria"][1] == {
+        "id": "rate",
+        "text": "What rate asks for.",
+        "bonus": False,
+        "status": "failed",
+        "duration_s": 1.235,
+        "expected": "2.0 Hz ±20 % with publish_rate:=2.0",
+        "observed": "0.5 Hz over 5 samples",
+        "cause": "rate used as a period: the timer fires every 2.0 s",
+        "hint": "create the timer with 1.0 / rate",
+        "evidence": ["[INFO] [node]: a | b", '  File "my_node.py", line 3, in <module>'],
+    }
+
+
+def test_text_says_every_status_in_a_word_and_what_to_do(mixed: Report) -> None:
+    text = render(mixed, "text", width=100)
+    lines = text.splitlines()
+    assert lines[0] == "i1.1 Sensor Publisher  FAILED  1 of 4 passed, bonus 0 of 1, 4.0 s"
+    for word in ("✓ passed   publishes", "✗ failed   rate", "- skipped  echo", "! error    random"):
+        assert any(line.startswith(word) for line in lines)
+    assert "    next step  create the timer with 1.0 / rate" in lines
+    assert '               File "my_node.py", line 3, in <module>' in [
+        re.sub(" {15,}", " " * 15, line) for line in lines
+    ]
+    assert "It is no fault of your code." in text
+    assert "(bonus)" in text
+    assert "\x1b" not in text
+    assert not any(line != line.rstrip() for line in lines)
+    assert lines[-2:] == ["✗ failed  in 4.2 s", "ROS 2 jazzy (bundled), rmw_fastrtps_cpp, ros-tutor 0.1.0"]
+
+
+@pytest.mark.parametrize("width", [20, 40, 60, 100, 200])
+def test_text_keeps_to_the_width_and_loses_no_word(mixed: Report, width: int) -> None:
+    text = render(mixed, "text", width=width)
+    assert max(map(len, text.splitlines())) <= max(width, 40)
+    words = " ".join(text.split())
+    for word in ("publish_rate:=2.0", "timer", "temperature_publisher.py", "rmw_fastrtps_cpp"):
+        assert word in words
+
+
+def test_colour_is_only_there_when_asked_for(mixed: Report) -> None:
+    colored = render(mixed, "text", color=True, width=100)
+    assert "\x1b[31m" in colored
+    plain = re.sub(r"\x1b\[[0-9;]*m", "", colored)
+    assert [line.rstrip() for line in plain.splitlines()] == render(mixed, "text", width=100).splitlines()
+
+
+def test_junit_counts_and_keeps_bonus_from_turning_a_build_red(mixed: Report) -> None:
+    root = ElementTree.fromstring(render(mixed, "junit"))
+    suite = root[0]
+    assert {name: suite.get(name) for name in ("tests", "failures", "errors", "skipped")} == {
+        "tests": "5",
+        "failures": "1",
+        "errors": "1",
+        "skipped": "2",
+    }
+    assert root.get("tests") == "5"
+    failure = suite.find("testcase[@name='rate']/failure")
+    assert failure is not None
+    assert failure.get("message") == "rate used as a period: the timer fires every 2.0 s"
+    assert "next step: create the timer with 1.0 / rate" in (failure.text or "")
+    bonus = suite.find("testcase[@name='shutdown']/skipped")
+    assert bonus is not None
+    assert (bonus.get("message") or "").startswith("bonus, failed:")
+
+
+def test_markdown_escapes_what_it_quotes(mixed: Report) -> None:
+    text = render(mixed, "markdown")
+    assert text.startswith("# ros-tutor: failed\n")
+    assert "| ✗ failed | rate | What rate asks for. | 1.2 s |" in text
+    assert "- **observed:** 0.5 Hz over 5 samples" in text
+    assert "- **expected:** 2.0 Hz ±20 % with publish\\_rate:=2.0" in text
+    assert "```text\n[INFO] [node]: a | b\n" in text
+
+
+def test_a_fence_in_the_evidence_does_not_end_the_block() -> None:
+    text = render(report(criterion("x", Verdict(Status.FAILED, evidence=("```", "after")))), "markdown")
+    assert "````text\n```\nafter\n````" in text
+
+
+def test_several_exercises_have_a_common_summary() -> None:
+    one = report(criterion("a", passed("", ""))).exercises[0]
+    two = report(criterion("a", RATE)).exercises[0]
+    text = render(Report(ENVIRONMENT, (one, two), 1.0), "text")
+    assert text.splitlines()[-2].startswith("✗ failed  1 of 2 exercises passed  in 1.0 s")
+
+
+nasty = st.text(st.sampled_from("\x00\x07\x1b\x7f\x9b\r\n\t\ud800\ufffe<>&\"'|`*_[]\\ab é✓"), max_size=12) | st.text(
+    max_size=12
+)
+
+
+@settings(max_examples=40, deadline=None)
+@given(nasty, nasty, st.sampled_from(list(Status)))
+def test_no_text_from_a_learner_breaks_a_format(text: str, line: str, status: Status) -> None:
+    it = report(criterion("x", Verdict(status, text, text, text, text, (line, text))))
+    for format in FORMATS:
+        rendered = render(it, format)
+        rendered.encode("utf-8")
+        assert rendered.endswith("\n")
+        assert not re.search("[\x00-\x08\x0b-\x1f\x7f-\x9f]", rendered)
+    assert_report_shape(json.loads(render(it, "json")))
+    ElementTree.fromstring(render(it, "junit"))
+
+
+CHECKLIST = Checklist((ChecklistGroup("g", "Group <1>", (ChecklistItem("a", "Do a & b"), ChecklistItem("c", "Do c"))),))
+TICKS = {"a": "2026-01-02T03:04:05Z"}
+EVIDENCE = {"c": ["i1.1", "i2.1"]}
+
+
+def test_the_checklist_in_markdown() -> None:
+    text = render_checklist(CHECKLIST, TICKS, EVIDENCE, "markdown")
+    assert "## Group \\<1\\>" in text
+    assert "- [x] Do a & b\n- [ ] Do c (passed i1.1, i2.1)\n" in text
+
+
+def test_the_checklist_in_json() -> None:
+    document = json.loads(render_checklist(CHECKLIST, TICKS, EVIDENCE, "json"))
+    assert document["schema"] == "ros-tutor/checklist/1"
+    first, second = document["groups"][0]["items"]
+    assert (first["ticked"], first["ticked_at"], first["passed"]) == (True, "2026-01-02T03:04:05Z", [])
+    assert (second["ticked"], second["ticked_at"], second["passed"]) == (False, None, ["i1.1", "i2.1"])
+
+
+def test_the_checklist_in_html() -> None:
+    text = render_checklist(CHECKLIST, TICKS, EVIDENCE, "html")
+    assert "<h2>Group &lt;1&gt;</h2>" in text
+    assert '<input type="checkbox" disabled checked> Do a &amp; b' in text
+    assert '<input type="checkbox" disabled> Do c' in text
+    assert "passed i1.1, i2.1" in text
