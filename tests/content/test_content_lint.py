@@ -43,6 +43,7 @@ def test_a_right_course_has_no_problems(lesson_folder: Path) -> None:
             "the heading '# Objective' is a title: the title is in the front matter",
         ),
         ("```python", "```", "a code block does not say its language"),
+        ("move(0.5)", "move(" + 75 * "1" + ")", f"the code 'move({75 * '1'})' is wider than 76 characters"),
         ("None.", "None.<br>", "there is raw HTML in 'None.<br>', which a terminal cannot show"),
         ("None.", "None `or\nso`.", "the code in 'None `or' is broken over two lines"),
         (

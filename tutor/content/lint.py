@@ -22,6 +22,9 @@ SECTIONS = (
 
 HINTS = 3
 
+CODE_WIDTH = 76
+"""The widest line of code that a terminal of 80 columns shows whole."""
+
 _CRITERION_ID = re.compile(r"[a-z-]+")
 _CHECKLIST_ID = re.compile(r"[a-z][a-z0-9-]*")
 _CODE_FENCE = re.compile(r"\s*```(.*)")
@@ -117,13 +120,16 @@ def _body(body: str) -> Iterator[str]:
             fenced = not fenced
             if fenced and not fence[1].strip():
                 yield "a code block does not say its language"
-        elif not fenced and line.startswith("# "):
+        elif fenced:
+            if len(line) > CODE_WIDTH:
+                yield f"the code {line.strip()!r} is wider than {CODE_WIDTH} characters"
+        elif line.startswith("# "):
             yield f"the heading {line!r} is a title: the title is in the front matter"
-        elif not fenced and line.startswith("## "):
+        elif line.startswith("## "):
             headings.append(line.removeprefix("## ").strip())
-        elif not fenced and line.count("`") % 2:
+        elif line.count("`") % 2:
             yield f"the code in {line.strip()!r} is broken over two lines"
-        elif not fenced and _RAW_HTML.search(re.sub(r"`[^`]*`", "", line)):
+        elif _RAW_HTML.search(re.sub(r"`[^`]*`", "", line)):
             yield f"there is raw HTML in {line.strip()!r}, which a terminal cannot show"
     if fenced:
         yield "a code block is never closed"
