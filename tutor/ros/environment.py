@@ -29,6 +29,7 @@ _ALWAYS_DROPPED = ("RCUTILS_", "PYTEST_", "COV_", "COVERAGE_", "PYTHON", "VIRTUA
 _DISCOVERY = ("FASTRTPS_", "FASTDDS_", "CYCLONEDDS_", "ZENOH_", "RMW_")
 _ROS = ("ROS_", "AMENT_", "COLCON_", "CMAKE_PREFIX_PATH", "RCL_")
 _PATHS_OF_ROS = ("CMAKE_PREFIX_PATH", "PKG_CONFIG_PATH")
+_OUR_OWN = ("ROS_TUTOR_",)  # such as ROS_TUTOR_WORKSPACE
 # The user's own settings of discovery, which "run" (unlike a check) leaves alone.
 _USERS_DISCOVERY = (
     "ROS_AUTOMATIC_DISCOVERY_RANGE",
@@ -165,7 +166,7 @@ def _system_python(home: Path, environ: Mapping[str, str]) -> Path | None:
 
 
 def _ros_env(ros: RosEnvironment, environ: Mapping[str, str], first_on_path: list[Path]) -> dict[str, str]:
-    kept = _SYSTEM_FACTS if ros.kind == "system" else ()
+    kept = (*_OUR_OWN, *(_SYSTEM_FACTS if ros.kind == "system" else ()))
     env = {
         name: value
         for name, value in environ.items()
