@@ -213,11 +213,14 @@ def test_our_own_process_takes_the_sourced_ros_whole(jazzy: Path) -> None:
 def test_what_the_sourced_ros_lacks_is_not_taken_from_the_bundled_one(jazzy: Path) -> None:
     (jazzy / prefixes.SITE_PACKAGES / "stereo_msgs").rename(jazzy / "stereo_msgs")
     try:
-        code = OBSERVER + "import json\ntry:\n import stereo_msgs\nexcept ImportError as e: print(json.dumps(str(e)))"
+        code = (
+            OBSERVER
+            + "import json\ntry:\n import stereo_msgs\nexcept ImportError as e: print(json.dumps({'said': str(e)}))"
+        )
         said = run([sys.executable, "-c", code], {**PLAIN, **sourced.source(jazzy), "ROS_TUTOR_ROOT": str(ROOT)})
     finally:
         (jazzy / "stereo_msgs").rename(jazzy / prefixes.SITE_PACKAGES / "stereo_msgs")
-    assert said == "the sourced ROS has no module named 'stereo_msgs'"
+    assert said["said"] == "the sourced ROS has no module named 'stereo_msgs'"
 
 
 @pytest.mark.parametrize("lost", ["ROS_DISTRO", "AMENT_PREFIX_PATH", "PYTHONPATH", "LD_LIBRARY_PATH"])

@@ -1,6 +1,6 @@
 """The doctor: which ROS is used, what is wrong with the machine, and how to mend it. Imports no rclpy."""
 
-from tutor.doctor.examine import examine
+from tutor.doctor.examination import examine
 from tutor.doctor.finding import Finding
 
 __all__ = ["Finding", "examine"]
