@@ -149,6 +149,15 @@ def test_progress_that_cannot_be_kept_does_not_change_the_verdict(run: Run, engi
     assert "this check is not in your progress: cannot read" in ran.err
 
 
+def test_a_report_that_cannot_be_written_does_not_lose_the_progress(run: Run, engine: FakeEngine, home: Path) -> None:
+    run("start", "i1.1")
+    (home / "report").symlink_to(home / "no" / "such" / "folder")
+    ran = run("check", "i1.1", "--output", "report")
+    assert ran.code == 3
+    assert "cannot write report: No such file or directory" in ran.err
+    assert len(progress(home).of("i1.1").attempts) == 1
+
+
 def test_all_judges_what_was_started_and_names_what_was_not(run: Run, engine: FakeEngine) -> None:
     run("start", "i1.1")
     run("start", "i2.1")

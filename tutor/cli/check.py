@@ -56,11 +56,11 @@ def run(arguments: argparse.Namespace, engine: Engine | None = None) -> int:
     if report is None:
         terminal.say("interrupted; nothing that was started is left")
         return INTERRUPTED
+    if not arguments.solution:
+        _record(report, submissions, course, workspace)  # first: a report that cannot be written must not lose it
     _write(report, arguments)
     for line in left_out:
         terminal.say(line)
-    if not arguments.solution:
-        _record(report, submissions, course, workspace)
     return _CODES[report.verdict.value]
 
 

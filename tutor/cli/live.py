@@ -61,11 +61,15 @@ class LiveDisplay:
             if not self._live.is_started:
                 self._live.start()
         elif isinstance(event, Progress):
-            line = self._lines[event.exercise][event.criterion]
+            line = self._lines.get(event.exercise, {}).get(event.criterion)
+            if line is None:
+                return
             line.fraction = max(line.fraction, min(event.fraction, 1.0))
             line.doing = event.doing
         elif isinstance(event, CriterionJudged):
-            self._lines[event.exercise][event.result.id].result = event.result
+            line = self._lines.get(event.exercise, {}).get(event.result.id)
+            if line is not None:
+                line.result = event.result
 
     def stopping(self) -> None:
         """Say at the bottom that the end takes a moment."""

@@ -1,0 +1,28 @@
+"""One check from the command line to DDS and back, with nothing faked."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+
+from tests.report.shape import assert_report_shape
+
+PROGRAM = "import sys; from tutor.cli import main; sys.exit(main(sys.argv[1:]))"
+
+
+def test_our_solution_publishes() -> None:
+    ran = subprocess.run(
+        [sys.executable, "-c", PROGRAM, "check", "i1.1", "--solution", "--criterion", "publishes", "--format", "json"],
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+    )
+    document = json.loads(ran.stdout)
+    assert_report_shape(document)
+    assert (ran.returncode, document["verdict"]) == (0, "passed")
+    assert document["environment"]["ros_distro"] == "jazzy"
+    (exercise,) = document["exercises"]
+    assert exercise["submission"] == ["temperature_publisher.py"]
+    assert [criterion["id"] for criterion in exercise["criteria"]] == ["publishes"]
