@@ -1,0 +1,18 @@
+import rclpy
+from example_interfaces.srv import AddTwoInts
+
+
+def main():
+    rclpy.init()
+    node = rclpy.create_node('client')
+    for name in ('add', 'subtract', 'divide'):
+        client = node.create_client(AddTwoInts, name)
+        client.wait_for_service()
+        future = client.call_async(AddTwoInts.Request(a=8, b=2))
+        rclpy.spin_until_future_complete(node, future)
+        print(name, future.result().sum)
+    rclpy.shutdown()
+
+
+if __name__ == '__main__':
+    main()
