@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from tutor.process import LearnerProcess
+from tutor.process import EndError, LearnerProcess
 from tutor.process.warden import descendants, processes
 
 CHILD = "if os.fork() == 0:\n    note('child'); forever()\nnote('main'); forever()\n"
@@ -31,12 +31,14 @@ daemon()
 note('main'); forever()
 """
 FILES_CLOSED = "os.closerange(0, 100)"
-# An exec with an empty environment leaves nothing to be recognised by: not the mark, not the files, not the session.
-NAMELESS = DAEMON.format(
-    before="os.closerange(0, 100); "
-    "os.execve(sys.executable, [sys.executable, '-I', '-S', '-c', "
-    '\'import os, time; open("x", "w").write(str(os.getpid())); os.rename("x", "child"); time.sleep(1000)\'], {})'
-)
+# An exec with an empty environment takes the mark away.
+BARE = """os.execve(sys.executable, [sys.executable, '-I', '-S', '-c',
+        'import os, time; open("x", "w").write(str(os.getpid())); os.rename("x", "child"); time.sleep(1000)'], {})"""
+BARE_CHILD = f"if os.fork() == 0:\n    {BARE}\nnote('main'); forever()\n"
+BARE_CHILD_WITHOUT_FILES = BARE_CHILD.replace(BARE, f"{FILES_CLOSED}; {BARE}")
+BARE_DAEMON = DAEMON.format(before=BARE)
+# Not the environment, not the files, not the session: only its parents tell whose it is.
+NAMELESS = DAEMON.format(before=f"{FILES_CLOSED}; {BARE}")
 STOPPED = """
 if os.fork() == 0:
     note('child'); os.kill(os.getpid(), signal.SIGSTOP)
@@ -64,6 +66,9 @@ CASES = {
     "stubborn": STUBBORN,
     "daemon": DAEMON.format(before="pass"),
     "daemon with closed files": DAEMON.format(before=FILES_CLOSED),
+    "child with an empty environment": BARE_CHILD,
+    "child with nothing but its session": BARE_CHILD_WITHOUT_FILES,
+    "daemon with an empty environment": BARE_DAEMON,
     "nameless daemon": NAMELESS,
     "stopped": STOPPED,
     "deep": DEEP,
@@ -137,8 +142,10 @@ async def test_a_grandchild_that_is_left_is_seen(bench: Any) -> None:
     learner = await bench.start("""
 if os.fork() == 0:
     note('child'); forever()
-if os.fork() == 0:
-    os._exit(0)  # stays a zombie until the main process ends
+zombie = os.fork()
+if zombie == 0:
+    os._exit(0)
+os.waitid(os.P_PID, zombie, os.WEXITED | os.WNOWAIT)
 while not os.path.exists('child'): time.sleep(0.001)
 note('main')
 """)
@@ -183,17 +190,28 @@ note('main'); forever()
 
 
 async def test_a_process_that_runs_away_by_forking(bench: Any) -> None:
-    """A chain in which each process starts the next and ends: no pid lives long enough to be looked at."""
-    learner = await bench.start("""
+    """A chain in which each process starts the next and ends: none lives long enough to be looked at.
+
+    So they all hold a pipe open, and its end shows that none is left.
+    """
+    os.mkfifo(bench.folder / "pipe")
+    pipe = os.open(bench.folder / "pipe", os.O_RDONLY | os.O_NONBLOCK)
+    try:
+        learner = await bench.start("""
+held = os.open('pipe', os.O_WRONLY)
 note('main')
 while True:
     if os.fork(): os._exit(0)
     os.setsid()
 """)
-    await bench.noted_pid("main")
-    await learner.wait(20)
-    await learner.end()
-    assert bench.left() == []
+        await bench.noted_pid("main")
+        await learner.wait(20)
+        with pytest.raises(BlockingIOError):
+            os.read(pipe, 1)
+        await learner.end()
+        assert os.read(pipe, 1) == b""
+    finally:
+        os.close(pipe)
 
 
 async def test_a_keeper_that_restarts_what_is_killed(bench: Any) -> None:
@@ -293,6 +311,20 @@ async def test_the_warden_killed(bench: Any, name: str) -> None:
     assert await learner.survivors() == []
 
 
+async def test_we_and_the_warden_killed(bench: Any) -> None:
+    """Nobody is left to look after it; the kernel still ends the main process."""
+    helper = await asyncio.create_subprocess_exec(
+        *bench.helper("note('main'); forever()"), env=bench.helper_env, cwd=bench.folder
+    )
+    main = await bench.noted_pid("main")
+    warden = processes()[main].parent
+    os.kill(helper.pid, signal.SIGSTOP)
+    os.kill(warden, signal.SIGKILL)
+    helper.kill()
+    await helper.wait()
+    await bench.all_gone()
+
+
 async def test_the_warden_killed_by_the_learners_own_code(bench: Any) -> None:
     learner = await bench.start("""
 if os.fork() == 0:
@@ -328,11 +360,12 @@ async def test_the_warden_told_to_end(bench: Any) -> None:
     assert str(await learner.wait(20)) == "signal 9"
 
 
-async def test_the_warden_stopped(bench: Any) -> None:
+async def test_the_warden_stopped(bench: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("tutor.process.learner._WARDEN_LIMIT_S", 1000.0)
     learner = await bench.start(STUBBORN)
     await bench.noted_pid("child")
     os.kill(await warden_of(learner), signal.SIGSTOP)
-    await learner.end()
+    await asyncio.wait_for(learner.end(), 60)
     assert bench.left() == []
 
 
@@ -342,6 +375,20 @@ async def test_a_warden_that_never_gets_it_done(bench: Any, monkeypatch: pytest.
     await bench.noted_pid("child")
     await learner.end()
     assert bench.left() == []
+
+
+async def test_what_cannot_be_ended_is_said(bench: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Only after a while, and with names; here because our SIGKILL is withheld."""
+    monkeypatch.setattr("tutor.process.learner._SWEEP_LIMIT_S", 0.05)
+    monkeypatch.setattr("tutor.process.learner.kill", lambda found: None)
+    learner = await bench.start(DAEMON.format(before="pass"))
+    child = await bench.noted_pid("child")
+    os.kill(await warden_of(learner), signal.SIGKILL)
+    with pytest.raises(EndError, match=rf"could not be ended: {child} \(.*learner_.*\)\.$"):
+        await learner.end()
+    os.kill(child, signal.SIGKILL)
+    await bench.all_gone()
+    bench.started.clear()
 
 
 async def test_sigchld_and_blocked_signals_of_ours_do_no_harm(bench: Any) -> None:

@@ -59,6 +59,20 @@ async def test_output_is_complete_when_the_exit_is_known(bench: Any) -> None:
         assert len(texts(learner)) + learner.dropped_lines == 5001
 
 
+async def test_what_is_written_right_before_the_exit_is_there_at_the_exit(bench: Any, tmp_path: Path) -> None:
+    learner = await bench.start(
+        """
+print('first', flush=True)
+while not os.path.exists('go'): pass
+print('last', flush=True)
+os._exit(0)
+""",
+        on_change=(tmp_path / "go").touch,
+    )
+    await ended(learner)
+    assert texts(learner) == ["first", "last"]
+
+
 async def test_partial_last_line(bench: Any) -> None:
     learner = await bench.start("sys.stdout.write('whole\\nhalf'); sys.stdout.flush(); forever()")
     await bench_until(lambda: texts(learner) == ["whole", "half"])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import os
 import signal
 import socket
@@ -279,7 +280,8 @@ class LearnerProcess:
     def _take_over(self) -> None:
         """The warden does not get it done: do without it. Its end makes `_lost` sweep up the rest."""
         if self._warden is not None and not self._gone.done():
-            kill(descendants(self._warden.pid))
+            with contextlib.suppress(OSError):  # /proc cannot be read, say with no descriptor left; the sweep tries on
+                kill(descendants(self._warden.pid))
             self._warden.kill()
 
     def _lost(self) -> None:
@@ -295,13 +297,16 @@ class LearnerProcess:
         return sweep.Marks(self._run, session, frozenset(pipe.inode for pipe in self._pipes))
 
     def _sweep(self, marks: sweep.Marks, until: float, clean: int) -> None:
-        found = [p for p in sweep.find(marks) if self._warden is None or p.pid != self._warden.pid]
+        try:
+            found = [p for p in sweep.find(marks) if self._warden is None or p.pid != self._warden.pid]
+            left = ", ".join(f"{p.pid} ({sweep.command(p.pid)})" for p in found)
+        except OSError as error:
+            found, left = [], f"those there may be, since the system does not show them ({error})"
         kill(found)
-        clean = 0 if found else clean + 1
+        clean = 0 if left else clean + 1
         if clean >= 2:  # one look alone could miss a child whose parent ended during the look
             self._finish("")
         elif self._loop.time() > until:
-            left = ", ".join(f"{p.pid} ({sweep.command(p.pid)})" for p in found)
             self._finish(f"Some processes of the program could not be ended: {left}.")
         else:
             self._loop.call_later(0.005, self._sweep, marks, until, clean)

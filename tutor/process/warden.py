@@ -18,6 +18,7 @@ from __future__ import annotations
 import contextlib
 import ctypes
 import os
+import resource
 import select
 import signal
 import sys
@@ -141,8 +142,10 @@ class Warden:
         cwd, count, *rest = request
         environment = dict(entry.split(b"=", 1) for entry in rest[int(count) :])
         if self._start(rest[: int(count)], environment, cwd):
-            self._watch()
-            self._end()
+            try:
+                self._watch()
+            finally:
+                self._end()
             self._say("ended")
         return None
 
@@ -199,6 +202,8 @@ class Warden:
             for number in signal.valid_signals() - {signal.SIGKILL, signal.SIGSTOP}:
                 signal.signal(number, signal.SIG_DFL)
             signal.pthread_sigmask(signal.SIG_SETMASK, [])
+            hard = resource.getrlimit(resource.RLIMIT_CORE)[1]
+            resource.setrlimit(resource.RLIMIT_CORE, (0, hard))  # no core file among the learner's files
             os.chdir(cwd)
             os.execvpe(argv[0], argv, environment)
         except BaseException as error:
