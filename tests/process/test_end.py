@@ -361,7 +361,7 @@ async def test_the_warden_told_to_end(bench: Any) -> None:
 
 
 async def test_the_warden_stopped(bench: Any, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("tutor.process.learner._WARDEN_LIMIT_S", 1000.0)
+    monkeypatch.setattr("tutor.process.link._WARDEN_LIMIT_S", 1000.0)
     learner = await bench.start(STUBBORN)
     await bench.noted_pid("child")
     os.kill(await warden_of(learner), signal.SIGSTOP)
@@ -370,7 +370,7 @@ async def test_the_warden_stopped(bench: Any, monkeypatch: pytest.MonkeyPatch) -
 
 
 async def test_a_warden_that_never_gets_it_done(bench: Any, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("tutor.process.learner._WARDEN_LIMIT_S", 0.0)
+    monkeypatch.setattr("tutor.process.link._WARDEN_LIMIT_S", 0.0)
     learner = await bench.start(NAMELESS)
     await bench.noted_pid("child")
     await learner.end()
@@ -379,8 +379,8 @@ async def test_a_warden_that_never_gets_it_done(bench: Any, monkeypatch: pytest.
 
 async def test_what_cannot_be_ended_is_said(bench: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     """Only after a while, and with names; here because our SIGKILL is withheld."""
-    monkeypatch.setattr("tutor.process.learner._SWEEP_LIMIT_S", 0.05)
-    monkeypatch.setattr("tutor.process.learner.kill", lambda found: None)
+    monkeypatch.setattr("tutor.process.link._SWEEP_LIMIT_S", 0.05)
+    monkeypatch.setattr("tutor.process.link.kill", lambda found: None)
     learner = await bench.start(DAEMON.format(before="pass"))
     child = await bench.noted_pid("child")
     os.kill(await warden_of(learner), signal.SIGKILL)

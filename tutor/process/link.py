@@ -1,0 +1,175 @@
+"""Our side of a warden: starts it, passes requests to it, hears its reports, and makes up for it where it fails."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import os
+import signal
+import socket
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+from tutor.judge.trace import Exit
+from tutor.process import sweep
+from tutor.process.warden import Process, descendants, kill
+
+_WARDEN = Path(__file__).with_name("warden.py")
+# How long the warden may take to end everything before we step in, and how long we then may take.
+_WARDEN_LIMIT_S = 3.0
+_SWEEP_LIMIT_S = 5.0
+
+
+class WardenLink(asyncio.Protocol):
+    """The link to one warden, and through it to one process of a learner and its descendants.
+
+    `ready` is done when the process was started (result: an empty text) or cannot be (why not). `gone` is done when the
+    warden and all its charges are gone (an empty text), or could not be ended (which).
+    """
+
+    def __init__(self, run: str, pipes: frozenset[int], on_exit: Callable[[Exit], None]) -> None:
+        """`run` and `pipes` are what the processes can be known by (see `sweep.Marks`)."""
+        self.pid = 0
+        self.started_at = 0.0
+        self._loop = asyncio.get_running_loop()
+        self.ready: asyncio.Future[str] = self._loop.create_future()
+        self.gone: asyncio.Future[str] = self._loop.create_future()
+        self._run = run
+        self._pipes = pipes
+        self._on_exit = on_exit
+        self._exited = False
+        self._warden: subprocess.Popen[bytes] | None = None
+        self._control: asyncio.Transport | None = None
+        self._heard = b""
+        self._last_word = False
+        self._ending = False
+        self._step_in: asyncio.TimerHandle | None = None
+
+    async def start(self, request: bytes, stdout: int, stderr: int) -> None:
+        """Start the warden, with these descriptors for the output of its charges and its own, and hand it a request.
+
+        Raises OSError if there can be no warden.
+        """
+        ours, theirs = socket.socketpair()
+        with theirs:
+            try:
+                self._warden = subprocess.Popen(
+                    [sys.executable, "-I", "-S", str(_WARDEN), str(theirs.fileno()), str(os.getpid())],
+                    stdin=subprocess.DEVNULL,
+                    stdout=stdout,
+                    stderr=stderr,
+                    pass_fds=(theirs.fileno(),),
+                    cwd="/",
+                    # The ROS wheels would have the interpreter start twice.
+                    env={**os.environ, "_ROS_WHEELS_BOOTSTRAP_COMPLETE": "1"},
+                    start_new_session=True,
+                )
+            except OSError:
+                ours.close()
+                raise
+        try:
+            self._control, _ = await self._loop.create_unix_connection(lambda: self, sock=ours)
+        except BaseException:
+            ours.close()  # tells the warden to end
+            self.connection_lost(None)
+            raise
+        self._control.write(request)
+
+    def interrupt(self) -> None:
+        """Have SIGINT sent to the learner's process group."""
+        if self._control is not None and not self._ending and not self._control.is_closing():
+            self._control.write(b"interrupt\n")
+
+    def living(self) -> list[Process]:
+        """The living processes in the warden's charge."""
+        if self._warden is None or self.gone.done():
+            return []
+        found = [p for p in descendants(self._warden.pid) if p.alive] or sweep.find(self._marks())
+        return [p for p in found if p.pid != self._warden.pid]
+
+    def end(self) -> None:
+        """Begin to end everything; `gone` tells when that is done. May be called more than once."""
+        if self._ending or self.gone.done():
+            return
+        self._ending = True
+        if self._warden is None:
+            self.gone.set_result("")
+        elif self._control is not None and not self._control.is_closing():
+            self._warden.send_signal(signal.SIGCONT)  # should a learner's program have stopped it
+            self._control.write_eof()
+            self._step_in = self._loop.call_later(_WARDEN_LIMIT_S, self._take_over)
+
+    # --- what the warden says (called by asyncio) ---
+
+    def data_received(self, data: bytes) -> None:
+        *lines, self._heard = (self._heard + data).split(b"\n")
+        for line in lines:
+            word, _, rest = line.decode("utf-8", "replace").partition(" ")
+            self._hear(word, rest)
+
+    def connection_lost(self, error: Exception | None) -> None:
+        """After the warden's last word all is well; else its charges are orphans, to be found by their marks."""
+        if self._last_word:
+            self._finish("")
+        else:
+            self._sweep(self._marks(), self._loop.time() + _SWEEP_LIMIT_S, clean=0)
+
+    def _hear(self, word: str, rest: str) -> None:
+        if word == "started":
+            pid, epoch = rest.split()
+            self.pid, self.started_at = int(pid), float(epoch)
+            self._set_ready("")
+        elif word == "failed":
+            self._last_word = True
+            self._set_ready(rest)
+        elif word == "exit":
+            status, after_s = rest.split()
+            code = os.waitstatus_to_exitcode(int(status))
+            self._exited = True
+            self._on_exit(Exit(code if code >= 0 else None, -code if code < 0 else None, float(after_s)))
+        elif word == "ended":
+            self._last_word = True
+
+    def _set_ready(self, why_not: str) -> None:
+        if not self.ready.done():
+            self.ready.set_result(why_not)
+
+    # --- where the warden fails ---
+
+    def _take_over(self) -> None:
+        """The warden does not get it done: do without it. Its end then has the rest swept up."""
+        if self._warden is not None and not self.gone.done():
+            with contextlib.suppress(OSError):  # /proc cannot be read, say with no descriptor left; the sweep tries on
+                kill(descendants(self._warden.pid))
+            self._warden.kill()
+
+    def _marks(self) -> sweep.Marks:
+        # After the process was reaped, the number of its session may be someone else's.
+        return sweep.Marks(self._run, self.pid if self.pid and not self._exited else None, self._pipes)
+
+    def _sweep(self, marks: sweep.Marks, until: float, clean: int) -> None:
+        try:
+            found = [p for p in sweep.find(marks) if self._warden is None or p.pid != self._warden.pid]
+            left = ", ".join(f"{p.pid} ({sweep.command(p.pid)})" for p in found)
+        except OSError as error:
+            found, left = [], f"those there may be, since the system does not show them ({error})"
+        kill(found)
+        clean = 0 if left else clean + 1
+        if clean >= 2:  # one look alone could miss a child whose parent ended during the look
+            self._finish("")
+        elif self._loop.time() > until:
+            self._finish(f"Some processes of the program could not be ended: {left}.")
+        else:
+            self._loop.call_later(0.005, self._sweep, marks, until, clean)
+
+    def _finish(self, left: str) -> None:
+        if self._warden is not None and self._warden.poll() is None:
+            self._loop.call_later(0.001, self._finish, left)  # it has closed its files, so it is about to be gone
+            return
+        if self._step_in is not None:
+            self._step_in.cancel()
+        if not self.gone.done():
+            self.gone.set_result(left)
+        self._set_ready("our helper process ended at once")
