@@ -273,6 +273,15 @@ def _agreeing(probes: Iterable[RateProbe]) -> list[list[RateProbe]]:
     return [group for group in _groups(probes) if len(group) > 1 and all(probe.agrees for probe in group)]
 
 
+def _agree(group: Iterable[RateProbe]) -> int:
+    return sum(probe.agrees for probe in group)
+
+
+def _swapped(group: Iterable[RateProbe]) -> list[RateProbe]:
+    """The probes that show the period where the rate was asked for, or the other way round."""
+    return [probe for probe in group if probe.rate is not None and probe.rate.agrees(1 / probe.asked_hz)]
+
+
 def _refused_a_double(trace: Trace) -> bool:
     return any("InvalidParameterType" in line.text for line in trace.output)
 
@@ -371,7 +380,7 @@ def judge_rate(found: Rates) -> Verdict:
         return passed(expected, f"{agreed[0].name} is read in {agreed[0].unit}", [str(probe) for probe in agreed])
     if not found.probes:
         return failed(expected, "no numeric parameter is declared", _rate_not_declared())
-    nearest = max(_groups(found.probes), key=lambda group: sum(probe.agrees for probe in group))
+    nearest = max(_groups(found.probes), key=lambda group: (_agree(group), len(_swapped(group))))
     wrong = next(probe for probe in nearest if not probe.agrees)
     return failed(expected, str(wrong), _why_rate(nearest, wrong, found.declared), [str(probe) for probe in nearest])
 
@@ -391,7 +400,7 @@ def _why_rate(group: Sequence[RateProbe], wrong: RateProbe, declared: tuple[Para
     if declared is not None and wrong.name not in {parameter.name for parameter in declared}:
         return _rate_not_declared()
     measured = [(probe, probe.rate) for probe in group if probe.rate is not None]
-    if measured and all(rate.agrees(1 / probe.asked_hz) for probe, rate in measured):
+    if measured and len(_swapped(group)) == len(measured):
         if wrong.unit == "Hz":
             return Cause(
                 "rate used as a period",

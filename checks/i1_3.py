@@ -8,18 +8,24 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from tutor.judge import causes, ending
+from tutor.judge import causes, ending, tracebacks
 from tutor.judge.bench import Bench, Run
 from tutor.judge.check import Check, Criterion
 from tutor.judge.trace import CallAnswer, Ending, Exit, Level, LogRecord, Served, Service, Trace
-from tutor.judge.verdict import Cause, Verdict, failed, passed
+from tutor.judge.tracebacks import Frame
+from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped
 from tutor.judge.waiting import appears
 
 SERVER, CLIENT = "calculator_server.py", "calculator_client.py"
 TYPE = "example_interfaces/srv/AddTwoInts"
 SIGNS = {"/add": "+", "/subtract": "-", "/multiply": "×", "/divide": "÷"}
+EASY = (6, 3)
 ANSWER_S = 5.0
 CLIENT_S = 15.0
+AFTERWARDS_S = 0.5
+"""A node that gives up after a division by zero does so within this time."""
+STUCK_S = 1.5
+"""A call that was not answered once is given this long, then the node is stuck in it."""
 LOG_S = 2.0
 """What a node logs about a call may come this much later than its answer."""
 
@@ -36,10 +42,15 @@ SAYS_ERROR = re.compile(
 
 @dataclass(frozen=True)
 class Calls:
-    """What the server answered: one list of answers, in the order in which they were asked for."""
+    """What the server answered: one list of answers, in the order in which they were asked for.
+
+    `spins`: whether the node answered a parameter call before; `stuck`: where it was when a call was not answered.
+    """
 
     trace: Trace
     answers: tuple[CallAnswer, ...]
+    spins: bool = True
+    stuck: tuple[Frame, ...] = ()
     ending: Ending | None = None
 
     def of(self, service: str) -> tuple[CallAnswer, ...]:
@@ -65,30 +76,56 @@ class Demonstration:
     trace: Trace | None
     served: tuple[Served, ...] = ()
     exit: Exit | None = None
+    stuck: tuple[Frame, ...] = ()
 
 
 # --- scenarios ---------------------------------------------------------------------------------------------------------
 
 
-async def calls(bench: Bench) -> Calls:
-    """Call every service as `ros2 service call` does, then press Ctrl+C."""
+async def survey(bench: Bench) -> Calls:
+    """Call every service once as `ros2 service call` does, then press Ctrl+C."""
     async with bench.start(SERVER) as run:
         bench.doing(0.1, "waiting for the four services")
         await appears(run, lambda: not _missing(run.graph.services))
-        answers: list[CallAnswer] = []
-        present = [name for name in SIGNS if name not in _missing(run.graph.services)]
-        questions = [(name, a, b) for name in present for a, b in _operands(name)]
-        silent: set[str] = set()
-        for number, (name, a, b) in enumerate(questions):
-            if name not in silent:
-                bench.doing(0.2 + 0.7 * number / len(questions), f"calling {name}: {a} {SIGNS[name]} {b}")
-                answer = await run.call(name, TYPE, {"a": a, "b": b}, limit_s=ANSWER_S)
-                answers.append(answer)
-                if answer.response is None:
-                    silent.add(name)  # one unanswered call tells; each further one would cost the learner its limit
+        spins = await run.parameters(2.0) is not None
+        there = [name for name in SIGNS if name not in _missing(run.graph.services)]
+        bench.doing(0.4, "calling each service")
+        answers = await _ask(run, [(name, *EASY) for name in there])
         trace = run.trace()
+        bench.doing(0.8, "pressing Ctrl+C")
         ended = await run.interrupt() if run.exit is None else None
-        return Calls(trace, tuple(answers), ended)
+    unanswered = next((answer for answer in answers if answer.response is None), None)
+    stuck = await _stuck(bench, unanswered) if unanswered and trace.exit is None else ()
+    return Calls(trace, answers, spins, stuck, ended)
+
+
+async def _stuck(bench: Bench, unanswered: CallAnswer) -> tuple[Frame, ...]:
+    """Ask the same once more, only to see where the node is while it does not answer."""
+    async with bench.start(SERVER) as run:
+        bench.doing(0.9, "looking where the node is stuck")
+        await appears(run, lambda: any(service.name == unanswered.service for service in run.graph.services))
+        await run.call(unanswered.service, TYPE, unanswered.request, limit_s=STUCK_S)
+        return await run.stuck_at()
+
+
+async def calculation(bench: Bench) -> Calls:
+    """Calculate with operands by chance."""
+    async with bench.start(SERVER) as run:
+        await appears(run, lambda: not _missing(run.graph.services))
+        there = [name for name in SIGNS if name not in _missing(run.graph.services)]
+        bench.doing(0.3, "calculating with positive and negative numbers")
+        answers = await _ask(run, [(name, a, b) for name in there for a, b in _operands(name)])
+        return Calls(run.trace(), answers)
+
+
+async def _ask(run: Run, questions: Sequence[tuple[str, int, int]]) -> tuple[CallAnswer, ...]:
+    """Call one after another; stop at one without an answer, since each further one would cost the learner its limit."""
+    answers: list[CallAnswer] = []
+    for name, a, b in questions:
+        answers.append(await run.call(name, TYPE, {"a": a, "b": b}, limit_s=ANSWER_S))
+        if answers[-1].response is None:
+            break
+    return tuple(answers)
 
 
 async def division(bench: Bench) -> Division:
@@ -108,6 +145,7 @@ async def division(bench: Bench) -> Division:
         by_zero = await divide(10, 0)
         await run.until(lambda: bool(_complaints(ordinary, run.logs[len(ordinary) :])), LOG_S)
         said = tuple(run.logs[len(ordinary) :])
+        await run.until(lambda: run.exit is not None, AFTERWARDS_S)
         bench.doing(0.8, "calling /divide again: 18 ÷ 3")
         after = await divide(18, 3)
         return Division(run.trace(), before, by_zero, after, ordinary, said)
@@ -121,7 +159,8 @@ async def demonstration(bench: Bench) -> Demonstration:
     async with bench.start(CLIENT, serve=servers) as run:
         bench.doing(0.2, "running the client against our servers")
         await run.until(lambda: run.exit is not None, CLIENT_S)
-        return Demonstration(run.trace(), tuple(run.served), run.exit)
+        trace, served, ended = run.trace(), tuple(run.served), run.exit
+        return Demonstration(trace, served, ended, await run.stuck_at() if ended is None else ())
 
 
 def _operands(service: str) -> list[tuple[int, int]]:
@@ -179,14 +218,14 @@ def _shape(text: str) -> str:
 def judge_services(seen: Calls) -> Verdict:
     expected = f"/add, /subtract, /multiply and /divide with type {TYPE}, answering a call"
     missing = _missing(seen.trace.graph.services)
-    unanswered = [name for name in SIGNS if name not in missing and all(a.response is None for a in seen.of(name))]
-    if not missing and not unanswered:
-        return passed(expected, "all four answer")
-    if not missing:
-        return failed(expected, f"no answer from {', '.join(unanswered)} in {ANSWER_S:g} s", _why_unanswered(seen.trace),
-                      causes.last_words(seen.trace))
-    observed = f"missing: {', '.join(missing)}"
-    return failed(expected, observed, _why_missing(seen.trace, missing), causes.last_words(seen.trace))
+    if missing:
+        cause = _why_missing(seen.trace, missing)
+        return failed(expected, f"missing: {', '.join(missing)}", cause, causes.last_words(seen.trace))
+    unanswered = next((answer for answer in seen.answers if answer.response is None), None)
+    if unanswered is not None:
+        observed = f"no answer from {unanswered.service} in {ANSWER_S:g} s"
+        return failed(expected, observed, _why_unanswered(seen), causes.last_words(seen.trace))
+    return passed(expected, "all four answer", [f"{name} = {result}" for name, result in _answered(seen.answers)])
 
 
 def _why_missing(trace: Trace, missing: Sequence[str]) -> Cause:
@@ -212,15 +251,29 @@ def _of_every_node(service: Service) -> bool:
     return service.type.startswith(("rcl_interfaces/", "type_description_interfaces/"))
 
 
-def _why_unanswered(trace: Trace) -> Cause:
-    broken = causes.of_process(trace)
+def _why_unanswered(seen: Calls) -> Cause:
+    broken = causes.of_process(seen.trace)
     if broken is not None:
         return broken
-    return causes.no_spin(trace)
+    if not seen.spins:
+        return causes.no_spin(seen.trace)
+    own = tracebacks.own(seen.stuck, seen.trace.folder)
+    where = f", at {own}" if own else ""
+    if _in_call(seen.stuck):
+        return Cause("deadlock by call()", f"the callback waits for another service's answer{where}, which cannot come: the "
+                     "executor is busy with this callback", "use call_async() and await it in an async callback")
+    return Cause("blocked executor", f"the node was up, but its callback does not come to an end{where}",
+                 "let the callback calculate, fill in the response and return it at once")
+
+
+def _in_call(stuck: Sequence[Frame]) -> bool:
+    return any(frame.function == "call" and frame.path.endswith("rclpy/client.py") for frame in stuck)
 
 
 def judge_operations(seen: Calls) -> Verdict:
     expected = "right results, negative operands included"
+    if _missing(seen.trace.graph.services):
+        return skipped("not judged, because `services` did not pass")
     for answer in seen.answers:
         a, b = answer.request["a"], answer.request["b"]
         right = _right(answer.service, a, b)
@@ -300,7 +353,7 @@ def judge_client(seen: Demonstration) -> Verdict:
     words = (*calls_made, *causes.last_words(seen.trace, 4))
     if seen.exit is None:
         return failed(expected, f"still running after {CLIENT_S:g} s; called {_listed(called)}",
-                      _why_hanging(seen.trace, called), words)
+                      _why_hanging(seen), words)
     ended = f"ended after {seen.exit.after_s:.1f} s with {seen.exit}"
     if seen.exit.code != 0:
         cause = causes.of_process(seen.trace)
@@ -315,17 +368,21 @@ def judge_client(seen: Demonstration) -> Verdict:
     return passed(expected, f"{len(seen.served)} calls, {ended}", calls_made)
 
 
-def _why_hanging(trace: Trace, called: set[str]) -> Cause:
-    if called and len(called) < len(SIGNS):
+def _why_hanging(seen: Demonstration) -> Cause:
+    assert seen.trace is not None
+    own = tracebacks.own(seen.stuck, seen.trace.folder)
+    where = f" at {own}" if own else ""
+    if _in_call(seen.stuck):
         return Cause(
             "deadlock by call()",
-            "a call was answered, but the client waits for ever: call() inside a callback, or nobody spins while it waits",
+            f"the client waits for ever{where}: call() blocks the thread that would have to take in the answer",
             "use call_async() and rclpy.spin_until_future_complete(node, future), outside of callbacks",
         )
-    if called:
-        return Cause("did not end", "all services were called, but the client goes on", "return from main() after the last answer")
-    return Cause("did not end", "the client calls nothing and does not end",
-                 "wait for the services, call each with call_async(), spin until its future is done, then return")
+    return Cause(
+        "did not end",
+        f"the client was still busy{where}" if where else "the client does not end by itself",
+        "wait for each service, call it with call_async(), spin until its future is done, and return after the last answer",
+    )
 
 
 def _listed(called: set[str]) -> str:
@@ -339,10 +396,10 @@ def judge_shutdown(seen: Calls) -> Verdict:
 CHECK = Check(
     "i1.3",
     (
-        Criterion("services", judge_services, (calls,)),
-        Criterion("operations", judge_operations, (calls,), after=("services",)),
+        Criterion("services", judge_services, (survey,)),
+        Criterion("operations", judge_operations, (calculation,)),
         Criterion("divide-by-zero", judge_division, (division,), after=("services",)),
         Criterion("client", judge_client, (demonstration,)),
-        Criterion("shutdown", judge_shutdown, (calls,), bonus=True),
+        Criterion("shutdown", judge_shutdown, (survey,), bonus=True),
     ),
 )

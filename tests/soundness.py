@@ -59,7 +59,7 @@ def cases(wanted: Sequence[str] = ()) -> list[Case]:
         Case(path.parts[-4].replace("_", "."), path.parts[-3], path.parent, yaml.safe_load(path.read_text()))
         for path in sorted(ROOT.glob("*/*/*/expect.yaml"))
     ]
-    return [case for case in found if not wanted or any(f"{case}/".startswith(f"{each.strip('/')}/") for each in wanted)]
+    return [case for case in found if not wanted or any(str(case).startswith(each) for each in wanted)]
 
 
 async def judge(case: Case) -> Outcome:

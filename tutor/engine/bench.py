@@ -53,14 +53,17 @@ class LiveBench:
                     observer.serve(service, type_name, handler, _recorder(facts, service))
                 async with await LearnerProcess.start(
                     [str(self.ros.python), str(path), *ros_arguments(parameters or {})],
-                    env=learner_env(
-                        self.ros,
-                        domain_id=domain_id,
-                        log_dir=Path(log_dir),
-                        package_root=package_root(path),
-                        isolated=True,
-                        environ=os.environ,
-                    ),
+                    env={
+                        **learner_env(
+                            self.ros,
+                            domain_id=domain_id,
+                            log_dir=Path(log_dir),
+                            package_root=package_root(path),
+                            isolated=True,
+                            environ=os.environ,
+                        ),
+                        "PYTHONFAULTHANDLER": "1",  # see LiveRun.stuck_at
+                    },
                     cwd=path.parent,
                     on_change=facts.change,
                 ) as process:

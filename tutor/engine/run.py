@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
+import linecache
 import math
+import os
+import signal
 import time
 from collections.abc import Callable, Coroutine, Mapping, Sequence
 from dataclasses import replace
@@ -12,6 +16,7 @@ from typing import Any, TypeVar
 
 from tutor.engine.errors import EngineError
 from tutor.engine.source import uncalled_main
+from tutor.judge import tracebacks
 from tutor.judge.trace import (
     CallAnswer,
     Echo,
@@ -26,6 +31,7 @@ from tutor.judge.trace import (
     SetAnswer,
     Trace,
 )
+from tutor.judge.tracebacks import Frame
 from tutor.process import LearnerProcess
 from tutor.ros import echo, graph, parameters
 from tutor.ros.messages import to_plain
@@ -168,6 +174,17 @@ class LiveRun:
         ended = await self._process.wait(limit_s)
         took = time.time() - pressed
         return Ending(ended, took, limit_s, tuple(line for line in self.output if line.at >= pressed))
+
+    async def stuck_at(self) -> tuple[Frame, ...]:
+        if self.exit is not None:
+            return ()
+        asked = time.time()
+        # PYTHONFAULTHANDLER (set by the bench) makes a fatal signal write all threads' stacks to stderr.
+        with contextlib.suppress(ProcessLookupError):
+            os.kill(self._process.pid, signal.SIGABRT)
+        await self._process.wait(2.0)
+        frames = tracebacks.dumped(line for line in self.output if line.at >= asked)
+        return tuple(replace(frame, code=linecache.getline(frame.path, frame.line).strip()) for frame in frames)
 
     def trace(self) -> Trace:
         return Trace(

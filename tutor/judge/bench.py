@@ -10,6 +10,7 @@ from collections.abc import Awaitable, Callable, Mapping, Sequence
 from contextlib import AbstractAsyncContextManager
 from typing import Any, Protocol, TypeVar
 
+from tutor.judge.tracebacks import Frame
 from tutor.judge.trace import (
     CallAnswer,
     Echo,
@@ -86,6 +87,9 @@ class Run(Protocol):
 
     async def interrupt(self, limit_s: float = 5.0) -> Ending:
         """Press Ctrl+C (SIGINT to the process group) and watch the process end."""
+
+    async def stuck_at(self) -> tuple[Frame, ...]:
+        """Where the process was, had it not come to an end: ends it, and gives all threads' frames, innermost first."""
 
     def trace(self) -> Trace:
         """All facts so far, frozen."""

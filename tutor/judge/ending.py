@@ -28,7 +28,7 @@ def judge(trace: Trace, ending: Ending | None) -> Verdict:
             ),
             causes.last_words(trace),
         )
-    found = tracebacks.find(ending.output)
+    found = [each for each in tracebacks.find(ending.output) if not _of_rclpys_clean_up(each, trace)]
     observed = f"ended {ending.took_s:.2f} s after Ctrl+C with {ending.exit}"
     if found and not _race_in_rclpy(found[-1]):
         return failed(expected, f"{observed} and a traceback", _of_traceback(found[-1], trace), [found[-1].raised])
@@ -46,9 +46,17 @@ def judge(trace: Trace, ending: Ending | None) -> Verdict:
     )
 
 
+def _of_rclpys_clean_up(found: tracebacks.Traceback, trace: Trace) -> bool:
+    """Whether Python reports this from the clean-up of an object of rclpy's, with no line of the learner's in it (seen
+    once in 200 runs with a fast timer, rclpy 7.1.6).
+    """
+    return found.ignored and found.own(trace.folder) is None
+
+
 def _race_in_rclpy(found: tracebacks.Traceback) -> bool:
     """Whether this is rclpy's own race: `try_shutdown()` asks whether the context is up, and the signal handler's thread
-    shuts it down before the next instruction. The learner's code is right; about 1 run in 50 shows it (rclpy 7.1.6).
+    shuts it down before the next instruction. The learner's code is right. Seen in 1 of 400 runs, and more often under load
+    (rclpy 7.1.6).
     """
     return any(frame.function == "try_shutdown" for frame in found.frames) and "already called" in found.message
 

@@ -31,8 +31,12 @@ class ExerciseResult:
 
     @property
     def verdict(self) -> Status:
-        """`PASSED` if every required criterion passed; `ERROR` if one could not be judged and none failed."""
-        return overall(c.verdict.status for c in self.criteria if not c.bonus)
+        """`PASSED` if every required criterion passed; `ERROR` if one could not be judged and none failed.
+
+        Where bonus criteria alone were asked for, nothing required is missing.
+        """
+        required = [c.verdict.status for c in self.criteria if not c.bonus]
+        return overall(required) if required or not self.criteria else Status.PASSED
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,6 +11,7 @@ from tutor.judge.trace import OutputLine, Trace
 _HEADER = "Traceback (most recent call last):"
 _FRAME = re.compile(r'^\s*File "(?P<path>[^"]+)", line (?P<line>\d+)(?:, in (?P<function>.+))?$')
 _RAISED = re.compile(r"^(?P<type>[A-Za-z_][\w.]*)(?:: (?P<message>.*))?$")
+_DUMPED = re.compile(r'^  File "(?P<path>[^"]+)", line (?P<line>\d+) in (?P<function>.+)$')
 _MARKERS = re.compile(r"^\s*[~^]+\s*$")
 
 
@@ -29,11 +30,15 @@ class Frame:
 
 @dataclass(frozen=True, slots=True)
 class Traceback:
-    """One traceback: the exception's type name, its message, and its frames, outermost first."""
+    """One traceback: the exception's type name, its message, and its frames, outermost first.
+
+    `ignored`: Python reports it as "Exception ignored in", from an object's clean-up; it ends nothing.
+    """
 
     type: str
     message: str
     frames: tuple[Frame, ...]
+    ignored: bool = False
 
     @property
     def raised(self) -> str:
@@ -48,7 +53,18 @@ class Traceback:
 
 def find(output: Iterable[OutputLine]) -> tuple[Traceback, ...]:
     """All tracebacks in the output, oldest first; a syntax error of the main file, which has no header, included."""
-    return tuple(found for block in _blocks([line.text for line in output if line.stream == "stderr"]) for found in block)
+    return tuple(_tracebacks([line.text for line in output if line.stream == "stderr"]))
+
+
+def dumped(output: Iterable[OutputLine]) -> tuple[Frame, ...]:
+    """The frames of a stack dump as faulthandler writes it on a fatal signal: all threads, innermost frame first."""
+    found = (_DUMPED.match(line.text) for line in output if line.stream == "stderr")
+    return tuple(Frame(m["path"], int(m["line"]), m["function"], "") for m in found if m)
+
+
+def own(frames: Iterable[Frame], folder: str) -> Frame | None:
+    """The first of the frames that is in the learner's own code."""
+    return next((frame for frame in frames if _within(frame.path, folder)), None)
 
 
 def last(trace: Trace) -> Traceback | None:
@@ -73,19 +89,21 @@ def without(output: Sequence[OutputLine]) -> tuple[str, ...]:
     return tuple(kept)
 
 
-def _blocks(lines: Sequence[str]) -> Iterable[tuple[Traceback, ...]]:
+def _tracebacks(lines: Sequence[str]) -> Iterable[Traceback]:
     frames: list[Frame] = []
+    ignored = False
     for number, text in enumerate(lines):
         frame = _FRAME.match(text)
         if text.strip() == _HEADER:
             frames = []
+            ignored = number > 0 and lines[number - 1].startswith("Exception ignored")
         elif frame:
             code = lines[number + 1].strip() if number + 1 < len(lines) else ""
             frames.append(Frame(frame["path"], int(frame["line"]), frame["function"] or "", code))
         elif frames and text and not text[0].isspace() and not _MARKERS.match(text):
             raised = _RAISED.match(text)
             if raised:
-                yield (Traceback(raised["type"], raised["message"] or "", tuple(frames)),)
+                yield Traceback(raised["type"], raised["message"] or "", tuple(frames), ignored)
             frames = []
 
 

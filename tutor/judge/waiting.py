@@ -16,25 +16,35 @@ SETTLE_S = 5.0
 RARE_S = 12.0
 """A publisher that exists may wait this long between messages."""
 
+AGAIN_S = 3.5
+"""A second listen is at least this long, so that a rate of 1 Hz, too, can be told for what it is."""
 
-async def appears(run: Run, seen: Callable[[], bool], *, promised: Callable[[], bool] = lambda: False) -> bool:
+IN_FLIGHT_S = 0.1
+"""A message takes less than this from its source to us."""
+
+
+async def appears(
+    run: Run, seen: Callable[[], bool], *, promised: Callable[[], bool] = lambda: False, rare_s: float = RARE_S
+) -> bool:
     """Wait until `seen()`; give up when the process ends, never makes a node, or its node does nothing of the kind.
 
-    `promised()`: something announces that it will come, such as a publisher on the topic; then the wait is longer.
+    `promised()`: something announces that it will come, such as a publisher on the topic; then `rare_s` more seconds are
+    waited for it.
     """
     if await run.until(lambda: seen() or bool(run.graph.nodes), START_S) and not seen():
         await run.until(lambda: seen() or promised(), SETTLE_S)
         if promised() and not seen():
-            await run.until(seen, RARE_S)
+            await run.until(seen, rare_s)
     return seen()
 
 
-async def first_message(run: Run, topic: str, type_name: str) -> bool:
+async def first_message(run: Run, topic: str, type_name: str, *, rare_s: float = RARE_S) -> bool:
     """Wait for a message of this type on this (watched) topic."""
     return await appears(
         run,
         lambda: bool(run.on(topic)),
         promised=lambda: any(p.topic == topic and p.type == type_name for p in run.graph.publishers),
+        rare_s=rare_s,
     )
 
 
@@ -46,17 +56,17 @@ def window_s(hz: float) -> float:
 async def steady_rate(run: Run, topic: str, asked_hz: float, *, since: float) -> tuple[Rate | None, int]:
     """The rate on `topic` from source time `since` on, and the number of messages it is taken from.
 
-    Listens for as long as `asked_hz` needs; where what it hears does not agree, for as long again, and judges by that second
-    stretch alone: a hiccup at the start of it is the machine's, a rate that stays wrong is the learner's.
+    Listens for as long as `asked_hz` needs. Where what it hears does not agree, it listens once more, and longer, and
+    judges by that second stretch alone: a hiccup in the first is the machine's, a rate that stays wrong is the learner's.
     """
-    window = window_s(asked_hz)
-    start = max(since, run.now())
-    for _ in range(2):
-        end = start + window + 0.5 / asked_hz
-        await run.until(lambda end=end: run.now() >= end + 0.1, window * 2 + 2)  # type: ignore[misc]
-        heard = [sample for sample in run.on(topic) if start <= sample.source_time <= end]
-        rate = measure(heard)
-        if rate is not None and rate.agrees(asked_hz):
-            break
-        start = end
-    return rate, len(heard)
+    rate, messages = await _listen(run, topic, max(since, run.now()), window_s(asked_hz) + 0.5 / asked_hz)
+    if rate is None or not rate.agrees(asked_hz):
+        rate, messages = await _listen(run, topic, run.now(), max(window_s(asked_hz), AGAIN_S))
+    return rate, messages
+
+
+async def _listen(run: Run, topic: str, start: float, for_s: float) -> tuple[Rate | None, int]:
+    end = start + for_s
+    await run.until(lambda: run.now() >= end + IN_FLIGHT_S, for_s + 2)
+    heard = [sample for sample in run.on(topic) if start <= sample.source_time <= end]
+    return measure(heard), len(heard)
