@@ -117,10 +117,11 @@ def compare(case: Case, result: ExerciseResult) -> Outcome:
             if status is Status.PASSED:
                 outcome.wrong.append(f"should not pass: {told}")
                 outcome.false_pass = True
-        elif criterion.id not in any_of | either and status is not Status.PASSED:
-            if status is Status.FAILED or not some_failed:
-                outcome.wrong.append(f"should pass: {told}")
-                outcome.false_failure = True
+        elif criterion.id not in any_of | either and (
+            status is Status.FAILED or (status is Status.SKIPPED and not some_failed)
+        ):
+            outcome.wrong.append(f"should pass: {told}")
+            outcome.false_failure = True
     if any_of and not any(c.id in any_of and c.verdict.status is Status.FAILED for c in result.criteria):
         outcome.wrong.append(f"one of {', '.join(sorted(any_of))} should fail")
         outcome.false_pass = True
@@ -166,7 +167,10 @@ async def judge_all(chosen: Iterable[Case], jobs: int) -> list[Outcome]:
 
 def table(outcomes: Sequence[Outcome]) -> str:
     """One line for each exercise and kind."""
-    lines = [f"{'exercise':<10}{'kind':<8}{'submissions':>12}{'runs':>6}{'as expected':>13}{'false passes':>14}{'false failures':>16}"]
+    lines = [
+        f"{'exercise':<10}{'kind':<8}{'submissions':>12}{'runs':>6}{'as expected':>13}"
+        f"{'false passes':>14}{'false failures':>16}"
+    ]
     for exercise, kind in sorted({(o.case.exercise, o.case.kind) for o in outcomes}):
         mine = [o for o in outcomes if (o.case.exercise, o.case.kind) == (exercise, kind)]
         count = Counter(

@@ -1,4 +1,4 @@
-"""The live bench: starts the submission's files on domains of their own, watched from before their first instruction."""
+"""The live bench: starts the submission's files on domains of their own, watched from the first moment."""
 
 from __future__ import annotations
 

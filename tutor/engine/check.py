@@ -33,10 +33,9 @@ async def check(
     ros = detect()
     try:
         use_in_this_process(ros, isolated=True)
-        import rclpy  # noqa: F401  (before the first scenario, so that none of them waits for it)
+        from tutor.engine.runner import Runner  # brings in rclpy, which must find its environment chosen
     except (ImportError, RuntimeError) as error:
         raise EngineError(f"ROS 2 cannot be used here: {error}") from error
-    from tutor.engine.runner import Runner
 
     async def one(submission: Submission) -> ExerciseResult:
         lesson = course.find(submission.exercise)

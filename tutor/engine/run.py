@@ -128,10 +128,8 @@ class LiveRun:
                 ended_at = now
             if now >= deadline or (ended_at is not None and now - ended_at >= IN_FLIGHT_S):
                 return False
-            try:
+            with contextlib.suppress(TimeoutError):
                 await asyncio.wait_for(self._facts.changed.wait(), min(LOOK_EVERY_S, deadline - now))
-            except TimeoutError:
-                pass
 
     async def parameters(self, limit_s: float) -> tuple[Parameter, ...] | None:
         nodes = [

@@ -12,6 +12,8 @@ def uncalled_main(path: Path) -> bool:
         tree = ast.parse(path.read_bytes())
     except (OSError, SyntaxError, ValueError):
         return False
-    defined = any(isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef) and node.name == "main" for node in tree.body)
+    defined = any(
+        isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef) and node.name == "main" for node in tree.body
+    )
     named = any(isinstance(node, ast.Name) and node.id == "main" for node in ast.walk(tree))
     return defined and not named

@@ -10,7 +10,6 @@ from collections.abc import Awaitable, Callable, Mapping, Sequence
 from contextlib import AbstractAsyncContextManager
 from typing import Any, Protocol, TypeVar
 
-from tutor.judge.tracebacks import Frame
 from tutor.judge.trace import (
     CallAnswer,
     Echo,
@@ -25,6 +24,7 @@ from tutor.judge.trace import (
     SetAnswer,
     Trace,
 )
+from tutor.judge.tracebacks import Frame
 
 T = TypeVar("T")
 
@@ -83,7 +83,7 @@ class Run(Protocol):
         """Call a service as `ros2 service call` does: a client of its own, once it is matched."""
 
     async def echo(self, topic: str, *, samples: int, limit_s: float) -> Echo:
-        """Subscribe as `ros2 topic echo` does: an independent participant with type and QoS taken from the publishers."""
+        """Subscribe as `ros2 topic echo` does: an independent participant, type and QoS taken from the publishers."""
 
     async def interrupt(self, limit_s: float = 5.0) -> Ending:
         """Press Ctrl+C (SIGINT to the process group) and watch the process end."""

@@ -35,7 +35,9 @@ def of_traceback(found: tracebacks.Traceback, trace: Trace) -> Cause:
     own = found.own(trace.folder)
     where = f" ({own})" if own else ""
     if found.type in ("SyntaxError", "IndentationError", "TabError"):
-        return Cause("syntax error", f"{found.raised}{where}", "mend this line (or the one before it), then check again")
+        return Cause(
+            "syntax error", f"{found.raised}{where}", "mend this line (or the one before it), then check again"
+        )
     if found.type in ("ImportError", "ModuleNotFoundError"):
         return Cause(
             "import error", f"{found.raised}{where}", "check the spelling of the module and of the name that you import"
@@ -123,7 +125,9 @@ def wrong_topic(endpoints: Iterable[Endpoint], topic: str) -> Cause:
     names = sorted({endpoint.topic for endpoint in endpoints})
     name = min(names, key=lambda each: -difflib.SequenceMatcher(None, each, topic).ratio())
     if name.endswith(topic):
-        slip = "it has a namespace or the node's name in front: a name that begins with ~ or has no / in front is relative"
+        slip = (
+            "it has a namespace or the node's name in front: a name that begins with ~ or has no / in front is relative"
+        )
     elif name.strip("/") == topic.strip("/").replace("/", "_") or name.replace("/", "") == topic.replace("/", ""):
         slip = "the slash between its parts is missing"
     elif topic.endswith(name):

@@ -39,5 +39,7 @@ class Check:
         seen: set[str] = set()
         for criterion in self.criteria:
             if criterion.id in seen or not seen.issuperset(criterion.after):
-                raise ValueError(f"{self.exercise} {criterion.id}: repeated, or after a criterion that is not before it")
+                raise ValueError(
+                    f"{self.exercise} {criterion.id}: repeated, or after a criterion that is not before it"
+                )
             seen.add(criterion.id)

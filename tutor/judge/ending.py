@@ -24,7 +24,7 @@ def judge(trace: Trace, ending: Ending | None) -> Verdict:
             Cause(
                 "SIGINT ignored",
                 "the process goes on after Ctrl+C",
-                "let KeyboardInterrupt end the program: no bare `except:` around spin, no loop that never looks at rclpy.ok()",
+                "let KeyboardInterrupt end the program: no bare `except:` around spin, no loop without rclpy.ok()",
             ),
             causes.last_words(trace),
         )
@@ -47,16 +47,18 @@ def judge(trace: Trace, ending: Ending | None) -> Verdict:
 
 
 def _of_rclpys_clean_up(found: tracebacks.Traceback, trace: Trace) -> bool:
-    """Whether Python reports this from the clean-up of an object of rclpy's, with no line of the learner's in it (seen
-    once in 200 runs with a fast timer, rclpy 7.1.6).
+    """Whether Python reports this from the clean-up of an object of rclpy's, with no line of the learner's in it.
+
+    Seen once in 200 runs with a fast timer (rclpy 7.1.6).
     """
     return found.ignored and found.own(trace.folder) is None
 
 
 def _race_in_rclpy(found: tracebacks.Traceback) -> bool:
-    """Whether this is rclpy's own race: `try_shutdown()` asks whether the context is up, and the signal handler's thread
-    shuts it down before the next instruction. The learner's code is right. Seen in 1 of 400 runs, and more often under load
-    (rclpy 7.1.6).
+    """Whether this is rclpy's own race, where the learner's code is right.
+
+    `try_shutdown()` asks whether the context is up, and the signal handler's thread shuts it down before the next
+    instruction. Seen in 1 of 400 runs, more often with many starts at once (rclpy 7.1.6).
     """
     return any(frame.function == "try_shutdown" for frame in found.frames) and "already called" in found.message
 

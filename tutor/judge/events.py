@@ -74,7 +74,8 @@ def decode(line: str) -> Event:
     try:
         fields = json.loads(line)
         kind = _KINDS[fields.pop("event")]
-        return _BUILD[kind](fields)
+        event: Event = _BUILD[kind](fields)
+        return event
     except (KeyError, TypeError, AttributeError, json.JSONDecodeError) as error:
         raise ValueError(f"not an event: {line[:200]!r}") from error
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 SURE = 1e-4
 """A pattern counts when random values would show it by chance less often than this."""
@@ -57,7 +58,7 @@ def _cycle(values: Sequence[float]) -> Pattern | None:
 
 
 def _ramp(values: Sequence[float]) -> Pattern | None:
-    steps = [round(b - a, 9) for a, b in zip(values, values[1:], strict=False)]
+    steps = [round(b - a, 9) for a, b in pairwise(values)]
     step, times = Counter(step for step in steps if step != 0).most_common(1)[0]
     # Any other step must be a jump back to the start, else a random walk in equal steps would be taken for a ramp.
     others = [other for other in steps if other != step]
@@ -71,12 +72,14 @@ def _ramp(values: Sequence[float]) -> Pattern | None:
 
 def _curve(values: Sequence[float]) -> Pattern | None:
     if len(values) >= 10 and _unexplained(values) < 5e-4:
-        return Pattern("not random", "the values follow a smooth curve, such as a sine: each follows from the two before it")
+        return Pattern(
+            "not random", "the values follow a smooth curve, such as a sine: each follows from the two before it"
+        )
     return None
 
 
 def _monotone(values: Sequence[float]) -> bool:
-    pairs = list(zip(values, values[1:], strict=False))
+    pairs = list(pairwise(values))
     return all(a < b for a, b in pairs) or all(a > b for a, b in pairs)
 
 

@@ -66,8 +66,8 @@ class Report:
 def overall(statuses: Iterable[Status]) -> Status:
     """Fold statuses into one of `PASSED`, `FAILED`, `ERROR`.
 
-    A failure outweighs a fault, since it is a finding; a skipped required criterion is a failure unless a fault explains
-    it. Nothing judged at all is a fault: there is no verdict to give.
+    A failure outweighs a fault, since it is a finding; a skipped required criterion is a failure unless a fault
+    explains it. Nothing judged at all is a fault: there is no verdict to give.
     """
     seen = set(statuses)
     if Status.FAILED in seen:

@@ -49,7 +49,7 @@ class LogRecord:
 
 @dataclass(frozen=True, slots=True)
 class Endpoint:
-    """A publisher or subscription in the graph. `node` is the full node name; QoS values are the policies' short names."""
+    """A publisher or subscription in the graph. `node` is the full name; QoS values are the policies' short names."""
 
     topic: str
     type: str
@@ -113,7 +113,7 @@ class Ending:
 
 @dataclass(frozen=True, slots=True)
 class Parameter:
-    """One parameter of a node. `type` is a name as `ros2 param describe` gives it ("double", "integer", "string", ...)."""
+    """One parameter of a node. `type` is named as `ros2 param describe` does ("double", "integer", "string", ...)."""
 
     node: str
     name: str
@@ -179,8 +179,8 @@ class Echo:
 class Trace:
     """Everything that was seen of one start of the learner's process.
 
-    `folder` is where the learner's file lies. `output` is bounded: `dropped_lines` says how many lines in its middle were
-    not kept. `uncalled_main`: the file defines `main` and calls it nowhere (a hint for a diagnosis, never a verdict).
+    `folder` is where the learner's file lies. `output` is bounded: `dropped_lines` says how many lines in its middle
+    were not kept. `uncalled_main`: the file defines `main` and calls it nowhere (a hint for a diagnosis, never a verdict).
     """
 
     file: str

@@ -23,8 +23,8 @@ class Status(Enum):
 class Cause:
     """A likely reason for a failure.
 
-    `name` is the short, stable name that a learner can look up ("no spin"), `text` says what that means here, `hint` the
-    next step to take.
+    `name` is the short, stable name that a learner can look up ("no spin"), `text` says what that means here, `hint`
+    the next step to take.
     """
 
     name: str

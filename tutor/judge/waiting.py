@@ -28,8 +28,8 @@ async def appears(
 ) -> bool:
     """Wait until `seen()`; give up when the process ends, never makes a node, or its node does nothing of the kind.
 
-    `promised()`: something announces that it will come, such as a publisher on the topic; then `rare_s` more seconds are
-    waited for it.
+    `promised()`: something announces that it will come, such as a publisher on the topic; then `rare_s` more seconds
+    are waited for it.
     """
     if await run.until(lambda: seen() or bool(run.graph.nodes), START_S) and not seen():
         await run.until(lambda: seen() or promised(), SETTLE_S)
@@ -57,7 +57,7 @@ async def steady_rate(run: Run, topic: str, asked_hz: float, *, since: float) ->
     """The rate on `topic` from source time `since` on, and the number of messages it is taken from.
 
     Listens for as long as `asked_hz` needs. Where what it hears does not agree, it listens once more, and longer, and
-    judges by that second stretch alone: a hiccup in the first is the machine's, a rate that stays wrong is the learner's.
+    judges by that second stretch alone: a hiccup in the first is the machine's, a rate that stays wrong the learner's.
     """
     rate, messages = await _listen(run, topic, max(since, run.now()), window_s(asked_hz) + 0.5 / asked_hz)
     if rate is None or not rate.agrees(asked_hz):

@@ -1,4 +1,4 @@
-"""What `ros2 topic echo` would show: type and QoS are taken from the publishers, as ros2cli does (ros2topic, verb echo)."""
+"""What `ros2 topic echo` would show: type and QoS taken from the publishers (as in ros2cli, ros2topic, verb echo)."""
 
 from __future__ import annotations
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import array
 import importlib
 from collections.abc import Mapping
-from functools import lru_cache
+from functools import cache
 from typing import Any
 
 
@@ -13,7 +13,7 @@ class UnknownType(LookupError):
     """A type name that this ROS does not have."""
 
 
-@lru_cache(maxsize=None)
+@cache
 def interface(name: str) -> Any:
     """The class of a message or service type, from a name such as `std_msgs/msg/Float64`.
 
@@ -33,7 +33,7 @@ def to_plain(message: Any) -> dict[str, Any]:
 
 
 def fill(message: Any, values: Mapping[str, Any]) -> Any:
-    """Set the fields of `message` (numbers, strings, bools) and return it. Raises AttributeError for an unknown field."""
+    """Set the fields of `message` and return it. Raises AttributeError for an unknown field."""
     for name, value in values.items():
         setattr(message, name, value)
     return message

@@ -40,8 +40,8 @@ class ObserverError(RuntimeError):
 class Observer:
     """A participant of ours. Every method is called on the event loop's thread; facts arrive there too.
 
-    `on_change` is called (on that thread) after each new fact. Messages and answers are taken in the executor's thread and
-    handed over with `call_soon_threadsafe`.
+    `on_change` is called (on that thread) after each new fact. Messages and answers are taken in the executor's thread
+    and handed over with `call_soon_threadsafe`.
     """
 
     def __init__(self, domain_id: int, on_change: Callable[[], None] = lambda: None) -> None:
@@ -54,9 +54,7 @@ class Observer:
         self._servers: list[ServiceServer] = []
         self._closed = False
         self._context = Context()
-        rclpy.init(
-            args=[], context=self._context, domain_id=domain_id, signal_handler_options=SignalHandlerOptions.NO
-        )
+        rclpy.init(args=[], context=self._context, domain_id=domain_id, signal_handler_options=SignalHandlerOptions.NO)
         self.node: Node = rclpy.create_node(
             f"{OUR_PREFIX}_{next(_number)}",
             context=self._context,
@@ -98,11 +96,9 @@ class Observer:
         Raises UnknownType.
         """
         self.samples[topic] = []
-        qos = QoSProfile(
-            history=HistoryPolicy.KEEP_LAST, depth=DEEP, reliability=reliability, durability=durability
-        )
+        qos = QoSProfile(history=HistoryPolicy.KEEP_LAST, depth=DEEP, reliability=reliability, durability=durability)
 
-        def take(message: Any, info: Mapping[str, int]) -> None:
+        def take(message: Any, info: Any) -> None:
             source = info["source_timestamp"] * 1e-9
             self._hand_over(self._sample, Sample(topic, to_plain(message), source, time.time()))
             taken.append(None)
@@ -110,7 +106,9 @@ class Observer:
                 self.node.destroy_subscription(subscription)
 
         taken: list[None] = []
-        subscription = self.node.create_subscription(interface(type_name), topic, take, qos)
+        # rclpy gives the message's info to a callback that takes two arguments; its annotations know one only.
+        callback: Any = take
+        subscription = self.node.create_subscription(interface(type_name), topic, callback, qos)
 
     def serve(
         self,

@@ -49,7 +49,9 @@ async def set_values(
     observer: Observer, node: str, values: Mapping[str, Any], *, atomic: bool, limit_s: float
 ) -> SetAnswer:
     """Set parameters of one node in one request. Python floats are doubles, ints integers, as on the command line."""
-    verb, kind = ("set_parameters_atomically", "SetParametersAtomically") if atomic else ("set_parameters", "SetParameters")
+    verb, kind = (
+        ("set_parameters_atomically", "SetParametersAtomically") if atomic else ("set_parameters", "SetParameters")
+    )
     wanted = [_message(name, value) for name, value in values.items()]
     asked = time.time()
     answer = await observer.call(f"{node}/{verb}", f"rcl_interfaces/srv/{kind}", {"parameters": wanted}, limit_s)
@@ -67,9 +69,7 @@ async def set_values(
 
 
 async def _ask_one(observer: Observer, node: str, limit_s: float) -> tuple[Parameter, ...] | None:
-    listed = await observer.call(
-        f"{node}/list_parameters", "rcl_interfaces/srv/ListParameters", {}, limit_s
-    )
+    listed = await observer.call(f"{node}/list_parameters", "rcl_interfaces/srv/ListParameters", {}, limit_s)
     if listed is None:
         return None
     names = list(listed.result.names)
@@ -77,7 +77,9 @@ async def _ask_one(observer: Observer, node: str, limit_s: float) -> tuple[Param
         return ()
     values, described = await asyncio.gather(
         observer.call(f"{node}/get_parameters", "rcl_interfaces/srv/GetParameters", {"names": names}, limit_s),
-        observer.call(f"{node}/describe_parameters", "rcl_interfaces/srv/DescribeParameters", {"names": names}, limit_s),
+        observer.call(
+            f"{node}/describe_parameters", "rcl_interfaces/srv/DescribeParameters", {"names": names}, limit_s
+        ),
     )
     if described is None:
         return None

@@ -1,0 +1,19 @@
+"""I1.1 Sensor Publisher: random temperatures on /sensor/temperature, at a configurable rate, logged under a name."""
+
+from __future__ import annotations
+
+from checks.i1_1 import judges, scenarios
+from tutor.judge.check import Check, Criterion
+
+CHECK = Check(
+    "i1.1",
+    (
+        Criterion("publishes", judges.judge_publishes, (scenarios.survey,)),
+        Criterion("range", judges.judge_range, (scenarios.values,), after=("publishes",)),
+        Criterion("random", judges.judge_random, (scenarios.values,), after=("publishes",)),
+        Criterion("echo", judges.judge_echo, (scenarios.survey,), after=("publishes",)),
+        Criterion("rate", judges.judge_rate, (scenarios.rates,), after=("publishes",)),
+        Criterion("sensor-name", judges.judge_name, (scenarios.names,)),
+        Criterion("shutdown", judges.judge_shutdown, (scenarios.survey,), bonus=True),
+    ),
+)

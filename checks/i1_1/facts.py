@@ -1,0 +1,144 @@
+"""I1.1: what is asked of the node, and the facts that are gathered."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+
+from tutor.judge.rates import Rate, describe
+from tutor.judge.trace import Echo, Ending, Parameter, Trace
+
+FILE = "temperature_publisher.py"
+TOPIC = "/sensor/temperature"
+TYPE = "std_msgs/msg/Float64"
+LOWEST, HIGHEST = 20.0, 30.0
+
+LISTEN_S = 14.0
+"""Values are collected for at most this long after the first one."""
+
+SUGGESTED_RATE, SUGGESTED_NAME = "publish_rate", "sensor_name"
+"""The names that are tried where the node never answers a parameter call."""
+
+UNITS: dict[str, Callable[[float], float]] = {
+    "Hz": lambda value: value,
+    "s": lambda value: 1 / value,
+    "ms": lambda value: 1000 / value,
+}
+"""How a numeric parameter may be read: from its value to the rate in Hz that it asks for."""
+
+VALUES = {"Hz": (2.0, 8.0, 0.5), "s": (0.5, 0.125, 2.0), "ms": (500.0, 125.0, 2000.0)}
+SPARE_VALUES = {"Hz": (5.0, 1.0, 3.0, 10.0), "s": (1.0, 0.2, 0.4), "ms": (200.0, 1000.0, 400.0)}
+"""Tried instead where the parameter's type or range does not allow the first ones."""
+
+
+@dataclass(frozen=True)
+class Survey:
+    """A plain start. `echo` is None where nothing came to echo; `ending` where the process had ended by itself."""
+
+    trace: Trace
+    parameters: tuple[Parameter, ...] | None
+    echo: Echo | None
+    ending: Ending | None
+
+
+@dataclass(frozen=True)
+class Values:
+    """The values of each of several starts without parameters."""
+
+    runs: tuple[tuple[float, ...], ...]
+
+
+@dataclass(frozen=True)
+class RateProbe:
+    """A start with one parameter set: the rate that its `value`, read in `unit`, asks for, and what was measured."""
+
+    name: str
+    unit: str
+    value: float
+    rate: Rate | None
+    messages: int
+    trace: Trace
+
+    @property
+    def asked_hz(self) -> float:
+        return UNITS[self.unit](self.value)
+
+    @property
+    def agrees(self) -> bool:
+        return self.rate is not None and self.rate.agrees(self.asked_hz)
+
+    def __str__(self) -> str:
+        return (
+            f"{self.name}:={self.value:g} asks for {self.asked_hz:g} Hz, measured {describe(self.rate, self.messages)}"
+        )
+
+
+@dataclass(frozen=True)
+class Rates:
+    """All starts that tried a rate. `declared` is None where the node answered no parameter call."""
+
+    declared: tuple[Parameter, ...] | None
+    probes: tuple[RateProbe, ...]
+
+
+@dataclass(frozen=True)
+class NameProbe:
+    """A start with one string parameter set to `value`; `found` is the log message that bears it, or empty."""
+
+    name: str
+    value: str
+    found: str
+    trace: Trace
+
+
+@dataclass(frozen=True)
+class Names:
+    """All starts that tried a name. `declared` is None where the node answered no parameter call."""
+
+    declared: tuple[Parameter, ...] | None
+    probes: tuple[NameProbe, ...]
+
+
+def units(name: str) -> tuple[str, ...]:
+    """What a parameter's name says of its unit; all of them where it says nothing, or two things."""
+    lower = name.casefold()
+    as_rate = any(word in lower for word in ("rate", "hz", "freq"))
+    as_period = any(word in lower for word in ("period", "interval"))
+    if as_rate and not as_period:
+        return ("Hz",)
+    if as_period and not as_rate:
+        return ("s", "ms")
+    return ("Hz", "s", "ms")
+
+
+def numeric_of(declared: Iterable[Parameter]) -> list[Parameter]:
+    """The numeric parameters that the learner declared; rclpy declares some of its own for QoS."""
+    return [p for p in declared if p.type in ("integer", "double") and not p.name.startswith("qos_overrides")]
+
+
+def key(probe: RateProbe) -> tuple[str, str]:
+    """Which parameter this is about, and how it is read."""
+    return probe.name, probe.unit
+
+
+def groups(probes: Iterable[RateProbe]) -> list[list[RateProbe]]:
+    """The probes of each parameter and unit."""
+    groups: dict[tuple[str, str], list[RateProbe]] = {}
+    for probe in probes:
+        groups.setdefault(key(probe), []).append(probe)
+    return list(groups.values())
+
+
+def agreeing(probes: Iterable[RateProbe]) -> list[list[RateProbe]]:
+    """The groups of which every probe agrees, two different rates at least: one may be right by chance."""
+    return [group for group in groups(probes) if len(group) > 1 and all(probe.agrees for probe in group)]
+
+
+def agree(group: Iterable[RateProbe]) -> int:
+    """How many of the probes agree."""
+    return sum(probe.agrees for probe in group)
+
+
+def swapped(group: Iterable[RateProbe]) -> list[RateProbe]:
+    """The probes that show the period where the rate was asked for, or the other way round."""
+    return [probe for probe in group if probe.rate is not None and probe.rate.agrees(1 / probe.asked_hz)]

@@ -1,0 +1,224 @@
+"""I1.1: what must have been seen."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from checks.i1_1.facts import (
+    HIGHEST,
+    LISTEN_S,
+    LOWEST,
+    SUGGESTED_NAME,
+    SUGGESTED_RATE,
+    TOPIC,
+    TYPE,
+    Names,
+    RateProbe,
+    Rates,
+    Survey,
+    Values,
+    agree,
+    agreeing,
+    groups,
+    swapped,
+)
+from tutor.judge import causes, ending, randomness
+from tutor.judge.rates import TOLERANCE
+from tutor.judge.trace import Parameter
+from tutor.judge.verdict import Cause, Verdict, failed, passed
+
+
+def judge_publishes(seen: Survey) -> Verdict:
+    expected = f"{TYPE} messages on {TOPIC}"
+    samples = seen.trace.on(TOPIC)
+    if samples:
+        return passed(
+            expected,
+            f"{len(samples)} messages, the first {samples[0].received_at - seen.trace.started_at:.2f} s "
+            f"after the start",
+            [f"data: {samples[0].message['data']}"],
+        )
+    answers = seen.parameters is not None
+    cause = causes.of_silence(seen.trace, TOPIC, TYPE, answers=answers)
+    return failed(expected, "no such message", cause, causes.last_words(seen.trace))
+
+
+def judge_range(found: Values) -> Verdict:
+    expected = f"every value in [{LOWEST}, {HIGHEST}] °C"
+    all_values = [value for run in found.runs for value in run]
+    outside = [value for value in all_values if not LOWEST <= value <= HIGHEST]
+    if not outside:
+        return passed(expected, f"{len(all_values)} values from {min(all_values):.2f} to {max(all_values):.2f} °C")
+    return failed(
+        expected,
+        f"{len(outside)} of {len(all_values)} values outside, such as {outside[0]:g}",
+        _why_outside(outside),
+        [f"data: {value!r}" for value in outside[:5]],
+    )
+
+
+def _why_outside(outside: Sequence[float]) -> Cause:
+    if all(math.isfinite(value) and 0 < abs(value) < 1e-300 for value in outside):
+        return Cause(
+            "an int in a float field",
+            "a Python int was put into Float64.data: its bits are sent as if they were a float",
+            "make it a float first: msg.data = float(value)",
+        )
+    if all(60 <= value <= 90 for value in outside):
+        return Cause(
+            "out of range",
+            "these look like degrees Fahrenheit",
+            f"publish degrees Celsius: random.uniform({LOWEST}, {HIGHEST})",
+        )
+    return Cause("out of range", "values leave the range", f"random.uniform({LOWEST}, {HIGHEST}) stays within it")
+
+
+def judge_random(found: Values) -> Verdict:
+    expected = "values that vary at random: not constant, not a ramp, not a short cycle"
+    for run in found.runs:
+        pattern = randomness.pattern(run)
+        if pattern is not None:
+            return failed(
+                expected,
+                f"{pattern.text} ({len(run)} values)",
+                Cause(pattern.name, pattern.text, "draw a new value in every callback: random.uniform(20.0, 30.0)"),
+                [f"data: {value:g}" for value in run[:8]],
+            )
+    longest = max(found.runs, key=len)
+    if len(longest) < 3:
+        return failed(
+            expected,
+            f"only {len(longest)} values in {LISTEN_S:g} s",
+            Cause("no messages", "the node stops publishing, or hardly ever does", "publish from a timer's callback"),
+        )
+    return passed(expected, f"{len(longest)} values, no pattern", [f"data: {value:g}" for value in longest[:5]])
+
+
+def judge_echo(seen: Survey) -> Verdict:
+    expected = f"`ros2 topic echo {TOPIC}` shows the values"
+    echo = seen.echo
+    assert echo is not None
+    if echo.samples and len(echo.types) == 1:
+        return passed(
+            expected,
+            f"shown with {echo.reliability}, {echo.durability} QoS",
+            [f"data: {echo.samples[0].message['data']}"],
+        )
+    if len(echo.types) > 1:
+        cause = Cause(
+            "wrong type",
+            f"{TOPIC} carries two types, {' and '.join(echo.types)}; echo cannot choose",
+            f"publish nothing but {TYPE} on {TOPIC}",
+        )
+    elif not echo.types:
+        cause = Cause(
+            "no publisher", "the publisher was gone when echo looked for it", "keep it for as long as the node lives"
+        )
+    else:
+        cause = Cause(
+            "no messages",
+            f"a new subscriber got nothing in {echo.limit_s:g} s ({echo.reliability}, {echo.durability})",
+            "publish again and again from a timer, and set no short lifespan in the QoS",
+        )
+    return failed(expected, f"nothing shown in {echo.limit_s:g} s", cause)
+
+
+def judge_rate(found: Rates) -> Verdict:
+    expected = f"some numeric parameter, set at start-up, changes the rate as it says (±{TOLERANCE:.0%})"
+    for agreed in agreeing(found.probes):
+        return passed(expected, f"{agreed[0].name} is read in {agreed[0].unit}", [str(probe) for probe in agreed])
+    if not found.probes:
+        return failed(expected, "no numeric parameter is declared", _rate_not_declared())
+    nearest = max(groups(found.probes), key=lambda group: (agree(group), len(swapped(group))))
+    wrong = next(probe for probe in nearest if not probe.agrees)
+    return failed(expected, str(wrong), _why_rate(nearest, wrong, found.declared), [str(probe) for probe in nearest])
+
+
+def _rate_not_declared() -> Cause:
+    return Cause(
+        "parameter not declared",
+        "the rate cannot be set from outside",
+        f"self.declare_parameter('{SUGGESTED_RATE}', 1.0), and use its value for the timer's period",
+    )
+
+
+def _why_rate(group: Sequence[RateProbe], wrong: RateProbe, declared: tuple[Parameter, ...] | None) -> Cause:
+    broken = causes.of_process(wrong.trace)
+    if broken is not None:
+        return broken
+    if declared is not None and wrong.name not in {parameter.name for parameter in declared}:
+        return _rate_not_declared()
+    measured = [(probe, probe.rate) for probe in group if probe.rate is not None]
+    if measured and len(swapped(group)) == len(measured):
+        if wrong.unit == "Hz":
+            return Cause(
+                "rate used as a period",
+                f"{wrong.name} is given in Hz, but the timer waits that many seconds",
+                "the timer's period is 1.0 / rate",
+            )
+        return Cause(
+            "period used as a rate",
+            f"{wrong.name} is given as a period, but the node publishes that many times a second",
+            f"give {wrong.name} to create_timer as it is, or call it a rate",
+        )
+    rates_seen = [rate.hz for _, rate in measured]
+    if len(rates_seen) > 1 and max(rates_seen) <= min(rates_seen) * (1 + TOLERANCE):
+        return Cause(
+            "parameter ignored",
+            f"the rate stays at {rates_seen[0]:.1f} Hz, whatever {wrong.name} says",
+            f"use self.get_parameter('{wrong.name}').value for the timer's period",
+        )
+    return Cause(
+        "wrong rate", f"{wrong}", "the timer's period is 1.0 / rate seconds; are there two timers, or a rounding?"
+    )
+
+
+def judge_name(found: Names) -> Verdict:
+    expected = "some string parameter, set at start-up, appears in the node's log messages"
+    for probe in found.probes:
+        if probe.found:
+            return passed(expected, f"{probe.name}:={probe.value} is logged", [probe.found])
+    probe = found.probes[0]
+    if found.declared is not None and probe.name not in {parameter.name for parameter in found.declared}:
+        return failed(
+            expected,
+            "no string parameter is declared",
+            Cause(
+                "parameter not declared",
+                "the sensor's name cannot be set from outside",
+                f"self.declare_parameter('{SUGGESTED_NAME}', 'sensor'), and put its value into a log message",
+            ),
+        )
+    evidence = [str(log) for log in probe.trace.logs[-5:]]
+    observed = f"{probe.name}:={probe.value} is in none of {len(probe.trace.logs)} log messages"
+    return failed(expected, observed, _why_name(found), evidence)
+
+
+def _why_name(found: Names) -> Cause:
+    for probe in found.probes:
+        broken = causes.of_process(probe.trace)
+        if broken is not None:
+            return broken
+        printed = [line.text for line in probe.trace.output if probe.value in line.text]
+        if printed:
+            return Cause(
+                "printed, not logged",
+                f"the name is written with print(): {printed[0]}",
+                "use self.get_logger().info(...): log messages reach /rosout, where others can read them",
+            )
+    if found.declared is None:
+        return Cause(
+            "parameter not declared",
+            f"the node answers no parameter call, and {SUGGESTED_NAME} has no effect",
+            f"self.declare_parameter('{SUGGESTED_NAME}', 'sensor'), and log its value",
+        )
+    return Cause(
+        "parameter ignored",
+        f"{', '.join(probe.name for probe in found.probes)} is declared, but not logged",
+        f"self.get_logger().info(f'{{self.get_parameter(\"{found.probes[0].name}\").value}}: ...')",
+    )
+
+
+def judge_shutdown(seen: Survey) -> Verdict:
+    return ending.judge(seen.trace, seen.ending)

@@ -1,0 +1,186 @@
+"""I1.1: what is done to the node."""
+
+from __future__ import annotations
+
+import asyncio
+from collections import Counter
+from collections.abc import Iterable, Sequence
+
+from checks.i1_1.facts import (
+    FILE,
+    LISTEN_S,
+    SPARE_VALUES,
+    SUGGESTED_NAME,
+    SUGGESTED_RATE,
+    TOPIC,
+    TYPE,
+    UNITS,
+    VALUES,
+    NameProbe,
+    Names,
+    RateProbe,
+    Rates,
+    Survey,
+    Values,
+    agreeing,
+    key,
+    numeric_of,
+    units,
+)
+from tutor.judge import randomness
+from tutor.judge.bench import Bench, Run
+from tutor.judge.rates import measure
+from tutor.judge.trace import Parameter, Trace
+from tutor.judge.waiting import START_S, appears, first_message, window_s
+
+
+async def survey(bench: Bench) -> Survey:
+    """Start it plainly: does it publish, does echo show it, does Ctrl+C end it cleanly?"""
+    async with bench.start(FILE, watch={TOPIC: TYPE}) as run:
+        bench.doing(0.1, f"waiting for the first message on {TOPIC}")
+        echo = None
+        if await first_message(run, TOPIC, TYPE):
+            bench.doing(0.5, "watching as `ros2 topic echo` does")
+            echo = await run.echo(TOPIC, samples=1, limit_s=LISTEN_S)
+        parameters = await run.parameters(2.0)
+        trace = run.trace()
+        bench.doing(0.8, "pressing Ctrl+C")
+        ended = await run.interrupt() if run.exit is None else None
+        return Survey(trace, parameters, echo, ended)
+
+
+async def values(bench: Bench) -> Values:
+    """Collect values from two plain starts; more of them where they look suspicious."""
+
+    async def collect(number: int) -> tuple[Run, list[float]]:
+        async with bench.start(FILE, watch={TOPIC: TYPE}) as run:
+            seen[number] = run
+            if await first_message(run, TOPIC, TYPE):
+                await run.until(lambda: enough(run), LISTEN_S)
+            return run, data(run)
+
+    def data(run: Run) -> list[float]:
+        return [sample.message["data"] for sample in run.on(TOPIC)]
+
+    def enough(run: Run) -> bool:
+        mine = data(run)
+        others = {value for other in seen.values() if other is not run for value in data(other)}
+        bench.doing(min(len(mine) / randomness.ENOUGH, 1), f"{len(mine)} temperatures so far")
+        # The same values in both starts may be a fixed list: only its second round would tell.
+        doubtful = randomness.suspicious(mine) or len(others.intersection(mine)) > len(mine) / 2
+        return len(mine) >= (randomness.PLENTY if doubtful else randomness.ENOUGH)
+
+    seen: dict[int, Run] = {}
+    collected = await asyncio.gather(collect(0), collect(1))
+    return Values(tuple(tuple(mine) for _, mine in collected))
+
+
+async def parameters(bench: Bench) -> tuple[Parameter, ...] | None:
+    """Which parameters does it declare? None where it never answers."""
+    async with bench.start(FILE, watch={TOPIC: TYPE}) as run:
+        bench.doing(0.1, "asking for its parameters")
+        if not await run.until(lambda: any(s.name.endswith("/list_parameters") for s in run.graph.services), START_S):
+            return None
+        declared = await run.parameters(4.0)
+        if declared is not None and not numeric_of(declared):
+            await first_message(run, TOPIC, TYPE)  # it may declare them late
+            declared = await run.parameters(4.0)
+        return declared
+
+
+async def rates(bench: Bench) -> Rates:
+    """Start it once for each value of each parameter that may be the rate."""
+    declared = await bench.facts(parameters)
+    tried: list[RateProbe] = []
+
+    async def attempt(plan: Iterable[tuple[str, str, float, bool]]) -> bool:
+        # As soon as every value of one parameter and unit agrees, the others need not be waited for.
+        wanted = Counter((name, unit) for name, unit, _, _ in plan)
+        pending = {asyncio.ensure_future(_probe_rate(bench, *each)) for each in plan}
+        try:
+            while pending and not any(len(group) == wanted[key(group[0])] for group in agreeing(tried)):
+                done, pending = await asyncio.wait(pending, return_when=asyncio.FIRST_COMPLETED)
+                tried.extend(task.result() for task in done)
+        finally:
+            for task in pending:
+                task.cancel()
+            await asyncio.gather(*pending, return_exceptions=True)
+        return bool(agreeing(tried))
+
+    numeric = numeric_of(declared or ())
+    telling = [parameter for parameter in numeric if len(units(parameter.name)) < len(UNITS)]
+    for group in (telling, *([other] for other in numeric if other not in telling)):
+        if await attempt(list(_plan(group))):
+            return Rates(declared, tuple(tried))
+    if not any(p.name == SUGGESTED_RATE for p in numeric) and (await bench.facts(survey)).trace.on(TOPIC):
+        # It may answer nothing, or take parameters that it does not declare.
+        suggested = [(SUGGESTED_RATE, "Hz", value, False) for value in VALUES["Hz"]]
+        if not await attempt(suggested) and any(_refused_a_double(probe.trace) for probe in tried):
+            tried = [probe for probe in tried if probe.name != SUGGESTED_RATE]
+            await attempt([(SUGGESTED_RATE, "Hz", value, True) for value in VALUES["Hz"] if value >= 1])
+    return Rates(declared, tuple(tried))
+
+
+async def names(bench: Bench) -> Names:
+    """Start it once for each string parameter, with a value that nothing else would log."""
+    declared = await bench.facts(parameters)
+    wanted = [p.name for p in declared or () if p.type == "string"]
+    if SUGGESTED_NAME not in wanted:
+        wanted.append(SUGGESTED_NAME)  # it may answer nothing, or take parameters that it does not declare
+
+    async def probe(number: int, name: str) -> NameProbe:
+        value = f"probe_{number}_kx7"
+        async with bench.start(FILE, parameters={name: value}, watch={TOPIC: TYPE}) as run:
+            bench.doing(0.3, f"{name}:={value}, reading its log")
+
+            def logged() -> str:
+                return next((str(log) for log in run.logs if value in str(log).casefold()), "")
+
+            await appears(run, lambda: bool(logged()), promised=lambda: True)
+            return NameProbe(name, value, logged(), run.trace())
+
+    return Names(declared, tuple(await asyncio.gather(*(probe(i, name) for i, name in enumerate(wanted)))))
+
+
+async def _probe_rate(bench: Bench, name: str, unit: str, value: float, whole: bool) -> RateProbe:
+    asked_hz = UNITS[unit](value)
+    window = window_s(asked_hz)
+    async with bench.start(FILE, parameters={name: int(value) if whole else value}, watch={TOPIC: TYPE}) as run:
+        bench.doing(0.2, f"{name}:={value:g}, measuring the rate")
+
+        def heard() -> RateProbe:
+            # The first message may come at once and the second a period later, or the other way round.
+            samples = run.on(TOPIC)
+            samples = samples[1:] if len(samples) > 3 else samples
+            return RateProbe(name, unit, value, measure(samples), len(samples), run.trace())
+
+        def decided(least_s: float) -> bool:
+            rate = measure(run.on(TOPIC))
+            return rate is not None and (rate.span_s >= least_s or (rate.samples > 50 and rate.hz > 20))
+
+        if await first_message(run, TOPIC, TYPE):
+            await run.until(lambda: decided(window), window + 1 / asked_hz + 1)
+            if not heard().agrees:
+                await run.until(lambda: decided(2 * window), window + 1 / asked_hz + 1)
+        bench.doing(1.0, f"{name}:={value:g} measured")
+        return heard()
+
+
+def _plan(group: Sequence[Parameter]) -> Iterable[tuple[str, str, float, bool]]:
+    for parameter in group:
+        whole = parameter.type == "integer"
+        low, high = parameter.minimum, parameter.maximum
+        for unit in units(parameter.name):
+            allowed = [
+                value
+                for value in (*VALUES[unit], *SPARE_VALUES[unit])
+                if (not whole or value == int(value))
+                and (low is None or low <= value)
+                and (high is None or value <= high)
+            ]
+            for value in allowed[: len(VALUES[unit])]:
+                yield parameter.name, unit, value, whole
+
+
+def _refused_a_double(trace: Trace) -> bool:
+    return any("InvalidParameterType" in line.text for line in trace.output)

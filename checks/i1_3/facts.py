@@ -1,0 +1,97 @@
+"""I1.3: what is asked of the node, and the facts that are gathered."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from tutor.judge.trace import CallAnswer, Ending, Exit, Level, LogRecord, Served, Service, Trace
+from tutor.judge.tracebacks import Frame
+from tutor.judge.wording import shape
+
+SERVER, CLIENT = "calculator_server.py", "calculator_client.py"
+TYPE = "example_interfaces/srv/AddTwoInts"
+SIGNS = {"/add": "+", "/subtract": "-", "/multiply": "*", "/divide": "/"}
+EASY = (6, 3)
+ANSWER_S = 5.0
+CLIENT_S = 15.0
+AFTERWARDS_S = 0.5
+"""A node that gives up after a division by zero does so within this time."""
+STUCK_S = 1.5
+"""A call that was not answered once is given this long, then the node is stuck in it."""
+LOG_S = 2.0
+"""What a node logs about a call may come this much later than its answer."""
+
+_WORDS = """
+zero null cero zéro nul\\b noll nolla sıfır zerem zera nula nulla нол нул 零 ゼロ 제로 0으로 μηδέν صفر אפס शून्य
+error fehler erreur errore erro\\b fout fel\\b feil fejl virhe błąd blad chyba hiba hata ошибк помилк 錯誤 错误 エラー
+오류 σφάλμα خطأ שגיאה lỗi kesalahan
+exception warn fail invalid illegal undefined impossib cannot can't unable refus reject forbid infinit nan\\b
+not_allowed not_possible not_defined not_permitted not_valid can_not n/a
+ungültig nicht unmöglich undefiniert verboten inválid invalide interdit indéfini indefinid impossível não no_se_puede
+no_permitid no_definid non_si_può non_valid non_definit
+нельзя невозмож недопуст 不能 无效 無效 未定義 未定义 できません 無理 不可 불가
+"""
+SAYS_ERROR = re.compile("|".join(word.replace("_", " ") for word in _WORDS.split()), re.IGNORECASE)
+"""Words by which a log message says that something is wrong, in the languages that learners log in."""
+
+
+@dataclass(frozen=True)
+class Calls:
+    """What the server answered: one list of answers, in the order in which they were asked for.
+
+    `spins`: whether the node answered a parameter call before; `stuck`: where it was when a call was not answered.
+    """
+
+    trace: Trace
+    answers: tuple[CallAnswer, ...]
+    spins: bool = True
+    stuck: tuple[Frame, ...] = ()
+    ending: Ending | None = None
+
+    def of(self, service: str) -> tuple[CallAnswer, ...]:
+        return tuple(answer for answer in self.answers if answer.service == service)
+
+
+@dataclass(frozen=True)
+class Division:
+    """A good division, one by zero, and what came after; `said` is what was logged about the division by zero."""
+
+    trace: Trace
+    before: CallAnswer | None = None
+    by_zero: CallAnswer | None = None
+    after: CallAnswer | None = None
+    ordinary: tuple[LogRecord, ...] = ()
+    said: tuple[LogRecord, ...] = ()
+
+
+@dataclass(frozen=True)
+class Demonstration:
+    """A run of the client against servers of ours. None of it where the submission has no client."""
+
+    trace: Trace | None
+    served: tuple[Served, ...] = ()
+    exit: Exit | None = None
+    stuck: tuple[Frame, ...] = ()
+
+
+def right_result(service: str, a: int, b: int) -> int:
+    """What the service must answer (0 for a division by zero, where any answer will do)."""
+    return {"/add": a + b, "/subtract": a - b, "/multiply": a * b, "/divide": a // b if b else 0}[service]
+
+
+def missing_of(services: Sequence[Service]) -> list[str]:
+    """The required services that are not there with the required type."""
+    there = {service.name for service in services if service.type == TYPE}
+    return [name for name in SIGNS if name not in there]
+
+
+def complaints_in(ordinary: Sequence[LogRecord], said: Sequence[LogRecord]) -> list[LogRecord]:
+    """The messages that say that something is wrong. One of a kind that a good call brings too does not."""
+    usual = {(log.level, shape(log.text)) for log in ordinary}
+    return [
+        log
+        for log in said
+        if (log.level, shape(log.text)) not in usual and (log.level >= Level.WARN or SAYS_ERROR.search(log.text))
+    ]

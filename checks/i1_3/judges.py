@@ -1,0 +1,272 @@
+"""I1.3: what must have been seen."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from checks.i1_3.facts import (
+    ANSWER_S,
+    CLIENT,
+    CLIENT_S,
+    SAYS_ERROR,
+    SERVER,
+    SIGNS,
+    TYPE,
+    Calls,
+    Demonstration,
+    Division,
+    complaints_in,
+    missing_of,
+    right_result,
+)
+from tutor.judge import causes, ending, tracebacks
+from tutor.judge.trace import CallAnswer, Service, Trace
+from tutor.judge.tracebacks import Frame
+from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped
+
+
+def judge_services(seen: Calls) -> Verdict:
+    expected = f"/add, /subtract, /multiply and /divide with type {TYPE}, answering a call"
+    missing = missing_of(seen.trace.graph.services)
+    if missing:
+        cause = _why_missing(seen.trace, missing)
+        return failed(expected, f"missing: {', '.join(missing)}", cause, causes.last_words(seen.trace))
+    unanswered = next((answer for answer in seen.answers if answer.response is None), None)
+    if unanswered is not None:
+        observed = f"no answer from {unanswered.service} in {ANSWER_S:g} s"
+        return failed(expected, observed, _why_unanswered(seen), causes.last_words(seen.trace))
+    return passed(expected, "all four answer", [f"{name} = {result}" for name, result in _answered(seen.answers)])
+
+
+def _why_missing(trace: Trace, missing: Sequence[str]) -> Cause:
+    broken = causes.of_process(trace)
+    if broken is not None:
+        return broken
+    offered = [s for s in trace.graph.services if not _of_every_node(s)]
+    for name in missing:
+        for service in offered:
+            if service.name == name:
+                return Cause(
+                    "wrong type",
+                    f"{name} has the type {service.type}, not {TYPE}",
+                    f"create it with AddTwoInts: self.create_service(AddTwoInts, '{name[1:]}', ...)",
+                )
+    for name in missing:
+        for service in offered:
+            if service.name not in SIGNS and (service.name.endswith(name) or name[1:4] in service.name):
+                return Cause(
+                    "wrong service name",
+                    f"there is {service.name} instead of {name}",
+                    f"name it '{name[1:]}', without a namespace or ~ in front",
+                )
+    return Cause(
+        "service missing",
+        f"{', '.join(missing)} {'is' if len(missing) == 1 else 'are'} not there",
+        f"self.create_service(AddTwoInts, '{missing[0][1:]}', self.{missing[0][1:]}_callback)",
+    )
+
+
+def _of_every_node(service: Service) -> bool:
+    return service.type.startswith(("rcl_interfaces/", "type_description_interfaces/"))
+
+
+def _why_unanswered(seen: Calls) -> Cause:
+    broken = causes.of_process(seen.trace)
+    if broken is not None:
+        return broken
+    if not seen.spins:
+        return causes.no_spin(seen.trace)
+    own = tracebacks.own(seen.stuck, seen.trace.folder)
+    where = f", at {own}" if own else ""
+    if _in_call(seen.stuck):
+        return Cause(
+            "deadlock by call()",
+            f"the callback waits for another service's answer{where}, which cannot come: the "
+            "executor is busy with this callback",
+            "use call_async() and await it in an async callback",
+        )
+    return Cause(
+        "blocked executor",
+        f"the node was up, but its callback does not come to an end{where}",
+        "let the callback calculate, fill in the response and return it at once",
+    )
+
+
+def _in_call(stuck: Sequence[Frame]) -> bool:
+    return any(frame.function == "call" and frame.path.endswith("rclpy/client.py") for frame in stuck)
+
+
+def judge_operations(seen: Calls) -> Verdict:
+    expected = "right results, negative operands included"
+    if missing_of(seen.trace.graph.services):
+        return skipped("not judged, because `services` did not pass")
+    for answer in seen.answers:
+        a, b = answer.request["a"], answer.request["b"]
+        right = right_result(answer.service, a, b)
+        question = f"{answer.service}: {a} {SIGNS[answer.service]} {b}"
+        if answer.response is None:
+            return failed(
+                f"{question} = {right}",
+                f"no answer in {ANSWER_S:g} s",
+                causes.of_process(seen.trace)
+                or Cause(
+                    "no answer",
+                    "the service does not answer this call",
+                    "return the response at the end of the callback",
+                ),
+                causes.last_words(seen.trace),
+            )
+        if answer.response["sum"] != right:
+            return failed(
+                f"{question} = {right}",
+                f"{answer.response['sum']}",
+                _why_wrong(answer, right),
+                [f"{name} answered {result}" for name, result in _answered(seen.of(answer.service))],
+            )
+    return passed(
+        expected, f"{len(seen.answers)} calls", [f"{name} = {result}" for name, result in _answered(seen.answers)][:8]
+    )
+
+
+def _answered(answers: Sequence[CallAnswer]) -> list[tuple[str, Any]]:
+    return [
+        (f"{a.request['a']} {SIGNS[a.service]} {a.request['b']}", a.response["sum"])
+        for a in answers
+        if a.response is not None
+    ]
+
+
+def _why_wrong(answer: CallAnswer, right: int) -> Cause:
+    assert answer.response is not None
+    got, a, b = answer.response["sum"], answer.request["a"], answer.request["b"]
+    name = answer.service
+    others = [other for other in SIGNS if other != name and right_result(other, a, b) == got]
+    if others:
+        return Cause(
+            "wrong result",
+            f"this is what {others[0]} would answer",
+            f"look at the sign in the callback of {name}, and at which callback belongs to which service",
+        )
+    if name == "/subtract" and got == b - a:
+        return Cause("wrong result", "the operands are the wrong way round", "resp.sum = req.a - req.b")
+    if got == -1 and name == "/divide":
+        return Cause("float in an int field", "a / b is a float, and resp.sum takes whole numbers only", "use a // b")
+    if abs(got) == abs(right):
+        return Cause("wrong result", "the sign is lost", "no abs(): negative numbers are numbers too")
+    if got == 0:
+        return Cause("wrong result", "the result is 0: is it put into resp.sum?", "set resp.sum before you return resp")
+    return Cause("wrong result", f"{got} instead of {right}", f"look at the callback of {name}")
+
+
+def judge_division(seen: Division) -> Verdict:
+    expected = "dividing by zero gets an answer, the node says that it is an error, and the next call is answered too"
+    if seen.before is None or seen.before.response is None or seen.by_zero is None or seen.after is None:
+        return failed(
+            expected,
+            "/divide does not answer even 84 ÷ 7",
+            causes.of_process(seen.trace) or Cause("no answer", "the service does not answer", "see `services`"),
+            causes.last_words(seen.trace),
+        )
+    if seen.by_zero.response is None:
+        cause = causes.of_process(seen.trace) or Cause(
+            "no answer", "the callback does not answer when b is 0", "return the response in that case too"
+        )
+        return failed(expected, f"10 ÷ 0 got no answer in {ANSWER_S:g} s", cause, causes.last_words(seen.trace))
+    complaints = complaints_in(seen.ordinary, seen.said)
+    if not complaints:
+        printed = [line.text for line in seen.trace.output if line.stream == "stdout" and SAYS_ERROR.search(line.text)]
+        cause = (
+            Cause("printed, not logged", f"it is only printed: {printed[0]}", "use self.get_logger().error(...)")
+            if printed
+            else Cause(
+                "no error message",
+                "nothing that the node logs says that this is an error",
+                "self.get_logger().error('division by zero') before you return the response",
+            )
+        )
+        return failed(
+            expected,
+            f"answered {seen.by_zero.response['sum']}, without a word about an error",
+            cause,
+            [str(log) for log in seen.said],
+        )
+    if seen.after.response is None:
+        cause = causes.of_process(seen.trace) or Cause(
+            "no answer",
+            "the node no longer answers after a division by zero",
+            "let the node go on: only log, and answer",
+        )
+        return failed(expected, "the call after it got no answer", cause, causes.last_words(seen.trace))
+    return passed(
+        expected,
+        f"answered {seen.by_zero.response['sum']}; 18 ÷ 3 after it {seen.after.response['sum']}",
+        [str(complaints[0])],
+    )
+
+
+def judge_client(seen: Demonstration) -> Verdict:
+    expected = (
+        f"{CLIENT}, run without arguments, calls all four services and ends by itself with 0 within {CLIENT_S:g} s"
+    )
+    if seen.trace is None:
+        return failed(
+            expected,
+            f"there is no {CLIENT}",
+            Cause("file missing", f"the submission has no {CLIENT}", f"write {CLIENT} beside {SERVER}"),
+        )
+    called = {served.service for served in seen.served}
+    missing = [name for name in SIGNS if name not in called]
+    calls_made = [f"{s.service} {s.request['a']} {s.request['b']} -> {s.response['sum']}" for s in seen.served[:12]]
+    words = (*calls_made, *causes.last_words(seen.trace, 4))
+    if seen.exit is None:
+        return failed(
+            expected, f"still running after {CLIENT_S:g} s; called {_listed(called)}", _why_hanging(seen), words
+        )
+    ended = f"ended after {seen.exit.after_s:.1f} s with {seen.exit}"
+    if seen.exit.code != 0:
+        cause = causes.of_process(seen.trace)
+        if cause is None or cause.name == "exit at once":
+            cause = Cause("non-zero exit", f"the client {ended}", "end with return or sys.exit(0) when all went well")
+        return failed(expected, f"{ended}; called {_listed(called)}", cause, words)
+    if missing:
+        cause = (
+            Cause(
+                "no main call",
+                "main() is defined, but nothing calls it",
+                'end the file with: if __name__ == "__main__": main()',
+            )
+            if seen.trace.uncalled_main and not called
+            else Cause(
+                "not called",
+                f"{', '.join(missing)} got no request",
+                "call each service, and wait for each answer before you go on",
+            )
+        )
+        return failed(expected, f"{ended}; {', '.join(missing)} not called", cause, words)
+    return passed(expected, f"{len(seen.served)} calls, {ended}", calls_made)
+
+
+def _why_hanging(seen: Demonstration) -> Cause:
+    assert seen.trace is not None
+    own = tracebacks.own(seen.stuck, seen.trace.folder)
+    where = f" at {own}" if own else ""
+    if _in_call(seen.stuck):
+        return Cause(
+            "deadlock by call()",
+            f"the client waits for ever{where}: call() blocks the thread that would have to take in the answer",
+            "use call_async() and rclpy.spin_until_future_complete(node, future), outside of callbacks",
+        )
+    return Cause(
+        "did not end",
+        f"the client was still busy{where}" if where else "the client does not end by itself",
+        "wait for each service, use call_async(), spin until its future is done, and return after the last answer",
+    )
+
+
+def _listed(called: set[str]) -> str:
+    return ", ".join(name for name in SIGNS if name in called) or "nothing"
+
+
+def judge_shutdown(seen: Calls) -> Verdict:
+    return ending.judge(seen.trace, seen.ending)

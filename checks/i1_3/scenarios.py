@@ -1,0 +1,136 @@
+"""I1.3: what is done to the node."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from checks.i1_3.facts import (
+    AFTERWARDS_S,
+    ANSWER_S,
+    CLIENT,
+    CLIENT_S,
+    EASY,
+    LOG_S,
+    SERVER,
+    SIGNS,
+    STUCK_S,
+    TYPE,
+    Calls,
+    Demonstration,
+    Division,
+    complaints_in,
+    missing_of,
+    right_result,
+)
+from tutor.judge.bench import Bench, Run
+from tutor.judge.trace import CallAnswer
+from tutor.judge.tracebacks import Frame
+from tutor.judge.waiting import appears
+
+
+async def survey(bench: Bench) -> Calls:
+    """Call every service once as `ros2 service call` does, then press Ctrl+C."""
+    async with bench.start(SERVER) as run:
+        bench.doing(0.1, "waiting for the four services")
+        await appears(run, lambda: not missing_of(run.graph.services))
+        spins = await run.parameters(2.0) is not None
+        there = [name for name in SIGNS if name not in missing_of(run.graph.services)]
+        bench.doing(0.4, "calling each service")
+        answers = await _ask(run, [(name, *EASY) for name in there])
+        trace = run.trace()
+        bench.doing(0.8, "pressing Ctrl+C")
+        ended = await run.interrupt() if run.exit is None else None
+    unanswered = next((answer for answer in answers if answer.response is None), None)
+    stuck = await _stuck(bench, unanswered) if unanswered and trace.exit is None else ()
+    return Calls(trace, answers, spins, stuck, ended)
+
+
+async def _stuck(bench: Bench, unanswered: CallAnswer) -> tuple[Frame, ...]:
+    """Ask the same once more, only to see where the node is while it does not answer."""
+    async with bench.start(SERVER) as run:
+        bench.doing(0.9, "looking where the node is stuck")
+        await appears(run, lambda: any(service.name == unanswered.service for service in run.graph.services))
+        await run.call(unanswered.service, TYPE, unanswered.request, limit_s=STUCK_S)
+        return await run.stuck_at()
+
+
+async def calculation(bench: Bench) -> Calls:
+    """Calculate with operands by chance."""
+    async with bench.start(SERVER) as run:
+        await appears(run, lambda: not missing_of(run.graph.services))
+        there = [name for name in SIGNS if name not in missing_of(run.graph.services)]
+        bench.doing(0.3, "calculating with positive and negative numbers")
+        answers = await _ask(run, [(name, a, b) for name in there for a, b in _operands(name)])
+        return Calls(run.trace(), answers)
+
+
+async def _ask(run: Run, questions: Sequence[tuple[str, int, int]]) -> tuple[CallAnswer, ...]:
+    """Call one after another; stop at one without an answer, since each further one would cost its limit."""
+    answers: list[CallAnswer] = []
+    for name, a, b in questions:
+        answers.append(await run.call(name, TYPE, {"a": a, "b": b}, limit_s=ANSWER_S))
+        if answers[-1].response is None:
+            break
+    return tuple(answers)
+
+
+async def division(bench: Bench) -> Division:
+    """Divide by zero, listen to what the node says, and call again."""
+    async with bench.start(SERVER) as run:
+        bench.doing(0.1, "waiting for /divide")
+        if not await appears(run, lambda: "/divide" not in missing_of(run.graph.services)):
+            return Division(run.trace())
+
+        async def divide(a: int, b: int) -> CallAnswer:
+            return await run.call("/divide", TYPE, {"a": a, "b": b}, limit_s=ANSWER_S)
+
+        before = await divide(84, 7)
+        await _quiet(run)
+        ordinary = tuple(run.logs)
+        bench.doing(0.4, "calling /divide: 10 ÷ 0")
+        by_zero = await divide(10, 0)
+        await run.until(lambda: bool(complaints_in(ordinary, run.logs[len(ordinary) :])), LOG_S)
+        said = tuple(run.logs[len(ordinary) :])
+        await run.until(lambda: run.exit is not None, AFTERWARDS_S)
+        bench.doing(0.8, "calling /divide again: 18 ÷ 3")
+        after = await divide(18, 3)
+        return Division(run.trace(), before, by_zero, after, ordinary, said)
+
+
+async def demonstration(bench: Bench) -> Demonstration:
+    """Run the client against four servers of ours."""
+    if not bench.has(CLIENT):
+        return Demonstration(None)
+    servers = {name: (TYPE, _server(name)) for name in SIGNS}
+    async with bench.start(CLIENT, serve=servers) as run:
+        bench.doing(0.2, "running the client against our servers")
+        await run.until(lambda: run.exit is not None, CLIENT_S)
+        trace, served, ended = run.trace(), tuple(run.served), run.exit
+        return Demonstration(trace, served, ended, await run.stuck_at() if ended is None else ())
+
+
+def _operands(service: str) -> list[tuple[int, int]]:
+    """Operands by chance, so that no answer can be known beforehand; with every combination of signs."""
+    chosen: list[tuple[int, int]] = []
+    for sign_a, sign_b in ((1, 1), (-1, 1), (1, -1), (-1, -1)):
+        a, b = sign_a * random.randint(20, 900), sign_b * random.randint(2, 19)
+        chosen.append((a * b, b) if service == "/divide" else (a, b))
+    return chosen
+
+
+def _server(service: str) -> Any:
+    def answer(request: Mapping[str, Any]) -> Mapping[str, Any]:
+        result = right_result(service, request["a"], request["b"])
+        return {"sum": max(-(2**63), min(2**63 - 1, result))}
+
+    return answer
+
+
+async def _quiet(run: Run) -> None:
+    """Wait until the node has logged what it had to say about the call just answered."""
+    seen = -1
+    while len(run.logs) != seen:
+        seen = len(run.logs)
+        await run.until(lambda seen=seen: len(run.logs) != seen, 0.3)  # type: ignore[misc]

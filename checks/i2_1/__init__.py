@@ -1,0 +1,20 @@
+"""I2.1 Parameterized Publisher: three parameters that work at start-up and at run time, validated, with one timer."""
+
+from __future__ import annotations
+
+from checks.i2_1 import judges, scenarios
+from tutor.judge.check import Check, Criterion
+
+CHECK = Check(
+    "i2.1",
+    (
+        Criterion("defaults", judges.judge_defaults, (scenarios.survey,)),
+        Criterion("launch-params", judges.judge_launch, (scenarios.launched,)),
+        Criterion("runtime-params", judges.judge_runtime, (scenarios.switched,)),
+        Criterion("validation", judges.judge_validation, (scenarios.validated,)),
+        Criterion("timer", judges.judge_timer, (scenarios.retimed,)),
+        Criterion("atomic", judges.judge_atomic, (scenarios.atomic,), bonus=True),
+        Criterion("launch-validation", judges.judge_bad_launch, (scenarios.survey, scenarios.bad_launches), bonus=True),
+        Criterion("shutdown", judges.judge_shutdown, (scenarios.survey,), bonus=True),
+    ),
+)

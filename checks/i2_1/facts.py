@@ -1,0 +1,132 @@
+"""I2.1: what is asked of the node, and the facts that are gathered."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from tutor.judge import tracebacks
+from tutor.judge.rates import Rate
+from tutor.judge.trace import Ending, Parameter, Sample, SetAnswer, Trace
+
+FILE = "parameterized_publisher.py"
+TOPIC = "/chatter"
+TYPE = "std_msgs/msg/String"
+PREFIX, RATE, ENABLED = "message_prefix", "publish_rate", "enabled"
+
+DEFAULTS: Mapping[str, tuple[str, Any]] = {
+    PREFIX: ("string", "Hello"),
+    RATE: ("double", 1.0),
+    ENABLED: ("boolean", True),
+}
+DEFAULT_HZ = 1.0
+LAUNCH_HZ = 5.0
+UP_HZ, DOWN_HZ = 10.0, 2.0
+BAD_RATES = (0.0, -1.0)
+ANSWER_S = 5.0
+"""A parameter call is answered within this time, else it is not answered."""
+
+RARE_S = 3.0
+"""At 1 Hz or more, a publisher that exists sends something within this time, late as it may be."""
+
+RCLPYS_OWN = (
+    "Callback returned an invalid type",
+    "Wrong parameter type",
+    "Trying to set a read-only parameter",
+    "parameter list cannot be empty",
+    "not been declared",
+    "Invalid access to undeclared",
+    "cannot be set",
+)
+"""Reasons that rclpy gives by itself: they are not the learner's. (That a value is outside a declared range is.)"""
+
+
+@dataclass(frozen=True)
+class Survey:
+    """A plain start. `parameters` is None where no node answered; `ending` where the process had ended by itself."""
+
+    trace: Trace
+    parameters: tuple[Parameter, ...] | None
+    ending: Ending | None
+
+    def value_of(self, name: str) -> Parameter | None:
+        return find(self.parameters or (), name)
+
+
+@dataclass(frozen=True)
+class Launched:
+    """Starts with parameters: one with a prefix and a rate, one with enabled false."""
+
+    prefix: str
+    trace: Trace
+    rate: Rate | None
+    messages: int
+    disabled: Trace
+    disabled_answer: Parameter | None
+    disabled_for_s: float
+
+
+@dataclass(frozen=True)
+class Switched:
+    """A plain start on which message_prefix and enabled are set."""
+
+    trace: Trace
+    prefix: str
+    set_prefix: SetAnswer | None = None
+    after_prefix: Sample | None = None
+    set_off: SetAnswer | None = None
+    sent_while_off: tuple[Sample, ...] = ()
+    off_for_s: float = 0.0
+    set_on: SetAnswer | None = None
+    resumed: Sample | None = None
+
+
+@dataclass(frozen=True)
+class Validated:
+    """A plain start on which bad rates are asked for. `rejected` pairs each answer with the value held afterwards."""
+
+    trace: Trace
+    base_hz: float = DEFAULT_HZ
+    before: Any = DEFAULT_HZ
+    rejected: tuple[tuple[SetAnswer, Any], ...] = ()
+    rate: Rate | None = None
+    messages: int = 0
+
+
+@dataclass(frozen=True)
+class Retimed:
+    """A plain start on which publish_rate is set to a faster and then to a slower rate."""
+
+    trace: Trace
+    steps: tuple[tuple[SetAnswer, Rate | None, int], ...] = ()
+
+
+@dataclass(frozen=True)
+class Atomic:
+    """A plain start with two atomic requests: the values before and after each, and a message that shows a change."""
+
+    trace: Trace
+    base_hz: float = DEFAULT_HZ
+    answers: tuple[SetAnswer, ...] = ()
+    before: tuple[Any, ...] = ()
+    values: tuple[tuple[Any, ...], ...] = ()
+    shown: Sample | None = None
+    rate: Rate | None = None
+    messages: int = 0
+
+
+def find(parameters: Sequence[Parameter], name: str) -> Parameter | None:
+    """The parameter of this name, or None."""
+    return next((parameter for parameter in parameters if parameter.name == name), None)
+
+
+def text(sample: Sample) -> str:
+    """What a message says."""
+    return str(sample.message["data"])
+
+
+def naming(trace: Trace) -> list[str]:
+    """The messages, logged or printed, that name publish_rate; the source lines in a traceback do not count."""
+    lines = [*(log.text for log in trace.logs), *tracebacks.without(trace.output)]
+    return [line for line in lines if RATE in line]

@@ -1,0 +1,380 @@
+"""I2.1: what must have been seen."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from checks.i2_1.facts import (
+    ANSWER_S,
+    BAD_RATES,
+    DEFAULT_HZ,
+    DEFAULTS,
+    DOWN_HZ,
+    ENABLED,
+    LAUNCH_HZ,
+    PREFIX,
+    RATE,
+    RCLPYS_OWN,
+    TOPIC,
+    TYPE,
+    UP_HZ,
+    Atomic,
+    Launched,
+    Retimed,
+    Survey,
+    Switched,
+    Validated,
+    naming,
+    text,
+)
+from tutor.judge import causes, ending, tracebacks
+from tutor.judge.rates import TOLERANCE, Rate, describe
+from tutor.judge.trace import SetAnswer, Trace
+from tutor.judge.verdict import Cause, Verdict, failed, passed
+from tutor.judge.wording import shape
+
+
+def judge_defaults(seen: Survey) -> Verdict:
+    expected = ", ".join(f"{name} = {_show(value)} ({kind})" for name, (kind, value) in DEFAULTS.items())
+    if seen.parameters is None:
+        cause = causes.of_process(seen.trace) or causes.no_spin(seen.trace)
+        return failed(expected, "the node answers no parameter call", cause, causes.last_words(seen.trace))
+    found = {name: seen.value_of(name) for name in DEFAULTS}
+    observed = ", ".join(f"{n} = {_show(p.value)} ({p.type})" if p else f"no {n}" for n, p in found.items())
+    for name, parameter in found.items():
+        kind, value = DEFAULTS[name]
+        if parameter is None:
+            return failed(
+                expected,
+                observed,
+                Cause(
+                    "parameter not declared",
+                    f"the node has no parameter {name}",
+                    f"self.declare_parameter('{name}', {value!r})",
+                ),
+            )
+        if parameter.type != kind:
+            name_of_cause = (
+                "integer parameter" if (kind, parameter.type) == ("double", "integer") else "wrong parameter type"
+            )
+            return failed(
+                expected,
+                observed,
+                Cause(
+                    name_of_cause,
+                    f"{name} is of type {parameter.type}, not {kind}: the type "
+                    "of the default is the type of the parameter",
+                    f"self.declare_parameter('{name}', {value!r})",
+                ),
+            )
+        if parameter.value != value:
+            return failed(
+                expected,
+                observed,
+                Cause(
+                    "wrong default",
+                    f"{name} is {_show(parameter.value)}, not {_show(value)}",
+                    f"self.declare_parameter('{name}', {value!r})",
+                ),
+            )
+    return passed(expected, observed)
+
+
+def judge_launch(seen: Launched) -> Verdict:
+    expected = f"--ros-args -p sets {PREFIX}, {RATE} and {ENABLED}, and each takes effect"
+    samples = seen.trace.on(TOPIC)
+    given = f"{PREFIX}:={seen.prefix} {RATE}:={LAUNCH_HZ}"
+    if not samples:
+        cause = causes.of_silence(seen.trace, TOPIC, TYPE, answers=True)
+        return failed(expected, f"with {given}: no message on {TOPIC}", cause, causes.last_words(seen.trace))
+    if not any(seen.prefix in text(sample) for sample in samples):
+        return failed(
+            expected, f'with {given}: "{text(samples[-1])}"', _ignored(PREFIX), [text(s) for s in samples[:3]]
+        )
+    if seen.rate is None or not seen.rate.agrees(LAUNCH_HZ):
+        observed = f"with {given}: {describe(seen.rate, seen.messages)}, not {LAUNCH_HZ} Hz ±{TOLERANCE:.0%}"
+        return failed(expected, observed, _why_launch_rate(seen.rate))
+    off = f"with {ENABLED}:=false {RATE}:={LAUNCH_HZ}"
+    loud = seen.disabled.on(TOPIC)
+    if loud:
+        return failed(expected, f"{off}: {len(loud)} messages", _ignored(ENABLED), [text(s) for s in loud[:3]])
+    broken = causes.of_process(seen.disabled)
+    silent_on_purpose = any(p.topic == TOPIC for p in seen.disabled.graph.publishers)
+    if broken or not silent_on_purpose or (seen.disabled_answer and seen.disabled_answer.value is not False):
+        return failed(
+            expected,
+            f"{off}: silence, but not because {ENABLED} is false",
+            broken or _ignored(ENABLED),
+            causes.last_words(seen.disabled),
+        )
+    return passed(
+        expected, f'with {given}: "{text(samples[-1])}" at {seen.rate}; {off}: silence for {seen.disabled_for_s:.1f} s'
+    )
+
+
+def _why_launch_rate(rate: Rate | None) -> Cause:
+    if rate is not None and rate.agrees(DEFAULT_HZ):
+        return _ignored(RATE)
+    if rate is None or rate.agrees(1 / LAUNCH_HZ):
+        return _as_period()
+    return Cause("wrong rate", f"{RATE} has an effect, but not this one", f"the timer's period is 1.0 / {RATE}")
+
+
+def _ignored(name: str) -> Cause:
+    return Cause(
+        "parameter ignored",
+        f"{name} given at start-up has no effect",
+        f"read it after declaring it: self.get_parameter('{name}').value",
+    )
+
+
+def _as_period() -> Cause:
+    return Cause("rate used as a period", f"the timer waits {RATE} seconds", f"the timer's period is 1.0 / {RATE}")
+
+
+def judge_runtime(seen: Switched) -> Verdict:
+    expected = f"setting {PREFIX} and {ENABLED} on the running node takes effect within one period"
+    if seen.set_prefix is None or seen.set_off is None or seen.set_on is None:
+        return _not_running(seen.trace, expected)
+    for answer in (seen.set_prefix, seen.set_off, seen.set_on):
+        if not answer.answered or not answer.successful:
+            return _not_set(expected, answer, seen.trace)
+    if seen.after_prefix is None:
+        return failed(
+            expected,
+            f'{PREFIX} set to {seen.prefix}, but the messages still read "{_last(seen.trace)}"',
+            _ignored_later(PREFIX),
+        )
+    if seen.sent_while_off:
+        return failed(
+            expected,
+            f"{ENABLED} set to false, but {len(seen.sent_while_off)} messages more than a period later",
+            _ignored_later(ENABLED),
+            [text(s) for s in seen.sent_while_off[:3]],
+        )
+    if seen.resumed is None:
+        cause = causes.of_process(seen.trace) if seen.trace.exit else None
+        return failed(
+            expected,
+            f"{ENABLED} set to false and to true again: no message since",
+            cause
+            or Cause(
+                "does not resume",
+                f"{ENABLED} true does not bring the messages back",
+                "let the timer run on, and only skip publish() while enabled is false; or make the timer again",
+            ),
+        )
+    return passed(
+        expected,
+        f'"{text(seen.after_prefix)}"; silence while false; resumed '
+        f"{seen.resumed.source_time - seen.set_on.asked_at:.2f} s after true",
+    )
+
+
+def _ignored_later(name: str) -> Cause:
+    return Cause(
+        "parameter ignored",
+        f"{name} is accepted, but what the node sends does not follow it",
+        f"read it in every callback (self.get_parameter('{name}').value), or follow it in a parameter callback",
+    )
+
+
+def _last(trace: Trace) -> str:
+    samples = trace.on(TOPIC)
+    return text(samples[-1]) if samples else "nothing"
+
+
+def _not_running(trace: Trace, expected: str) -> Verdict:
+    if trace.on(TOPIC):
+        return failed(
+            expected,
+            "the node answers no parameter call",
+            causes.of_process(trace) or causes.no_spin(trace),
+            causes.last_words(trace),
+        )
+    cause = causes.of_silence(trace, TOPIC, TYPE, answers=False)
+    return failed(expected, f"no message on {TOPIC} to start with", cause, causes.last_words(trace))
+
+
+def _not_set(expected: str, answer: SetAnswer, trace: Trace) -> Verdict:
+    what = ", ".join(f"{name} to {_show(value)}" for name, value in answer.values.items())
+    if not answer.answered:
+        cause = causes.of_process(trace) or Cause(
+            "blocked executor",
+            "the node answered before, and no longer does: one of its callbacks does not come to an end",
+            "let every callback return at once: no loop and no sleep in it; let a timer do what has to wait",
+        )
+        return failed(expected, f"setting {what}: no answer in {ANSWER_S:g} s", cause, causes.last_words(trace))
+    if "invalid type" in answer.reason:
+        cause = Cause(
+            "callback returns None",
+            "the parameter callback does not return a SetParametersResult",
+            "end the callback with: return SetParametersResult(successful=True)",
+        )
+    elif "Wrong parameter type" in answer.reason:
+        cause = Cause("wrong parameter type", answer.reason, "declare it with a default of the type that is set")
+    elif "declared" in answer.reason:
+        cause = Cause("parameter not declared", answer.reason, "declare it in __init__")
+    else:
+        cause = Cause(
+            "rejected",
+            f'the node rejects a good value: "{answer.reason}"',
+            "let the callback return SetParametersResult(successful=True) for it",
+        )
+    return failed(expected, f'setting {what}: rejected, "{answer.reason}"', cause)
+
+
+def judge_validation(seen: Validated) -> Verdict:
+    expected = f"{RATE} 0.0 and -1.0 are rejected with a reason; the value and the rate stay at {seen.base_hz} Hz"
+    if not seen.rejected:
+        return _not_running(seen.trace, expected)
+    for answer, value in seen.rejected:
+        bad = answer.values[RATE]
+        if not answer.answered:
+            return _not_set(expected, answer, seen.trace)
+        if answer.successful:
+            return failed(
+                expected,
+                f"{RATE} {bad} was accepted",
+                Cause(
+                    "no validation",
+                    f"nothing rejects {bad}",
+                    "return SetParametersResult(successful=False, reason='...') from an on-set-parameters callback",
+                ),
+            )
+        if not answer.reason.strip():
+            return failed(
+                expected,
+                f"{bad} was rejected without a reason",
+                Cause(
+                    "no reason given",
+                    "the reason is empty",
+                    "SetParametersResult(successful=False, reason='the rate must be > 0')",
+                ),
+            )
+        if any(own in answer.reason for own in RCLPYS_OWN):
+            return _not_set(expected, answer, seen.trace)
+        if value != seen.before:
+            return failed(
+                expected,
+                f"{bad} was rejected, but {RATE} is {_show(value)} now",
+                Cause("value changed all the same", "the value is not what it was", "change nothing when you reject"),
+            )
+    if seen.rate is None or not seen.rate.agrees(seen.base_hz):
+        cause = (causes.of_process(seen.trace) if seen.trace.exit else None) or Cause(
+            "value changed all the same",
+            "the rate changes although the value was rejected",
+            "check the value first; touch the timer only once it is accepted",
+        )
+        return failed(expected, f"after the rejection: {describe(seen.rate, seen.messages)}", cause)
+    return passed(expected, f'rejected: "{seen.rejected[0][0].reason}"; still {seen.rate}')
+
+
+def judge_timer(seen: Retimed) -> Verdict:
+    expected = f"setting {RATE} changes the measured rate: {UP_HZ} Hz, then {DOWN_HZ} Hz, ±{TOLERANCE:.0%}"
+    if not seen.steps:
+        return _not_running(seen.trace, expected)
+    for answer, rate, messages in seen.steps:
+        asked = answer.values[RATE]
+        if not answer.answered or not answer.successful:
+            return _not_set(expected, answer, seen.trace)
+        if rate is None or not rate.agrees(asked):
+            return failed(expected, f"{RATE} set to {asked}: {describe(rate, messages)}", _why_timer(seen, asked, rate))
+    return passed(expected, ", then ".join(str(rate) for _, rate, _ in seen.steps))
+
+
+def _why_timer(seen: Retimed, asked: float, rate: Rate | None) -> Cause:
+    if seen.trace.exit and (cause := causes.of_process(seen.trace)):
+        return cause
+    before = DEFAULT_HZ if asked == UP_HZ else UP_HZ
+    if rate is not None and rate.agrees(before):
+        return Cause(
+            "timer not replaced",
+            "the parameter changes, but the timer keeps its old period",
+            "in the parameter callback: self.timer.cancel(), then self.timer = self.create_timer(1.0 / rate, ...)",
+        )
+    if rate is not None and rate.hz > asked:
+        return Cause(
+            "old timer kept",
+            f"{rate.hz:.1f} Hz is more than {asked:g} Hz: an older timer publishes too",
+            "cancel the old timer before you make the new one: self.destroy_timer(self.timer)",
+        )
+    if rate is None or rate.hz < DOWN_HZ / 2:
+        return (
+            _as_period()
+            if rate is None or rate.agrees(1 / asked)
+            else Cause(
+                "wrong rate", f"{rate.hz:.1f} Hz instead of {asked:g} Hz", "the timer's period is 1.0 / rate seconds"
+            )
+        )
+    return Cause("wrong rate", f"{rate.hz:.1f} Hz instead of {asked:g} Hz", "the timer's period is 1.0 / rate seconds")
+
+
+def judge_atomic(seen: Atomic) -> Verdict:
+    expected = f"an atomic set of a good {PREFIX} and a bad {RATE}, in either order, changes nothing at all"
+    if not seen.answers:
+        return _not_running(seen.trace, expected)
+    unanswered = next((answer for answer in seen.answers if not answer.answered), None)
+    if unanswered is not None:
+        return _not_set(expected, unanswered, seen.trace)
+    if any(answer.successful for answer in seen.answers):
+        return failed(
+            expected,
+            "the request was accepted",
+            Cause(
+                "no validation",
+                f"{RATE} {BAD_RATES[1]} is not rejected in an atomic request",
+                "check every parameter of the list before you accept",
+            ),
+        )
+    if "declared" in seen.answers[0].reason:
+        return _not_set(expected, seen.answers[0], seen.trace)
+    changed = next((held for held in seen.values if held != seen.before), None)
+    partial = "only validate in the on-set callback; apply in a post-set callback (add_post_set_parameters_callback)"
+    if changed is not None or seen.shown is not None:
+        now = f'a message reads "{text(seen.shown)}"' if seen.shown else f"{PREFIX}, {RATE} are {changed}"
+        return failed(
+            expected,
+            f"rejected, but {now}",
+            Cause("partial change", "the callback applies the first parameter before it looks at the second", partial),
+        )
+    if seen.rate is None or not seen.rate.agrees(seen.base_hz):
+        return failed(
+            expected,
+            f"rejected, but then {describe(seen.rate, seen.messages)}",
+            Cause("partial change", "the timer was touched although the request was rejected", partial),
+        )
+    return passed(expected, f'both rejected ("{seen.answers[0].reason}"), nothing changed')
+
+
+def judge_bad_launch(plain: Survey, seen: Sequence[Trace]) -> Verdict:
+    expected = f"a start with {RATE}:=0.0 or {RATE}:=-1.0 gives a message that names {RATE}"
+    ordinary = {_wording(line) for line in naming(plain.trace)}
+    for trace in seen:
+        if not any(_wording(line) not in ordinary for line in naming(trace)):
+            given = f"{RATE}:={trace.parameters[RATE]}"
+            found = tracebacks.last(trace)
+            observed = f"with {given}: {found.raised if found else 'no message about it'}"
+            cause = Cause(
+                "only a traceback" if found else "no validation",
+                "nobody can tell from this which parameter is wrong"
+                if found
+                else "the node takes the bad value silently",
+                f"check it after declaring it, and log an error that names {RATE}",
+            )
+            return failed(expected, observed, cause, causes.last_words(trace))
+    return passed(expected, "it does", [naming(trace)[-1] for trace in seen])
+
+
+def _wording(line: str) -> str:
+    """A line without numbers and log prefix: what an ordinary start says, too, is no complaint."""
+    return shape(line.rsplit("]: ", 1)[-1])
+
+
+def judge_shutdown(seen: Survey) -> Verdict:
+    return ending.judge(seen.trace, seen.ending)
+
+
+def _show(value: Any) -> str:
+    return str(value).lower() if isinstance(value, bool) else repr(value) if isinstance(value, str) else str(value)

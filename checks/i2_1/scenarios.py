@@ -1,0 +1,225 @@
+"""I2.1: what is done to the node."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Sequence
+from typing import Any
+
+from checks.i2_1.facts import (
+    ANSWER_S,
+    BAD_RATES,
+    DEFAULT_HZ,
+    DEFAULTS,
+    DOWN_HZ,
+    ENABLED,
+    FILE,
+    LAUNCH_HZ,
+    PREFIX,
+    RARE_S,
+    RATE,
+    TOPIC,
+    TYPE,
+    UP_HZ,
+    Atomic,
+    Launched,
+    Retimed,
+    Survey,
+    Switched,
+    Validated,
+    find,
+    naming,
+    text,
+)
+from tutor.judge.bench import Bench, Run
+from tutor.judge.rates import Rate
+from tutor.judge.trace import Parameter, Sample, SetAnswer, Trace
+from tutor.judge.waiting import START_S, appears, first_message, steady_rate
+
+
+async def survey(bench: Bench) -> Survey:
+    """A plain start: which parameters has it, and does Ctrl+C end it cleanly?"""
+    async with bench.start(FILE, watch={TOPIC: TYPE}) as run:
+        bench.doing(0.2, "asking for its parameters")
+        node = await _node(run)
+        declared = await run.parameters(ANSWER_S) if node else None
+        bench.doing(0.5, "waiting for a message, then pressing Ctrl+C")
+        if node:
+            await first_message(run, TOPIC, TYPE, rare_s=RARE_S)
+        trace = run.trace()
+        ended = await run.interrupt() if run.exit is None else None
+        return Survey(trace, declared, ended)
+
+
+async def launched(bench: Bench) -> Launched:
+    """Start it with each parameter given on the command line."""
+    prefix = "Ahoy7"
+
+    async def loud() -> tuple[Trace, Rate | None, int]:
+        async with bench.start(FILE, parameters={PREFIX: prefix, RATE: LAUNCH_HZ}, watch={TOPIC: TYPE}) as run:
+            bench.doing(0.2, f"{PREFIX}:={prefix} {RATE}:={LAUNCH_HZ}")
+            if not await first_message(run, TOPIC, TYPE, rare_s=RARE_S):
+                return run.trace(), None, 0
+            rate, messages = await steady_rate(run, TOPIC, LAUNCH_HZ, since=run.on(TOPIC)[0].source_time)
+            return run.trace(), rate, messages
+
+    async def silent() -> tuple[Trace, Parameter | None, float]:
+        async with bench.start(FILE, parameters={ENABLED: False, RATE: LAUNCH_HZ}, watch={TOPIC: TYPE}) as run:
+            bench.doing(0.3, f"{ENABLED}:=false, listening for silence")
+            node = await _node(run)
+            declared = await run.parameters(ANSWER_S) if node else None
+            await appears(run, lambda: any(p.topic == TOPIC for p in run.graph.publishers))
+            since = run.now()
+            # Two periods of the default rate, in case the rate that was given here is not heeded.
+            await run.until(lambda: bool(run.on(TOPIC)) or run.now() - since >= 2.2 / DEFAULT_HZ, 4.0)
+            return run.trace(), find(declared or (), ENABLED), run.now() - since
+
+    (trace, rate, messages), (disabled, answer, quiet) = await asyncio.gather(loud(), silent())
+    return Launched(prefix, trace, rate, messages, disabled, answer, quiet)
+
+
+async def switched(bench: Bench) -> Switched:
+    """Set message_prefix and enabled while it runs. A change may take one period of the rate to show."""
+    prefix = "Servus7"
+    async with bench.start(FILE, watch={TOPIC: TYPE}) as run:
+        bench.doing(0.05, "waiting for it to publish")
+        node = await _publishing(run)
+        if node is None:
+            return Switched(run.trace(), prefix)
+        period = 1 / await _base_hz(run)
+        bench.doing(0.2, f"setting {PREFIX} to {prefix}")
+        set_prefix = await run.set_parameters(node, {PREFIX: prefix}, limit_s=ANSWER_S)
+        due = set_prefix.answered_at + period + 0.1
+
+        def shown() -> Sample | None:
+            return next((s for s in run.on(TOPIC) if s.source_time > set_prefix.asked_at and prefix in text(s)), None)
+
+        def old() -> Sample | None:
+            return next((s for s in run.on(TOPIC) if s.source_time > due and prefix not in text(s)), None)
+
+        await run.until(lambda: shown() is not None or old() is not None, 2 * period + 2)
+        changed = shown()
+        bench.doing(0.4, f"setting {ENABLED} to false, listening for silence")
+        set_off = await run.set_parameters(node, {ENABLED: False}, limit_s=ANSWER_S)
+        quiet_from = set_off.answered_at + period + 0.1
+
+        def noise() -> list[Sample]:
+            return [s for s in run.on(TOPIC) if s.source_time > quiet_from]
+
+        await run.until(lambda: bool(noise()) or run.now() >= quiet_from + 1.5 * period, 3 * period + 2)
+        sent, off_for = tuple(noise()), run.now() - set_off.answered_at
+        bench.doing(0.7, f"setting {ENABLED} to true")
+        set_on = await run.set_parameters(node, {ENABLED: True}, limit_s=ANSWER_S)
+
+        def resumed() -> Sample | None:
+            return next((s for s in run.on(TOPIC) if s.source_time > set_on.asked_at), None)
+
+        await run.until(lambda: resumed() is not None, 2 * period + 2)
+        return Switched(run.trace(), prefix, set_prefix, changed, set_off, sent, off_for, set_on, resumed())
+
+
+async def validated(bench: Bench) -> Validated:
+    """Ask for bad rates, which must change nothing."""
+    async with bench.start(FILE, watch={TOPIC: TYPE}) as run:
+        bench.doing(0.05, "waiting for it to publish")
+        node = await _publishing(run)
+        if node is None:
+            return Validated(run.trace())
+        base_hz, (before,) = await _base_hz(run), await _held(run, (RATE,))
+        rejected: list[tuple[SetAnswer, Any]] = []
+        for bad in BAD_RATES:
+            bench.doing(0.2, f"setting {RATE} to {bad}")
+            answer = await run.set_parameters(node, {RATE: bad}, limit_s=ANSWER_S)
+            rejected.append((answer, (await _held(run, (RATE,)))[0]))
+        bench.doing(0.4, "measuring the rate after it")
+        rate, messages = await steady_rate(run, TOPIC, base_hz, since=rejected[-1][0].answered_at)
+        return Validated(run.trace(), base_hz, before, tuple(rejected), rate, messages)
+
+
+async def retimed(bench: Bench) -> Retimed:
+    """Ask for a faster and then for a slower rate; each may take effect after one period of the old one."""
+    async with bench.start(FILE, watch={TOPIC: TYPE}) as run:
+        bench.doing(0.05, "waiting for it to publish")
+        node = await _publishing(run)
+        if node is None:
+            return Retimed(run.trace())
+        steps: list[tuple[SetAnswer, Rate | None, int]] = []
+        old_hz = await _base_hz(run)
+        for done, new_hz in ((0.3, UP_HZ), (0.6, DOWN_HZ)):
+            bench.doing(done, f"setting {RATE} to {new_hz}")
+            answer = await run.set_parameters(node, {RATE: new_hz}, limit_s=ANSWER_S)
+            settled = answer.answered_at + 1 / old_hz + 0.05
+            await run.until(lambda settled=settled: run.now() >= settled, 1 / old_hz + 1)  # type: ignore[misc]
+            rate, messages = await steady_rate(run, TOPIC, new_hz, since=settled)
+            steps.append((answer, rate, messages))
+            old_hz = new_hz
+        return Retimed(run.trace(), tuple(steps))
+
+
+async def atomic(bench: Bench) -> Atomic:
+    """Set a good prefix and a bad rate in one atomic request, in either order."""
+    async with bench.start(FILE, watch={TOPIC: TYPE}) as run:
+        node = await _publishing(run)
+        if node is None:
+            return Atomic(run.trace())
+        base_hz = await _base_hz(run)
+        before = await _held(run, (PREFIX, RATE))
+        tokens = ("Partial1", "Partial2")
+        answers: list[SetAnswer] = []
+        values: list[tuple[Any, ...]] = []
+        for request in ({PREFIX: tokens[0], RATE: BAD_RATES[1]}, {RATE: BAD_RATES[1], PREFIX: tokens[1]}):
+            bench.doing(0.4, f"setting {' and '.join(request)} atomically")
+            answers.append(await run.set_parameters(node, request, atomic=True, limit_s=ANSWER_S))
+            values.append(await _held(run, (PREFIX, RATE)))
+        rate, messages = await steady_rate(run, TOPIC, base_hz, since=answers[-1].answered_at)
+        shown = next((s for s in run.on(TOPIC) if any(token in text(s) for token in tokens)), None)
+        return Atomic(run.trace(), base_hz, tuple(answers), before, tuple(values), shown, rate, messages)
+
+
+async def bad_launches(bench: Bench) -> tuple[Trace, ...]:
+    """Start it with a bad rate: does it say which parameter is wrong?"""
+
+    async def one(bad: float) -> Trace:
+        async with bench.start(FILE, parameters={RATE: bad}, watch={TOPIC: TYPE}) as run:
+            bench.doing(0.3, f"starting with {RATE}:={bad}")
+            await appears(run, lambda: run.exit is not None or bool(naming(run.trace())))
+            await run.until(lambda: run.exit is not None, 1.0)  # what it says may come in more than one message
+            return run.trace()
+
+    return tuple(await asyncio.gather(*(one(bad) for bad in BAD_RATES)))
+
+
+async def _node(run: Run) -> str | None:
+    """The node to talk to: the one that has most of the parameters. None where no node answers."""
+
+    def offers() -> list[str]:
+        return [
+            s.name.removesuffix("/set_parameters") for s in run.graph.services if s.name.endswith("/set_parameters")
+        ]
+
+    if not await run.until(lambda: bool(offers()), START_S):
+        return None
+    declared = await run.parameters(ANSWER_S)
+    if declared is None:
+        return None
+    holders = [parameter.node for parameter in declared if parameter.name in DEFAULTS] or offers()
+    return max(holders, key=holders.count) if holders else None
+
+
+async def _publishing(run: Run) -> str | None:
+    """The node to talk to, once it publishes; None where it does not."""
+    node = await _node(run)
+    return node if node is not None and await first_message(run, TOPIC, TYPE, rare_s=RARE_S) else None
+
+
+async def _held(run: Run, names: Sequence[str]) -> tuple[Any, ...]:
+    """The values that the node says these parameters have; None for one that it does not have."""
+    declared = await run.parameters(ANSWER_S) or ()
+    found = [find(declared, name) for name in names]
+    return tuple(parameter.value if parameter else None for parameter in found)
+
+
+async def _base_hz(run: Run) -> float:
+    """The rate that the node declares to begin with: 1.0 Hz, or what a wrong default says."""
+    value = (await _held(run, (RATE,)))[0]
+    return float(value) if isinstance(value, (int, float)) and 0.5 <= value <= 10 else DEFAULT_HZ
