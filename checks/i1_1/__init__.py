@@ -16,4 +16,5 @@ CHECK = Check(
         Criterion("sensor-name", judges.judge_name, (scenarios.names,)),
         Criterion("shutdown", judges.judge_shutdown, (scenarios.survey,), bonus=True),
     ),
+    asks_s=6.0,  # rates: at 0.5 Hz, 2 s to the first message and 4 s for two periods
 )

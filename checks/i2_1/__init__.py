@@ -17,4 +17,5 @@ CHECK = Check(
         Criterion("launch-validation", judges.judge_bad_launch, (scenarios.survey, scenarios.bad_launches), bonus=True),
         Criterion("shutdown", judges.judge_shutdown, (scenarios.survey,), bonus=True),
     ),
+    asks_s=5.6,  # switched, at 1 Hz: 1 s to the first message, 1 s to the next, 2.6 s of silence, 1 s to resume
 )

@@ -14,6 +14,9 @@ import pytest
 from tests.ros.own_network import OWN_NETWORK, needs_own_network
 from tutor.ros import domain
 from tutor.ros.domain import NoFreeDomain, busy_domains, free_domains, reserve_domain
+from tutor.ros.isolation import ports_of_checks
+
+FIRST, PER_DOMAIN = ports_of_checks()
 
 ROOT = Path(domain.__file__).parents[2]
 
@@ -64,11 +67,13 @@ def test_where_every_domain_is_in_use_the_error_says_so() -> None:
         + """
 import socket
 from tutor.ros.domain import NoFreeDomain, reserve_domain
+from tutor.ros.isolation import ports_of_checks
+FIRST, PER_DOMAIN = ports_of_checks()
 sockets = []
 for d in range(1, 101):
     family = socket.AF_INET6 if d % 2 else socket.AF_INET
     sockets.append(socket.socket(family, socket.SOCK_DGRAM))
-    sockets[-1].bind(("", 7400 + 250 * d + 10))
+    sockets[-1].bind(("", FIRST + PER_DOMAIN * d + 10))
 try:
     with reserve_domain():
         raise SystemExit("got one")
@@ -123,7 +128,7 @@ def test_an_id_that_was_just_given_back_is_not_used_again_at_once() -> None:
 def test_a_domain_with_something_on_it_counts_as_busy() -> None:
     with reserve_domain() as one:
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as other:
-            other.bind(("127.0.0.1", 7400 + 250 * one + 249))
+            other.bind(("127.0.0.1", FIRST + PER_DOMAIN * one + PER_DOMAIN - 1))
             assert one in busy_domains()
         assert one not in busy_domains()
         assert one not in free_domains()

@@ -180,7 +180,7 @@ class Trace:
     """Everything that was seen of one start of the learner's process.
 
     `folder` is where the learner's file lies. `output` is bounded: `dropped_lines` says how many lines in its middle
-    were not kept. `uncalled_main`: the file defines `main` and calls it nowhere (a hint for a diagnosis, never a verdict).
+    were not kept. `uncalled_main`: the file defines `main` and calls it nowhere (for a diagnosis, never a verdict).
     """
 
     file: str

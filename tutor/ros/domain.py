@@ -13,8 +13,6 @@ from pathlib import Path
 from typing import Any
 
 FIRST, LAST = 1, 100
-_PORTS_OF_DOMAIN_0 = 7400
-_PORTS_PER_DOMAIN = 250
 _UDP_TABLES = (Path("/proc/net/udp"), Path("/proc/net/udp6"))
 
 # Every process starts somewhere else and goes round from there, so that a domain that was just given back (whose last
@@ -54,9 +52,10 @@ def reserve_domain() -> Iterator[int]:
 
 
 def busy_domains() -> frozenset[int]:
-    """The domain ids whose DDS ports something on this machine has bound (UDP over IPv4 and IPv6)."""
+    """The domain ids of which something on this machine has bound a port that a check would use (UDP, IPv4 and IPv6)."""
+    first, per_domain = ports_of_checks()
     ports = (port for table in _UDP_TABLES if table.exists() for port in _bound_ports(table.read_text()))
-    ids = ((port - _PORTS_OF_DOMAIN_0) // _PORTS_PER_DOMAIN for port in ports)
+    ids = ((port - first) // per_domain for port in ports)
     return frozenset(domain for domain in ids if 0 <= domain <= LAST)
 
 

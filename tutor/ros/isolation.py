@@ -11,6 +11,8 @@ from pathlib import Path
 PROFILE = Path(__file__).resolve().with_name("isolated.xml")
 _GROUP = "239.255.0.1"  # the multicast group of DDS discovery
 _LOOPBACK = "127.0.0.1"
+_OWN_PORTS = (17425, 150)  # as in isolated.xml, which says why
+_DDS_PORTS = (7400, 250)
 
 
 def isolated_discovery() -> dict[str, str]:
@@ -26,6 +28,11 @@ def isolated_discovery() -> dict[str, str]:
         "FASTRTPS_DEFAULT_PROFILES_FILE": str(PROFILE),
         "FASTDDS_DEFAULT_PROFILES_FILE": str(PROFILE),
     }
+
+
+def ports_of_checks() -> tuple[int, int]:
+    """The first UDP port that a check may use on domain 0, and how many ports there are to a domain."""
+    return _OWN_PORTS if loopback_multicast_works() else _DDS_PORTS
 
 
 @cache
