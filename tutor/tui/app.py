@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import asyncio
 import signal
+from collections.abc import Iterable
 from typing import Any
 
-from textual.app import App
+from textual.app import App, SystemCommand
 from textual.screen import Screen
 
 from tutor.tui.desk import Desk
@@ -20,7 +21,11 @@ class TutorApp(App[int]):
     """Opens on the welcome screen where there is no workspace yet, else on the lessons."""
 
     TITLE = "ROS Tutor"
-    ENABLE_COMMAND_PALETTE = True
+    # An emoji is two cells wide in some terminals and one in others.
+    CSS = """
+    SearchIcon { display: none; }
+    CommandPalette > Vertical { max-width: 84; border: round $border; background: $surface; }
+    """
 
     def __init__(self, desk: Desk) -> None:
         super().__init__()
@@ -47,6 +52,10 @@ class TutorApp(App[int]):
     def _tell(self, text: str) -> None:
         # Told from worker threads: a message queue is the way to the app's own thread.
         self.call_later(self.notify, text, severity="warning", timeout=12, markup=False)
+
+    def get_system_commands(self, screen: Screen[Any]) -> Iterable[SystemCommand]:
+        """Of Textual's own commands only the themes: the rest is ours, or not for a learner."""
+        yield SystemCommand("Choose a theme", "Dark, light, and others", self.search_themes)
 
     async def _create(self, wanted: bool | None) -> None:
         """Create the workspace, with the first exercise in it."""

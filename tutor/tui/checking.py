@@ -77,7 +77,7 @@ class Checking:
                     self._tell(CheckEvent(event))
                 finished = finished or isinstance(event, CheckFinished)
         except ValueError as error:
-            return finished, f"the check said something that is no event: {error}"
+            return finished, f"the check said something unknown ({error})"
         return finished, ""
 
 

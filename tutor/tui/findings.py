@@ -86,7 +86,7 @@ class Findings:
         """The check itself failed: what has no verdict yet could not be judged, and that is a fault of ours."""
         verdict = fault(what, mend, evidence)
         judged = tuple(f if f.verdict else replace(f, checking=True, verdict=verdict) for f in self.criteria)
-        return replace(self, criteria=judged, checking=False, note=what)
+        return replace(self, criteria=judged, checking=False, note="could not be judged")
 
     def _judge(self, result: CriterionResult) -> Findings:
         return self._with(

@@ -50,11 +50,11 @@ class WelcomeScreen(Screen[bool]):
                 Content.assemble(
                     "Your work will be in\n",
                     (words.short(self._root), "bold $primary"),
-                    ("\nan ordinary ROS 2 workspace, which is yours to keep.", "$quiet"),
+                    ("\nan ordinary ROS 2 workspace, yours to keep", "$quiet"),
                 ),
                 id="welcome-place",
             )
-            yield Button("Create it and begin", id="begin")
+            yield Button("Press Enter to create it and begin", id="begin")
         yield Footer(show_command_palette=False)
 
     def on_mount(self) -> None:

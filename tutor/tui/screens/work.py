@@ -276,4 +276,5 @@ class Work(Screen[None]):
         if self.node is not None:
             self.node.stop()
         busy = [w for w in self.workers if w.group in ("check", "node", "progress")]
-        await self.app.workers.wait_for_complete(busy)
+        if busy:  # an empty list would mean all of them, and the one that follows the file never ends
+            await self.app.workers.wait_for_complete(busy)

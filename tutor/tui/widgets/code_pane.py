@@ -28,6 +28,7 @@ class CodePane(Vertical):
             text-align: center;
             padding: 0 2;
         }
+        & > Static { link-color: $accent; link-style: underline; link-color-hover: $background; }
         &.-missing > #code-missing { display: block; }
         &.-missing > CodeView { display: none; }
     }
@@ -42,9 +43,10 @@ class CodePane(Vertical):
         """Name the files of the lesson; a click chooses one."""
         parts: list[Content | str] = []
         for index, path in enumerate(paths):
-            ink = "bold $primary" if index == chosen else "$quiet"
-            name = Content.from_markup(f"[@click=screen.show_file({index})]{path.name}[/]")
-            parts += [name.stylize(ink), "   "]
+            if index == chosen:
+                parts += [Content.styled(path.name, "bold $primary"), "   "]
+            else:
+                parts += [Content.from_markup(f"[@click=screen.show_file({index})]{path.name}[/]"), "   "]
         folder = words.short(paths[chosen].parent)
         if len(paths) > 1:
             parts.append(Content.styled("f: other file   ", "$quiet"))

@@ -46,6 +46,8 @@ class CriterionRow(ListItem):
             word = Content("")
             tail = Content.styled(found.text, "$quiet")
         gap = "  " if word else ""
+        if width - head.cell_length - word.cell_length < 14:
+            gap, tail = "", Content("")  # a stump of a sentence says nothing
         return Content.assemble(head, word, gap, tail).truncate(width, ellipsis=True)
 
 

@@ -20,10 +20,9 @@ class Part(Horizontal):
     DEFAULT_CSS = """
     Part {
         height: auto;
-        margin-bottom: 1;
         display: none;
         &.-filled { display: block; }
-        & > .part-name { width: 10; color: $quiet; }
+        & > .part-name { width: 11; color: $quiet; }
         & > .part-text { width: 1fr; height: auto; }
         &#part-hint > .part-text { color: $accent; }
         &#part-evidence > .part-text { color: $quiet; }
@@ -52,7 +51,7 @@ class Diagnosis(VerticalScroll):
     Diagnosis {
         width: 1fr;
         height: 1fr;
-        padding: 0 1;
+        padding: 0 2 0 1;
         scrollbar-size: 1 1;
         background: $surface;
         & > #diagnosis-head { margin-bottom: 1; height: auto; }

@@ -19,7 +19,7 @@ class LessonView(VerticalScroll):
         background: $surface;
         padding: 1 2 0 2;
         scrollbar-size: 1 1;
-        & > #lesson-head { height: auto; margin-bottom: 1; }
+        & > #lesson-head { height: auto; }
         & > Markdown {
             background: transparent;
             padding: 0;

@@ -1,0 +1,102 @@
+"""A learner in front of the app: what they press, and what they see."""
+
+from __future__ import annotations
+
+import asyncio
+import threading
+from collections.abc import AsyncIterator, Callable
+from contextlib import asynccontextmanager
+from pathlib import Path
+
+import pytest
+from textual.pilot import Pilot
+from textual.screen import Screen
+from textual.widget import Widget
+from textual.widgets import Static
+
+from tests.tui import made
+from tutor.judge.events import Event
+from tutor.tui.app import TutorApp
+from tutor.tui.screens.main import MainScreen
+from tutor.tui.widgets.criteria import CriteriaPanel
+from tutor.tui.widgets.line_view import LineView
+
+LIMIT_S = 15.0
+
+
+class Learner:
+    """Uses the app by key and mouse."""
+
+    def __init__(self, app: TutorApp, pilot: Pilot[int], desk: made.MadeDesk) -> None:
+        self.app, self.pilot, self.desk = app, pilot, desk
+
+    @property
+    def main(self) -> MainScreen:
+        assert self.app.main is not None
+        return self.app.main
+
+    async def press(self, *keys: str) -> None:
+        await self.pilot.press(*keys)
+
+    async def sees(self, *texts: str) -> None:
+        """Wait until every text is on the screen, in one line each."""
+        await self.until(lambda: all(text in self.screen() for text in texts), texts)
+
+    async def until(self, seen: Callable[[], bool], what: object = "") -> None:
+        try:
+            async with asyncio.timeout(LIMIT_S):
+                while not seen():
+                    await self.pilot.pause(0.03)
+        except TimeoutError:
+            pytest.fail(f"not seen: {what}\n{self.screen()}")
+
+    def screen(self) -> str:
+        """What is drawn, as text: the top screen over whatever is below."""
+        width, height = self.app.size
+        screen: Screen[object] = self.app.screen
+        lines = screen._compositor.render_strips()
+        assert len(lines) == height
+        assert all(line.cell_length <= width for line in lines)
+        return "\n".join(line.text for line in lines)
+
+    def diagnosis(self) -> str:
+        """The diagnosis that is shown, whole: on the screen it is folded."""
+        return "\n".join(str(part.render()) for part in self.main.query_one("#diagnosis").query(Static))
+
+    def text(self, selector: str) -> str:
+        """The text of one widget, whole."""
+        widget = self.main.query_one(selector, Widget)
+        return widget.plain if isinstance(widget, LineView) else str(widget.query_one(Static).render())
+
+    def criterion(self, id: str) -> str:
+        """The line of one criterion."""
+        rows = self.main.query_one(CriteriaPanel).rows
+        return next(str(row.render()) for row in rows if row.finding.id == id)
+
+    async def told(self, *lines: Event | str) -> None:
+        """Have the engine say this. In a daemon thread: opening the pipe waits for the child."""
+        thread = threading.Thread(target=self.desk.engine.say, args=lines, daemon=True)
+        thread.start()
+        await self.until(lambda: not thread.is_alive(), "the engine listens")
+
+
+@pytest.fixture
+def learner(tmp_path: Path) -> Callable[..., object]:
+    """Open the app for a learner; when they leave, nothing runs any more."""
+
+    @asynccontextmanager
+    async def opened(size: tuple[int, int] = (120, 36), *, started: bool = True) -> AsyncIterator[Learner]:
+        desk = made.MadeDesk(tmp_path / "learner", started=started)
+        app = TutorApp(desk)
+        app.animation_level = "none"
+        async with app.run_test(size=size, notifications=True) as pilot:
+            try:
+                if desk.workspace.exists:
+                    await pilot.pause()
+                yield Learner(app, pilot, desk)
+            finally:
+                desk.engine.close()
+                if app.main is not None:
+                    await app.main.close_down()
+
+    return opened

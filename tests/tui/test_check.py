@@ -1,0 +1,143 @@
+"""Checking: the engine is a child process whose events come when the test says so."""
+
+from __future__ import annotations
+
+import os
+from typing import Any
+
+import pytest
+
+from tests.tui import made
+from tutor.judge.events import CriterionJudged
+
+SIZES = [(120, 36), (80, 24)]
+
+
+async def begin(me: Any) -> None:
+    await me.press("c")
+    await me.told(*made.started())
+
+
+@pytest.mark.parametrize("size", SIZES)
+async def test_while_checking_each_criterion_tells_what_is_done_to_the_node(learner: Any, size: Any) -> None:
+    async with learner(size) as me:
+        await begin(me)
+        await me.told(made.doing("rate", 0.6, "setting publish_rate to 5.0"))
+        await me.sees("60%", "setting publish_rate to 5.0", "waiting", "c Cancel", "Esc cancels")
+        await me.told(CriterionJudged("i1.1", made.result("publishes", made.GOOD)))
+        await me.until(lambda: "✓ publishes" in me.criterion("publishes"))
+        assert "passed" in me.criterion("publishes")
+        assert "60%" in me.criterion("rate")
+
+
+@pytest.mark.parametrize("size", SIZES)
+async def test_a_failure_is_shown_with_its_diagnosis(learner: Any, size: Any) -> None:
+    async with learner(size) as me:
+        await begin(me)
+        await me.told(*made.ending(made.BAD))
+        await me.sees("✗ failed", "Expected", "Observed", "Cause", "Next step", "Evidence", "2 of 3 passed")
+        await me.sees("0.20 Hz over 3 messages", "rate used as a period", "line 18")
+        assert "✗ rate" in me.criterion("rate")
+        assert "skipped" in me.criterion("shutdown")
+        await me.until(lambda: me.main.progress.of("i1.1").last is not None)
+        assert me.desk.progress().of("i1.1").last.passed == ("publishes", "range")
+        await me.press("1") if size == (120, 36) else await me.press("l")
+        await me.sees("2 of 3 met")
+
+
+async def test_choosing_another_criterion_shows_what_was_measured(learner: Any) -> None:
+    async with learner() as me:
+        await begin(me)
+        await me.told(*made.ending(made.BAD))
+        await me.sees("✗ failed")
+        await me.pilot.click(me.main.query("CriterionRow")[1])
+        await me.sees("✓ passed", "54 values from 20.03 to 29.87")
+
+
+@pytest.mark.parametrize("size", SIZES)
+async def test_passing_is_good_news_and_says_what_comes_next(learner: Any, size: Any) -> None:
+    async with learner(size) as me:
+        await begin(me)
+        await me.told(*made.ending(made.GOOD))
+        await me.sees("I1.1 Sensor Publisher passed", "Well done", "for the next lesson", "3 of 3 passed")
+        await me.press("n")
+        await me.sees("I1.3  Calculator Service")
+        await me.press("p")
+        if size == (80, 24):
+            await me.press("4")
+        await me.sees("I1.1 Sensor Publisher passed")
+        assert me.desk.progress().of("i1.1").best.value == "passed"
+
+
+@pytest.mark.parametrize("key", ["escape", "c"])
+async def test_cancelling_interrupts_the_engine_and_waits_for_it(learner: Any, key: str) -> None:
+    async with learner() as me:
+        await begin(me)
+        await me.told(made.doing("rate", 0.3, "listening"))
+        await me.sees("listening")
+        pid = me.desk.engine.pid
+        await me.press(key)
+        await me.sees("cancelled", "c Check")
+        assert me.desk.engine.cleaned_up
+        with pytest.raises(ProcessLookupError):
+            os.kill(pid, 0)
+        assert me.criterion("rate").startswith("○ rate")
+        assert me.desk.progress().of("i1.1").last is None
+
+
+async def test_a_crash_of_the_engine_is_our_fault_and_no_traceback_over_the_screen(learner: Any) -> None:
+    async with learner() as me:
+        await begin(me)
+        await me.told(CriterionJudged("i1.1", made.result("publishes", made.GOOD)), "crash")
+        await me.sees("! error", "the check ended before it was done", "not of your code")
+        assert "RuntimeError: the engine has a bug" in me.diagnosis()
+        assert "passed" in me.criterion("publishes")
+        assert "! rate" in me.criterion("rate")
+        assert me.desk.progress().of("i1.1").last is None
+
+
+async def test_a_fault_that_the_engine_knows_is_told_in_its_words(learner: Any) -> None:
+    async with learner() as me:
+        await begin(me)
+        await me.told("fault")
+        await me.sees("! error")
+        assert "no domain is free. End other checks first." in me.diagnosis()
+
+
+async def test_a_line_that_is_no_event_is_a_fault_too(learner: Any) -> None:
+    async with learner() as me:
+        await begin(me)
+        await me.told("hello [red]world[/red]")
+        await me.sees("! error")
+        assert "not an event: 'hello [red]world[/red]" in me.diagnosis()
+
+
+async def test_an_engine_that_cannot_be_started_is_told(learner: Any) -> None:
+    async with learner() as me:
+        me.desk.engine.command = ("/nowhere/python",)
+        await me.press("c")
+        await me.sees("! error", "could not be started")
+
+
+async def test_a_check_goes_on_while_another_lesson_is_read(learner: Any) -> None:
+    async with learner() as me:
+        await begin(me)
+        await me.press("n")
+        await me.sees("I1.3  Calculator Service", "checking I1.1")
+        await me.told(*made.ending(made.GOOD))
+        me.desk.engine.close()
+        await me.sees("I1.1 passed.")
+        assert me.criterion("rate").startswith("○ rate")
+
+
+async def test_quitting_ends_the_check(learner: Any) -> None:
+    async with learner() as me:
+        await begin(me)
+        await me.told(made.doing("rate", 0.3, "listening"))
+        await me.sees("listening")
+        pid = me.desk.engine.pid
+        await me.press("q")
+        await me.until(lambda: me.app.return_code == 0)
+        assert me.desk.engine.cleaned_up
+        with pytest.raises(ProcessLookupError):
+            os.kill(pid, 0)

@@ -1,0 +1,79 @@
+"""Starting an exercise, hints, the solution, the editor."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from tests.tui import made
+
+
+async def test_start_puts_the_skeleton_there_and_shows_it(learner: Any) -> None:
+    async with learner() as me:
+        await me.press("n", "2")
+        await me.sees("server.py is not in your workspace yet")
+        await me.press("s")
+        await me.sees("1  import signal", "is in your")
+        await me.until(lambda: "started" in me.screen().split("Calculator Service")[1])
+
+
+async def test_start_never_touches_what_is_there(learner: Any) -> None:
+    async with learner() as me:
+        path: Path = me.desk.path(me.desk.lessons[0].files[0])
+        path.write_text("mine = 1\n")
+        await me.press("s")
+        await me.sees("is there already")
+        assert path.read_text() == "mine = 1\n"
+
+
+@pytest.mark.parametrize("key", ["r", "c", "e"])
+async def test_where_the_file_is_missing_the_start_is_offered(learner: Any, key: str) -> None:
+    async with learner() as me:
+        await me.press("n", key)
+        await me.sees("server.py is not in your workspace yet, so there is", "Put the skeleton there?")
+        await me.press("escape")
+        assert not me.desk.path(me.desk.lessons[1].files[0]).exists()
+        await me.press(key, "enter")
+        await me.sees("1  import signal")
+        assert me.desk.path(me.desk.lessons[1].files[0]).read_text() == made.NODE
+
+
+async def test_hints_come_one_by_one_and_are_remembered(learner: Any) -> None:
+    async with learner() as me:
+        await me.press("h")
+        await me.sees("hint 1 of 3", "Think of a timer.")
+        assert "create_timer takes seconds." not in me.screen()
+        await me.press("h")
+        await me.sees("hint 2 of 3", "create_timer takes seconds.")
+        await me.press("escape")
+        await me.until(lambda: me.main.progress.of("i1.1").hints == 2)
+        assert me.desk.progress().of("i1.1").hints == 2
+        await me.press("h")
+        await me.sees("hint 2 of 3")
+
+
+async def test_the_solution_is_shown_only_after_a_question(learner: Any) -> None:
+    async with learner() as me:
+        await me.press("v")
+        await me.sees("Show our solution all the same?")
+        await me.press("escape")
+        assert "# the solution" not in me.screen()
+        await me.press("v", "enter")
+        await me.sees("I1.1 solution: thermometer.py", "# the solution")
+
+
+async def test_without_a_terminal_to_hand_over_the_editor_is_refused_in_words(learner: Any) -> None:
+    async with learner() as me:
+        await me.press("e")
+        await me.sees("cannot be handed")
+
+
+async def test_damaged_progress_is_told_and_kept_aside(learner: Any) -> None:
+    async with learner() as me:
+        file = me.desk.workspace.root / ".ros-tutor" / "progress.json"
+        file.write_text("{ not json")
+        me.main.read_progress()
+        await me.sees("could not")
+        assert len(list(file.parent.glob("progress.json.damaged-*"))) == 1

@@ -1,0 +1,154 @@
+"""Opening the app, looking around, and the shape of the screen."""
+
+from __future__ import annotations
+
+import asyncio
+from pathlib import Path
+from typing import Any
+
+import pytest
+from textual.color import Color
+
+from tests.tui import made
+from tutor.tui.screens.layout import Criteria, Layout, layout_for
+from tutor.tui.themes import DARK, GROUNDS, INKS, LIGHT
+
+SIZES = [(120, 36), (80, 24)]
+
+
+@pytest.mark.parametrize("size", SIZES)
+async def test_a_new_learner_is_told_where_the_work_will_be_and_begins_with_enter(learner: Any, size: Any) -> None:
+    async with learner(size, started=False) as me:
+        await me.sees("Learn ROS 2", "Your work will be in", "Press Enter")
+        assert not me.desk.workspace.exists
+        await me.press("enter")
+        await me.sees("I1.1  Sensor Publisher", "Objective")
+        assert me.desk.workspace.exists
+        assert me.desk.path(me.desk.lessons[0].files[0]).exists()
+
+
+async def test_who_leaves_the_welcome_screen_has_no_workspace(learner: Any) -> None:
+    async with learner(started=False) as me:
+        await me.sees("Your work will be in")
+        await me.press("q")
+        await me.until(lambda: me.app.return_code == 0)
+        assert not me.desk.workspace.exists
+
+
+async def test_the_lessons_show_difficulty_and_standing_in_words(learner: Any) -> None:
+    async with learner() as me:
+        await me.sees(
+            "I1.1 Sensor Publisher", "●○○ easy", "started", "●●○ medium", "●●● challenge", "new", "0 of 3 passed"
+        )
+
+
+@pytest.mark.parametrize("size", SIZES)
+async def test_next_and_previous_lesson(learner: Any, size: Any) -> None:
+    async with learner(size) as me:
+        await me.press("n")
+        await me.sees("I1.3  Calculator Service", "temperature sensor (i1.3)")
+        await me.press("n", "n")
+        await me.sees("I2.3  Multi-Threaded Service", "This is the last lesson.")
+        await me.press("p", "p")
+        await me.sees("I1.1  Sensor Publisher")
+
+
+async def test_a_click_on_a_lesson_opens_it(learner: Any) -> None:
+    async with learner() as me:
+        row = me.main.query_one("#lessons").query("LessonRow")[2]
+        await me.pilot.click(row)
+        await me.sees("I2.3  Multi-Threaded Service")
+
+
+async def test_in_a_small_terminal_the_lessons_are_a_drawer_and_the_criteria_a_tab(learner: Any) -> None:
+    async with learner((80, 24)) as me:
+        await me.sees("Lesson", "Code", "Log", "Criteria", "q Quit")
+        assert "0 of 3 passed" not in me.screen()
+        await me.press("l")
+        await me.sees("0 of 3 passed")
+        await me.press("down", "enter")
+        await me.sees("I1.3  Calculator Service")
+        assert "0 of 3 passed" not in me.screen()
+        await me.press("4")
+        await me.sees("The publishing rate can be set with a parameter")
+
+
+async def test_the_panels_unfold_when_the_terminal_grows_and_fold_again(learner: Any) -> None:
+    async with learner((80, 24)) as me:
+        await me.press("4")
+        await me.pilot.resize_terminal(120, 36)
+        await me.sees("0 of 3 passed", "Objective", "not checked yet")
+        await me.pilot.resize_terminal(180, 50)
+        await me.sees("0 of 3 passed", "Objective", "not checked yet")
+        await me.pilot.resize_terminal(60, 18)
+        await me.sees("Objective")
+        assert "0 of 3 passed" not in me.screen()
+
+
+def test_the_layout_follows_the_size() -> None:
+    assert layout_for(80, 24) == Layout(False, Criteria.FOLDED)
+    assert layout_for(120, 24) == Layout(True, Criteria.FOLDED)
+    assert layout_for(120, 36) == Layout(True, Criteria.STACKED)
+    assert layout_for(200, 50) == Layout(True, Criteria.BESIDE)
+
+
+async def test_help_names_every_key(learner: Any) -> None:
+    async with learner() as me:
+        await me.press("question_mark")
+        await me.sees("Run your node in your own ROS domain", "Stop everything and leave", "Ctrl+P")
+        await me.press("escape")
+        await me.until(lambda: "Stop everything and leave" not in me.screen())
+
+
+async def test_the_palette_goes_to_a_lesson(learner: Any) -> None:
+    async with learner() as me:
+        await me.press("ctrl+p")
+        await me.press(*"multi")
+        await me.sees("Go to I2.3 Multi-Threaded Service")
+        await me.press("down", "enter")
+        await me.sees("I2.3  Multi-Threaded Service")
+
+
+async def test_the_theme_is_switched(learner: Any) -> None:
+    async with learner() as me:
+        assert me.app.current_theme.dark
+        await me.press("t")
+        assert not me.app.current_theme.dark
+
+
+@pytest.mark.parametrize("theme", [DARK, LIGHT], ids=lambda theme: theme.name)
+def test_every_text_colour_can_be_read_on_every_ground(theme: Any) -> None:
+    def luminance(color: Color) -> float:
+        parts = [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in color.normalized]
+        return 0.2126 * parts[0] + 0.7152 * parts[1] + 0.0722 * parts[2]
+
+    texts = {name: theme.variables[name] for name in INKS} | {
+        name: getattr(theme, name) for name in ("foreground", "primary", "secondary", "accent")
+    }
+    for ground in GROUNDS:
+        below = luminance(Color.parse(getattr(theme, ground)))
+        for name, ink in texts.items():
+            above = luminance(Color.parse(ink))
+            ratio = (max(above, below) + 0.05) / (min(above, below) + 0.05)
+            assert ratio >= 4.5, f"{name} on {ground}: {ratio:.2f}"
+
+
+async def test_the_code_is_shown_with_line_numbers_and_follows_the_disk(learner: Any) -> None:
+    async with learner() as me:
+        await me.press("2")
+        await me.sees("1  import signal", "thermometer.py")
+        path: Path = me.desk.path(me.desk.lessons[0].files[0])
+        path.write_text("x = 1\n" + "y = '" + "long " * 60 + "'\n\ttabbed = 'a\x1b[31mb'\n")
+        await me.sees("1  x = 1", "2  y = 'long", "3      tabbed = 'a·[31mb'")
+        path.unlink()
+        await me.sees("thermometer.py is not in your workspace yet")
+
+
+async def test_a_lesson_with_two_files_shows_the_other_one(learner: Any) -> None:
+    async with learner() as me:
+        await me.press("n", "s")
+        await me.sees("server.py and client.py", "1  import signal")
+        await me.press("f")
+        await me.until(lambda: me.main.file_index == 1)
+        await me.pilot.click("#code-head", offset=(2, 0))
+        assert (await asyncio.to_thread(me.desk.path(me.desk.lessons[1].files[1]).read_text)) == made.NODE
