@@ -12,6 +12,8 @@ from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
 from typing import Any
 
+from tutor.ros.isolation import ports_of_checks
+
 FIRST, LAST = 1, 100
 _UDP_TABLES = (Path("/proc/net/udp"), Path("/proc/net/udp6"))
 
@@ -52,7 +54,7 @@ def reserve_domain() -> Iterator[int]:
 
 
 def busy_domains() -> frozenset[int]:
-    """The domain ids of which something on this machine has bound a port that a check would use (UDP, IPv4 and IPv6)."""
+    """The domain ids of which something on this machine has bound a UDP port that a check would use."""
     first, per_domain = ports_of_checks()
     ports = (port for table in _UDP_TABLES if table.exists() for port in _bound_ports(table.read_text()))
     ids = ((port - first) // per_domain for port in ports)
