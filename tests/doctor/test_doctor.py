@@ -157,9 +157,11 @@ import socket
 from pathlib import Path
 from tutor.doctor import ros2
 from tutor.ros.environment import detect
+from tutor.ros.isolation import ports_of_checks
+first, per_domain = ports_of_checks()
 sockets = [socket.socket(socket.AF_INET, socket.SOCK_DGRAM) for d in range(1, 101)]
 for d, one in enumerate(sockets, start=1):
-    one.bind(("", 7400 + 250 * d))
+    one.bind(("", first + per_domain * d))
 for finding in ros2.domain_ids(), ros2.discovery(detect(), {}):
     assert finding.ok is False and "domain id" in finding.text and finding.mend, finding
 for one in sockets[:3]:
