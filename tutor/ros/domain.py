@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import importlib
-import itertools
 import os
 import random
 import socket
@@ -18,8 +17,8 @@ FIRST, LAST = 1, 100
 _UDP_TABLES = (Path("/proc/net/udp"), Path("/proc/net/udp6"))
 
 # Every process starts somewhere else and goes round from there, so that a domain that was just given back (whose last
-# packets may still be on their way) is the last to be used again.
-_round = itertools.count(random.SystemRandom().randrange(LAST))
+# packets may still be on their way) is the last to be used again. Threads that race here only start at the same place.
+_last_used = random.SystemRandom().randrange(FIRST, LAST + 1)
 
 
 class NoFreeDomain(Exception):
@@ -41,11 +40,13 @@ def reserve_domain() -> Iterator[int]:
     Safe among threads and processes, and among other programs that use ROS's domain_coordinator; a process that dies
     gives its ids back. Raises NoFreeDomain.
     """
+    global _last_used
     claim = _claim()
     try:
         domain = claim.__enter__()
     except RuntimeError:  # the coordinator tried as often as it does
         raise NoFreeDomain from None
+    _last_used = domain
     # What the block raises is kept from the coordinator: it would take an OSError for a port that is in use, and go on.
     try:
         yield domain
@@ -97,8 +98,8 @@ def _claim() -> AbstractContextManager[int]:
 
 
 def _next_round() -> list[int]:
-    start = next(_round)
-    return [FIRST + (start + step) % (LAST - FIRST + 1) for step in range(LAST - FIRST + 1)]
+    count = LAST - FIRST + 1
+    return [FIRST + (_last_used - FIRST + 1 + step) % count for step in range(count)]
 
 
 def _users_domain() -> frozenset[int]:
