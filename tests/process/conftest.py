@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import os
+import signal
 import sys
 import time
 import uuid
@@ -118,11 +119,13 @@ async def bench(tmp_path: Path) -> AsyncIterator[Bench]:
     before = len(os.listdir("/proc/self/fd"))
     bench = Bench(tmp_path)
     yield bench
-    for learner in bench.started:
-        await learner.end()
-    left = bench.left()
-    for pid in left:
-        os.kill(pid, 9)
+    try:
+        for learner in bench.started:
+            await learner.end()
+    finally:
+        left = bench.left()
+        for pid in left:
+            os.kill(pid, signal.SIGKILL)
     assert not left
     assert len(os.listdir("/proc/self/fd")) <= before
 
