@@ -146,9 +146,10 @@ class MainScreen(Work, Screen[None]):
             return
         self.shape = shape
         for place in Criteria:
-            self.set_class(shape.criteria is place, f"-{place}")
-        self.set_class(not shape.lessons, "-no-lessons")
-        self.remove_class("-drawer", "-lessons-away")
+            self.set_class(shape.criteria is place, f"-{place}", update=False)
+        self.set_class(not shape.lessons, "-no-lessons", update=False)
+        self.remove_class("-drawer", "-lessons-away", update=False)
+        self.update_node_styles()  # once for all of them: it styles the whole screen anew
         tabs = self.query_one(Tabs)
         if shape.criteria is Criteria.FOLDED:
             tabs.show("tab-criteria")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, ClassVar
 
 from pygments.lexers.python import PythonLexer  # type: ignore[import-untyped]
 from pygments.token import (  # type: ignore[import-untyped]
@@ -32,6 +32,21 @@ _KINDS = {
 
 class CodeView(LineView):
     """One file, read-only."""
+
+    COMPONENT_CLASSES: ClassVar[set[str]] = {
+        f"line--{kind}" for kind in ("gutter", "keyword", "string", "number", "comment", "name", "type")
+    }
+    DEFAULT_CSS = """
+    CodeView {
+        & > .line--gutter { color: $quiet; }
+        & > .line--keyword { color: $code-keyword; }
+        & > .line--string { color: $code-string; }
+        & > .line--number { color: $code-number; }
+        & > .line--comment { color: $code-comment; text-style: italic; }
+        & > .line--name { color: $code-name; }
+        & > .line--type { color: $code-type; }
+    }
+    """
 
     def show_source(self, source: str) -> None:
         """Show this source text."""

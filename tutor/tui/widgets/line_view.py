@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import ClassVar
 
 from rich.cells import cell_len
 from rich.segment import Segment
@@ -20,13 +19,7 @@ Row = tuple[Piece, ...]
 
 
 class LineView(ScrollView, can_focus=True):
-    """Shows rows of pieces; colours come from the component classes, so they follow the theme."""
-
-    KINDS = (
-        "gutter", "keyword", "string", "number", "comment", "name", "type",
-        "quiet", "debug", "info", "warn", "error", "fatal",
-    )  # fmt: skip
-    COMPONENT_CLASSES: ClassVar[set[str]] = {f"line--{kind}" for kind in KINDS}
+    """Shows rows of pieces. A subclass names its kinds as component classes, `line--KIND`; so they follow the theme."""
 
     DEFAULT_CSS = """
     LineView {
@@ -34,19 +27,6 @@ class LineView(ScrollView, can_focus=True):
         color: $foreground;
         scrollbar-gutter: stable;
         scrollbar-size: 1 1;
-        & > .line--gutter { color: $quiet; background: $surface; }
-        & > .line--keyword { color: $code-keyword; }
-        & > .line--string { color: $code-string; }
-        & > .line--number { color: $code-number; }
-        & > .line--comment { color: $code-comment; text-style: italic; }
-        & > .line--name { color: $code-name; }
-        & > .line--type { color: $code-type; }
-        & > .line--quiet { color: $quiet; }
-        & > .line--debug { color: $quiet; }
-        & > .line--info { color: $good; }
-        & > .line--warn { color: $warn; }
-        & > .line--error { color: $bad; }
-        & > .line--fatal { color: $bad; text-style: bold reverse; }
     }
     """
 

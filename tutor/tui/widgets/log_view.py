@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import time
 from collections.abc import Iterable, Sequence
+from typing import ClassVar
 
 from rich.cells import cell_len, chop_cells
 from textual import events
@@ -18,6 +19,21 @@ _CONTROL = re.compile(r"\x1b\[[0-9;?]*[ -/]*[@-~]|[\x00-\x08\x0b-\x1f\x7f]")
 
 class LogView(LineView):
     """Follows the end of the log, unless the learner has scrolled up."""
+
+    COMPONENT_CLASSES: ClassVar[set[str]] = {
+        f"line--{kind}" for kind in ("quiet", "name", "debug", "info", "warn", "error", "fatal")
+    }
+    DEFAULT_CSS = """
+    LogView {
+        & > .line--quiet { color: $quiet; }
+        & > .line--name { color: $code-type; }
+        & > .line--debug { color: $quiet; }
+        & > .line--info { color: $good; }
+        & > .line--warn { color: $warn; }
+        & > .line--error { color: $bad; }
+        & > .line--fatal { color: $bad; text-style: bold reverse; }
+    }
+    """
 
     def __init__(self, id: str | None = None) -> None:
         super().__init__(id=id)
@@ -53,8 +69,8 @@ def _coloured(line: OutputLine) -> Row:
         level, stamp, name, said = found.groups()
         at = time.strftime("%H:%M:%S", time.localtime(float(stamp)))
         kind = level.lower()
-        loud = kind if kind in ("warn", "error") else "debug" if kind == "debug" else ""
-        return ((f" {level:<5} ", kind), (f" {at}  ", "quiet"), (f"{name}  ", "type"), (said, loud))
+        loud = kind if kind in ("warn", "error", "fatal") else "debug" if kind == "debug" else ""
+        return ((f" {level:<5} ", kind), (f" {at}  ", "quiet"), (f"{name}  ", "name"), (said, loud))
     if line.stream == "stderr":
         return ((" stderr ", "warn"), (text, "error" if _is_error(text) else ""))
     return ((" print  ", "quiet"), (text, ""))
