@@ -62,8 +62,11 @@ _KINDS: dict[str, type[Event]] = {
 
 
 def encode(event: Event) -> str:
-    """Write an event as one line of JSON, without the line's end."""
-    return json.dumps({"event": type(event).__name__, **_plain(asdict(event))}, ensure_ascii=False)
+    """Write an event as one line of JSON, without the line's end.
+
+    In ASCII: the same bytes in every locale, and no character that some reader would take for a line's end.
+    """
+    return json.dumps({"event": type(event).__name__, **_plain(asdict(event))})
 
 
 def decode(line: str) -> Event:
