@@ -10,9 +10,9 @@ from tutor.judge.trace import OutputLine, Trace
 
 _HEADER = "Traceback (most recent call last):"
 _FRAME = re.compile(r'^\s*File "(?P<path>[^"]+)", line (?P<line>\d+)(?:, in (?P<function>.+))?$')
-_RAISED = re.compile(r"^(?P<type>[A-Za-z_][\w.]*)(?:: (?P<message>.*))?$")
+_RAISED = re.compile(r"^(?P<type>[^\W\d][\w.]*(?:\.<locals>\.[\w.]+)*)(?:: (?P<message>.*))?$")
 _DUMPED = re.compile(r'^  File "(?P<path>[^"]+)", line (?P<line>\d+) in (?P<function>.+)$')
-_MARKERS = re.compile(r"^\s*[~^]+\s*$")
+_COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,9 +68,12 @@ def own(frames: Iterable[Frame], folder: str) -> Frame | None:
 
 
 def last(trace: Trace) -> Traceback | None:
-    """The last traceback that the process wrote, or None."""
+    """The last traceback that the process wrote, or None.
+
+    An ignored one counts only where there is no other: what objects say while Python goes down comes after the crash.
+    """
     found = find(trace.output)
-    return found[-1] if found else None
+    return next((each for each in reversed(found) if not each.ignored), found[-1] if found else None)
 
 
 def without(output: Sequence[OutputLine]) -> tuple[str, ...]:
@@ -89,22 +92,23 @@ def without(output: Sequence[OutputLine]) -> tuple[str, ...]:
     return tuple(kept)
 
 
-def _tracebacks(lines: Sequence[str]) -> Iterable[Traceback]:
+def _tracebacks(written: Sequence[str]) -> Iterable[Traceback]:
+    lines = [_COLOUR.sub("", text) for text in written]
     frames: list[Frame] = []
-    ignored = False
+    headed = ignored = False
     for number, text in enumerate(lines):
         frame = _FRAME.match(text)
         if text.strip() == _HEADER:
-            frames = []
+            frames, headed = [], True
             ignored = number > 0 and lines[number - 1].startswith("Exception ignored")
         elif frame:
             code = lines[number + 1].strip() if number + 1 < len(lines) else ""
             frames.append(Frame(frame["path"], int(frame["line"]), frame["function"] or "", code))
-        elif frames and text and not text[0].isspace() and not _MARKERS.match(text):
-            raised = _RAISED.match(text)
-            if raised:
-                yield Traceback(raised["type"], raised["message"] or "", tuple(frames), ignored)
-            frames = []
+        elif frames and (raised := _RAISED.match(text)):
+            yield Traceback(raised["type"], raised["message"] or "", tuple(frames), ignored)
+            frames, headed, ignored = [], False, False
+        elif text and not text[0].isspace() and not headed:
+            frames = []  # after a header, it is another thread's line, such as a log message
 
 
 def _within(path: str, folder: str) -> bool:

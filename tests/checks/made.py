@@ -1,0 +1,162 @@
+"""Made facts: short ways to write down what a check could have seen."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+from tutor.judge.trace import (
+    CallAnswer,
+    Ending,
+    Endpoint,
+    Exit,
+    Graph,
+    LogRecord,
+    OutputLine,
+    Parameter,
+    Sample,
+    Service,
+    SetAnswer,
+    Trace,
+)
+from tutor.judge.tracebacks import Frame
+from tutor.judge.verdict import Status, Verdict
+
+FOLDER = "/home/me/ws"
+START = 1000.0
+
+CRASH = f"""\
+Traceback (most recent call last):
+  File "{FOLDER}/node.py", line 30, in <module>
+    main()
+  File "{FOLDER}/node.py", line 12, in tick
+    self.nothing()
+    ^^^^^^^^^^^^
+AttributeError: 'Sensor' object has no attribute 'nothing'"""
+
+KEYBOARD_INTERRUPT = f"""\
+Traceback (most recent call last):
+  File "{FOLDER}/node.py", line 30, in <module>
+    main()
+  File "/venv/lib/python3.12/site-packages/rclpy/executors.py", line 296, in spin
+    self.spin_once()
+KeyboardInterrupt"""
+
+
+def lines(text: str, stream: str = "stderr", at: float = START) -> tuple[OutputLine, ...]:
+    """The lines of `text`, written at once."""
+    return tuple(OutputLine(stream, line, at) for line in text.splitlines())
+
+
+def sample(topic: str, data: Any, at: float) -> Sample:
+    return Sample(topic, {"data": data}, at, at + 0.001)
+
+
+def samples(topic: str, hz: float, *, count: int = 10, data: Any = "Hello") -> tuple[Sample, ...]:
+    """`count` messages that came at a steady rate."""
+    return tuple(sample(topic, data, START + 1 + i / hz) for i in range(count))
+
+
+def log(text: str, level: int = 20) -> LogRecord:
+    return LogRecord(level, "node", text, START, START)
+
+
+def publisher(topic: str, type_name: str) -> Endpoint:
+    return Endpoint(topic, type_name, "/node", "reliable", "volatile")
+
+
+def graph(
+    nodes: Sequence[str] = ("/node",),
+    publishers: Mapping[str, str] | None = None,
+    services: Mapping[str, str] | None = None,
+) -> Graph:
+    """A graph: topics and services to their types."""
+    return Graph(
+        nodes=tuple(nodes),
+        publishers=tuple(publisher(*each) for each in (publishers or {}).items()),
+        services=tuple(Service(name, type_name, "/node") for name, type_name in (services or {}).items()),
+    )
+
+
+UP = graph()
+"""A node is up, and offers nothing."""
+
+
+def exited(code: int | None = 0, *, signal: int | None = None, after_s: float = 1.0) -> Exit:
+    return Exit(code if signal is None else None, signal, after_s)
+
+
+def trace(
+    *messages: Sample,
+    graph: Graph = UP,
+    err: str = "",
+    out: str = "",
+    logs: Iterable[LogRecord] = (),
+    exit: Exit | None = None,
+    **more: Any,
+) -> Trace:
+    """A start of node.py with what was seen of it; without arguments, a node that runs and says nothing."""
+    by_topic: dict[str, tuple[Sample, ...]] = {}
+    for each in messages:
+        by_topic[each.topic] = (*by_topic.get(each.topic, ()), each)
+    return Trace(
+        file="node.py",
+        folder=FOLDER,
+        started_at=START,
+        samples=by_topic,
+        logs=tuple(logs),
+        graph=graph,
+        output=(*lines(out, "stdout"), *lines(err)),
+        exit=exit,
+        **more,
+    )
+
+
+NO_NODE = trace(graph=Graph())
+CRASHED = trace(graph=Graph(), err=CRASH, exit=exited(1))
+
+
+def ending(code: int | None = 0, *, signal: int | None = None, err: str = "", still_there: bool = False) -> Ending:
+    """How the process ended after Ctrl+C."""
+    return Ending(None if still_there else exited(code, signal=signal, after_s=3.0), 0.14, 5.0, lines(err))
+
+
+def parameter(name: str, type_name: str, value: Any, **more: Any) -> Parameter:
+    return Parameter("/node", name, type_name, value, **more)
+
+
+def answer(values: Mapping[str, Any], reason: str = "", *, successful: bool = True, answered: bool = True) -> SetAnswer:
+    """The answer to setting parameters."""
+    return SetAnswer(values, answered, answered and successful, reason, START + 1, START + 1.01)
+
+
+def refused(values: Mapping[str, Any], reason: str = "the rate must be > 0") -> SetAnswer:
+    return answer(values, reason, successful=False)
+
+
+def called(service: str, a: int, b: int, result: int | None) -> CallAnswer:
+    """A call; `result` None: no answer."""
+    response = None if result is None else {"sum": result}
+    return CallAnswer(service, {"a": a, "b": b}, response, START, START + 0.01, 5.0)
+
+
+def frame(function: str, path: str = f"{FOLDER}/node.py", line: int = 12, code: str = "pass") -> Frame:
+    return Frame(path, line, function, code)
+
+
+def assert_passed(verdict: Verdict) -> None:
+    assert verdict.status is Status.PASSED, verdict
+    assert verdict.expected
+    assert verdict.observed
+    assert verdict.cause == ""
+
+
+def assert_failed(verdict: Verdict, cause: str, *words: str) -> None:
+    """It failed for this cause (by its name), said all that a diagnosis needs, and these words among it."""
+    assert verdict.status is Status.FAILED, verdict
+    assert verdict.cause.partition(":")[0] == cause, verdict
+    assert verdict.expected
+    assert verdict.observed
+    assert verdict.hint
+    for word in words:
+        assert word in f"{verdict.observed} | {verdict.cause} | {verdict.hint} | {verdict.evidence}", verdict

@@ -1,0 +1,240 @@
+"""Reading tracebacks in what a process wrote."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.checks.made import CRASH, FOLDER, lines, trace
+from tests.judge.real import OWN, crash
+from tutor.judge.trace import OutputLine
+from tutor.judge.tracebacks import Frame, dumped, find, last, own, without
+
+CALLS = """\
+def tick():
+    return 1 / 0
+
+def main():
+    tick()
+
+main()
+"""
+HEADER = "Traceback (most recent call last):"
+
+
+def test_an_exception_is_read_whole() -> None:
+    (found,) = find(lines(crash(CALLS)))
+    assert (found.type, found.message) == ("ZeroDivisionError", "division by zero")
+    assert found.raised == "ZeroDivisionError: division by zero"
+    assert [(frame.line, frame.function, frame.code) for frame in found.frames] == [
+        (7, "<module>", "main()"),
+        (5, "main", "tick()"),
+        (2, "tick", "return 1 / 0"),
+    ]
+    assert not found.ignored
+
+
+@pytest.mark.parametrize(
+    ("source", "type_name", "message"),
+    [
+        ("raise KeyboardInterrupt", "KeyboardInterrupt", ""),
+        ("assert 1 == 2", "AssertionError", ""),
+        ("raise ValueError('')", "ValueError", ""),
+        ("raise ValueError('a\\nb: c\\n  File \"x\", line 1, in y')", "ValueError", "a"),
+        ("class Odd(Exception): pass\nraise Odd('o: o')", "Odd", "o: o"),
+        ("def f():\n  class Odd(Exception): pass\n  raise Odd(1)\nf()", "f.<locals>.Odd", "1"),
+        ("class É(Exception): pass\nraise É('ü')", "É", "ü"),
+        (
+            "import os.path.nothing",
+            "ModuleNotFoundError",
+            "No module named 'os.path.nothing'; 'os.path' is not a package",
+        ),
+        ("def f(n): return f(n + 1)\nf(0)", "RecursionError", "maximum recursion depth exceeded"),
+        ("e = ValueError('x'); e.add_note('a note: long'); raise e", "ValueError", "x"),
+    ],
+)
+def test_what_was_raised(source: str, type_name: str, message: str) -> None:
+    found = find(lines(crash(source)))[0]
+    assert (found.type.removeprefix("__main__."), found.message) == (type_name, message)
+
+
+@pytest.mark.parametrize(
+    ("source", "type_name", "line"),
+    [
+        ("x = 1\nif x\n  pass", "SyntaxError", 2),
+        ("def f():\npass", "IndentationError", 2),
+        ("if 1:\n\tx\n        y", "TabError", 3),
+        ("print('abc", "SyntaxError", 1),
+    ],
+)
+def test_a_syntax_error_of_the_main_file_has_no_header(source: str, type_name: str, line: int) -> None:
+    text = crash(source)
+    assert HEADER not in text
+    (found,) = find(lines(text))
+    assert found.type == type_name
+    assert found.own(FOLDER) == found.frames[-1]
+    assert (found.frames[-1].line, found.frames[-1].function) == (line, "")
+
+
+def test_a_syntax_error_in_a_helper_module_is_at_the_helpers_line() -> None:
+    text = f"""{HEADER}
+  File "{OWN}", line 1, in <module>
+    import helper
+  File "{FOLDER}/helper.py", line 3
+    def f(:
+          ^
+SyntaxError: invalid syntax"""
+    (found,) = find(lines(text))
+    assert str(found.own(FOLDER)) == "helper.py, line 3: def f(:"
+
+
+@pytest.mark.parametrize(
+    ("how", "types"),
+    [
+        ("raise RuntimeError('two') from error", ["ZeroDivisionError", "RuntimeError"]),
+        ("raise RuntimeError('two')", ["ZeroDivisionError", "RuntimeError"]),
+        ("raise RuntimeError('two') from None", ["RuntimeError"]),
+    ],
+)
+def test_chained_exceptions_are_found_in_their_order(how: str, types: list[str]) -> None:
+    text = crash(f"try:\n    1 / 0\nexcept ZeroDivisionError as error:\n    {how}\n")
+    found = find(lines(text))
+    assert [each.type for each in found] == types
+    assert [[frame.line for frame in each.frames] for each in found][-1] == [4]
+    assert last(trace(err=text)) == found[-1]
+
+
+def test_an_exception_in_a_thread() -> None:
+    (found,) = find(lines(f"Exception in thread Thread-1 (work):\n{CRASH}"))
+    assert (found.type, found.ignored) == ("AttributeError", False)
+
+
+IGNORED = (
+    f"Exception ignored in: <function Node.__del__ at 0x7f0>\n{crash('raise ValueError(1)', '/lib/rclpy/node.py')}"
+)
+
+
+def test_an_ignored_exception_is_told_apart() -> None:
+    found = find(lines(f"{IGNORED}\n{CRASH}\n{IGNORED}"))
+    assert [each.ignored for each in found] == [True, False, True]
+
+
+def test_an_ignored_one_does_not_make_the_next_without_header_ignored() -> None:
+    assert [each.ignored for each in find(lines(f"{IGNORED}\n{crash('if x')}"))] == [True, False]
+
+
+def test_the_last_is_the_one_that_ended_something() -> None:
+    # What rclpy's objects say while the interpreter goes down comes after the crash, and is no news.
+    found = last(trace(err=f"{CRASH}\n{IGNORED}"))
+    assert found is not None
+    assert found.type == "AttributeError"
+    only = last(trace(err=IGNORED))
+    assert only is not None
+    assert only.ignored
+
+
+def test_own_is_the_innermost_of_the_learners_frames() -> None:
+    frames = (
+        Frame(f"{FOLDER}/node.py", 1, "main", ""),
+        Frame(f"{FOLDER}/helper/more.py", 2, "help", ""),
+        Frame(f"{FOLDER}/.venv/lib/python3.12/site-packages/rclpy/node.py", 3, "spin", ""),
+        Frame("/usr/lib/python3.12/threading.py", 4, "run", ""),
+    )
+    text = "\n".join(f'  File "{f.path}", line {f.line}, in {f.function}\n    code' for f in frames)
+    (found,) = find(lines(f"{HEADER}\n{text}\nValueError: x"))
+    for folder in (FOLDER, FOLDER + "/"):
+        mine = found.own(folder)
+        assert mine is not None
+        assert mine.line == 2
+    assert found.own("/home/me/w") is None
+    assert found.own("") is None
+    assert own(reversed(frames), FOLDER) == frames[1]
+    assert own((), FOLDER) is None
+
+
+def test_a_dump_of_all_stacks() -> None:
+    text = f"""Fatal Python error: Aborted
+
+Thread 0x00007f1 (most recent call first):
+  File "/usr/lib/python3.12/threading.py", line 359 in wait
+  File "{FOLDER}/node.py", line 20 in <module>
+
+Current thread 0x00007f2 (most recent call first):
+  File "{FOLDER}/node.py", line 12 in tick
+"""
+    frames = dumped(lines(text))
+    assert [(f.path.rpartition("/")[2], f.line, f.function) for f in frames] == [
+        ("threading.py", 359, "wait"),
+        ("node.py", 20, "<module>"),
+        ("node.py", 12, "tick"),
+    ]
+    assert dumped(lines(text, "stdout")) == ()
+    assert find(lines(text)) == ()  # a dump is no exception
+    assert dumped(lines(CRASH)) == ()
+
+
+def test_only_stderr_counts() -> None:
+    assert find(lines(CRASH, "stdout")) == ()
+
+
+def test_colours_do_not_hide_it() -> None:
+    def painted(text: str) -> str:
+        return "\n".join(f"\x1b[1;31m{line}\x1b[0m" if line else line for line in text.split("\n"))
+
+    assert find(lines(painted(CRASH))) == find(lines(CRASH))
+    assert find(lines(f"\x1b[33m[WARN] [1.5] [node]: hot\x1b[0m\n{CRASH}")) == find(lines(CRASH))
+
+
+@given(st.integers(0, CRASH.count("\n")), st.sampled_from(["[INFO] [1.5] [node]: tick 3", "[node]: a: b", "", "=> 3"]))
+def test_a_log_line_in_the_middle_does_not_hide_it(where: int, text: str) -> None:
+    # Another thread's log message may come between any two lines that Python writes.
+    crash_lines = CRASH.split("\n")
+    (found,) = find(lines("\n".join([*crash_lines[:where], text, *crash_lines[where:]])))
+    assert found.type == "AttributeError"
+
+
+ordinary = st.sampled_from(
+    [
+        "[INFO] [1763716000.125] [node]: 23.5 °C",
+        "[ERROR] [1763716000.125] [node]: division by zero",
+        "done: yes",
+        "ValueError: only printed",
+        "   indented: text",
+        "",
+        "File node.py, line 3",
+        "^^^^",
+    ]
+)
+
+
+@given(st.lists(ordinary))
+def test_ordinary_output_is_no_traceback(text: list[str]) -> None:
+    output = lines("\n".join(text))
+    assert find(output) == ()
+    assert list(without(output)) == [line.text for line in output]
+
+
+@given(st.lists(ordinary), st.lists(ordinary))
+def test_the_same_traceback_whatever_is_around_it(before: list[str], after: list[str]) -> None:
+    text = "\n".join([*before, CRASH, *after])
+    assert find(lines(text)) == find(lines(CRASH))
+
+
+@given(st.lists(st.builds(OutputLine, st.sampled_from(["stdout", "stderr"]), st.text(), st.just(0.0))))
+def test_anything_can_be_read(output: list[OutputLine]) -> None:
+    find(output)
+    dumped(output)
+    assert len(without(output)) <= len(output)
+
+
+def test_without_keeps_what_names_the_exception_and_drops_the_source_lines() -> None:
+    source = "publish_rate = 0.0\nraise ValueError('publish_rate is bad')"
+    text = "before\n" + crash(source) + "after\n  indented"
+    assert without(lines(text)) == ("before", "ValueError: publish_rate is bad", "after", "  indented")
+    assert without(lines("publish_rate", "stdout")) == ("publish_rate",)
+
+
+def test_of_one_traceback_nothing_is_read_twice_or_from_the_other_stream() -> None:
+    mixed = [line for pair in zip(lines(CRASH), lines(CRASH, "stdout"), strict=True) for line in pair]
+    assert len(find(mixed)) == 1
