@@ -32,14 +32,15 @@ def pattern(values: Sequence[float]) -> Pattern | None:
     """
     if len(values) < 3:
         return None
-    return _constant(values) or _cycle(values) or _ramp(values) or _curve(values)
+    return _constant(values) or _cycle(values) or _ramp(values) or _zigzag(values) or _curve(values)
 
 
 def suspicious(values: Sequence[float]) -> bool:
     """Whether more values are needed before `pattern` can be trusted to have found nothing, or something."""
     if len(values) < ENOUGH or pattern(values) is not None:
         return True
-    return len(set(values)) < len(values) or _monotone(values) or _unexplained(values) < 0.02
+    again = max(Counter(step for step in _steps(values) if step != 0).values(), default=0)
+    return len(set(values)) < len(values) or again > 2 or _monotone(values) or _unexplained(values) < 0.02
 
 
 def _constant(values: Sequence[float]) -> Pattern | None:
@@ -49,24 +50,36 @@ def _constant(values: Sequence[float]) -> Pattern | None:
 
 
 def _cycle(values: Sequence[float]) -> Pattern | None:
-    distinct = len(set(values))
+    # A random walk chooses among its few steps, not among all the values that it has been at.
+    choices = min(len(set(values)), len(set(_steps(values))))
     for period in range(2, len(values) - 2):
         repeats = len(values) - period
-        if all(values[i] == values[i + period] for i in range(repeats)) and distinct**-repeats < SURE:
+        if all(values[i] == values[i + period] for i in range(repeats)) and choices**-repeats < SURE:
             return Pattern("short cycle", f"the same {period} values come again and again")
     return None
 
 
 def _ramp(values: Sequence[float]) -> Pattern | None:
-    steps = [round(b - a, 9) for a, b in pairwise(values)]
-    step, times = Counter(step for step in steps if step != 0).most_common(1)[0]
+    steps = _steps(values)
+    step, times = max(Counter(steps).items(), key=lambda item: (item[0] != 0, item[1]))
     # Any other step must be a jump back to the start, else a random walk in equal steps would be taken for a ramp.
     others = [other for other in steps if other != step]
     wraps = all(other * step < 0 and abs(other) > 2 * abs(step) for other in others)
-    if len(steps) >= 7 and wraps and times >= 0.6 * len(steps):
+    if len(steps) >= 7 and step != 0 and wraps and times >= 0.6 * len(steps):
         return Pattern("ramp", f"each value is the one before it {step:+g}")
     if len(values) >= 10 and _monotone(values):
         return Pattern("ramp", f"all {len(values)} values only go {'up' if values[-1] > values[0] else 'down'}")
+    return None
+
+
+def _zigzag(values: Sequence[float]) -> Pattern | None:
+    """Up and down in equal steps, turning at the top and at the bottom only: a random walk turns far more often."""
+    steps = _steps(values)
+    size, ends = abs(steps[0]), (min(values), max(values))
+    turns = [values[i] for i in range(1, len(steps)) if steps[i] != steps[i - 1]]
+    even = len(steps) >= 20 and all(abs(step) == size != 0 for step in steps)
+    if even and len(turns) <= 3 and all(turn in ends for turn in turns):
+        return Pattern("ramp", f"the values go up and down in steps of {size:g}")
     return None
 
 
@@ -76,6 +89,10 @@ def _curve(values: Sequence[float]) -> Pattern | None:
             "not random", "the values follow a smooth curve, such as a sine: each follows from the two before it"
         )
     return None
+
+
+def _steps(values: Sequence[float]) -> list[float]:
+    return [round(b - a, 9) for a, b in pairwise(values)]
 
 
 def _monotone(values: Sequence[float]) -> bool:
@@ -92,11 +109,13 @@ def _unexplained(values: Sequence[float]) -> float:
         return 1.0
     import numpy as np
 
+    if not all(abs(value) < 1e150 for value in values):  # nor a NaN: there is nothing to calculate with
+        return 1.0
     series = np.asarray(values, dtype=float)
     target = series[2:]
     basis = np.column_stack([series[1:-1], series[:-2], np.ones(len(target))])
     spread = float(np.sum((target - target.mean()) ** 2))
-    if spread == 0 or not np.isfinite(spread):
+    if spread == 0:
         return 1.0
     solution = np.linalg.lstsq(basis, target, rcond=None)[0]
     return float(np.sum((target - basis @ solution) ** 2)) / spread
