@@ -1,0 +1,105 @@
+"""One status out of many, the shape of a check, and small helpers."""
+
+from __future__ import annotations
+
+from itertools import product
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tutor.judge.check import Check, Criterion
+from tutor.judge.result import CriterionResult, Environment, ExerciseResult, Report, overall
+from tutor.judge.verdict import Cause, Status, Verdict, failed, fault, passed, skipped
+from tutor.judge.wording import shape
+
+P, F, S, E = Status.PASSED, Status.FAILED, Status.SKIPPED, Status.ERROR
+
+
+@pytest.mark.parametrize(
+    ("statuses", "folded"),
+    [
+        ((), E),
+        ((P,), P),
+        ((F,), F),
+        ((S,), F),
+        ((E,), E),
+        ((P, S), F),
+        ((P, E), E),
+        ((P, F), F),
+        ((S, E), E),
+        ((S, F), F),
+        ((E, F), F),
+        ((P, S, E), E),
+        ((P, S, F), F),
+        ((P, E, F), F),
+        ((S, E, F), F),
+        ((P, S, E, F), F),
+    ],
+)
+def test_overall(statuses: tuple[Status, ...], folded: Status) -> None:
+    assert overall(statuses) is folded
+    assert overall(reversed(statuses * 2)) is folded
+
+
+def criterion(status: Status, bonus: bool = False) -> CriterionResult:
+    return CriterionResult("x", "X", bonus, Verdict(status), 0.1)
+
+
+def exercise(*criteria: CriterionResult) -> ExerciseResult:
+    return ExerciseResult("i1.1", "T", ("a.py",), criteria, 1.0)
+
+
+@pytest.mark.parametrize(("required", "bonus"), list(product(Status, Status)))
+def test_a_bonus_never_changes_a_verdict(required: Status, bonus: Status) -> None:
+    assert exercise(criterion(required), criterion(bonus, True)).verdict is overall([required])
+
+
+def test_bonus_alone_misses_nothing_that_is_required() -> None:
+    assert exercise(criterion(F, True)).verdict is P
+    assert exercise().verdict is E
+
+
+@given(st.lists(st.sampled_from(Status), min_size=1))
+def test_a_report_is_as_its_exercises(statuses: list[Status]) -> None:
+    exercises = tuple(exercise(criterion(status)) for status in statuses)
+    report = Report(Environment("jazzy", "bundled", "rmw", "0"), exercises, 1.0)
+    assert report.verdict is overall(overall([status]) for status in statuses)
+    assert (report.verdict is P) == all(status is P for status in statuses)
+
+
+def test_each_kind_of_verdict_says_what_it_must() -> None:
+    assert passed("e", "o", ["1"]) == Verdict(P, "e", "o", evidence=("1",))
+    assert failed("e", "o", Cause("n", "t", "h"), iter("12")) == Verdict(F, "e", "o", "n: t", "h", ("1", "2"))
+    assert skipped("because") == Verdict(S, cause="because")
+    assert fault("what", "mend", ["1"]) == Verdict(E, cause="what", hint="mend", evidence=("1",))
+    assert [Verdict(status).passed for status in Status] == [True, False, False, False]
+
+
+def asks(*criteria: tuple[str, tuple[str, ...]]) -> Check:
+    return Check("i9.9", tuple(Criterion(name, lambda: passed("", ""), (), after=after) for name, after in criteria))
+
+
+def test_a_check_may_depend_on_what_is_before() -> None:
+    assert [c.id for c in asks(("a", ()), ("b", ("a",)), ("c", ("a", "b"))).criteria] == ["a", "b", "c"]
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        [("a", ()), ("a", ())],
+        [("a", ("a",))],
+        [("a", ("b",)), ("b", ())],
+        [("a", ("nothing",))],
+        [("a", ()), ("b", ("a", "c")), ("c", ())],
+    ],
+)
+def test_a_check_that_cannot_be_run_is_refused(wrong: list[tuple[str, tuple[str, ...]]]) -> None:
+    with pytest.raises(ValueError, match=r"i9\.9"):
+        asks(*wrong)
+
+
+@given(st.integers(), st.floats(-1e6, 1e6).map(lambda value: f"{value:.3f}"))
+def test_a_shape_is_a_message_without_its_numbers(whole: int, decimal: str) -> None:
+    assert shape(f"a={whole} b={decimal}.") == "a=# b=#."
+    assert shape("no number") == "no number"
