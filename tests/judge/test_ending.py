@@ -1,0 +1,107 @@
+"""The end of a process on Ctrl+C: what is clean, and why it is not."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.checks.made import CRASH, FOLDER, KEYBOARD_INTERRUPT, NO_NODE, assert_failed, assert_passed, exited, trace
+from tests.checks.made import ending as ended
+from tutor.judge.ending import judge
+from tutor.judge.trace import Ending, Trace
+
+RCLPY = "/venv/lib/python3.12/site-packages/rclpy"
+OWN_FRAME = f'  File "{FOLDER}/node.py", line 30, in main\n    rclpy.shutdown()'
+HEADER = "Traceback (most recent call last):"
+SHUTDOWN_TWICE = f"""{HEADER}
+{OWN_FRAME}
+  File "{RCLPY}/__init__.py", line 130, in shutdown
+    _shutdown(context=context)
+  File "{RCLPY}/context.py", line 120, in shutdown
+    self.__context.shutdown()
+rclpy._rclpy_pybind11.RCLError: failed to shutdown: rcl_shutdown already called on the given context"""
+TRY_SHUTDOWN_RACE = SHUTDOWN_TWICE.replace("in shutdown", "in try_shutdown", 1)
+EXTERNAL = f"""{HEADER}
+{OWN_FRAME}
+  File "{RCLPY}/executors.py", line 300, in spin
+    raise ExternalShutdownException()
+rclpy.executors.ExternalShutdownException"""
+CLEAN_UP = f"""Exception ignored in: <function Node.__del__ at 0x7f0>
+{HEADER}
+  File "{RCLPY}/node.py", line 20, in __del__
+    self.destroy()
+ValueError: gone"""
+PUBLISH_AFTER = f"""{HEADER}
+{OWN_FRAME.replace("rclpy.shutdown()", "self.publisher.publish(msg)")}
+rclpy._rclpy_pybind11.RCLError: Failed to publish: publisher's context is invalid, at ./rcl/publisher.c:423"""
+
+
+@pytest.mark.parametrize(
+    "end",
+    [
+        ended(0),
+        ended(130),
+        ended(signal=2),
+        ended(0, err="[INFO] [1.5] [node]: bye"),
+        ended(0, err=CLEAN_UP),
+        ended(1, err=TRY_SHUTDOWN_RACE),
+        ended(1, err=f"{TRY_SHUTDOWN_RACE}\n{CLEAN_UP}"),
+        ended(1, err=f"{CLEAN_UP}\n{TRY_SHUTDOWN_RACE}"),
+        ended(0, err=TRY_SHUTDOWN_RACE),
+    ],
+)
+def test_clean(end: Ending) -> None:
+    assert_passed(judge(trace(), end))
+
+
+@pytest.mark.parametrize(
+    ("end", "cause", "words"),
+    [
+        (ended(still_there=True), "SIGINT ignored", "still running 5 s"),
+        (ended(1, err=SHUTDOWN_TWICE), "shutdown() after Ctrl+C", "try_shutdown"),
+        (ended(signal=2, err=KEYBOARD_INTERRUPT), "traceback on exit", "except (KeyboardInterrupt"),
+        (ended(130, err=KEYBOARD_INTERRUPT), "traceback on exit", "KeyboardInterrupt"),
+        (ended(1, err=EXTERNAL), "traceback on exit", "from rclpy.executors import ExternalShutdownException"),
+        (ended(0, err=PUBLISH_AFTER), "traceback on exit", "node.py, line 30"),
+        (ended(1, err=CRASH), "traceback on exit", "line 12: self.nothing()"),
+        (ended(0, err=CRASH), "traceback on exit", "AttributeError"),
+        (
+            ended(1, err=f"{KEYBOARD_INTERRUPT}\n\nDuring handling of …\n\n{SHUTDOWN_TWICE}"),
+            "shutdown() after Ctrl+C",
+            "",
+        ),
+        (ended(0, err=CLEAN_UP.replace(RCLPY, FOLDER)), "traceback on exit", "line 20"),
+        (ended(1), "non-zero exit", "exit code 1"),
+        (ended(1, err=CLEAN_UP), "non-zero exit", "exit code 1"),
+        (ended(2, err=TRY_SHUTDOWN_RACE), "non-zero exit", "exit code 2"),
+        (ended(signal=15), "non-zero exit", "signal 15"),
+        (ended(signal=11), "non-zero exit", "signal 11"),
+        (ended(143), "non-zero exit", "exit code 143"),
+    ],
+)
+def test_not_clean(end: Ending, cause: str, words: str) -> None:
+    assert_failed(judge(trace(), end), cause, words)
+
+
+@pytest.mark.parametrize(
+    ("seen", "cause"),
+    [
+        (trace(exit=exited(0, after_s=0.5)), "exit at once"),
+        (trace(exit=exited(1), err=CRASH), "unhandled exception"),
+        (trace(exit=exited(signal=11)), "killed"),
+        (trace(exit=exited(0), uncalled_main=True), "no main call"),
+        (trace(), "exit at once"),
+        (NO_NODE, "no node"),
+    ],
+)
+def test_ended_before_ctrl_c(seen: Trace, cause: str) -> None:
+    assert_failed(judge(seen, None), cause)
+
+
+def test_the_limit_is_named() -> None:
+    assert "within 5 s" in judge(trace(), ended(0)).expected
+    assert "within 2.5 s" in judge(trace(), Ending(None, 2.5, 2.5)).expected
+
+
+def test_the_last_words_are_shown() -> None:
+    verdict = judge(trace(err="one\n\ntwo"), ended(still_there=True))
+    assert verdict.evidence == ("one", "two")

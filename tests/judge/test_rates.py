@@ -1,0 +1,46 @@
+"""Rates are measured on source times, whatever the order in which the messages came."""
+
+from __future__ import annotations
+
+import random
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.checks.made import sample, samples
+from tutor.judge.rates import TOLERANCE, Rate, describe, measure
+
+rates = st.floats(0.05, 1000)
+
+
+@given(rates, st.integers(2, 60), st.integers())
+def test_a_steady_rate_is_what_it_is(hz: float, count: int, seed: int) -> None:
+    heard = list(samples("/t", hz, count=count))
+    random.Random(seed).shuffle(heard)
+    rate = measure(heard)
+    assert rate is not None
+    assert rate.samples == count
+    assert rate.hz == pytest.approx(hz, rel=1e-6)
+    assert rate.span_s == pytest.approx((count - 1) / hz, rel=1e-6)
+
+
+@given(rates, st.floats(0.01, 3))
+def test_a_rate_agrees_within_its_tolerance(asked: float, factor: float) -> None:
+    inside, outside = factor < 1 + TOLERANCE - 1e-9, factor > 1 + TOLERANCE + 1e-9
+    inside, outside = inside and factor > 1 - TOLERANCE + 1e-9, outside or factor < 1 - TOLERANCE - 1e-9
+    agrees = Rate(asked * factor, 10, 1.0).agrees(asked)
+    assert not inside or agrees
+    assert not outside or not agrees
+
+
+@pytest.mark.parametrize("times", [[], [5.0], [5.0, 5.0], [5.0, 5.0, 5.0]])
+def test_too_little_to_tell(times: list[float]) -> None:
+    assert measure([sample("/t", 0, at) for at in times]) is None
+
+
+def test_in_words() -> None:
+    assert describe(None, 0) == "no message"
+    assert describe(None, 1) == "only 1 message"
+    assert describe(None, 2) == "only 2 messages"
+    assert describe(Rate(2.0, 5, 2.0), 5) == "2.00 Hz (5 messages in 2.00 s)"
