@@ -28,6 +28,8 @@ from tutor.judge.rates import TOLERANCE
 from tutor.judge.trace import Parameter
 from tutor.judge.verdict import Cause, Verdict, failed, passed
 
+_STOPS = Cause("no messages", "the node stops publishing, or hardly ever does", "publish from a timer's callback")
+
 
 def judge_publishes(seen: Survey) -> Verdict:
     expected = f"{TYPE} messages on {TOPIC}"
@@ -47,6 +49,8 @@ def judge_publishes(seen: Survey) -> Verdict:
 def judge_range(found: Values) -> Verdict:
     expected = f"every value in [{LOWEST}, {HIGHEST}] °C"
     all_values = [value for run in found.runs for value in run]
+    if not all_values:
+        return failed(expected, "no values at all", _STOPS)
     outside = [value for value in all_values if not LOWEST <= value <= HIGHEST]
     if not outside:
         return passed(expected, f"{len(all_values)} values from {min(all_values):.2f} to {max(all_values):.2f} °C")
@@ -87,18 +91,15 @@ def judge_random(found: Values) -> Verdict:
             )
     longest = max(found.runs, key=len)
     if len(longest) < 3:
-        return failed(
-            expected,
-            f"only {len(longest)} values in {LISTEN_S:g} s",
-            Cause("no messages", "the node stops publishing, or hardly ever does", "publish from a timer's callback"),
-        )
+        return failed(expected, f"only {len(longest)} values in {LISTEN_S:g} s", _STOPS)
     return passed(expected, f"{len(longest)} values, no pattern", [f"data: {value:g}" for value in longest[:5]])
 
 
 def judge_echo(seen: Survey) -> Verdict:
     expected = f"`ros2 topic echo {TOPIC}` shows the values"
     echo = seen.echo
-    assert echo is not None
+    if echo is None:  # the first message came when nobody waited for it any more
+        return failed(expected, "the first message came too late", _STOPS)
     if echo.samples and len(echo.types) == 1:
         return passed(
             expected,
@@ -131,7 +132,14 @@ def judge_rate(found: Rates) -> Verdict:
     if not found.probes:
         return failed(expected, "no numeric parameter is declared", _rate_not_declared())
     nearest = max(groups(found.probes), key=lambda group: (agree(group), len(swapped(group))))
-    wrong = next(probe for probe in nearest if not probe.agrees)
+    wrong = next((probe for probe in nearest if not probe.agrees), None)
+    if wrong is None:
+        cause = Cause(
+            "wrong rate",
+            f"{nearest[0].name} takes one rate only of those that were tried",
+            "let it take any rate from 0.5 to 10 Hz",
+        )
+        return failed(expected, f"{nearest[0]}; no other value is allowed", cause)
     return failed(expected, str(wrong), _why_rate(nearest, wrong, found.declared), [str(probe) for probe in nearest])
 
 

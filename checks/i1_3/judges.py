@@ -28,15 +28,20 @@ from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped
 
 def judge_services(seen: Calls) -> Verdict:
     expected = f"/add, /subtract, /multiply and /divide with type {TYPE}, answering a call"
-    missing = missing_of(seen.trace.graph.services)
+    unanswered = next((answer for answer in seen.answers if answer.response is None), None)
+    missing = missing_of(seen.trace.graph.services) or ([] if unanswered else _never_called(seen))
     if missing:
         cause = _why_missing(seen.trace, missing)
         return failed(expected, f"missing: {', '.join(missing)}", cause, causes.last_words(seen.trace))
-    unanswered = next((answer for answer in seen.answers if answer.response is None), None)
     if unanswered is not None:
         observed = f"no answer from {unanswered.service} in {ANSWER_S:g} s"
         return failed(expected, observed, _why_unanswered(seen), causes.last_words(seen.trace))
     return passed(expected, "all four answer", [f"{name} = {result}" for name, result in _answered(seen.answers)])
+
+
+def _never_called(seen: Calls) -> list[str]:
+    """The services that were not there yet when it was their turn, though they may be in the graph by now."""
+    return [name for name in SIGNS if not seen.of(name)]
 
 
 def _why_missing(trace: Trace, missing: Sequence[str]) -> Cause:
@@ -46,7 +51,7 @@ def _why_missing(trace: Trace, missing: Sequence[str]) -> Cause:
     offered = [s for s in trace.graph.services if not _of_every_node(s)]
     for name in missing:
         for service in offered:
-            if service.name == name:
+            if service.name == name and service.type != TYPE:
                 return Cause(
                     "wrong type",
                     f"{name} has the type {service.type}, not {TYPE}",
@@ -124,6 +129,8 @@ def judge_operations(seen: Calls) -> Verdict:
                 _why_wrong(answer, right),
                 [f"{name} answered {result}" for name, result in _answered(seen.of(answer.service))],
             )
+    if late := _never_called(seen):
+        return failed(expected, f"missing: {', '.join(late)}", _why_missing(seen.trace, late))
     return passed(
         expected, f"{len(seen.answers)} calls", [f"{name} = {result}" for name, result in _answered(seen.answers)][:8]
     )

@@ -1,0 +1,288 @@
+"""I1.1: made surveys, values, rates and names, and what must be said of each."""
+
+from __future__ import annotations
+
+import random
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from checks.i1_1.facts import TOPIC, TYPE, UNITS, NameProbe, Names, RateProbe, Rates, Survey, Values, units
+from checks.i1_1.judges import (
+    judge_echo,
+    judge_name,
+    judge_publishes,
+    judge_random,
+    judge_range,
+    judge_rate,
+    judge_shutdown,
+)
+from tests.checks.made import (
+    CRASHED,
+    KEYBOARD_INTERRUPT,
+    NO_NODE,
+    UP,
+    assert_failed,
+    assert_passed,
+    ending,
+    graph,
+    log,
+    parameter,
+    sample,
+    samples,
+    trace,
+)
+from tutor.judge.rates import Rate
+from tutor.judge.trace import Echo, Parameter, Trace
+
+PUBLISHING = graph(publishers={TOPIC: TYPE})
+MESSAGES = samples(TOPIC, 2.0, data=23.5)
+
+
+def echo(*types: str, shown: bool = True) -> Echo:
+    return Echo(TOPIC, types, "reliable", "volatile", MESSAGES[:1] if shown else (), 14.0)
+
+
+def survey(seen: Trace, **more: Any) -> Survey:
+    facts = {"parameters": (), "echo": echo(TYPE), "ending": ending(0), **more}
+    return Survey(seen, **facts)
+
+
+@pytest.mark.parametrize("parameters", [None, ()])
+@pytest.mark.parametrize("seen", [trace(*MESSAGES, graph=PUBLISHING), trace(MESSAGES[0], graph=UP)])
+def test_publishes(seen: Trace, parameters: Any) -> None:
+    assert_passed(judge_publishes(survey(seen, parameters=parameters)))
+
+
+@pytest.mark.parametrize(
+    ("seen", "parameters", "cause"),
+    [
+        (CRASHED, None, "unhandled exception"),
+        (NO_NODE, None, "no node"),
+        (trace(graph=PUBLISHING), None, "no spin"),
+        (trace(graph=PUBLISHING), (), "no messages"),
+        (trace(graph=graph(publishers={TOPIC: "std_msgs/msg/Int64"})), (), "wrong type"),
+        (trace(graph=graph(publishers={"/sensor/temp": TYPE})), (), "wrong topic"),
+        (trace(graph=UP), (), "no publisher"),
+    ],
+)
+def test_publishes_not(seen: Trace, parameters: Any, cause: str) -> None:
+    assert_failed(judge_publishes(survey(seen, parameters=parameters)), cause)
+
+
+@given(st.lists(st.lists(st.floats(20, 30), min_size=1).map(tuple), min_size=1).map(tuple))
+def test_range(runs: tuple[tuple[float, ...], ...]) -> None:
+    assert_passed(judge_range(Values(runs)))
+
+
+@given(
+    st.lists(st.floats(20, 30), max_size=5),
+    st.floats().filter(lambda value: not 20 <= value <= 30),
+    st.lists(st.floats(20, 30), max_size=5),
+)
+def test_one_value_outside_is_outside(before: list[float], outside: float, after: list[float]) -> None:
+    verdict = judge_range(Values(((25.0,), (*before, outside, *after))))
+    assert verdict.cause.startswith(("out of range", "an int in a float field"))
+    assert not verdict.passed
+
+
+@pytest.mark.parametrize(
+    ("values", "cause", "word"),
+    [
+        ((68.0, 75.5, 86.0), "out of range", "Fahrenheit"),
+        ((25.0, 31.0), "out of range", "1 of 2 values"),
+        ((1.1e-322, 1.2e-322), "an int in a float field", "float(value)"),
+        ((0.0, 0.0), "out of range", "0"),
+        ((float("nan"), 25.0), "out of range", "nan"),
+        ((), "no messages", "no values"),
+    ],
+)
+def test_range_not(values: tuple[float, ...], cause: str, word: str) -> None:
+    assert_failed(judge_range(Values((values, ()))), cause, word)
+
+
+def drawn(count: int = 24) -> tuple[float, ...]:
+    chance = random.Random(count)
+    return tuple(chance.uniform(20, 30) for _ in range(count))
+
+
+@pytest.mark.parametrize("runs", [(drawn(), drawn(8)), (drawn(8), ()), ((), drawn(3)), (drawn(8), drawn(8))])
+def test_random(runs: tuple[tuple[float, ...], ...]) -> None:
+    assert_passed(judge_random(Values(runs)))
+
+
+@pytest.mark.parametrize(
+    ("runs", "cause"),
+    [
+        ((drawn(), (25.0,) * 24), "constant value"),
+        (((25.0,) * 24, drawn()), "constant value"),
+        ((tuple(20 + i / 4 for i in range(24)), drawn()), "ramp"),
+        ((tuple(20.0 + i % 7 for i in range(24)), drawn()), "short cycle"),
+        ((tuple(20.0 + i % 10 for i in range(9)), drawn()), "ramp"),
+        ((drawn(5) * 5, drawn(5) * 5), "short cycle"),
+        ((drawn(2), drawn(1)), "no messages"),
+        (((), ()), "no messages"),
+    ],
+)
+def test_random_not(runs: tuple[tuple[float, ...], ...], cause: str) -> None:
+    assert_failed(judge_random(Values(runs)), cause)
+
+
+def test_echo() -> None:
+    assert_passed(judge_echo(survey(trace(*MESSAGES), echo=echo(TYPE))))
+
+
+@pytest.mark.parametrize(
+    ("shown", "cause"),
+    [
+        (echo(TYPE, "std_msgs/msg/Float32"), "wrong type"),
+        (echo(TYPE, "std_msgs/msg/Float32", shown=False), "wrong type"),
+        (echo(shown=False), "no publisher"),
+        (echo(TYPE, shown=False), "no messages"),
+        (None, "no messages"),
+    ],
+)
+def test_echo_not(shown: Echo | None, cause: str) -> None:
+    assert_failed(judge_echo(survey(trace(*MESSAGES), echo=shown)), cause)
+
+
+RATE = parameter("publish_rate", "double", 1.0)
+RATES_HZ = (2.0, 8.0, 0.5)
+
+
+def probe(
+    value: float, hz: float | None, name: str = "publish_rate", unit: str = "Hz", seen: Trace | None = None
+) -> RateProbe:
+    rate = None if hz is None else Rate(hz, 10, 9 / hz)
+    return RateProbe(name, unit, value, rate, 10 if hz else 0, seen or trace(*MESSAGES, graph=PUBLISHING))
+
+
+def rates(*probes: RateProbe, declared: tuple[Parameter, ...] | None = (RATE,)) -> Rates:
+    return Rates(declared, probes)
+
+
+@given(st.lists(st.floats(0.81, 1.19), min_size=3, max_size=3))
+def test_any_rate_within_a_fifth_is_right(factors: list[float]) -> None:
+    found = [probe(hz, hz * factor) for hz, factor in zip(RATES_HZ, factors, strict=True)]
+    assert_passed(judge_rate(rates(*found)))
+
+
+@given(st.sampled_from(range(3)), st.floats(0.01, 0.79) | st.floats(1.21, 100))
+def test_any_other_rate_is_wrong(which: int, factor: float) -> None:
+    found = [probe(hz, hz * (factor if i == which else 1)) for i, hz in enumerate(RATES_HZ)]
+    assert not judge_rate(rates(*found)).passed
+
+
+@given(st.sampled_from(["s", "ms"]), st.permutations(RATES_HZ))
+def test_a_period_is_as_good_as_a_rate(unit: str, hz: list[float]) -> None:
+    right = [probe(UNITS[unit](each), each, "period", unit) for each in hz]
+    assert_passed(judge_rate(rates(*right, declared=(parameter("period", "double", 1.0),))))
+
+
+def test_of_several_parameters_one_is_enough() -> None:
+    right = [probe(hz, hz, "tick") for hz in RATES_HZ]
+    wrong = [probe(hz, 1.0, "noise") for hz in RATES_HZ]
+    assert_passed(judge_rate(rates(*wrong, *right)))
+
+
+BOTH = (parameter("period", "double", 1.0), RATE)
+
+
+@pytest.mark.parametrize(
+    ("found", "cause", "word"),
+    [
+        (rates(declared=()), "parameter not declared", "no numeric parameter"),
+        (rates(declared=None), "parameter not declared", "publish_rate"),
+        (rates(*(probe(hz, 1.0) for hz in RATES_HZ), declared=()), "parameter not declared", ""),
+        (rates(*(probe(hz, 1 / hz) for hz in RATES_HZ)), "rate used as a period", "1.0 / rate"),
+        (rates(*(probe(v, v, "period", "s") for v in (0.5, 0.125, 2.0)), declared=BOTH), "period used as a rate", ""),
+        (rates(*(probe(hz, 1.0) for hz in RATES_HZ)), "parameter ignored", "1.0 Hz"),
+        (rates(*(probe(hz, 1.1 if hz > 1 else 1.0) for hz in RATES_HZ)), "parameter ignored", ""),
+        (rates(*(probe(hz, hz * 2) for hz in RATES_HZ)), "wrong rate", "two timers"),
+        (rates(probe(2, 2), probe(8, 5), probe(0.5, 0.5)), "wrong rate", "8 Hz"),
+        (rates(probe(2, None), probe(8, None)), "wrong rate", "no message"),
+        (rates(probe(2, None, seen=CRASHED), probe(8, None, seen=CRASHED)), "unhandled exception", "line 12"),
+        (rates(probe(2, 2)), "wrong rate", "one rate"),
+    ],
+)
+def test_rate_not(found: Rates, cause: str, word: str) -> None:
+    assert_failed(judge_rate(found), cause, word)
+
+
+def test_the_nearest_parameter_is_the_one_explained() -> None:
+    noise = [probe(hz, 1.0, "a_noise") for hz in RATES_HZ]
+    near = [probe(hz, 1 / hz, "z_rate") for hz in RATES_HZ]
+    declared = (parameter("a_noise", "double", 1.0), parameter("z_rate", "double", 1.0))
+    assert_failed(judge_rate(rates(*noise, *near, declared=declared)), "rate used as a period", "z_rate")
+
+
+@pytest.mark.parametrize(
+    ("name", "read_as"),
+    [
+        ("publish_rate", ("Hz",)),
+        ("HZ", ("Hz",)),
+        ("frequency", ("Hz",)),
+        ("timer_period", ("s", "ms")),
+        ("interval_ms", ("s", "ms")),
+        ("rate_period", ("Hz", "s", "ms")),
+        ("speed", ("Hz", "s", "ms")),
+    ],
+)
+def test_how_a_name_is_read(name: str, read_as: tuple[str, ...]) -> None:
+    assert units(name) == read_as
+
+
+NAME = parameter("sensor_name", "string", "s")
+TOKEN = "probe_0_kx7"
+
+
+def names(*probes: NameProbe, declared: tuple[Parameter, ...] | None = (NAME,)) -> Names:
+    return Names(declared, probes)
+
+
+def name_probe(found: str = "", seen: Trace | None = None, name: str = "sensor_name") -> NameProbe:
+    return NameProbe(name, TOKEN, found, seen or trace(logs=[log("25.0 °C")]))
+
+
+@pytest.mark.parametrize(
+    "found",
+    [
+        names(name_probe(f"[INFO] [node]: {TOKEN}: 25")),
+        names(name_probe(), name_probe(f"[DEBUG] [node]: {TOKEN}", name="label")),
+        names(name_probe(f"[INFO] [node]: {TOKEN}"), declared=None),
+    ],
+)
+def test_name(found: Names) -> None:
+    assert_passed(judge_name(found))
+
+
+@pytest.mark.parametrize(
+    ("found", "cause"),
+    [
+        (names(name_probe(), declared=()), "parameter not declared"),
+        (names(name_probe(), declared=(RATE,)), "parameter not declared"),
+        (names(name_probe(), declared=None), "parameter not declared"),
+        (names(name_probe(seen=CRASHED), declared=None), "unhandled exception"),
+        (names(name_probe()), "parameter ignored"),
+        (names(name_probe(seen=trace(out=f"{TOKEN}: 25.0"))), "printed, not logged"),
+        (names(name_probe(), name_probe(seen=trace(err=f"{TOKEN}: 25.0"))), "printed, not logged"),
+        (names(name_probe(seen=NO_NODE)), "no node"),
+    ],
+)
+def test_name_not(found: Names, cause: str) -> None:
+    assert_failed(judge_name(found), cause)
+
+
+def test_shutdown() -> None:
+    assert_passed(judge_shutdown(survey(trace(*MESSAGES), ending=ending(0))))
+    assert_passed(judge_shutdown(survey(trace(*MESSAGES), ending=ending(signal=2))))
+    unclean = survey(trace(*MESSAGES), ending=ending(1, err=KEYBOARD_INTERRUPT))
+    assert_failed(judge_shutdown(unclean), "traceback on exit")
+    assert_failed(judge_shutdown(survey(CRASHED, ending=None)), "unhandled exception")
+
+
+def test_a_first_message_is_shown_as_echo_shows_it() -> None:
+    verdict = judge_publishes(survey(trace(sample(TOPIC, 21.25, 1001.0))))
+    assert verdict.evidence == ("data: 21.25",)

@@ -1,0 +1,290 @@
+"""I1.3: made answers of a calculator and made runs of its client, and what must be said of each."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from checks.i1_3.facts import SIGNS, TYPE, Calls, Demonstration, Division, complaints_in, missing_of, right_result
+from checks.i1_3.judges import judge_client, judge_division, judge_operations, judge_services, judge_shutdown
+from tests.checks.made import (
+    CRASH,
+    CRASHED,
+    NO_NODE,
+    UP,
+    assert_failed,
+    assert_passed,
+    called,
+    ending,
+    exited,
+    frame,
+    graph,
+    log,
+    trace,
+)
+from tutor.judge.trace import CallAnswer, Graph, LogRecord, Served, Trace
+from tutor.judge.tracebacks import Frame
+from tutor.judge.verdict import Status
+
+ALL = graph(services=dict.fromkeys(SIGNS, TYPE))
+SERVING = trace(graph=ALL)
+IN_CALL = (frame("wait", "/usr/lib/python3.12/threading.py"), frame("call", "/venv/rclpy/client.py"), frame("divide"))
+
+
+def right(service: str, a: int = 6, b: int = 3) -> CallAnswer:
+    return called(service, a, b, right_result(service, a, b))
+
+
+ANSWERS = tuple(right(service) for service in SIGNS)
+
+
+def services(**types: str) -> Graph:
+    return graph(services={f"/{name}".replace("__", "/"): kind for name, kind in types.items()})
+
+
+def without(service: str, more: Graph) -> Graph:
+    """The three other services, and those of `more`."""
+    kept = tuple(each for each in ALL.services if each.name != service)
+    return Graph(ALL.nodes, services=(*kept, *more.services))
+
+
+def test_services() -> None:
+    assert_passed(judge_services(Calls(SERVING, ANSWERS)))
+    assert_passed(judge_services(Calls(trace(graph=ALL, err="[INFO] ready"), ANSWERS, spins=False)))
+
+
+@pytest.mark.parametrize(
+    ("seen", "cause", "word"),
+    [
+        (Calls(CRASHED, ()), "unhandled exception", "line 12"),
+        (Calls(NO_NODE, ()), "no node", ""),
+        (Calls(trace(graph=UP), ()), "service missing", "are not there"),
+        (Calls(trace(graph=without("/divide", Graph())), ANSWERS[:3]), "service missing", "/divide is not there"),
+        (
+            Calls(trace(graph=without("/add", services(add="std_srvs/srv/Trigger"))), ANSWERS[1:]),
+            "wrong type",
+            "std_srvs/srv/Trigger",
+        ),
+        (Calls(trace(graph=without("/add", services(calc__add=TYPE))), ()), "wrong service name", "/calc/add"),
+        (Calls(trace(graph=without("/subtract", services(sub=TYPE))), ()), "wrong service name", "/sub"),
+        (
+            Calls(trace(graph=without("/add", services(node__set_parameters="rcl_interfaces/srv/SetParameters"))), ()),
+            "service missing",
+            "/add",
+        ),
+        (Calls(SERVING, (called("/add", 6, 3, None),), spins=False), "no spin", "/node"),
+        (Calls(SERVING, (called("/add", 6, 3, None),), stuck=IN_CALL), "deadlock by call()", "line 12"),
+        (Calls(SERVING, (called("/add", 6, 3, None),), stuck=(frame("add"),)), "blocked executor", "line 12"),
+        (Calls(SERVING, (*ANSWERS[:3], called("/divide", 6, 3, None))), "blocked executor", "/divide"),
+        (Calls(trace(graph=ALL, err=CRASH, exit=exited(1)), (called("/add", 6, 3, None),)), "unhandled exception", ""),
+        (Calls(SERVING, ()), "service missing", "/add"),
+        (Calls(SERVING, ANSWERS[:3]), "service missing", "/divide"),
+    ],
+)
+def test_services_not(seen: Calls, cause: str, word: str) -> None:
+    assert_failed(judge_services(seen), cause, word)
+
+
+def test_a_service_of_another_type_is_missing() -> None:
+    assert missing_of(ALL.services) == []
+    assert missing_of(services(add=TYPE, subtract="a/srv/B").services) == ["/subtract", "/multiply", "/divide"]
+
+
+operands = st.tuples(st.sampled_from(list(SIGNS)), st.integers(-1000, 1000), st.integers(-20, 20).filter(bool)).map(
+    lambda each: (each[0], each[1] * each[2] if each[0] == "/divide" else each[1], each[2])
+)
+one_of_each = st.tuples(*(operands.map(lambda each, s=service: right(s, each[2] * 7, each[2])) for service in SIGNS))  # type: ignore[misc]
+
+
+@given(one_of_each, st.lists(operands.map(lambda each: right(*each))))
+def test_right_results(each: tuple[CallAnswer, ...], more: list[CallAnswer]) -> None:
+    assert_passed(judge_operations(Calls(SERVING, (*each, *more))))
+
+
+@given(operands, st.integers(), st.lists(operands.map(lambda each: right(*each)), max_size=5))
+def test_any_wrong_result_is_wrong(asked: tuple[str, int, int], result: int, before: list[CallAnswer]) -> None:
+    service, a, b = asked
+    if result != right_result(service, a, b):
+        verdict = judge_operations(Calls(SERVING, (*ANSWERS, *before, called(service, a, b, result))))
+        assert verdict.status is Status.FAILED
+        assert verdict.observed == str(result)
+        assert verdict.cause.startswith(("wrong result", "float in an int field"))
+
+
+@pytest.mark.parametrize(
+    ("wrong", "cause", "word"),
+    [
+        (called("/add", 20, 3, 17), "wrong result", "what /subtract would answer"),
+        (called("/multiply", 20, 3, 23), "wrong result", "what /add would answer"),
+        (called("/subtract", 20, 3, -17), "wrong result", "wrong way round"),
+        (called("/divide", 60, 3, -1), "float in an int field", "a // b"),
+        (called("/divide", -60, 3, 20), "wrong result", "abs()"),
+        (called("/multiply", 20, 3, 0), "wrong result", "resp.sum"),
+        (called("/add", 20, 3, 99), "wrong result", "99 instead of 23"),
+        (called("/add", 20, 3, None), "no answer", "no answer in 5 s"),
+    ],
+)
+def test_why_a_result_is_wrong(wrong: CallAnswer, cause: str, word: str) -> None:
+    assert_failed(judge_operations(Calls(SERVING, (*ANSWERS, wrong))), cause, word)
+
+
+def test_an_exception_in_a_callback_is_named() -> None:
+    seen = Calls(trace(graph=ALL, err=CRASH, exit=exited(1)), (called("/add", 1, 2, None),))
+    assert_failed(judge_operations(seen), "unhandled exception", "self.nothing()")
+
+
+@pytest.mark.parametrize(
+    "seen", [Calls(trace(graph=UP), ()), Calls(trace(graph=without("/add", UP)), ANSWERS[1:]), Calls(CRASHED, ())]
+)
+def test_operations_cannot_be_judged_where_a_service_is_missing(seen: Calls) -> None:
+    assert judge_operations(seen).status is Status.SKIPPED
+
+
+@pytest.mark.parametrize("answers", [(), ANSWERS[:3]])
+def test_what_was_not_asked_is_not_right(answers: tuple[CallAnswer, ...]) -> None:
+    assert_failed(judge_operations(Calls(SERVING, answers)), "service missing", "/divide")
+
+
+# --- division by zero --------------------------------------------------------
+
+INCOMING = "Incoming request: a={} b={}"
+ORDINARY = (log("calculator ready"), log(INCOMING.format(84, 7)), log("84 / 7 = 12"))
+
+
+def division(
+    *said: LogRecord, by_zero: int | None = 0, after: int | None = 6, seen: Trace = SERVING, before: int | None = 12
+) -> Division:
+    return Division(
+        seen,
+        called("/divide", 84, 7, before),
+        called("/divide", 10, 0, by_zero),
+        called("/divide", 18, 3, after),
+        ORDINARY,
+        said,
+    )
+
+
+ERRORS = [
+    "Division by zero!",
+    "cannot divide 10 by 0",
+    "b must be other than 0: invalid request",
+    "Division durch Null",
+    "Fehler: b ist 0",
+    "nicht möglich",
+    "división por cero",
+    "error: no se puede dividir",
+    "division par zéro impossible",
+    "divisione per zero",
+    "divisão por zero",
+    "deling door nul",
+    "dělení nulou: chyba",
+    "dzielenie przez zero",
+    "деление на ноль",
+    "на ноль делить нельзя",
+    "不能除以零",
+    "除数不可为 0",
+    "ゼロ除算エラー",
+    "0으로 나눌 수 없습니다",
+    "sıfıra bölme hatası",  # noqa: RUF001
+    "διαίρεση με μηδέν",
+    "القسمة على صفر",
+    "חלוקה באפס",
+    "शून्य से भाग",
+    "lỗi chia cho 0",
+    "kesalahan",
+    "result: nan",
+    "ZeroDivisionError",
+]
+
+
+@pytest.mark.parametrize("text", ERRORS)
+def test_an_error_is_understood_in_many_languages(text: str) -> None:
+    assert_passed(judge_division(division(log(INCOMING.format(10, 0)), log(text))))
+    assert_passed(judge_division(division(log(text.upper()))))
+
+
+@pytest.mark.parametrize("level", [30, 40, 50])
+def test_a_warning_needs_no_words(level: int) -> None:
+    assert_passed(judge_division(division(log("b = 0", level))))
+
+
+@pytest.mark.parametrize("text", ["10 / 0 = 0", INCOMING.format(10, 0), "10 / 0 = inf", "request", "b is 0", ""])
+def test_an_ordinary_message_is_no_error(text: str) -> None:
+    assert_failed(judge_division(division(log(text))), "no error message")
+
+
+@given(st.sampled_from(ERRORS), st.sampled_from([10, 20, 30, 40]), st.integers(), st.integers())
+def test_what_a_good_call_brings_too_is_no_complaint(text: str, level: int, usual: int, now: int) -> None:
+    assert complaints_in([log(f"{text} {usual}", level)], [log(f"{text} {now}", level)]) == []
+
+
+@given(st.sampled_from(ERRORS), st.lists(st.sampled_from(ORDINARY)))
+def test_an_error_is_one_among_whatever_else_is_said(text: str, around: list[LogRecord]) -> None:
+    assert complaints_in(ORDINARY, [*around, log(text), *around]) == [log(text)]
+
+
+@pytest.mark.parametrize(
+    ("seen", "cause", "word"),
+    [
+        (Division(CRASHED), "unhandled exception", "84"),
+        (Division(trace(graph=UP)), "no answer", "84"),
+        (division(before=None), "no answer", "84"),
+        (division(by_zero=None), "no answer", "when b is 0"),
+        (division(by_zero=None, seen=trace(err=CRASH, exit=exited(1))), "unhandled exception", "line 12"),
+        (division(), "no error message", "self.get_logger().error"),
+        (division(seen=trace(graph=ALL, out="error: division by zero")), "printed, not logged", "error: division"),
+        (division(log("division by zero", 40), after=None), "no answer", "after a division by zero"),
+        (
+            division(log("division by zero", 40), after=None, seen=trace(exit=exited(0, after_s=9.0))),
+            "exit at once",
+            "call after it",
+        ),
+    ],
+)
+def test_division_not(seen: Division, cause: str, word: str) -> None:
+    assert_failed(judge_division(seen), cause, word)
+
+
+# --- the client --------------------------------------------------------------
+
+SERVED = tuple(Served(name, {"a": 10, "b": 5}, {"sum": right_result(name, 10, 5)}, 1001.0) for name in SIGNS)
+
+
+def demonstration(
+    served: tuple[Served, ...] = SERVED, code: int | None = 0, stuck: tuple[Frame, ...] = (), **more: Any
+) -> Demonstration:
+    ended = None if code is None else exited(code)
+    return Demonstration(trace(exit=ended, **more), served, ended, stuck)
+
+
+@pytest.mark.parametrize("served", [SERVED, SERVED * 3, tuple(reversed(SERVED))])
+def test_client(served: tuple[Served, ...]) -> None:
+    assert_passed(judge_client(demonstration(served)))
+
+
+@pytest.mark.parametrize(
+    ("seen", "cause", "word"),
+    [
+        (Demonstration(None), "file missing", "calculator_client.py"),
+        (demonstration(SERVED[:3]), "not called", "/divide"),
+        (demonstration(()), "not called", "/add, /subtract, /multiply, /divide"),
+        (demonstration((), uncalled_main=True), "no main call", "__main__"),
+        (demonstration(code=1), "non-zero exit", "exit code 1"),
+        (demonstration((), code=1, err=CRASH), "unhandled exception", "called nothing"),
+        (demonstration(SERVED[:1], code=None, stuck=IN_CALL), "deadlock by call()", "called /add"),
+        (demonstration(SERVED, code=None, stuck=(frame("spin"),)), "did not end", "line 12"),
+        (demonstration(SERVED, code=None), "did not end", "by itself"),
+    ],
+)
+def test_client_not(seen: Demonstration, cause: str, word: str) -> None:
+    assert_failed(judge_client(seen), cause, word)
+
+
+def test_shutdown() -> None:
+    assert_passed(judge_shutdown(Calls(SERVING, ANSWERS, ending=ending(0))))
+    assert_passed(judge_shutdown(Calls(SERVING, ANSWERS, ending=ending(130))))
+    assert_failed(judge_shutdown(Calls(SERVING, ANSWERS, ending=ending(still_there=True))), "SIGINT ignored")
+    assert_failed(judge_shutdown(Calls(CRASHED, ())), "unhandled exception")
