@@ -1,0 +1,401 @@
+"""I2.1: made answers of a parameterized publisher, and what must be said of each."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from checks.i2_1.facts import (
+    BAD_RATES,
+    DOWN_HZ,
+    ENABLED,
+    LAUNCH_HZ,
+    PREFIX,
+    RATE,
+    TOPIC,
+    TYPE,
+    UP_HZ,
+    Atomic,
+    Launched,
+    Retimed,
+    Survey,
+    Switched,
+    Validated,
+    naming,
+)
+from checks.i2_1.judges import (
+    judge_atomic,
+    judge_bad_launch,
+    judge_defaults,
+    judge_launch,
+    judge_runtime,
+    judge_shutdown,
+    judge_timer,
+    judge_validation,
+)
+from tests.checks.made import (
+    CRASH,
+    CRASHED,
+    KEYBOARD_INTERRUPT,
+    NO_NODE,
+    UP,
+    answer,
+    assert_failed,
+    assert_passed,
+    ending,
+    exited,
+    graph,
+    log,
+    parameter,
+    refused,
+    sample,
+    samples,
+    trace,
+)
+from tests.judge.real import crash
+from tutor.judge.rates import Rate
+from tutor.judge.trace import Parameter, SetAnswer, Trace
+
+PUBLISHING = graph(publishers={TOPIC: TYPE})
+RUNNING = trace(*samples(TOPIC, 1.0), graph=PUBLISHING)
+SILENT = trace(graph=PUBLISHING)
+BROKEN_LATER = replace(RUNNING, output=CRASHED.output, exit=exited(1, after_s=9.0))
+UNANSWERED = answer({}, answered=False)
+
+
+def rate(hz: float) -> Rate:
+    return Rate(hz, 10, 9 / hz)
+
+
+# --- defaults ----------------------------------------------------------------
+
+GOOD = (parameter(PREFIX, "string", "Hello"), parameter(RATE, "double", 1.0), parameter(ENABLED, "boolean", True))
+
+
+def survey(parameters: tuple[Parameter, ...] | None = GOOD, seen: Trace = RUNNING, **more: Any) -> Survey:
+    return Survey(seen, parameters, more.get("ending", ending(0)))
+
+
+@pytest.mark.parametrize("parameters", [GOOD, tuple(reversed(GOOD)), (*GOOD, parameter("more", "integer", 3))])
+def test_defaults(parameters: tuple[Parameter, ...]) -> None:
+    assert_passed(judge_defaults(survey(parameters)))
+
+
+def but(wrong: Parameter) -> tuple[Parameter, ...]:
+    return tuple(wrong if wrong.name == each.name else each for each in GOOD)
+
+
+@pytest.mark.parametrize(
+    ("found", "cause", "word"),
+    [
+        (survey(None, CRASHED), "unhandled exception", "line 12"),
+        (survey(None, NO_NODE), "no node", ""),
+        (survey(None), "no spin", "/node"),
+        (survey(()), "parameter not declared", PREFIX),
+        (survey(GOOD[:2]), "parameter not declared", f"declare_parameter('{ENABLED}', True)"),
+        (survey(but(parameter(RATE, "integer", 1))), "integer parameter", "publish_rate', 1.0)"),
+        (survey(but(parameter(RATE, "string", "1.0"))), "wrong parameter type", "string, not double"),
+        (survey(but(parameter(ENABLED, "string", "true"))), "wrong parameter type", ENABLED),
+        (survey(but(parameter(PREFIX, "not set", None))), "wrong parameter type", "not set"),
+        (survey(but(parameter(PREFIX, "string", "hello"))), "wrong default", "'hello', not 'Hello'"),
+        (survey(but(parameter(RATE, "double", 2.0))), "wrong default", "2.0, not 1.0"),
+        (survey(but(parameter(ENABLED, "boolean", False))), "wrong default", "false, not true"),
+    ],
+)
+def test_defaults_not(found: Survey, cause: str, word: str) -> None:
+    assert_failed(judge_defaults(found), cause, word)
+
+
+# --- at start-up -------------------------------------------------------------
+
+
+def launched(
+    hz: float | None = LAUNCH_HZ,
+    said: str = "Ahoy7 1",
+    loud: Trace | None = None,
+    disabled: Trace = SILENT,
+    held: object = False,
+) -> Launched:
+    seen = loud or trace(*samples(TOPIC, LAUNCH_HZ, data=said), graph=PUBLISHING)
+    held_now = None if held is None else parameter(ENABLED, "boolean", held)
+    return Launched("Ahoy7", seen, rate(hz) if hz else None, 10, disabled, held_now, 2.2)
+
+
+@pytest.mark.parametrize("found", [launched(), launched(4.1), launched(5.9), launched(held=None)])
+def test_launch(found: Launched) -> None:
+    assert_passed(judge_launch(found))
+
+
+@pytest.mark.parametrize(
+    ("found", "cause", "word"),
+    [
+        (launched(loud=CRASHED), "unhandled exception", "no message"),
+        (launched(loud=trace(graph=UP)), "no publisher", TOPIC),
+        (launched(loud=SILENT), "no messages", TOPIC),
+        (launched(said="Hello 1"), "parameter ignored", PREFIX),
+        (launched(1.0), "parameter ignored", RATE),
+        (launched(0.2), "rate used as a period", "1.0 / publish_rate"),
+        (launched(None), "rate used as a period", "not 5.0 Hz"),
+        (launched(10.0), "wrong rate", "10.00 Hz"),
+        (launched(disabled=RUNNING), "parameter ignored", ENABLED),
+        (launched(disabled=SILENT, held=True), "parameter ignored", ENABLED),
+        (launched(disabled=CRASHED), "unhandled exception", "silence, but not because"),
+        (launched(disabled=trace(graph=UP), held=None), "parameter ignored", ENABLED),
+    ],
+)
+def test_launch_not(found: Launched, cause: str, word: str) -> None:
+    assert_failed(judge_launch(found), cause, word)
+
+
+# --- while it runs -----------------------------------------------------------
+
+
+def switched(**but: Any) -> Switched:
+    facts: dict[str, Any] = {
+        "trace": RUNNING,
+        "set_prefix": answer({PREFIX: "Servus7"}),
+        "after_prefix": sample(TOPIC, "Servus7 3", 1003.0),
+        "set_off": answer({ENABLED: False}),
+        "off_for_s": 2.5,
+        "set_on": answer({ENABLED: True}),
+        "resumed": sample(TOPIC, "Servus7 4", 1008.0),
+        **but,
+    }
+    return Switched(prefix="Servus7", **facts)
+
+
+def not_set(reason: str, answered: bool = True) -> SetAnswer:
+    return answer({ENABLED: False}, reason, successful=False, answered=answered)
+
+
+def test_runtime() -> None:
+    assert_passed(judge_runtime(switched()))
+    assert_passed(judge_runtime(switched(after_prefix=sample(TOPIC, "say Servus7", 1003.0))))
+
+
+@pytest.mark.parametrize(
+    ("found", "cause", "word"),
+    [
+        (Switched(CRASHED, ""), "unhandled exception", "to start with"),
+        (Switched(SILENT, ""), "no spin", ""),
+        (Switched(RUNNING, ""), "no spin", "no parameter call"),
+        (switched(set_prefix=not_set("", answered=False)), "blocked executor", "no answer in 5 s"),
+        (switched(set_off=not_set("", answered=False), trace=BROKEN_LATER), "unhandled exception", "line 12"),
+        (switched(set_off=not_set("Callback returned an invalid type")), "callback returns None", ""),
+        (switched(set_off=not_set("Wrong parameter type, expected X got Y")), "wrong parameter type", "expected X"),
+        (switched(set_on=not_set("enabled has not been declared")), "parameter not declared", ""),
+        (switched(set_on=not_set("no way")), "rejected", "no way"),
+        (switched(after_prefix=None), "parameter ignored", 'still read "Hello"'),
+        (switched(sent_while_off=samples(TOPIC, 1.0, count=2)), "parameter ignored", "2 messages"),
+        (switched(resumed=None), "does not resume", ENABLED),
+        (switched(resumed=None, trace=BROKEN_LATER), "unhandled exception", "line 12"),
+    ],
+)
+def test_runtime_not(found: Switched, cause: str, word: str) -> None:
+    assert_failed(judge_runtime(found), cause, word)
+
+
+# --- bad rates ---------------------------------------------------------------
+
+REFUSED = tuple((refused({RATE: bad}), 1.0) for bad in BAD_RATES)
+
+
+def validated(
+    *rejected: tuple[SetAnswer, Any], hz: float | None = 1.0, seen: Trace = RUNNING, **more: Any
+) -> Validated:
+    return Validated(seen, rejected=rejected or REFUSED, rate=rate(hz) if hz else None, messages=4, **more)
+
+
+@pytest.mark.parametrize(
+    "found",
+    [
+        validated(),
+        validated(hz=1.15),
+        validated(*((answer, 2.0) for answer, _ in REFUSED), hz=2.0, base_hz=2.0, before=2.0),
+        validated(
+            *(
+                (refused({RATE: bad}, f"publish_rate: {bad} doesn't comply with floating point range"), 1.0)
+                for bad in BAD_RATES
+            )
+        ),
+    ],
+)
+def test_validation(found: Validated) -> None:
+    assert_passed(judge_validation(found))
+
+
+def rejected(which: SetAnswer, held: Any = 1.0) -> Validated:
+    return validated(REFUSED[0], (which, held))
+
+
+BAD = {RATE: -1.0}
+
+
+@pytest.mark.parametrize(
+    ("found", "cause", "word"),
+    [
+        (Validated(CRASHED), "unhandled exception", ""),
+        (Validated(RUNNING), "no spin", ""),
+        (rejected(answer(BAD)), "no validation", "-1.0 was accepted"),
+        (validated((answer({RATE: 0.0}), 0.0)), "no validation", "0.0 was accepted"),
+        (rejected(refused(BAD, "")), "no reason given", "-1.0"),
+        (rejected(refused(BAD, "  ")), "no reason given", "-1.0"),
+        (rejected(answer(BAD, answered=False)), "blocked executor", "no answer"),
+        (rejected(refused(BAD, "Callback returned an invalid type")), "callback returns None", ""),
+        (rejected(refused(BAD, "Wrong parameter type, x")), "wrong parameter type", ""),
+        (rejected(refused(BAD, "publish_rate has not been declared")), "parameter not declared", ""),
+        (rejected(refused(BAD, "Trying to set a read-only parameter: publish_rate")), "rejected", "read-only"),
+        (rejected(refused(BAD), -1.0), "value changed all the same", "-1.0 now"),
+        (rejected(refused(BAD), None), "value changed all the same", "None"),
+        (validated(hz=3.0), "value changed all the same", "3.00 Hz"),
+        (validated(hz=None), "value changed all the same", "after the rejection"),
+        (validated(hz=None, seen=BROKEN_LATER), "unhandled exception", "line 12"),
+    ],
+)
+def test_validation_not(found: Validated, cause: str, word: str) -> None:
+    assert_failed(judge_validation(found), cause, word)
+
+
+# --- the timer ---------------------------------------------------------------
+
+
+def retimed(up: float | None = UP_HZ, down: float | None = DOWN_HZ, seen: Trace = RUNNING) -> Retimed:
+    steps = [(answer({RATE: asked}), rate(hz) if hz else None, 9) for asked, hz in ((UP_HZ, up), (DOWN_HZ, down))]
+    return Retimed(seen, tuple(steps))
+
+
+@given(st.floats(0.81, 1.19), st.floats(0.81, 1.19))
+def test_a_timer_within_a_fifth_is_right(up: float, down: float) -> None:
+    assert_passed(judge_timer(retimed(UP_HZ * up, DOWN_HZ * down)))
+
+
+@given(st.booleans(), st.floats(0.01, 0.79) | st.floats(1.21, 20))
+def test_any_other_timer_is_wrong(first: bool, factor: float) -> None:
+    found = retimed(UP_HZ * factor) if first else retimed(down=DOWN_HZ * factor)
+    assert not judge_timer(found).passed
+
+
+@pytest.mark.parametrize(
+    ("found", "cause", "word"),
+    [
+        (Retimed(CRASHED), "unhandled exception", ""),
+        (Retimed(SILENT), "no spin", ""),
+        (Retimed(RUNNING, ((refused({RATE: UP_HZ}, "no"), None, 0),)), "rejected", "10.0"),
+        (Retimed(RUNNING, ((answer({RATE: UP_HZ}, answered=False), None, 0),)), "blocked executor", "10.0"),
+        (retimed(1.0), "timer not replaced", "cancel()"),
+        (retimed(down=10.0), "timer not replaced", "self.timer"),
+        (retimed(13.0), "old timer kept", "13.0 Hz"),
+        (retimed(down=12.1), "old timer kept", "12.1 Hz"),
+        (retimed(0.1), "rate used as a period", "1.0 / publish_rate"),
+        (retimed(None), "rate used as a period", ""),
+        (retimed(down=0.5), "rate used as a period", ""),
+        (retimed(5.0), "wrong rate", "5.0 Hz instead of 10 Hz"),
+        (retimed(0.3), "wrong rate", "0.3 Hz"),
+        (retimed(None, seen=BROKEN_LATER), "unhandled exception", "line 12"),
+    ],
+)
+def test_timer_not(found: Retimed, cause: str, word: str) -> None:
+    assert_failed(judge_timer(found), cause, word)
+
+
+# --- bonus -------------------------------------------------------------------
+
+BEFORE = ("Hello", 1.0)
+
+
+def atomic(**but: Any) -> Atomic:
+    facts: dict[str, Any] = {
+        "trace": RUNNING,
+        "answers": (refused({PREFIX: "a", RATE: -1.0}), refused({RATE: -1.0, PREFIX: "b"})),
+        "before": BEFORE,
+        "values": (BEFORE, BEFORE),
+        "rate": rate(1.0),
+        **but,
+    }
+    return Atomic(messages=4, **facts)
+
+
+def test_atomic() -> None:
+    assert_passed(judge_atomic(atomic()))
+    assert_passed(judge_atomic(atomic(rate=rate(2.1), base_hz=2.0)))
+
+
+ACCEPTED, NO_ANSWER = answer({RATE: -1.0}), answer({RATE: -1.0}, answered=False)
+NO = refused({RATE: -1.0})
+
+
+@pytest.mark.parametrize(
+    ("found", "cause", "word"),
+    [
+        (Atomic(CRASHED), "unhandled exception", ""),
+        (Atomic(RUNNING), "no spin", ""),
+        (atomic(answers=(NO, NO_ANSWER)), "blocked executor", "no answer"),
+        (atomic(answers=(NO, ACCEPTED)), "no validation", "accepted"),
+        (atomic(answers=(ACCEPTED, NO)), "no validation", "accepted"),
+        (atomic(answers=(refused(BAD, "x has not been declared"), NO)), "parameter not declared", ""),
+        (atomic(values=(("a", 1.0), BEFORE)), "partial change", "('a', 1.0)"),
+        (atomic(values=(BEFORE, ("Hello", -1.0))), "partial change", "-1.0"),
+        (atomic(shown=sample(TOPIC, "Partial1 3", 1005.0)), "partial change", "Partial1 3"),
+        (atomic(rate=None), "partial change", "the timer was touched"),
+        (atomic(rate=rate(5.0)), "partial change", "5.00 Hz"),
+    ],
+)
+def test_atomic_not(found: Atomic, cause: str, word: str) -> None:
+    assert_failed(judge_atomic(found), cause, word)
+
+
+COMPLAINT = "publish_rate must be > 0"
+
+
+def start(bad: float, **more: Any) -> Trace:
+    return replace(trace(**more), parameters={RATE: bad})
+
+
+def starts(**more: Any) -> list[Trace]:
+    return [start(bad, **more) for bad in BAD_RATES]
+
+
+@pytest.mark.parametrize(
+    "seen",
+    [
+        starts(logs=[log(COMPLAINT, 40)]),
+        starts(out=COMPLAINT),
+        starts(err=f"[ERROR] [1.5] [node]: {COMPLAINT}"),
+        starts(err=crash(f"raise ValueError('{COMPLAINT}')"), exit=exited(1)),
+        starts(logs=[log("publish_rate: 1.0 Hz")], err=COMPLAINT),
+    ],
+)
+def test_a_bad_rate_at_start_up_is_named(seen: list[Trace]) -> None:
+    assert_passed(judge_bad_launch(survey(seen=trace(logs=[log("publish_rate: 1.0 Hz")])), seen))
+
+
+@pytest.mark.parametrize(
+    ("seen", "cause", "word"),
+    [
+        (starts(), "no validation", "publish_rate:=0.0"),
+        ([start(0.0, err=COMPLAINT), start(-1.0)], "no validation", "publish_rate:=-1.0"),
+        (starts(err=crash("publish_rate = 0\n1 / publish_rate"), exit=exited(1)), "only a traceback", "ZeroDivision"),
+        (starts(err=CRASH, exit=exited(1)), "only a traceback", "AttributeError"),
+        (starts(logs=[log("publish_rate: 0.0 Hz")]), "no validation", ""),
+        (starts(err="[INFO] [7.5] [node]: publish_rate: -1.0 Hz"), "no validation", ""),
+    ],
+)
+def test_a_bad_rate_at_start_up_is_not_named(seen: list[Trace], cause: str, word: str) -> None:
+    plain = survey(seen=trace(logs=[log("publish_rate: 1.0 Hz")]))
+    assert_failed(judge_bad_launch(plain, seen), cause, word)
+
+
+def test_what_names_the_rate() -> None:
+    seen = trace(logs=[log("publish_rate 1"), log("rate 2")], out="my publish_rate", err=crash("publish_rate"))
+    assert naming(seen) == ["publish_rate 1", "my publish_rate", "NameError: name 'publish_rate' is not defined"]
+
+
+def test_shutdown() -> None:
+    assert_passed(judge_shutdown(survey()))
+    assert_passed(judge_shutdown(survey(ending=ending(130))))
+    assert_failed(judge_shutdown(survey(ending=ending(1, err=KEYBOARD_INTERRUPT))), "traceback on exit")
+    assert_failed(judge_shutdown(survey(seen=CRASHED, ending=None)), "unhandled exception")
