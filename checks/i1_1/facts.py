@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from tutor.judge.rates import Rate, describe
 from tutor.judge.trace import Echo, Ending, Parameter, Trace
+from tutor.judge.waiting import window_s
 
 FILE = "temperature_publisher.py"
 TOPIC = "/sensor/temperature"
@@ -65,7 +66,7 @@ class RateProbe:
 
     @property
     def agrees(self) -> bool:
-        return self.rate is not None and self.rate.agrees(self.asked_hz)
+        return self.rate is not None and self.rate.covers(window_s(self.asked_hz)) and self.rate.agrees(self.asked_hz)
 
     def __str__(self) -> str:
         return (

@@ -58,7 +58,8 @@ async def launched(bench: Bench) -> Launched:
     async def loud() -> tuple[Trace, Rate | None, int]:
         async with bench.start(FILE, parameters={PREFIX: prefix, RATE: LAUNCH_HZ}, watch={TOPIC: TYPE}) as run:
             bench.doing(0.2, f"{PREFIX}:={prefix} {RATE}:={LAUNCH_HZ}")
-            if not await first_message(run, TOPIC, TYPE, rare_s=RARE_S):
+            # Longer than the period that LAUNCH_HZ would be, were it taken for one.
+            if not await first_message(run, TOPIC, TYPE, rare_s=LAUNCH_HZ + 1):
                 return run.trace(), None, 0
             rate, messages = await steady_rate(run, TOPIC, LAUNCH_HZ, since=run.on(TOPIC)[0].source_time)
             return run.trace(), rate, messages

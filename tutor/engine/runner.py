@@ -10,7 +10,7 @@ from typing import Any
 from tutor.content import Lesson
 from tutor.engine.bench import LiveBench
 from tutor.engine.errors import EngineError
-from tutor.judge.bench import Scenario
+from tutor.judge.bench import MachineTooBusy, Scenario
 from tutor.judge.check import Check, Criterion
 from tutor.judge.events import CheckStarted, CriterionJudged, Event, ExerciseJudged, Progress
 from tutor.judge.result import CriterionResult, ExerciseResult
@@ -92,6 +92,8 @@ class Runner:
             return criterion.judge(*facts)
         except EngineError as error:
             return fault(str(error), error.mend)
+        except MachineTooBusy as error:
+            return fault(str(error), "close what keeps this machine busy, then check again")
         except Exception as error:  # the check's boundary: a fault of ours must not be shown as the learner's
             where = _where(error)
             return fault(

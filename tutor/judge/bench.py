@@ -28,6 +28,11 @@ from tutor.judge.tracebacks import Frame
 
 T = TypeVar("T")
 
+
+class MachineTooBusy(RuntimeError):
+    """The machine kept the node from running while it was measured: nothing can be said about the node."""
+
+
 Handler = Callable[[Mapping[str, Any]], Mapping[str, Any]]
 """Answers one service request (fields to values) with a response (fields to values)."""
 
@@ -65,10 +70,14 @@ class Run(Protocol):
     def now(self) -> float:
         """The wall-clock time, in seconds since the epoch, as in every fact."""
 
+    def starved_s(self) -> float:
+        """Seconds that the process, or we who watch it, waited for a CPU so far: the machine's fault."""
+
     async def until(self, seen: Callable[[], bool], limit_s: float) -> bool:
         """Wait until `seen()` is true; it is asked again whenever a new fact has come in.
 
-        Gives False when `limit_s` seconds have passed, or soon after the process has ended.
+        Gives False when `limit_s` seconds have passed (and those in which the machine did not let the process run), or
+        soon after the process has ended.
         """
 
     async def parameters(self, limit_s: float) -> tuple[Parameter, ...] | None:

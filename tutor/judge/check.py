@@ -32,8 +32,8 @@ class Criterion:
 class Check:
     """All criteria of one exercise, in the order to show them.
 
-    `asks_s`: the longest wait in seconds that a scenario asks of the clock when it meets our own solution, such as three
-    messages at 0.5 Hz; what a check takes beyond it is overhead, which a benchmark measures.
+    `asks_s`: the longest wait in seconds that a scenario asks of the clock when it meets our own solution, such as
+    three messages at 0.5 Hz; what a check takes beyond it is overhead, which a benchmark measures.
     """
 
     exercise: str

@@ -10,6 +10,9 @@ from tutor.judge.trace import Sample
 TOLERANCE = 0.2
 """A rate is right within this fraction of what was asked for."""
 
+WINDOW_FILLED = 0.6
+"""The first and the last message of a window may be up to a period away from its ends."""
+
 
 @dataclass(frozen=True, slots=True)
 class Rate:
@@ -22,6 +25,10 @@ class Rate:
     def agrees(self, asked_hz: float) -> bool:
         """Whether this is the rate that was asked for, within the tolerance."""
         return abs(self.hz - asked_hz) <= TOLERANCE * asked_hz
+
+    def covers(self, window_s: float) -> bool:
+        """Whether the messages fill most of a window that is long enough to tell this rate, not a burst in it."""
+        return self.span_s >= WINDOW_FILLED * window_s
 
     def __str__(self) -> str:
         return f"{self.hz:.2f} Hz ({self.samples} messages in {self.span_s:.2f} s)"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from tutor.judge.bench import Run
+from tutor.judge.bench import MachineTooBusy, Run
 from tutor.judge.rates import Rate, measure
 
 START_S = 15.0
@@ -18,6 +18,10 @@ RARE_S = 12.0
 
 AGAIN_S = 3.5
 """A second listen is at least this long, so that a rate of 1 Hz, too, can be told for what it is."""
+
+TRIES = 3
+STARVED = 0.25
+"""Where the node was kept from running for more than this share of the time, a wrong rate says nothing."""
 
 IN_FLIGHT_S = 0.1
 """A message takes less than this from its source to us."""
@@ -58,11 +62,26 @@ async def steady_rate(run: Run, topic: str, asked_hz: float, *, since: float) ->
 
     Listens for as long as `asked_hz` needs. Where what it hears does not agree, it listens once more, and longer, and
     judges by that second stretch alone: a hiccup in the first is the machine's, a rate that stays wrong the learner's.
+    Raises MachineTooBusy where the machine hardly lets the node run, however often it is listened to.
     """
-    rate, messages = await _listen(run, topic, max(since, run.now()), window_s(asked_hz) + 0.5 / asked_hz)
-    if rate is None or not rate.agrees(asked_hz):
-        rate, messages = await _listen(run, topic, run.now(), max(window_s(asked_hz), AGAIN_S))
+    start, for_s = max(since, run.now()), window_s(asked_hz) + 0.5 / asked_hz
+    rate, messages = await _listen(run, topic, start, for_s)
+    for _ in range(TRIES):
+        if rate is not None and rate.agrees(asked_hz):
+            break
+        for_s, starved_s = max(window_s(asked_hz), AGAIN_S), run.starved_s()
+        rate, messages = await _listen(run, topic, run.now(), for_s)
+        if not too_busy(run.starved_s() - starved_s, for_s):
+            break
+    else:
+        if rate is None or not rate.agrees(asked_hz):
+            raise MachineTooBusy("this machine is too busy to measure a rate")
     return rate, messages
+
+
+def too_busy(starved_s: float, of_s: float) -> bool:
+    """Whether a node that could not run for `starved_s` of `of_s` seconds may be right, and its rate wrong."""
+    return starved_s > STARVED * of_s
 
 
 async def _listen(run: Run, topic: str, start: float, for_s: float) -> tuple[Rate | None, int]:

@@ -2,5 +2,14 @@
 
 from tutor.process.errors import EndError, ProcessError, StartError
 from tutor.process.learner import LearnerProcess, Survivor
+from tutor.process.starvation import waited_for_cpu, waited_for_cpu_here
 
-__all__ = ["EndError", "LearnerProcess", "ProcessError", "StartError", "Survivor"]
+__all__ = [
+    "EndError",
+    "LearnerProcess",
+    "ProcessError",
+    "StartError",
+    "Survivor",
+    "waited_for_cpu",
+    "waited_for_cpu_here",
+]
