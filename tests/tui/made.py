@@ -212,8 +212,9 @@ def ending(rate: Verdict, exercise: str = "i1.1", shutdown: Verdict | None = Non
 
 
 def whole(lesson: Lesson, middle: Verdict) -> list[Event]:
-    """The end of a check of any lesson, in which the criterion in the middle has this verdict."""
-    at = len(lesson.criteria) // 2
+    """The end of a check of any lesson, in which `rate`, else the criterion in the middle, has this verdict."""
+    ids = [criterion.id for criterion in lesson.criteria]
+    at = ids.index("rate") if "rate" in ids else len(ids) // 2
     judged = tuple(
         CriterionResult(c.id, c.text, c.bonus, middle if i == at else GOOD, 1.0 + i)
         for i, c in enumerate(lesson.criteria)

@@ -42,7 +42,7 @@ class WelcomeScreen(Screen[bool]):
             yield Static(_BANNER, id="welcome-banner")
             yield Static("Learn ROS 2 by writing nodes that really run.", id="welcome-lead")
             yield Static(
-                f"{count} exercises, from a first publisher to a service that never blocks. You write the code, "
+                f"{count} exercises, each of them a real node, from its first message on. You write the code, "
                 "run it, and have it checked: by what your node does, never by how it looks.",
                 classes="welcome-text",
             )
