@@ -159,8 +159,9 @@ async def _probe_rate(bench: Bench, name: str, unit: str, value: float, whole: b
             rate = measure(run.on(TOPIC))
             return rate is not None and (rate.span_s >= least_s or (rate.samples > 50 and rate.hz > 20))
 
+        came = await first_message(run, TOPIC, TYPE)
         probe = heard()
-        if await first_message(run, TOPIC, TYPE):
+        if came:
             for stretch in range(1, TRIES + 2):
                 starved_s, since = run.starved_s(), run.now()
                 await run.until(lambda least_s=stretch * window: decided(least_s), window + 1 / asked_hz + 1)  # type: ignore[misc]
