@@ -5,18 +5,19 @@ from __future__ import annotations
 import os
 import tempfile
 import time
-from collections.abc import AsyncIterator, Callable, Mapping
-from contextlib import asynccontextmanager
+from collections.abc import AsyncIterator, Callable, Iterator, Mapping
+from contextlib import asynccontextmanager, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeVar
 
+from tutor.engine.errors import EngineError
 from tutor.engine.run import Facts, LiveRun
 from tutor.judge.bench import Handler, Run, Scenario
 from tutor.judge.submission import Submission
 from tutor.judge.trace import Served
-from tutor.process import LearnerProcess
-from tutor.ros.domain import reserve_domain
+from tutor.process import LearnerProcess, ProcessError
+from tutor.ros.domain import NoFreeDomain, reserve_domain
 from tutor.ros.environment import RosEnvironment, learner_env
 from tutor.ros.observer import Observer
 
@@ -43,7 +44,7 @@ class LiveBench:
     ) -> AsyncIterator[Run]:
         path = self.submission.files[file].resolve()
         facts = Facts()
-        with reserve_domain() as domain_id, tempfile.TemporaryDirectory(prefix="ros-tutor-") as log_dir:
+        with _faults(), reserve_domain() as domain_id, tempfile.TemporaryDirectory(prefix="ros-tutor-") as log_dir:
             observer = Observer(domain_id, facts.change)
             try:
                 observer.watch_logs()
@@ -80,6 +81,17 @@ class LiveBench:
 
     def doing(self, fraction: float, text: str) -> None:
         self.tell(min(1.0, max(0.0, fraction)), text)
+
+
+@contextmanager
+def _faults() -> Iterator[None]:
+    """What the machine refuses us, as an EngineError."""
+    try:
+        yield
+    except NoFreeDomain as error:
+        raise EngineError(str(error), error.mend) from error
+    except ProcessError as error:
+        raise EngineError(str(error)) from error
 
 
 def ros_arguments(parameters: Mapping[str, Any]) -> list[str]:
