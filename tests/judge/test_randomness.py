@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from tutor.judge.randomness import ENOUGH, PLENTY, pattern, suspicious
 
-TRIALS = 1000
+TRIALS = 500
 MOST = 2
 """So many of the trials may look like a pattern by chance: far fewer than one in a thousand of them do."""
 

@@ -1,0 +1,42 @@
+"""The engine in this process, on real processes and real DDS; ROS's variables are put back afterwards."""
+
+from __future__ import annotations
+
+import importlib
+import os
+import sys
+import warnings
+from collections.abc import AsyncIterator, Iterator
+from pathlib import Path
+
+import pytest
+
+from tests.engine.made import Scene
+from tutor.ros.environment import RosEnvironment, detect, use_in_this_process
+
+
+@pytest.fixture(scope="package")
+def ros() -> Iterator[RosEnvironment]:
+    """ROS, chosen and isolated as for a check; `import rclpy` works from here on."""
+    environ, path = dict(os.environ), list(sys.path)
+    chosen = detect()
+    if "rclpy" not in sys.modules:
+        use_in_this_process(chosen, isolated=True)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # of what ROS itself imports
+        importlib.import_module("rosidl_generator_py")
+        importlib.import_module("tutor.engine.runner")
+    yield chosen
+    os.environ.clear()
+    os.environ.update(environ)
+    sys.path[:] = path
+
+
+@pytest.fixture
+async def scene(ros: RosEnvironment, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> AsyncIterator[Scene]:
+    """A place for learners' scripts; after the test no process of theirs is left, nor a domain of ours reserved."""
+    scene = Scene(ros, tmp_path, monkeypatch)
+    yield scene
+    left = scene.left()
+    assert not left
+    assert not scene.held

@@ -1,0 +1,235 @@
+"""The runner: scenarios at once, facts once, verdicts in their place, and nothing left whatever happens."""
+
+from __future__ import annotations
+
+import asyncio
+import time
+from typing import Any
+
+import pytest
+
+from tests.engine.made import FILE, PUBLISHES, Scene, criterion, node, plain
+from tutor.engine.errors import EngineError
+from tutor.judge.bench import Bench
+from tutor.judge.events import CheckStarted, CriterionJudged, ExerciseJudged, Progress
+from tutor.judge.verdict import Cause, Status, Verdict, failed, passed
+
+NO = Cause("no", "it does not", "do it")
+
+
+def fails(*facts: Any) -> Verdict:
+    return failed("this", "that", NO)
+
+
+async def nothing(bench: Bench) -> str:
+    return "nothing"
+
+
+async def test_scenarios_run_at_once(scene: Scene) -> None:
+    async def up(bench: Bench) -> tuple[float, float]:
+        async with bench.start(FILE) as run:
+            assert await run.until(lambda: bool(run.output), 20)
+            began = time.monotonic()
+            await run.until(lambda: time.monotonic() >= began + 1, 2)
+            return began, time.monotonic()
+
+    async def one(bench: Bench) -> tuple[float, float]:
+        return await up(bench)
+
+    async def two(bench: Bench) -> tuple[float, float]:
+        return await up(bench)
+
+    def overlap(first: tuple[float, float], second: tuple[float, float]) -> Verdict:
+        assert max(first[0], second[0]) < min(first[1], second[1])
+        return passed("at once", "at once")
+
+    assert plain(await scene.judge(criterion("both", one, two, judge=overlap))) == {"both": "passed"}
+    assert len(set(scene.domains)) == 2
+
+
+async def test_facts_are_gathered_once_however_many_ask(scene: Scene) -> None:
+    ran: list[str] = []
+
+    async def first(bench: Bench) -> str:
+        ran.append("first")
+        await asyncio.sleep(0)
+        return "one"
+
+    async def second(bench: Bench) -> str:
+        ran.append("second")
+        return await bench.facts(first) + await bench.facts(first) + " two"
+
+    result = await scene.judge(criterion("a", first), criterion("b", first, second), criterion("c", second))
+    assert sorted(ran) == ["first", "second"]
+    assert [c.verdict.observed for c in result.criteria] == ["('one',)", "('one', 'oneone two')", "('oneone two',)"]
+
+
+async def test_what_depends_on_a_failure_is_skipped(scene: Scene) -> None:
+    result = await scene.judge(
+        criterion("a", nothing, judge=fails),
+        criterion("b", nothing, after=("a",)),
+        criterion("c", nothing, after=("b",)),
+        criterion("d", nothing),
+        criterion("e", nothing, after=("d",)),
+    )
+    assert plain(result) == {"a": "failed", "b": "skipped", "c": "skipped", "d": "passed", "e": "passed"}
+    assert "`a`" in result.criteria[1].verdict.cause
+    assert result.verdict is Status.FAILED
+
+
+async def test_only_shows_just_those_but_judges_what_they_depend_on(scene: Scene) -> None:
+    judged: list[str] = []
+
+    def noted(name: str, good: bool = True) -> Any:
+        def judge(*facts: Any) -> Verdict:
+            judged.append(name)
+            return passed("a", "b") if good else fails()
+
+        return judge
+
+    result = await scene.judge(
+        criterion("a", nothing, judge=noted("a")),
+        criterion("b", nothing, judge=noted("b", False), after=("a",)),
+        criterion("c", nothing, judge=noted("c"), after=("b",)),
+        criterion("d", nothing, judge=noted("d")),
+        only=frozenset({"c"}),
+    )
+    assert plain(result) == {"c": "skipped"}
+    assert judged == ["a", "b"]
+    assert scene.events[0] == CheckStarted("t1", ("c",))
+    assert {e.criterion if isinstance(e, Progress) else "c" for e in scene.events} == {"c"}
+
+
+async def test_a_fault_of_ours_is_never_the_learners(scene: Scene) -> None:
+    async def broken(bench: Bench) -> None:
+        raise KeyError("oops")
+
+    async def no_machine(bench: Bench) -> None:
+        raise EngineError("no room", "make room")
+
+    def wrong(fact: str) -> Verdict:
+        return passed("", str(1 / 0))
+
+    result = await scene.judge(
+        criterion("judge", nothing, judge=wrong),
+        criterion("scenario", broken),
+        criterion("machine", no_machine),
+        criterion("after", nothing, after=("machine",)),
+        criterion("good", nothing),
+    )
+    assert plain(result) == {
+        "judge": "error",
+        "scenario": "error",
+        "machine": "error",
+        "after": "skipped",
+        "good": "passed",
+    }
+    judge, scenario, machine = (c.verdict for c in result.criteria[:3])
+    assert "ZeroDivisionError" in judge.cause
+    assert "not of your code" in judge.hint
+    assert __file__.rpartition("/")[2] in judge.evidence[0]
+    assert "KeyError: 'oops'" in scenario.cause
+    assert (machine.cause, machine.hint) == ("no room", "make room")
+    assert result.verdict is Status.ERROR
+
+
+async def test_no_free_domain_is_the_machines_fault_with_its_mend(
+    scene: Scene, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    import tutor.engine.bench as live
+    from tutor.ros.domain import NoFreeDomain
+
+    def none() -> Any:
+        raise NoFreeDomain
+
+    monkeypatch.setattr(live, "reserve_domain", none)
+
+    async def start(bench: Bench) -> None:
+        async with bench.start(FILE):
+            raise AssertionError
+
+    result = await scene.judge(criterion("a", start))
+    assert plain(result) == {"a": "error"}
+    assert "No ROS domain id" in result.criteria[0].verdict.cause
+    assert "Close other programs" in result.criteria[0].verdict.hint
+
+
+async def test_what_the_scenario_raises_is_what_went_wrong(scene: Scene) -> None:
+    async def raises_at_work(bench: Bench) -> None:
+        async with bench.start(FILE) as run:
+            await run.until(lambda: bool(run.output), 20)
+            raise OSError("disk full")
+
+    result = await scene.judge(criterion("a", raises_at_work))
+    assert "OSError: disk full" in result.criteria[0].verdict.cause
+
+
+async def test_events_come_in_order_with_progress_that_goes_on(scene: Scene) -> None:
+    async def steps(bench: Bench) -> str:
+        for fraction in (-1.0, 0.0, 0.3, 0.7, 1.0, 4.0):
+            bench.doing(fraction, f"at {fraction}")
+            await asyncio.sleep(0)
+        return "done"
+
+    async def other(bench: Bench) -> str:
+        await bench.facts(steps)
+        bench.doing(1.0, "the other")
+        return "done"
+
+    result = await scene.judge(criterion("a", steps), criterion("b", steps, other), criterion("c", nothing))
+    started, *between, last = scene.events
+    assert started == CheckStarted("t1", ("a", "b", "c"))
+    assert last == ExerciseJudged(result)
+    judged = [e.result for e in between if isinstance(e, CriterionJudged)]
+    assert sorted(judged, key=lambda each: each.id) == list(result.criteria)
+    for name in "abc":
+        fractions = [e.fraction for e in between if isinstance(e, Progress) and e.criterion == name]
+        assert all(0 <= fraction <= 1 for fraction in fractions)
+        assert fractions == sorted(fractions)
+        (verdict_at,) = (i for i, e in enumerate(between) if isinstance(e, CriterionJudged) and e.result.id == name)
+        assert not any(isinstance(e, Progress) and e.criterion == name for e in between[verdict_at:])
+    assert [e.fraction for e in between if isinstance(e, Progress) and e.criterion == "a"][-1] == 1.0
+    assert [e.fraction for e in between if isinstance(e, Progress) and e.criterion == "b"][-1] == 1.0
+    assert {e.exercise for e in between if isinstance(e, Progress | CriterionJudged)} == {"t1"}
+    texts = [c.text for c in result.criteria]
+    assert texts == ["the text of a", "the text of b", "c"]
+    assert all(0 <= c.duration_s <= result.duration_s for c in result.criteria)
+
+
+async def test_cancellation_leaves_nothing(scene: Scene) -> None:
+    running = asyncio.Event()
+
+    async def forever(bench: Bench) -> None:
+        async with bench.start(FILE, watch={"/chatter": "std_msgs/msg/String"}) as run:
+            assert await run.until(lambda: bool(run.on("/chatter")), 20)
+            running.set()
+            await run.until(lambda: False, 1000)
+
+    async def waits_for_it(bench: Bench) -> None:
+        await bench.facts(forever)
+
+    check = asyncio.create_task(
+        scene.judge(criterion("a", forever), criterion("b", waits_for_it), source=node(PUBLISHES))
+    )
+    await asyncio.wait_for(running.wait(), 25)
+    assert scene.left()
+    assert scene.held
+    check.cancel()
+    with pytest.raises(asyncio.CancelledError):
+        await check
+    assert not scene.left()
+    assert not scene.held
+    assert not any(isinstance(event, CriterionJudged) for event in scene.events)
+
+
+async def test_a_front_end_that_breaks_ends_the_check_cleanly(scene: Scene) -> None:
+    async def start(bench: Bench) -> None:
+        async with bench.start(FILE) as run:
+            await run.until(lambda: bool(run.output), 20)
+
+    def broken(event: object) -> None:
+        if isinstance(event, CriterionJudged):
+            raise BrokenPipeError
+
+    with pytest.raises(BrokenPipeError):
+        await scene.judge(criterion("a", start), on_event=broken)
