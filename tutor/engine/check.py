@@ -27,12 +27,14 @@ async def check(
     `only`: the ids of the criteria to show (None: all). Raises EngineError where checks cannot be run here at all.
     """
     from tutor.engine.modules import load_check
+    from tutor.ros import bytecode
     from tutor.ros.environment import detect, use_in_this_process
 
     started = time.monotonic()
     ros = detect()
     try:
         use_in_this_process(ros, isolated=True)
+        await asyncio.to_thread(bytecode.ensure, ros)
         from tutor.engine.runner import Runner  # brings in rclpy, which must find its environment chosen
     except (ImportError, RuntimeError) as error:
         raise EngineError(f"ROS 2 cannot be used here: {error}") from error
