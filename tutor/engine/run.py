@@ -161,8 +161,15 @@ class LiveRun:
             for service in self.graph.services
             if service.type == "rcl_interfaces/srv/ListParameters"
         ]
-        # Up to three requests, one after another.
-        return await self._while_alive(parameters.ask(self._observer, nodes, NEVER_S), 2 * limit_s, None)
+        # Each for itself, that one which never answers does not hide the others; up to three requests, in turn.
+        answers = await asyncio.gather(
+            *(
+                self._while_alive(parameters.ask(self._observer, [node], NEVER_S), 2 * limit_s, None)
+                for node in dict.fromkeys(nodes)
+            )
+        )
+        answered = [answer for answer in answers if answer is not None]
+        return tuple(parameter for answer in answered for parameter in answer) if answered else None
 
     async def set_parameters(
         self, node: str, values: Mapping[str, Any], *, atomic: bool = False, limit_s: float = 5.0
