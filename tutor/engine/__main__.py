@@ -12,22 +12,29 @@ import signal
 import sys
 from pathlib import Path
 
-from tutor.content import load_course
+from tutor.content import ContentError, UnknownExercise, load_course
 from tutor.engine import EngineError, check
 from tutor.judge.events import Event, encode
-from tutor.workspace import find_submission
+from tutor.workspace import SubmissionError, find_submission
 
 
 def main() -> int:
-    """Run one check. Exit code 0: judged (whatever the verdict); 3: a fault, told on stderr; 130: interrupted."""
+    """Run one check.
+
+    Exit code 0: judged (whatever the verdict); 2: wrong usage, 3: a fault, each told on stderr; 130: interrupted.
+    """
     parser = argparse.ArgumentParser(prog="python -m tutor.engine")
     parser.add_argument("exercise")
     parser.add_argument("path", type=Path)
     parser.add_argument("--criterion", action="append")
     parser.add_argument("--lessons", type=Path)
     arguments = parser.parse_args()
-    course = load_course(arguments.lessons)
-    submission = find_submission(course.find(arguments.exercise), arguments.path, None)
+    try:
+        course = load_course(arguments.lessons)
+        submission = find_submission(course.find(arguments.exercise), arguments.path, None)
+    except (ContentError, SubmissionError, UnknownExercise) as error:
+        print(error, file=sys.stderr)
+        return 2
     only = frozenset(arguments.criterion) if arguments.criterion else None
 
     def show(event: Event) -> None:

@@ -1,0 +1,176 @@
+"""`python -m tutor.engine`: what it writes, how it ends, and that it leaves nothing."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+import uuid
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+
+from tests.engine.made import WAITS
+from tutor.judge.events import CheckFinished, CheckStarted, CriterionJudged, Event, ExerciseJudged, decode
+from tutor.judge.verdict import Status
+from tutor.process.warden import processes
+
+LIMIT_S = 60
+SOLUTION = Path(__file__).parents[2] / "lessons" / "i1_1" / "solution"
+
+
+class Engine:
+    """One run of the engine, and what was started by it."""
+
+    def __init__(self, *arguments: str | Path) -> None:
+        self._mark = f"TEST_TOKEN={uuid.uuid4().hex}"
+        self._process = subprocess.Popen(
+            [sys.executable, "-m", "tutor.engine", *map(str, arguments)],
+            env={**os.environ, "TEST_TOKEN": self._mark.partition("=")[2]},
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+
+    def left(self) -> list[int]:
+        """What runs of it, itself included."""
+        found = []
+        for pid, process in processes().items():
+            try:
+                mine = self._mark.encode() in Path(f"/proc/{pid}/environ").read_bytes().split(b"\0")
+            except OSError:
+                continue
+            if process.alive and mine:
+                found.append(pid)
+        return found
+
+    def until(self, kind: type[Event]) -> Event:
+        """The next event of this kind."""
+        assert self._process.stdout is not None
+        for line in self._process.stdout:
+            if isinstance(event := decode(line), kind):
+                return event
+        raise AssertionError(f"no {kind.__name__}: {self._process.communicate()}")
+
+    def send(self, number: int) -> None:
+        self._process.send_signal(number)
+
+    def hang_up(self) -> None:
+        """Go away, as a front end that was killed."""
+        assert self._process.stdout is not None
+        self._process.stdout.close()
+
+    def end(self) -> tuple[int, list[Event], str]:
+        """The exit code, the events that are left to read, and stderr."""
+        assert self._process.stdout is not None
+        out = "" if self._process.stdout.closed else self._process.stdout.read()
+        _, err = self._process.communicate(timeout=LIMIT_S) if out else ("", "")
+        code = self._process.wait(LIMIT_S)
+        return code, [decode(line) for line in out.splitlines()], err
+
+    def kill(self) -> None:
+        for pid in self.left():
+            os.kill(pid, signal.SIGKILL)
+        self._process.wait()
+        for stream in (self._process.stdout, self._process.stderr):
+            assert stream is not None
+            stream.close()
+
+
+@contextmanager
+def engine(*arguments: str | Path) -> Iterator[Engine]:
+    started = Engine(*arguments)
+    try:
+        yield started
+        end = time.monotonic() + 20
+        while left := started.left():
+            assert time.monotonic() < end, left
+            time.sleep(0.01)
+    finally:
+        started.kill()
+
+
+def ran(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, "-m", "tutor.engine", *map(str, arguments)],
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=LIMIT_S,
+    )
+
+
+def test_nothing_but_events_on_stdout() -> None:
+    with engine("i1.1", SOLUTION, "--criterion", "publishes") as started:
+        code, events, err = started.end()
+    assert (code, err) == (0, "")
+    assert events[0] == CheckStarted("i1.1", ("publishes",))
+    (judged,) = (event for event in events if isinstance(event, CriterionJudged))
+    assert judged.result.verdict.status is Status.PASSED
+    exercise, finished = events[-2:]
+    assert isinstance(exercise, ExerciseJudged)
+    assert isinstance(finished, CheckFinished)
+    assert finished.report.exercises == (exercise.result,)
+    assert exercise.result.criteria == (judged.result,)
+
+
+def test_a_failure_is_an_answer_too(tmp_path: Path) -> None:
+    (tmp_path / "temperature_publisher.py").write_text("raise SystemExit(3)")
+    with engine("i1.1", tmp_path, "--criterion", "publishes") as started:
+        code, events, err = started.end()
+    assert (code, err) == (0, "")
+    finished = events[-1]
+    assert isinstance(finished, CheckFinished)
+    assert finished.report.verdict is Status.FAILED
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_interrupted_it_cleans_up(tmp_path: Path, number: int) -> None:
+    (tmp_path / "temperature_publisher.py").write_text(WAITS)
+    with engine("i1.1", tmp_path) as started:
+        started.until(CheckStarted)
+        end = time.monotonic() + 20
+        while len(started.left()) < 3:  # itself, a warden and a learner
+            assert time.monotonic() < end
+            time.sleep(0.01)
+        started.send(number)
+        code, events, err = started.end()
+        assert (code, err) == (130, "")
+        assert not any(isinstance(event, CheckFinished) for event in events)
+
+
+def test_killed_it_leaves_nothing(tmp_path: Path) -> None:
+    (tmp_path / "temperature_publisher.py").write_text(WAITS)
+    with engine("i1.1", tmp_path) as started:
+        started.until(CheckStarted)
+        end = time.monotonic() + 20
+        while len(started.left()) < 3:
+            assert time.monotonic() < end
+            time.sleep(0.01)
+        started.send(signal.SIGKILL)
+
+
+def test_without_a_reader_it_ends(tmp_path: Path) -> None:
+    with engine("i1.1", SOLUTION) as started:
+        started.until(CheckStarted)
+        started.hang_up()
+        code, _, _ = started.end()
+    assert code != 0
+
+
+def test_wrong_usage_is_told_in_one_line(tmp_path: Path) -> None:
+    for arguments, word in [
+        (("i9.9", tmp_path), "i9.9"),
+        (("i1.1", tmp_path), "temperature_publisher.py"),
+        (("i1.1", tmp_path / "nothing.py"), "nothing.py"),
+        (("i1.1", SOLUTION, "--lessons", tmp_path), str(tmp_path)),
+    ]:
+        answer = ran(*arguments)
+        assert (answer.returncode, answer.stdout) == (2, ""), answer
+        assert word in answer.stderr
+        assert "Traceback" not in answer.stderr
