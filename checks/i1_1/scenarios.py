@@ -31,7 +31,7 @@ from tutor.judge import randomness
 from tutor.judge.bench import Bench, MachineTooBusy, Run
 from tutor.judge.rates import measure
 from tutor.judge.trace import Parameter, Trace
-from tutor.judge.waiting import START_S, TRIES, appears, first_message, too_busy, window_s
+from tutor.judge.waiting import START_S, TRIES, appears, excused, first_message, window_s
 
 
 async def survey(bench: Bench) -> Survey:
@@ -166,7 +166,8 @@ async def _probe_rate(bench: Bench, name: str, unit: str, value: float, whole: b
                 starved_s, since = run.starved_s(), run.now()
                 await run.until(lambda least_s=stretch * window: decided(least_s), window + 1 / asked_hz + 1)  # type: ignore[misc]
                 probe = heard()
-                if probe.agrees or (stretch > 1 and not too_busy(run.starved_s() - starved_s, run.now() - since)):
+                starved_s, of_s = run.starved_s() - starved_s, run.now() - since
+                if probe.agrees or (stretch > 1 and not excused(probe.rate, asked_hz, starved_s=starved_s, of_s=of_s)):
                     break
             else:
                 raise MachineTooBusy("this machine is too busy to measure a rate")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from tutor.judge.bench import MachineTooBusy, Run
-from tutor.judge.rates import Rate, measure
+from tutor.judge.rates import TOLERANCE, Rate, measure
 
 START_S = 15.0
 """A process on a slow, busy machine may need this long to come up."""
@@ -20,8 +20,6 @@ AGAIN_S = 3.5
 """A second listen is at least this long, so that a rate of 1 Hz, too, can be told for what it is."""
 
 TRIES = 3
-STARVED = 0.25
-"""Where the node was kept from running for more than this share of the time, a wrong rate says nothing."""
 
 IN_FLIGHT_S = 0.1
 """A message takes less than this from its source to us."""
@@ -71,7 +69,7 @@ async def steady_rate(run: Run, topic: str, asked_hz: float, *, since: float) ->
             break
         for_s, starved_s = max(window_s(asked_hz), AGAIN_S), run.starved_s()
         rate, messages = await _listen(run, topic, run.now(), for_s)
-        if not too_busy(run.starved_s() - starved_s, for_s):
+        if not excused(rate, asked_hz, starved_s=run.starved_s() - starved_s, of_s=for_s):
             break
     else:
         if rate is None or not rate.agrees(asked_hz):
@@ -79,9 +77,12 @@ async def steady_rate(run: Run, topic: str, asked_hz: float, *, since: float) ->
     return rate, messages
 
 
-def too_busy(starved_s: float, of_s: float) -> bool:
-    """Whether a node that could not run for `starved_s` of `of_s` seconds may be right, and its rate wrong."""
-    return starved_s > STARVED * of_s
+def excused(rate: Rate | None, asked_hz: float, *, starved_s: float, of_s: float) -> bool:
+    """Whether a rate may be too low only because the machine kept the node from running for `starved_s` of `of_s`."""
+    if rate is not None and rate.hz > asked_hz:
+        return False
+    ran = max(0.05, 1 - starved_s / of_s)
+    return (rate.hz if rate is not None else 1 / of_s) / ran >= (1 - TOLERANCE) * asked_hz
 
 
 async def _listen(run: Run, topic: str, start: float, for_s: float) -> tuple[Rate | None, int]:
