@@ -66,8 +66,10 @@ class Lesson:
 
     @property
     def check(self) -> Path:
-        """The module that judges this exercise, in the `checks` folder beside the lesson's `lessons` folder."""
-        return self.folder.parent.parent / "checks" / f"{self.folder.name}.py"
+        """What judges this exercise, in the `checks` folder beside the lesson's `lessons` folder: a package or a module."""
+        name = self.folder.parent.parent / "checks" / self.folder.name
+        package = name / "__init__.py"
+        return package if package.is_file() else name.with_name(f"{name.name}.py")
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,16 +13,14 @@ from tutor.judge.check import Check
 
 
 def load_check(lesson: Lesson) -> Check:
-    """The check of a lesson: `CHECK` in the module or package of its folder's name, in `checks/` beside `lessons/`.
+    """The check of a lesson: `CHECK` in the package or module `lesson.check`.
 
     Raises EngineError where there is none.
     """
-    name = lesson.folder.name
-    checks = lesson.folder.parent.parent / "checks"
-    source = next((file for file in (checks / name / "__init__.py", checks / f"{name}.py") if file.is_file()), None)
-    if source is None:
-        raise EngineError(f"there is no check for {lesson.id} in {checks}", f"write {checks / name}.py")
-    check = getattr(_module(name, source), "CHECK", None)
+    source = lesson.check
+    if not source.is_file():
+        raise EngineError(f"there is no check for {lesson.id}: {source} is missing", f"write {source}")
+    check = getattr(_module(lesson.folder.name, source), "CHECK", None)
     if not isinstance(check, Check):
         raise EngineError(f"{source} defines no CHECK", "assign a tutor.judge.check.Check to CHECK there")
     return check
