@@ -66,7 +66,7 @@ class Lesson:
 
     @property
     def check(self) -> Path:
-        """What judges this exercise, in the `checks` folder beside the lesson's `lessons` folder: a package or a module."""
+        """The package or module that judges this exercise, in the `checks` folder beside the `lessons` folder."""
         name = self.folder.parent.parent / "checks" / self.folder.name
         package = name / "__init__.py"
         return package if package.is_file() else name.with_name(f"{name.name}.py")
