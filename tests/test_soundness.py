@@ -13,7 +13,7 @@ from tests.soundness import Case, Outcome, cases, compare, judge
 from tutor.judge.result import CriterionResult, ExerciseResult
 from tutor.judge.verdict import Status, Verdict
 
-JOBS = 4
+JOBS = 6
 ALL = cases()
 
 

@@ -12,7 +12,8 @@ from pathlib import Path
 import pytest
 
 from tests.engine.made import Scene
-from tutor.ros.environment import RosEnvironment, detect, use_in_this_process
+from tutor.ros import this_process
+from tutor.ros.environment import RosEnvironment, detect
 
 
 @pytest.fixture(scope="package")
@@ -21,7 +22,7 @@ def ros() -> Iterator[RosEnvironment]:
     environ, path = dict(os.environ), list(sys.path)
     chosen = detect()
     if "rclpy" not in sys.modules:
-        use_in_this_process(chosen, isolated=True)
+        this_process.use(chosen, isolated=True)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # of what ROS itself imports
         importlib.import_module("rosidl_generator_py")

@@ -194,9 +194,10 @@ def test_a_sourced_jazzy_is_used_and_nothing_bundled_with_it(jazzy: Path, tmp_pa
 OBSERVER = """
 import os, sys
 sys.path.append(os.environ["ROS_TUTOR_ROOT"])
-from tutor.ros.environment import detect, use_in_this_process
+from tutor.ros import this_process
+from tutor.ros.environment import detect
 ros = detect()
-use_in_this_process(ros, isolated=True)
+this_process.use(ros, isolated=True)
 """
 
 

@@ -27,13 +27,13 @@ async def check(
     `only`: the ids of the criteria to show (None: all). Raises EngineError where checks cannot be run here at all.
     """
     from tutor.engine.modules import load_check
-    from tutor.ros import bytecode
-    from tutor.ros.environment import detect, use_in_this_process
+    from tutor.ros import bytecode, this_process
+    from tutor.ros.environment import detect
 
     started = time.monotonic()
     ros = detect()
     try:
-        use_in_this_process(ros, isolated=True)
+        this_process.use(ros, isolated=True)
         await asyncio.to_thread(bytecode.ensure, ros)
         from tutor.engine.runner import Runner  # brings in rclpy, which must find its environment chosen
     except (ImportError, RuntimeError) as error:

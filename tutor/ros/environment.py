@@ -17,7 +17,7 @@ from tutor.ros import prefixes
 from tutor.ros.isolation import PROFILE, isolated_discovery, loopback_multicast_works
 from tutor.sandbox import interfaces
 
-__all__ = ["RosEnvironment", "detect", "learner_env", "loopback_multicast_works", "tutor_env", "use_in_this_process"]
+__all__ = ["RosEnvironment", "detect", "learner_env", "loopback_multicast_works", "tutor_env"]
 
 DISTRO = "jazzy"
 RMW = "rmw_fastrtps_cpp"
@@ -104,7 +104,7 @@ def learner_env(
 def tutor_env(ros: RosEnvironment, *, isolated: bool, environ: Mapping[str, str] = os.environ) -> dict[str, str]:
     """The environment for a process of ours that imports rclpy, to be run with `sys.executable`.
 
-    A process that is started with it need not start itself anew in `use_in_this_process`.
+    A process that is started with it need not start itself anew in `tutor.ros.this_process.use`.
     """
     env = _ros_env(ros, environ, first_on_path=[])
     env.update(_discovery(isolated, environ))
@@ -112,18 +112,6 @@ def tutor_env(ros: RosEnvironment, *, isolated: bool, environ: Mapping[str, str]
         if name in environ:
             env[name] = environ[name]
     return env
-
-
-def use_in_this_process(ros: RosEnvironment, isolated: bool) -> None:
-    """Prepare this process for `import rclpy` (the observer's side). Call it before anything else.
-
-    Where this process was started with library folders of the other ROS, it starts itself anew, once, without them: the
-    loader reads LD_LIBRARY_PATH only then. Raises RuntimeError where rclpy is imported already, and whatever
-    `tutor.sandbox.interfaces.activate` raises where the bundled interfaces are missing.
-    """
-    from tutor.ros import this_process
-
-    this_process.prepare(ros, tutor_env(ros, isolated=isolated))
 
 
 def _problems(environ: Mapping[str, str], distro: str, sourced: list[Path]) -> tuple[str, ...]:

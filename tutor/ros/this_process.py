@@ -12,15 +12,21 @@ from pathlib import Path
 from types import ModuleType
 
 from tutor.ros import prefixes
-from tutor.ros.environment import RosEnvironment
+from tutor.ros.environment import RosEnvironment, tutor_env
 
 _NOT_ANEW = "_ROS_TUTOR_STARTED_ANEW"
 _NOT_ROS = ("ros_tutor", "ros_wheels_bootstrapper")
 _OF_ROS = ("ROS_", "RMW_", "AMENT_", "FASTRTPS_", "FASTDDS_", "RCUTILS_")
 
 
-def prepare(ros: RosEnvironment, env: dict[str, str]) -> None:
-    """Make `import rclpy` find exactly one ROS here, with the variables of `env`. See `use_in_this_process`."""
+def use(ros: RosEnvironment, *, isolated: bool) -> None:
+    """Prepare this process for `import rclpy` (the observer's side). Call it before anything else.
+
+    Where this process was started with library folders of the other ROS, it starts itself anew, once, without them: the
+    loader reads LD_LIBRARY_PATH only then. Raises RuntimeError where rclpy is imported already, and whatever
+    `tutor.sandbox.interfaces.activate` raises where the bundled interfaces are missing.
+    """
+    env = tutor_env(ros, isolated=isolated)
     if "rclpy" in sys.modules:
         raise RuntimeError("rclpy is imported already: choose the ROS before")
     if _wrong_libraries(ros) and os.environ.get(_NOT_ANEW) != ros.kind:
