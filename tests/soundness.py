@@ -113,13 +113,14 @@ def compare(case: Case, result: ExerciseResult) -> Outcome:
                 outcome.false_pass |= status is Status.PASSED
             else:
                 outcome.wrong += _wrong_cause(expect.get("cause"), criterion.id, cause, criterion.id in fails)
+        elif criterion.id in any_of:
+            if status is Status.FAILED:
+                outcome.wrong += _wrong_cause(expect.get("cause"), criterion.id, cause, True)
         elif criterion.id in not_passed:
             if status is Status.PASSED:
                 outcome.wrong.append(f"should not pass: {told}")
                 outcome.false_pass = True
-        elif criterion.id not in any_of | either and (
-            status is Status.FAILED or (status is Status.SKIPPED and not some_failed)
-        ):
+        elif criterion.id not in either and (status is Status.FAILED or (status is Status.SKIPPED and not some_failed)):
             outcome.wrong.append(f"should pass: {told}")
             outcome.false_failure = True
     if any_of and not any(c.id in any_of and c.verdict.status is Status.FAILED for c in result.criteria):

@@ -177,7 +177,7 @@ def _why_rate(group: Sequence[RateProbe], wrong: RateProbe, declared: tuple[Para
             f"the rate stays at {rates_seen[0]:.1f} Hz, whatever {wrong.name} says",
             f"use self.get_parameter('{wrong.name}').value for the timer's period",
         )
-    return Cause(
+    return causes.same_name(wrong.trace) or Cause(
         "wrong rate", f"{wrong}", "the timer's period is 1.0 / rate seconds; are there two timers, or a rounding?"
     )
 

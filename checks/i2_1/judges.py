@@ -94,7 +94,7 @@ def judge_launch(seen: Launched) -> Verdict:
         )
     if seen.rate is None or not seen.rate.agrees(LAUNCH_HZ):
         observed = f"with {given}: {describe(seen.rate, seen.messages)}, not {LAUNCH_HZ} Hz ±{TOLERANCE:.0%}"
-        return failed(expected, observed, _why_launch_rate(seen.rate))
+        return failed(expected, observed, causes.same_name(seen.trace) or _why_launch_rate(seen.rate))
     off = f"with {ENABLED}:=false {RATE}:={LAUNCH_HZ}"
     loud = seen.disabled.on(TOPIC)
     if loud:
@@ -280,7 +280,11 @@ def judge_timer(seen: Retimed) -> Verdict:
         if not answer.answered or not answer.successful:
             return _not_set(expected, answer, seen.trace)
         if rate is None or not rate.agrees(asked):
-            return failed(expected, f"{RATE} set to {asked}: {describe(rate, messages)}", _why_timer(seen, asked, rate))
+            return failed(
+                expected,
+                f"{RATE} set to {asked}: {describe(rate, messages)}",
+                causes.same_name(seen.trace) or _why_timer(seen, asked, rate),
+            )
     return passed(expected, ", then ".join(str(rate) for _, rate, _ in seen.steps))
 
 

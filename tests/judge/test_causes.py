@@ -6,7 +6,7 @@ import pytest
 
 from tests.checks.made import CRASH, CRASHED, FOLDER, NO_NODE, UP, exited, graph, lines, trace
 from tests.judge.real import crash
-from tutor.judge.causes import last_words, of_process, of_silence, wrong_topic
+from tutor.judge.causes import last_words, of_process, of_silence, same_name, wrong_topic
 from tutor.judge.trace import Endpoint, Graph, Trace
 from tutor.judge.tracebacks import Traceback, find
 
@@ -108,3 +108,11 @@ def test_the_words_of_a_traceback() -> None:
     (found,) = find(lines(CRASH))
     assert found.raised == "AttributeError: 'Sensor' object has no attribute 'nothing'"
     assert Traceback("KeyboardInterrupt", "", ()).raised == "KeyboardInterrupt"
+
+
+def test_two_nodes_of_one_name_are_told_and_two_of_different_names_are_not() -> None:
+    cause = same_name(Trace("x.py", graph=Graph(nodes=("/a", "/talker", "/talker"))))
+    assert cause is not None
+    assert cause.name == "second node of the same name"
+    assert "2 nodes called /talker" in cause.text
+    assert same_name(Trace("x.py", graph=Graph(nodes=("/a", "/talker")))) is None

@@ -150,6 +150,19 @@ def no_spin(trace: Trace) -> Cause:
     )
 
 
+def same_name(trace: Trace) -> Cause | None:
+    """Two nodes under one name: both publish, and whoever asks one of them cannot tell which answers."""
+    nodes = trace.graph.nodes
+    twice = sorted({node for node in nodes if nodes.count(node) > 1})
+    if not twice:
+        return None
+    return Cause(
+        "second node of the same name",
+        f"there are {nodes.count(twice[0])} nodes called {twice[0]}, and all of them are at work",
+        "make one node only; is the class instantiated twice, or the program started twice?",
+    )
+
+
 def last_words(trace: Trace, most: int = 6) -> tuple[str, ...]:
     """The last lines that the process wrote, as evidence."""
     return tuple(line.text for line in trace.output if line.text.strip())[-most:]
