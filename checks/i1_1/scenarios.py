@@ -159,18 +159,22 @@ async def _probe_rate(bench: Bench, name: str, unit: str, value: float, whole: b
             rate = measure(run.on(TOPIC))
             return rate is not None and (rate.span_s >= least_s or (rate.samples > 50 and rate.hz > 20))
 
-        came = await first_message(run, TOPIC, TYPE)
-        probe = heard()
-        if came:
-            for stretch in range(1, TRIES + 2):
-                starved_s, since = run.starved_s(), run.now()
-                await run.until(lambda least_s=stretch * window: decided(least_s), window + 1 / asked_hz + 1)  # type: ignore[misc]
-                probe = heard()
-                starved_s, of_s = run.starved_s() - starved_s, run.now() - since
-                if probe.agrees or (stretch > 1 and not excused(probe.rate, asked_hz, starved_s=starved_s, of_s=of_s)):
-                    break
-            else:
-                raise MachineTooBusy("this machine is too busy to measure a rate")
+        if not await first_message(run, TOPIC, TYPE):
+            return heard()
+        starved_s, since = run.starved_s(), run.now()
+        for stretch in range(1, TRIES + 2):
+            await run.until(lambda least_s=stretch * window: decided(least_s), window + 1 / asked_hz + 1)  # type: ignore[misc]
+            probe = heard()
+            lost_s, of_s = run.starved_s() - starved_s, run.now() - since
+            ended = run.exit is not None
+            if (
+                probe.agrees
+                or ended
+                or (stretch > 1 and not excused(probe.messages, asked_hz, starved_s=lost_s, of_s=of_s))
+            ):
+                break
+        else:
+            raise MachineTooBusy("this machine is too busy to measure a rate")
         bench.doing(1.0, f"{name}:={value:g} measured")
         return probe
 

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from tests.checks.made import sample, samples
 from tutor.judge.rates import TOLERANCE, Rate, describe, measure
+from tutor.judge.waiting import excused
 
 rates = st.floats(0.05, 1000)
 
@@ -44,3 +45,12 @@ def test_in_words() -> None:
     assert describe(None, 1) == "only 1 message"
     assert describe(None, 2) == "only 2 messages"
     assert describe(Rate(2.0, 5, 2.0), 5) == "2.00 Hz (5 messages in 2.00 s)"
+
+
+def test_a_crowded_machine_excuses_too_few_messages_by_as_much_as_it_took_and_never_too_many() -> None:
+    assert not excused(5, 10.0, starved_s=0.0, of_s=1.0)
+    assert excused(5, 10.0, starved_s=0.5, of_s=1.0)
+    assert not excused(1, 10.0, starved_s=0.5, of_s=1.0)
+    assert not excused(20, 10.0, starved_s=0.9, of_s=1.0)
+    assert excused(0, 10.0, starved_s=1.0, of_s=1.0)
+    assert not excused(0, 0.5, starved_s=0.1, of_s=1.0)

@@ -20,6 +20,9 @@ AGAIN_S = 3.5
 """A second listen is at least this long, so that a rate of 1 Hz, too, can be told for what it is."""
 
 TRIES = 3
+STARVED = 0.2
+"""Being kept from running for less than this share of the time hardly shows in a rate."""
+
 
 IN_FLIGHT_S = 0.1
 """A message takes less than this from its source to us."""
@@ -69,7 +72,7 @@ async def steady_rate(run: Run, topic: str, asked_hz: float, *, since: float) ->
             break
         for_s, starved_s = max(window_s(asked_hz), AGAIN_S), run.starved_s()
         rate, messages = await _listen(run, topic, run.now(), for_s)
-        if not excused(rate, asked_hz, starved_s=run.starved_s() - starved_s, of_s=for_s):
+        if not excused(messages, asked_hz, starved_s=run.starved_s() - starved_s, of_s=for_s):
             break
     else:
         if rate is None or not rate.agrees(asked_hz):
@@ -77,12 +80,16 @@ async def steady_rate(run: Run, topic: str, asked_hz: float, *, since: float) ->
     return rate, messages
 
 
-def excused(rate: Rate | None, asked_hz: float, *, starved_s: float, of_s: float) -> bool:
-    """Whether a rate may be too low only because the machine kept the node from running for `starved_s` of `of_s`."""
-    if rate is not None and rate.hz > asked_hz:
+def excused(messages: int, asked_hz: float, *, starved_s: float, of_s: float) -> bool:
+    """Whether so few messages in `of_s` may be so only because the machine kept the node from running for `starved_s`.
+
+    Too many messages are never excused.
+    """
+    if starved_s < STARVED * of_s:
         return False
+    mean_hz = max(messages, 1) / of_s
     ran = max(0.05, 1 - starved_s / of_s)
-    return (rate.hz if rate is not None else 1 / of_s) / ran >= (1 - TOLERANCE) * asked_hz
+    return mean_hz <= asked_hz and mean_hz / ran >= (1 - TOLERANCE) * asked_hz
 
 
 async def _listen(run: Run, topic: str, start: float, for_s: float) -> tuple[Rate | None, int]:
