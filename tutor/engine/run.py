@@ -31,7 +31,7 @@ from tutor.judge.trace import (
     Trace,
 )
 from tutor.judge.tracebacks import Frame
-from tutor.process import LearnerProcess, waited_for_cpu, waited_for_cpu_here
+from tutor.process import LearnerProcess, ran, waited_for_cpu, waited_for_cpu_here
 from tutor.ros import echo, graph, parameters
 from tutor.ros.messages import to_plain
 from tutor.ros.observer import Observer
@@ -43,6 +43,9 @@ LOOK_EVERY_S = 0.05
 
 MOST_PATIENT = 5
 """A limit is extended by what the node was kept from running, up to this many times the limit."""
+
+ENOUGH_CPU_S = 2.0
+"""No wait is for something that takes a node more CPU time than this: its start takes 0.3 s."""
 
 IN_FLIGHT_S = 0.5
 """What a process sent before it ended may arrive this much later."""
@@ -134,6 +137,7 @@ class LiveRun:
     async def until(self, seen: Callable[[], bool], limit_s: float) -> bool:
         loop = asyncio.get_running_loop()
         deadline, granted_s, starved_s = loop.time() + limit_s, 0.0, self.starved_s()
+        ran_s = ran(self._process.pid)
         ended_at: float | None = None
         while True:
             self._facts.changed.clear()
@@ -147,7 +151,10 @@ class LiveRun:
             if ended_at is not None and now - ended_at >= IN_FLIGHT_S:
                 return False
             if now >= deadline:
-                # The limit is for the node, not for a machine that does not let it run.
+                # The limit is for the node, not for a machine that does not let it run. One that has used this much of
+                # the CPU has run.
+                if ran(self._process.pid) - ran_s >= ENOUGH_CPU_S:
+                    return False
                 owed_s = min(self.starved_s() - starved_s, MOST_PATIENT * limit_s) - granted_s
                 if owed_s < LOOK_EVERY_S:
                     return False

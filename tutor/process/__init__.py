@@ -2,7 +2,7 @@
 
 from tutor.process.errors import EndError, ProcessError, StartError
 from tutor.process.learner import LearnerProcess, Survivor
-from tutor.process.starvation import waited_for_cpu, waited_for_cpu_here
+from tutor.process.starvation import ran, waited_for_cpu, waited_for_cpu_here
 
 __all__ = [
     "EndError",
@@ -10,6 +10,7 @@ __all__ = [
     "ProcessError",
     "StartError",
     "Survivor",
+    "ran",
     "waited_for_cpu",
     "waited_for_cpu_here",
 ]

@@ -7,26 +7,31 @@ import os
 from tutor.process.warden import processes
 
 
+def ran(session: int) -> float:
+    """Seconds of CPU that the processes of a session have used so far, each counted by its busiest thread."""
+    return sum(_most(process.pid, 0) for process in processes().values() if process.session == session)
+
+
 def waited_for_cpu(session: int) -> float:
     """Seconds that the processes of a session have spent able to run but not running, so far.
 
     Of each process its most delayed thread counts (/proc/PID/task/TID/schedstat, second field); 0.0 where the kernel
     does not tell.
     """
-    return sum(_longest_wait(process.pid) for process in processes().values() if process.session == session)
+    return sum(_most(process.pid, 1) for process in processes().values() if process.session == session)
 
 
 def waited_for_cpu_here() -> float:
     """The same for our own process."""
-    return _longest_wait(os.getpid())
+    return _most(os.getpid(), 1)
 
 
-def _longest_wait(pid: int) -> float:
-    longest = 0
+def _most(pid: int, field: int) -> float:
+    most = 0
     try:
         for thread in os.listdir(f"/proc/{pid}/task"):
             with open(f"/proc/{pid}/task/{thread}/schedstat", "rb") as file:
-                longest = max(longest, int(file.read().split()[1]))
+                most = max(most, int(file.read().split()[field]))
     except (OSError, IndexError, ValueError):  # it ended while it was read, or this kernel has no such file
         pass
-    return longest * 1e-9
+    return most * 1e-9
