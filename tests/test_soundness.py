@@ -1,4 +1,7 @@
-"""Every submission under tests/submissions is judged as its expect.yaml says."""
+"""Submissions under tests/submissions are judged as their expect.yaml says.
+
+All the right ones and every second wrong one, so that the tests end in minutes; `python -m tests.soundness` judges all.
+"""
 
 from __future__ import annotations
 
@@ -14,7 +17,7 @@ from tutor.judge.result import CriterionResult, ExerciseResult
 from tutor.judge.verdict import Status, Verdict
 
 JOBS = 6
-ALL = cases()
+ALL = [case for case in cases() if case.kind == "right"] + [case for case in cases() if case.kind == "wrong"][::2]
 
 
 @pytest.fixture(scope="module")
