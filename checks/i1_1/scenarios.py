@@ -157,7 +157,7 @@ async def _probe_rate(bench: Bench, name: str, unit: str, value: float, whole: b
 
         def decided(least_s: float) -> bool:
             rate = measure(run.on(TOPIC))
-            return rate is not None and (rate.span_s >= least_s or (rate.samples > 50 and rate.hz > 20))
+            return rate is not None and (rate.span_s >= 0.95 * least_s or (rate.samples > 50 and rate.hz > 20))
 
         if not await first_message(run, TOPIC, TYPE):
             return heard()
