@@ -18,17 +18,23 @@ _NOT_ANEW = "_ROS_TUTOR_STARTED_ANEW"
 _NOT_ROS = ("ros_tutor", "ros_wheels_bootstrapper")
 _OF_ROS = ("ROS_", "RMW_", "AMENT_", "FASTRTPS_", "FASTDDS_", "RCUTILS_")
 
+_in_use: tuple[object, ...] | None = None
+"""The ROS that this process was prepared for: once rclpy is imported, it can be no other."""
+
 
 def use(ros: RosEnvironment, *, isolated: bool) -> None:
     """Prepare this process for `import rclpy` (the observer's side). Call it before anything else.
 
     Where this process was started with library folders of the other ROS, it starts itself anew, once, without them: the
-    loader reads LD_LIBRARY_PATH only then. Raises RuntimeError where rclpy is imported already, and whatever
-    `tutor.sandbox.interfaces.activate` raises where the bundled interfaces are missing.
+    loader reads LD_LIBRARY_PATH only then. It may be called again for the same ROS. Raises RuntimeError where rclpy was
+    imported before the first call or for another ROS, and whatever `tutor.sandbox.interfaces.activate` raises where the
+    bundled interfaces are missing.
     """
+    global _in_use
     env = tutor_env(ros, isolated=isolated)
-    if "rclpy" in sys.modules:
+    if "rclpy" in sys.modules and _in_use != _identity(ros):
         raise RuntimeError("rclpy is imported already: choose the ROS before")
+    _in_use = _identity(ros)
     if _wrong_libraries(ros) and os.environ.get(_NOT_ANEW) != ros.kind:
         os.execve(sys.executable, sys.orig_argv, {**env, _NOT_ANEW: ros.kind})
     for name in set(os.environ) - set(env):
@@ -43,6 +49,11 @@ def use(ros: RosEnvironment, *, isolated: bool) -> None:
     from tutor.sandbox import interfaces
 
     interfaces.activate()
+
+
+def _identity(ros: RosEnvironment) -> tuple[object, ...]:
+    # Without its problems: they are those of the variables around us, which `use` has cleaned.
+    return ros.kind, ros.distro, ros.python, ros.rmw
 
 
 def _wrong_libraries(ros: RosEnvironment) -> bool:
