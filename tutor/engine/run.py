@@ -31,7 +31,7 @@ from tutor.judge.trace import (
     Trace,
 )
 from tutor.judge.tracebacks import Frame
-from tutor.process import LearnerProcess, ran, waited_for_cpu, waited_for_cpu_here
+from tutor.process import CpuTime, LearnerProcess, cpu_time, cpu_time_here
 from tutor.ros import echo, graph, parameters
 from tutor.ros.messages import to_plain
 from tutor.ros.observer import Observer
@@ -86,7 +86,8 @@ class LiveRun:
         self._observer = observer
         self._facts = facts
         self._graph: tuple[float, Graph] = (0.0, Graph())
-        self._starved: tuple[float, float] = (0.0, 0.0)
+        self._cpu_time: tuple[float, CpuTime] = (0.0, CpuTime())
+        self._late: tuple[float, float] = (0.0, 0.0)
 
     @property
     def started_at(self) -> float:
@@ -124,20 +125,30 @@ class LiveRun:
         return time.time()
 
     def starved_s(self) -> float:
-        if self.exit is not None:
-            return 0.0
+        return self._cpu().waited_s
+
+    def late_s(self) -> float:
+        asked, waited_s = self._late
         now = time.monotonic()
-        asked, starved = self._starved
         if now - asked >= LOOK_EVERY_S:
-            # What keeps us from seeing the node's messages counts, too.
-            starved = waited_for_cpu(self._process.pid) + waited_for_cpu_here()
-            self._starved = (now, starved)
-        return starved
+            waited_s = cpu_time_here().waited_s
+            self._late = (now, waited_s)
+        return waited_s
+
+    def _cpu(self) -> CpuTime:
+        if self.exit is not None:
+            return CpuTime()
+        asked, had = self._cpu_time
+        now = time.monotonic()
+        if now - asked >= LOOK_EVERY_S:
+            had = cpu_time(self._process.pid)
+            self._cpu_time = (now, had)
+        return had
 
     async def until(self, seen: Callable[[], bool], limit_s: float) -> bool:
         loop = asyncio.get_running_loop()
-        deadline, granted_s, starved_s = loop.time() + limit_s, 0.0, self.starved_s()
-        ran_s = ran(self._process.pid)
+        deadline, granted_s = loop.time() + limit_s, 0.0
+        before, late_s = self._cpu(), self.late_s()
         ended_at: float | None = None
         while True:
             self._facts.changed.clear()
@@ -151,11 +162,13 @@ class LiveRun:
             if ended_at is not None and now - ended_at >= IN_FLIGHT_S:
                 return False
             if now >= deadline:
-                # The limit is for the node, not for a machine that does not let it run. One that has used this much of
-                # the CPU has run.
-                if ran(self._process.pid) - ran_s >= ENOUGH_CPU_S:
+                # The limit is for the node, not for a machine that does not let it run, or us see it. One that has used
+                # this much of the CPU has run.
+                had = self._cpu()
+                if had.ran_s - before.ran_s >= ENOUGH_CPU_S:
                     return False
-                owed_s = min(self.starved_s() - starved_s, MOST_PATIENT * limit_s) - granted_s
+                lost_s = had.waited_s - before.waited_s + self.late_s() - late_s
+                owed_s = min(lost_s, MOST_PATIENT * limit_s) - granted_s
                 if owed_s < LOOK_EVERY_S:
                     return False
                 deadline, granted_s = deadline + owed_s, granted_s + owed_s

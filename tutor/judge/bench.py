@@ -71,7 +71,10 @@ class Run(Protocol):
         """The wall-clock time, in seconds since the epoch, as in every fact."""
 
     def starved_s(self) -> float:
-        """Seconds that the process, or we who watch it, waited for a CPU so far: the machine's fault."""
+        """Seconds that the process waited for a CPU so far: the machine's fault. 0.0 once it has ended."""
+
+    def late_s(self) -> float:
+        """Seconds that we who watch it waited for a CPU so far: what is seen may be seen that much later."""
 
     async def until(self, seen: Callable[[], bool], limit_s: float) -> bool:
         """Wait until `seen()` is true; it is asked again whenever a new fact has come in.

@@ -93,7 +93,7 @@ def excused(messages: int, asked_hz: float, *, starved_s: float, of_s: float) ->
 
 
 async def _listen(run: Run, topic: str, start: float, for_s: float) -> tuple[Rate | None, int]:
-    end = start + for_s
-    await run.until(lambda: run.now() >= end + IN_FLIGHT_S, for_s + 2)
+    end, late_s = start + for_s, run.late_s()
+    await run.until(lambda: run.now() >= end + IN_FLIGHT_S + run.late_s() - late_s, for_s + 2)
     heard = [sample for sample in run.on(topic) if start <= sample.source_time <= end]
     return measure(heard), len(heard)

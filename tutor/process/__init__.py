@@ -2,15 +2,15 @@
 
 from tutor.process.errors import EndError, ProcessError, StartError
 from tutor.process.learner import LearnerProcess, Survivor
-from tutor.process.starvation import ran, waited_for_cpu, waited_for_cpu_here
+from tutor.process.starvation import CpuTime, cpu_time, cpu_time_here
 
 __all__ = [
+    "CpuTime",
     "EndError",
     "LearnerProcess",
     "ProcessError",
     "StartError",
     "Survivor",
-    "ran",
-    "waited_for_cpu",
-    "waited_for_cpu_here",
+    "cpu_time",
+    "cpu_time_here",
 ]

@@ -1,37 +1,44 @@
-"""How long a learner's processes have waited for a CPU: on a crowded machine, slowness is not theirs."""
+"""What a learner's processes had of the CPU: on a crowded machine, slowness is not theirs."""
 
 from __future__ import annotations
 
 import os
+from dataclasses import dataclass
 
 from tutor.process.warden import processes
 
 
-def ran(session: int) -> float:
-    """Seconds of CPU that the processes of a session have used so far, each counted by its busiest thread."""
-    return sum(_most(process.pid, 0) for process in processes().values() if process.session == session)
+@dataclass(frozen=True, slots=True)
+class CpuTime:
+    """CPU time of one or more processes so far, in seconds.
 
-
-def waited_for_cpu(session: int) -> float:
-    """Seconds that the processes of a session have spent able to run but not running, so far.
-
-    Of each process its most delayed thread counts (/proc/PID/task/TID/schedstat, second field); 0.0 where the kernel
-    does not tell.
+    `ran_s`: how long they ran; `waited_s`: how long they were able to run, but were not let. Of each process the thread
+    with the most of it counts, since threads wait at the same time (`/proc/PID/task/TID/schedstat`). 0.0 where the
+    kernel does not tell.
     """
-    return sum(_most(process.pid, 1) for process in processes().values() if process.session == session)
+
+    ran_s: float = 0.0
+    waited_s: float = 0.0
 
 
-def waited_for_cpu_here() -> float:
+def cpu_time(session: int) -> CpuTime:
+    """What the processes of a session had of the CPU so far; one that has ended no longer counts."""
+    each = [_of(process.pid) for process in processes().values() if process.session == session]
+    return CpuTime(sum(one.ran_s for one in each), sum(one.waited_s for one in each))
+
+
+def cpu_time_here() -> CpuTime:
     """The same for our own process."""
-    return _most(os.getpid(), 1)
+    return _of(os.getpid())
 
 
-def _most(pid: int, field: int) -> float:
-    most = 0
+def _of(pid: int) -> CpuTime:
+    ran = waited = 0
     try:
         for thread in os.listdir(f"/proc/{pid}/task"):
             with open(f"/proc/{pid}/task/{thread}/schedstat", "rb") as file:
-                most = max(most, int(file.read().split()[field]))
+                fields = file.read().split()
+            ran, waited = max(ran, int(fields[0])), max(waited, int(fields[1]))
     except (OSError, IndexError, ValueError):  # it ended while it was read, or this kernel has no such file
         pass
-    return most * 1e-9
+    return CpuTime(ran * 1e-9, waited * 1e-9)
