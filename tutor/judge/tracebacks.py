@@ -13,6 +13,12 @@ _FRAME = re.compile(r'^\s*File "(?P<path>[^"]+)", line (?P<line>\d+)(?:, in (?P<
 _RAISED = re.compile(r"^(?P<type>[^\W\d][\w.]*(?:\.<locals>\.[\w.]+)*)(?:: (?P<message>.*))?$")
 _DUMPED = re.compile(r'^  File "(?P<path>[^"]+)", line (?P<line>\d+) in (?P<function>.+)$')
 _COLOUR = re.compile(r"\x1b\[[0-9;]*m")
+_GROUP = re.compile(r"^\s*\+ Exception Group Traceback \(most recent call last\):$")
+_MARGIN = re.compile(r"^ *(?:\| ?|\+ |\+(?:-\+)?-+(?: (?:\d+|\.\.\.) -+)?$)")
+_CHAINED = (
+    "During handling of the above exception, another exception occurred:",
+    "The above exception was the direct cause of the following exception:",
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,13 +38,20 @@ class Frame:
 class Traceback:
     """One traceback: the exception's type name, its message, and its frames, outermost first.
 
-    `ignored`: Python reports it as "Exception ignored in", from an object's clean-up; it ends nothing.
+    `ignored`: Python reports it as "Exception ignored in", from an object's clean-up; it ends nothing. `follows`: the
+    exception that it was raised from, or while handling.
     """
 
     type: str
     message: str
     frames: tuple[Frame, ...]
     ignored: bool = False
+    follows: Traceback | None = None
+
+    @property
+    def origin(self) -> Traceback:
+        """The first exception of the chain: the one that this one, and those between them, came from."""
+        return self if self.follows is None else self.follows.origin
 
     @property
     def raised(self) -> str:
@@ -47,12 +60,14 @@ class Traceback:
 
     def own(self, folder: str) -> Frame | None:
         """The innermost frame in the learner's own code: the line that they can change."""
-        own = [frame for frame in self.frames if _within(frame.path, folder)]
-        return own[-1] if own else None
+        return own(reversed(self.frames), folder)
 
 
 def find(output: Iterable[OutputLine]) -> tuple[Traceback, ...]:
-    """All tracebacks in the output, oldest first; a syntax error of the main file, which has no header, included."""
+    """All tracebacks in the output, oldest first; a syntax error of the main file, which has no header, included.
+
+    An exception group is followed by the exceptions in it.
+    """
     return tuple(_tracebacks([line.text for line in output if line.stream == "stderr"]))
 
 
@@ -65,6 +80,12 @@ def dumped(output: Iterable[OutputLine]) -> tuple[Frame, ...]:
 def own(frames: Iterable[Frame], folder: str) -> Frame | None:
     """The first of the frames that is in the learner's own code."""
     return next((frame for frame in frames if _within(frame.path, folder)), None)
+
+
+def called_by_executor(stuck: Sequence[Frame], folder: str) -> bool:
+    """Whether, in frames innermost first, the learner's code is being run by an executor of rclpy's: as a callback."""
+    mine = next((i for i, frame in enumerate(stuck) if _within(frame.path, folder)), None)
+    return mine is not None and any(frame.path.endswith("rclpy/executors.py") for frame in stuck[mine + 1 :])
 
 
 def last(trace: Trace) -> Traceback | None:
@@ -80,8 +101,9 @@ def without(output: Sequence[OutputLine]) -> tuple[str, ...]:
     """The lines of the output that belong to no traceback's frames; the line that names the exception is kept."""
     kept: list[str] = []
     inside = False
+    plain = iter(_without_margins([line.text for line in output if line.stream == "stderr"]))
     for line in output:
-        text = line.text
+        text = next(plain) if line.stream == "stderr" else line.text
         if line.stream == "stderr" and (text.strip() == _HEADER or _FRAME.match(text)):
             inside = True
             continue
@@ -93,22 +115,46 @@ def without(output: Sequence[OutputLine]) -> tuple[str, ...]:
 
 
 def _tracebacks(written: Sequence[str]) -> Iterable[Traceback]:
-    lines = [_COLOUR.sub("", text) for text in written]
+    lines = _without_margins([_COLOUR.sub("", text) for text in written])
     frames: list[Frame] = []
-    headed = ignored = False
+    headed = ignored = chained = False
+    previous: Traceback | None = None
     for number, text in enumerate(lines):
         frame = _FRAME.match(text)
         if text.strip() == _HEADER:
             frames, headed = [], True
             ignored = number > 0 and lines[number - 1].startswith("Exception ignored")
+        elif text.strip() in _CHAINED:
+            chained = True
         elif frame:
             code = lines[number + 1].strip() if number + 1 < len(lines) else ""
             frames.append(Frame(frame["path"], int(frame["line"]), frame["function"] or "", code))
         elif frames and (raised := _RAISED.match(text)):
-            yield Traceback(raised["type"], raised["message"] or "", tuple(frames), ignored)
-            frames, headed, ignored = [], False, False
+            follows = previous if chained else None
+            previous = Traceback(raised["type"], raised["message"] or "", tuple(frames), ignored, follows)
+            yield previous
+            frames, headed, ignored, chained = [], False, False, False
         elif text and not text[0].isspace() and not headed:
             frames = []  # after a header, it is another thread's line, such as a log message
+
+
+def _without_margins(lines: Sequence[str]) -> list[str]:
+    """The lines with those of exception groups as if each exception stood alone."""
+    plain: list[str] = []
+    inside = False
+    for text in lines:
+        inside = inside or _GROUP.match(text) is not None
+        if not inside:
+            plain.append(text)
+        elif _GROUP.match(text):
+            plain.append(_HEADER)
+        elif margin := _MARGIN.match(text):
+            inner = text[margin.end() :]
+            plain.append(_HEADER if _GROUP.match(inner) else inner)
+        else:
+            inside = not text.strip()
+            plain.append(text)
+    return plain
 
 
 def _within(path: str, folder: str) -> bool:

@@ -1,0 +1,41 @@
+"""Causes in what was printed where a log message was asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+
+from tutor.judge.causes import names
+from tutor.judge.trace import OutputLine, Trace
+from tutor.judge.verdict import Cause
+
+
+def of_printed(
+    trace: Trace, says: Callable[[str], bool], what: str, *, after: Iterable[OutputLine] = ()
+) -> Cause | None:
+    """Whether something that should have been logged was only printed; `says` knows it by its text.
+
+    `what` it is, to be named in a sentence. `after`: what the process wrote later, when it was ended: what appears only
+    there was held back in a buffer until then.
+    """
+    printed = [line.text for line in trace.output if _is_print(line) and says(line.text)]
+    if printed:
+        return Cause(
+            "printed, not logged",
+            f"{what} is written with print(): {printed[0]}",
+            "use self.get_logger().info(...): log messages reach /rosout, where others can read them, and no buffering "
+            "holds them back",
+        )
+    late = [line.text for line in after if _is_print(line) and says(line.text)]
+    if late:
+        return Cause(
+            names.HELD_BACK,
+            f"{what} is printed, not logged, and appears only when the program ends: {late[0]}",
+            "use self.get_logger().info(...): print() into a pipe or a file waits until its buffer is full, a log "
+            "message goes out at once",
+        )
+    return None
+
+
+def _is_print(line: OutputLine) -> bool:
+    # The console line of a real log message is written by rcutils, to stderr.
+    return line.stream == "stdout"

@@ -1,0 +1,122 @@
+"""Causes that lie with the process and its nodes as such, whatever the exercise asks of them."""
+
+from __future__ import annotations
+
+import signal
+from collections.abc import Sequence
+
+from tutor.judge import tracebacks
+from tutor.judge.causes import names
+from tutor.judge.causes.exceptions import of_traceback
+from tutor.judge.trace import Trace
+from tutor.judge.tracebacks import Frame
+from tutor.judge.verdict import Cause
+
+QUICK_S = 3.0
+"""A process that ends by itself within this many seconds of its start ended "at once"."""
+
+
+def of_process(trace: Trace) -> Cause | None:
+    """Why the process as such did not do its work: it could not start, broke, ended, or never made a node."""
+    found = tracebacks.last(trace)
+    if found is not None:
+        return of_traceback(found, trace)
+    if trace.exit is not None:
+        return _of_exit(trace)
+    if not trace.graph.nodes:
+        return Cause(
+            "no node",
+            f"the process runs, but made no ROS node{' and prints without end' if trace.dropped_lines else ''}",
+            "call rclpy.init(), create your node, then rclpy.spin(node); a loop before that keeps it from happening",
+        )
+    return None
+
+
+def _of_exit(trace: Trace) -> Cause:
+    assert trace.exit is not None
+    ended = f"the process ended after {trace.exit.after_s:.1f} s with {trace.exit}"
+    if trace.uncalled_main:
+        return Cause(
+            "no main call",
+            f"{ended}: main() is defined, but nothing calls it",
+            'end the file with: if __name__ == "__main__": main()',
+        )
+    if trace.exit.signal is not None:
+        return Cause("killed", f"{ended} ({_signal_name(trace.exit.signal)})", "see the last lines of its output")
+    if trace.exit.code == 0 and trace.exit.after_s <= QUICK_S + 0.5:
+        return Cause(
+            names.EXIT_AT_ONCE,
+            f"{ended}, without an error",
+            "a node lives as long as rclpy.spin(node) runs: is it called, and is anything ending it?",
+        )
+    return Cause(names.EXIT_AT_ONCE, ended, "let rclpy.spin(node) run until Ctrl+C; see the last lines of its output")
+
+
+def no_spin(trace: Trace) -> Cause:
+    """The node exists, but none of its callbacks ever runs."""
+    return Cause(
+        names.NO_SPIN,
+        f"{node_names(trace)} exists, but answers no request: its callbacks are never run",
+        "call rclpy.spin(node) (or executor.spin()) after creating the node, and let no callback block",
+    )
+
+
+def of_no_answer(trace: Trace, stuck: Sequence[Frame], *, spins: bool = False) -> Cause:
+    """Why a node that is up answers no request (any more).
+
+    `stuck`: where its threads were meanwhile, innermost frame first (`Run.stuck_at`). `spins`: it has answered before.
+    """
+    broken = of_process(trace)
+    if broken is not None:
+        return broken
+    own = tracebacks.own(stuck, trace.folder)
+    where = f", at {own}" if own else ""
+    if in_call(stuck):
+        return Cause(
+            names.DEADLOCK,
+            f"the callback waits for another service's answer{where}, which cannot come: the "
+            "executor is busy with this callback",
+            "use call_async() and await it in an async callback",
+        )
+    if spins or tracebacks.called_by_executor(stuck, trace.folder):
+        return Cause(
+            names.BLOCKED_EXECUTOR,
+            f"the node is up, but one of its callbacks does not come to an end{where}; all others wait for it",
+            "let every callback return at once: no loop and no sleep in it; let a timer do what has to wait",
+        )
+    return no_spin(trace)
+
+
+def in_call(stuck: Sequence[Frame]) -> bool:
+    """Whether a thread waits in rclpy's blocking `Client.call()`."""
+    return any(frame.function == "call" and frame.path.endswith("rclpy/client.py") for frame in stuck)
+
+
+def same_name(trace: Trace) -> Cause | None:
+    """Two nodes under one name: both publish, and whoever asks one of them cannot tell which answers."""
+    nodes = trace.graph.nodes
+    twice = sorted({node for node in nodes if nodes.count(node) > 1})
+    if not twice:
+        return None
+    return Cause(
+        names.SAME_NAME,
+        f"there are {nodes.count(twice[0])} nodes called {twice[0]}, and all of them are at work",
+        "make one node only; is the class instantiated twice, or the program started twice?",
+    )
+
+
+def last_words(trace: Trace, most: int = 6) -> tuple[str, ...]:
+    """The last lines that the process wrote, as evidence."""
+    return tuple(line.text for line in trace.output if line.text.strip())[-most:]
+
+
+def node_names(trace: Trace) -> str:
+    """The nodes, to be named in a sentence."""
+    return "the node " + ", ".join(trace.graph.nodes) if trace.graph.nodes else "the node"
+
+
+def _signal_name(number: int) -> str:
+    try:
+        return signal.Signals(number).name
+    except ValueError:
+        return f"signal {number}"

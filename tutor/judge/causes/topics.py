@@ -1,0 +1,128 @@
+"""Causes between a publisher and a subscription: the name, the type, the QoS, or nobody at work."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable, Sequence
+
+from tutor.judge.causes import names
+from tutor.judge.causes.process import node_names, of_no_answer, of_process
+from tutor.judge.trace import Endpoint, Trace
+from tutor.judge.tracebacks import Frame
+from tutor.judge.verdict import Cause
+
+
+def of_silence(trace: Trace, topic: str, type_name: str, *, answers: bool, stuck: Sequence[Frame] = ()) -> Cause:
+    """Why nothing of `type_name` came on `topic`.
+
+    `answers`: whether a node of the learner's answered a request; if not, `stuck` says where it was meanwhile.
+    """
+    if (cause := of_process(trace)) is not None:
+        return cause
+    publishers = trace.graph.publishers
+    here = [endpoint for endpoint in publishers if endpoint.topic == topic]
+    if any(endpoint.type == type_name for endpoint in here):
+        if not answers:
+            return of_no_answer(trace, stuck)
+        return Cause(
+            "no messages",
+            f"there is a publisher on {topic}, but it sent nothing",
+            "does the timer's callback call publish(), and is the timer kept in self?",
+        )
+    return _misplaced(publishers, topic, type_name, "create_publisher") or Cause(
+        "no publisher",
+        f"{node_names(trace)} is up, but has no publisher on {topic}",
+        f"create one in __init__: self.create_publisher({_class(type_name)}, '{topic}', 10)",
+    )
+
+
+def of_deafness(trace: Trace, ours: Endpoint, *, answers: bool, stuck: Sequence[Frame] = ()) -> Cause:
+    """Why a node of the learner's took in nothing of what `ours`, a publisher, sent; see `of_silence`."""
+    if (cause := of_process(trace)) is not None:
+        return cause
+    subscriptions = trace.graph.subscriptions
+    here = [each for each in subscriptions if (each.topic, each.type) == (ours.topic, ours.type)]
+    if here:
+        mismatched = [cause for each in here if (cause := incompatible_qos(ours, each)) is not None]
+        if len(mismatched) == len(here):
+            return mismatched[0]
+        if not answers:
+            return of_no_answer(trace, stuck)
+        return Cause(
+            "callback does nothing",
+            f"there is a subscription on {ours.topic}, but nothing follows from its messages",
+            "is the right callback given to create_subscription, and the subscription kept in self?",
+        )
+    return _misplaced(subscriptions, ours.topic, ours.type, "create_subscription") or Cause(
+        "no subscription",
+        f"{node_names(trace)} is up, but has no subscription on {ours.topic}",
+        f"create one in __init__: self.create_subscription({_class(ours.type)}, '{ours.topic}', self.callback, 10)",
+    )
+
+
+def incompatible_qos(publisher: Endpoint, subscription: Endpoint) -> Cause | None:
+    """Whether the subscription asks for more than the publisher offers: then they are not matched at all."""
+    if publisher.reliability == "best_effort" and subscription.reliability == "reliable":
+        policy, offered, asked = "reliability", publisher.reliability, subscription.reliability
+    elif publisher.durability == "volatile" and subscription.durability == "transient_local":
+        policy, offered, asked = "durability", publisher.durability, subscription.durability
+    else:
+        return None
+    return Cause(
+        names.INCOMPATIBLE_QOS,
+        f"on {publisher.topic} the publisher offers {policy} {offered}, the subscription asks for {asked}: "
+        "they are not connected",
+        f"give both the same {policy}: with a plain depth, such as 10, instead of a QoSProfile they match",
+    )
+
+
+def of_qos(trace: Trace, topic: str) -> Cause | None:
+    """Whether the learner's own publishers and subscriptions on a topic do not match each other."""
+    offers = [each for each in trace.graph.publishers if each.topic == topic]
+    asks = [each for each in trace.graph.subscriptions if each.topic == topic]
+    return next((cause for one in offers for other in asks if (cause := incompatible_qos(one, other))), None)
+
+
+def wrong_topic(endpoints: Iterable[Endpoint], topic: str, create: str = "create_publisher") -> Cause:
+    """The endpoint is there, under another name; what kind of slip it is follows from the name."""
+    found = sorted({endpoint.topic for endpoint in endpoints})
+    name = min(found, key=lambda each: -difflib.SequenceMatcher(None, each, topic).ratio())
+    verb = "go to" if create == "create_publisher" else "are taken from"
+    return Cause(
+        names.WRONG_TOPIC,
+        f"messages of this type {verb} {', '.join(found)}, not {verb.split()[-1]} {topic}: {_slip(name, topic)}",
+        f"use exactly '{topic}' in {create}",
+    )
+
+
+def _slip(name: str, wanted: str) -> str:
+    if name.endswith(wanted):
+        return (
+            "it has a namespace or the node's name in front: a name that begins with ~ or has no / in front is relative"
+        )
+    if name.strip("/") == wanted.strip("/").replace("/", "_") or name.replace("/", "") == wanted.replace("/", ""):
+        return "the slash between its parts is missing, or there is one too many"
+    if wanted.endswith(name):
+        return "the first part of the name is missing"
+    if name.casefold() == wanted.casefold():
+        return "capital letters make another name"
+    return "the name is spelled differently"
+
+
+def _misplaced(endpoints: Sequence[Endpoint], topic: str, type_name: str, create: str) -> Cause | None:
+    here = [endpoint for endpoint in endpoints if endpoint.topic == topic]
+    if here:
+        return Cause(
+            names.WRONG_TYPE,
+            f"{topic} has the type {here[0].type}, not {type_name}",
+            f"give {create} the type {_class(type_name)}: from {type_name.split('/')[0]}.msg import "
+            f"{_class(type_name)}",
+        )
+    elsewhere = [endpoint for endpoint in endpoints if endpoint.type == type_name] or [
+        endpoint for endpoint in endpoints if difflib.get_close_matches(endpoint.topic, [topic], cutoff=0.6)
+    ]
+    return wrong_topic(elsewhere, topic, create) if elsewhere else None
+
+
+def _class(type_name: str) -> str:
+    return type_name.rsplit("/", 1)[-1]
