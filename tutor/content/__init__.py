@@ -1,7 +1,7 @@
 """The course: lessons and the self-assessment checklist, as plain data. Knows neither ROS nor the terminal."""
 
 from tutor.content.errors import ContentError, UnknownExercise
-from tutor.content.lint import Problem, lint
+from tutor.content.lint import lint
 from tutor.content.loader import load_course
 from tutor.content.model import (
     Checklist,
@@ -13,6 +13,7 @@ from tutor.content.model import (
     Lesson,
     LessonFile,
 )
+from tutor.content.problem import Problem
 
 __all__ = [
     "Checklist",

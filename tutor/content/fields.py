@@ -69,8 +69,10 @@ class Fields:
             raise document.error(path, f"expected fields (name: value), found {_kind(value)}")
         self._left = dict(value)
 
-    def text(self, name: str) -> str:
-        """A text that is not empty, without the white space around it."""
+    def text(self, name: str, *, optional: bool = False) -> str:
+        """A text that is not empty, without the white space around it; an absent `optional` one is empty."""
+        if optional and name not in self._left:
+            return ""
         return self._text((*self._path, name), self._take(name))
 
     def flag(self, name: str, default: bool) -> bool:
@@ -83,6 +85,10 @@ class Fields:
     def texts(self, name: str, *, optional: bool = False) -> tuple[str, ...]:
         """A list of texts; an absent `optional` one is empty."""
         return self._list(name, optional, self._text)
+
+    def anything(self, name: str) -> object:
+        """Whatever there is, or None where there is nothing: for the caller to look at."""
+        return self._left.pop(name, None)
 
     def mappings(self, name: str) -> tuple[Fields, ...]:
         """A list of mappings."""

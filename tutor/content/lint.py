@@ -5,10 +5,10 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 from tutor.content.model import Course, CriterionText, Lesson
+from tutor.content.problem import Problem
 
 SECTIONS = (
     "Objective",
@@ -29,17 +29,6 @@ _CRITERION_ID = re.compile(r"[a-z-]+")
 _CHECKLIST_ID = re.compile(r"[a-z][a-z0-9-]*")
 _CODE_FENCE = re.compile(r"\s*```(.*)")
 _RAW_HTML = re.compile(r"</?[a-zA-Z][^>]*>|<!--")
-
-
-@dataclass(frozen=True, slots=True)
-class Problem:
-    """One thing to mend in a course. `file` is the file, or the folder, to mend it in."""
-
-    file: Path
-    text: str
-
-    def __str__(self) -> str:
-        return f"{self.file}: {self.text}"
 
 
 def lint(course: Course) -> list[Problem]:

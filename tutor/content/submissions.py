@@ -1,0 +1,122 @@
+"""Test submissions: right and wrong answers to the exercises, and what each must be judged as.
+
+A folder of them holds `<exercise>/<right|wrong>/<name>/` with the learner's files and an `expect.yaml`, whose keys
+`Expected` describes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from tutor.content.errors import ContentError
+from tutor.content.fields import Document, Fields
+
+EXPECT = "expect.yaml"
+RIGHT, WRONG = "right", "wrong"
+
+
+@dataclass(frozen=True, slots=True)
+class Expected:
+    """What a submission must be judged as. What no key names is passed (or, in a wrong one, skipped).
+
+    `passes`: every required criterion is. `fails` are failed; of `fails_any` at least one is; `not_passed` are failed
+    or skipped; `either` may be anything but an error; `bonus_failed` are bonus criteria that are failed. `causes` maps
+    a criterion ("" stands for all that fail) to texts, one of which is in its cause. `gone` is in the command line of
+    no process afterwards. `ros` is the only kind of ROS that this holds for, where it is not empty.
+    """
+
+    says: str
+    passes: bool = False
+    fails: tuple[str, ...] = ()
+    fails_any: tuple[str, ...] = ()
+    not_passed: tuple[str, ...] = ()
+    either: tuple[str, ...] = ()
+    bonus_failed: tuple[str, ...] = ()
+    causes: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    gone: str = ""
+    ros: str = ""
+
+    @property
+    def named(self) -> Mapping[str, tuple[str, ...]]:
+        """The keys that name criteria, with what they name."""
+        return {
+            "fails": self.fails,
+            "fails_any": self.fails_any,
+            "not_passed": self.not_passed,
+            "either": self.either,
+            "bonus_failed": self.bonus_failed,
+        }
+
+
+@dataclass(frozen=True, slots=True)
+class Case:
+    """One submission folder. `exercise` is the exercise's id, `kind` is "right" or "wrong"."""
+
+    exercise: str
+    kind: str
+    folder: Path
+    expected: Expected
+
+    def __str__(self) -> str:
+        return f"{self.exercise}/{self.kind}/{self.folder.name}"
+
+
+def read_expected(file: Path) -> Expected:
+    """Read an `expect.yaml`.
+
+    Raises ContentError for what is missing, unknown or of the wrong kind in it.
+    """
+    try:
+        text = file.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise ContentError(file, f"it cannot be read: {error}") from error
+    fields = Document(file, text).read()
+    passes = fields.text("passes", optional=True)
+    if passes not in ("", "all"):
+        raise fields.error("passes", f"expected all, found {passes!r}")
+    expected = Expected(
+        says=fields.text("says"),
+        passes=passes == "all",
+        fails=fields.texts("fails", optional=True),
+        fails_any=fields.texts("fails_any", optional=True),
+        not_passed=fields.texts("not_passed", optional=True),
+        either=fields.texts("either", optional=True),
+        bonus_failed=fields.texts("bonus_failed", optional=True),
+        causes=_causes(fields),
+        gone=fields.text("gone", optional=True),
+        ros=fields.text("ros", optional=True),
+    )
+    fields.done()
+    return expected
+
+
+def find_cases(root: Path) -> Iterator[Case]:
+    """The submissions below `root`, in order.
+
+    Raises ContentError at the first whose `expect.yaml` is broken.
+    """
+    for file in sorted(root.glob(f"*/*/*/{EXPECT}")):
+        yield read_case(file.parent)
+
+
+def read_case(folder: Path) -> Case:
+    """The submission in this folder.
+
+    Raises ContentError where its `expect.yaml` is missing or broken.
+    """
+    exercise, kind = folder.parts[-3].replace("_", "."), folder.parts[-2]
+    return Case(exercise, kind, folder, read_expected(folder / EXPECT))
+
+
+def _causes(fields: Fields) -> Mapping[str, tuple[str, ...]]:
+    value = fields.anything("cause")
+    found = value if isinstance(value, dict) else {"": value or []}
+    causes: dict[str, tuple[str, ...]] = {}
+    for name, said in found.items():
+        texts = [said] if isinstance(said, str) else said
+        if not isinstance(texts, list) or not all(isinstance(text, str) for text in texts):
+            raise fields.error("cause", "expected a text, or for criteria each a text or a list of texts")
+        causes[str(name)] = tuple(texts)
+    return {name: texts for name, texts in causes.items() if texts}
