@@ -1,0 +1,62 @@
+"""`talker` and `listener`, behaving as those of `demo_nodes_py` and `demo_nodes_cpp` do.
+
+Run by path, with any Python that has rclpy: nothing of ours is imported.
+
+    nodes.py demo_nodes_py|demo_nodes_cpp talker|listener [--ros-args ...]
+"""
+
+from __future__ import annotations
+
+import sys
+
+import rclpy
+from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
+from rclpy.utilities import try_shutdown
+from std_msgs.msg import String
+
+# How the two packages' talkers differ: the first number, the queue's depth, and the quotes in the log.
+_TALKERS = {"demo_nodes_py": (0, 10, '"'), "demo_nodes_cpp": (1, 7, "'")}
+
+
+class Talker(Node):
+    """Publishes `Hello World: N` on `chatter` once a second."""
+
+    def __init__(self, package: str) -> None:
+        super().__init__("talker")
+        self._count, depth, self._quote = _TALKERS[package]
+        self._publisher = self.create_publisher(String, "chatter", depth)
+        self._timer = self.create_timer(1.0, self._talk)
+
+    def _talk(self) -> None:
+        message = String(data=f"Hello World: {self._count}")
+        self._count += 1
+        self.get_logger().info(f"Publishing: {self._quote}{message.data}{self._quote}")  # type: ignore[no-untyped-call]
+        self._publisher.publish(message)
+
+
+class Listener(Node):
+    """Logs each text on `chatter`."""
+
+    def __init__(self) -> None:
+        super().__init__("listener")
+        self._subscription = self.create_subscription(String, "chatter", self._hear, 10)
+
+    def _hear(self, message: String) -> None:
+        self.get_logger().info(f"I heard: [{message.data}]")  # type: ignore[no-untyped-call]
+
+
+def main() -> None:
+    """Run one node until Ctrl+C."""
+    package, program, *arguments = sys.argv[1:]
+    try:
+        rclpy.init(args=[program, *arguments])
+        rclpy.spin(Talker(package) if program == "talker" else Listener())
+    except (KeyboardInterrupt, ExternalShutdownException):
+        pass
+    finally:
+        try_shutdown()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,35 @@
+"""`ros2 run`: starts a program of a package."""
+
+from __future__ import annotations
+
+import argparse
+import signal
+import subprocess
+
+from tutor.sandbox import packages
+from tutor.sandbox.ros2.errors import CommandError
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """PACKAGE EXECUTABLE [ARGUMENT ...]."""
+    parser.add_argument("package", metavar="package_name", help="the package")
+    parser.add_argument("executable", metavar="executable_name", help="its program")
+    parser.add_argument("rest", metavar="argv", nargs=argparse.REMAINDER, help="what to pass to the program")
+
+
+def main(arguments: argparse.Namespace) -> int:
+    """Run the program to its end, and give its exit code (128 + N after signal N). Raises LookupError, CommandError."""
+    command = [*packages.find_executable(arguments.package, arguments.executable), *arguments.rest]
+    # Ctrl+C reaches the program by itself; we only have to be there still when it has ended.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        program = subprocess.Popen(command, preexec_fn=_as_from_a_terminal)
+    except OSError as error:
+        raise CommandError(f"{command[0]} cannot be started: {error.strerror}") from error
+    signal.signal(signal.SIGTERM, lambda *_: program.terminate())
+    code = program.wait()
+    return code if code >= 0 else 128 - code
+
+
+def _as_from_a_terminal() -> None:
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
