@@ -1,0 +1,53 @@
+"""`ros-tutor ros2`: the `ros2` command, also where no ROS 2 is installed."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import shlex
+import sys
+import tempfile
+from pathlib import Path
+
+from tutor.cli import context
+from tutor.cli.errors import UsageError
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """VERB [ARGUMENT ...]."""
+    parser.add_argument(
+        "words",
+        metavar="launch|run ...",
+        nargs=argparse.REMAINDER,
+        help="as after ros2: launch my_package my_launch.py",
+    )
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Become `ros2`, in the user's own ROS domain; comes back only where that cannot be."""
+    from tutor.ros.environment import detect, learner_env
+    from tutor.sandbox.ros2.errors import CommandError
+    from tutor.sandbox.ros2.starting import ros2
+
+    ros = detect()
+    env = dict(os.environ)
+    if ros.kind == "bundled":
+        domain = os.environ.get("ROS_DOMAIN_ID", "").strip()
+        log_dir = Path(os.environ.get("ROS_LOG_DIR") or Path(tempfile.gettempdir()) / "ros-tutor-log")
+        env = learner_env(
+            ros,
+            domain_id=int(domain) if domain.isdecimal() else 0,
+            log_dir=log_dir,
+            package_root=None,
+            isolated=False,
+        )
+        env["ROS_TUTOR_WORKSPACE"] = str(context.place(arguments).root)
+    try:
+        command = [*ros2(ros, env), *(arguments.words or ["--help"])]
+    except CommandError as error:
+        raise UsageError(str(error)) from error
+    sys.stdout.flush()
+    try:
+        os.execve(command[0], command, env)
+    except OSError as error:
+        raise UsageError(f"{shlex.join(command)} cannot be started: {error.strerror}") from error
