@@ -64,16 +64,19 @@ def judge(
     engine: Engine, submissions: Sequence[Submission], course: Course, only: frozenset[str] | None, display: Display
 ) -> Report | None:
     """Run the engine to its end; None where it was interrupted and has cleaned up."""
+    return interruptible(lambda: engine(submissions, course, only=only, on_event=display.show), display)
+
+
+def interruptible[T](work: Callable[[], Coroutine[None, None, T]], display: Display) -> T | None:
+    """Run `work` to its end; None where it was interrupted and has cleaned up. The display is closed in any case."""
     try:
-        return asyncio.run(_judge(engine, submissions, course, only, display))
+        return asyncio.run(_until_stopped(work, display))
     finally:
         display.close()
 
 
-async def _judge(
-    engine: Engine, submissions: Sequence[Submission], course: Course, only: frozenset[str] | None, display: Display
-) -> Report | None:
-    task = asyncio.ensure_future(engine(submissions, course, only=only, on_event=display.show))
+async def _until_stopped[T](work: Callable[[], Coroutine[None, None, T]], display: Display) -> T | None:
+    task = asyncio.ensure_future(work())
     interrupted = False
 
     def stop() -> None:

@@ -14,5 +14,10 @@ class Problem:
     text: str
     mend: str = ""
 
+    @property
+    def said(self) -> str:
+        """What is wrong, and how to mend it."""
+        return f"{self.text}; {self.mend}" if self.mend else self.text
+
     def __str__(self) -> str:
-        return f"{self.file}: {self.text}; {self.mend}" if self.mend else f"{self.file}: {self.text}"
+        return f"{self.file}: {self.said}"

@@ -1,0 +1,168 @@
+"""`ros-tutor author check`: prove a course right, for those who write one."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from tutor.cli import context, terminal
+from tutor.cli.errors import FAULT, INTERRUPTED, NOT_PASSED, PASSED, UsageError
+
+if TYPE_CHECKING:
+    from tutor.content import Course, Lesson, Problem
+    from tutor.engine.proving import Proof
+    from tutor.judge.check import Check
+
+_ACTIONS = ("check",)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Take check [EXERCISE...] [--static] [--submissions DIR]."""
+    parser.add_argument("action", metavar="ACTION", choices=_ACTIONS, help="check: prove lessons and checks right")
+    parser.add_argument(
+        "exercises", metavar="EXERCISE", nargs="*", help="only these (else all; with --lessons, its own)"
+    )
+    parser.add_argument("--static", action="store_true", help="only read; run no skeleton and no solution")
+    parser.add_argument(
+        "--submissions", metavar="DIR", type=Path, help="the test submissions (tests/submissions beside the lessons)"
+    )
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Print one line for each finding, and a summary. First what reading shows, then what running shows."""
+    from tutor.content import ContentError
+
+    try:
+        course = context.load_course(arguments)
+    except ContentError as error:
+        terminal.out(f"{error}\n1 finding: the course cannot be read\n")
+        return NOT_PASSED
+    lessons = _chosen(arguments, course)
+    checks, findings = _load_checks(lessons)
+    findings += _static(arguments, course, lessons, checks)
+    _print(findings)
+    runnable = [lesson for lesson in lessons if lesson.id in checks and _is_whole(lesson)]
+    proofs: Sequence[Proof] = ()
+    if not arguments.static and runnable:
+        ran = _run(runnable, course)
+        if ran is None:
+            terminal.say("interrupted; nothing that was started is left")
+            return INTERRUPTED
+        proofs = ran
+    unjudged = _print_proofs(proofs, findings)
+    _summary(len(lessons), len(proofs), len(findings), unjudged)
+    return NOT_PASSED if findings else FAULT if unjudged else PASSED
+
+
+def _chosen(arguments: argparse.Namespace, course: Course) -> list[Lesson]:
+    if arguments.exercises:
+        return list(dict.fromkeys(course.find(each) for each in arguments.exercises))
+    extra: Path | None = getattr(arguments, "lessons", None)
+    if extra is None:
+        return list(course.lessons)
+    own = (extra / "lessons").resolve()
+    return [lesson for lesson in course.lessons if lesson.folder.resolve().parent == own]
+
+
+def _load_checks(lessons: Sequence[Lesson]) -> tuple[dict[str, Check], list[Problem]]:
+    from tutor.content import Problem
+    from tutor.engine.modules import load_check
+
+    checks: dict[str, Check] = {}
+    findings = []
+    for lesson in lessons:
+        try:
+            checks[lesson.id] = load_check(lesson)
+        except Exception as error:  # the check's border: whatever is wrong in it is a finding
+            text = f"it cannot be loaded: {type(error).__name__}: {error}"
+            findings.append(Problem(lesson.check, " ".join(text.split()), getattr(error, "mend", "")))
+    return checks, findings
+
+
+def _static(
+    arguments: argparse.Namespace, course: Course, lessons: Sequence[Lesson], checks: Mapping[str, Check]
+) -> Iterator[Problem]:
+    from tutor.content import Course, lint
+    from tutor.content.lint_checks import lint_check, lint_strays
+    from tutor.content.lint_commands import lint_commands
+    from tutor.content.lint_submissions import lint_submissions
+    from tutor.workspace import TEMPLATE
+
+    given = {path.name for path in TEMPLATE.rglob("*.py")}
+    yield from lint(Course(tuple(lessons), course.checklist))
+    yield from lint_strays(course, lessons)
+    for lesson in lessons:
+        if lesson.id in checks:
+            yield from lint_check(lesson, checks[lesson.id])
+        yield from lint_commands(lesson, given, _usage)
+    root = _submissions(arguments, lessons)
+    if root is not None:
+        yield from lint_submissions(root, course, lessons)
+
+
+def _submissions(arguments: argparse.Namespace, lessons: Sequence[Lesson]) -> Path | None:
+    named: Path | None = arguments.submissions
+    if named is not None and not named.is_dir():
+        raise UsageError(f"--submissions {named}: there is no such folder")
+    beside = lessons[0].folder.parents[1] / "tests" / "submissions" if lessons else Path()
+    if named is None and not beside.is_dir():
+        terminal.say(f"there are no test submissions in {beside}, so that part is not proven; --submissions names them")
+        return None
+    return named or beside
+
+
+def _usage(argv: list[str]) -> str:
+    """What is wrong with the arguments of `ros-tutor`, or nothing."""
+    from tutor.cli.parser import parse
+
+    try:
+        parse(argv)
+    except UsageError as error:
+        return str(error)
+    return ""
+
+
+def _is_whole(lesson: Lesson) -> bool:
+    return all(file.skeleton.is_file() and file.solution.is_file() for file in lesson.files)
+
+
+def _run(lessons: Sequence[Lesson], course: Course) -> Sequence[Proof] | None:
+    from tutor.cli.judging import Silence, interruptible
+    from tutor.engine.proving import prove
+
+    def tell(proof: Proof) -> None:
+        result = proof.result
+        terminal.say(f"{proof.lesson.id} {proof.kind}: {result.verdict.value} in {result.duration_s:.1f} s")
+
+    return interruptible(lambda: prove(lessons, course, tell), Silence())
+
+
+def _print_proofs(proofs: Sequence[Proof], findings: list[Problem]) -> int:
+    """Print what the runs show and add it to `findings`; gives how many criteria could not be judged."""
+    from tutor.content.proof import faults, findings_of
+
+    unjudged = 0
+    for proof in proofs:
+        found = list(findings_of(proof.lesson, proof.kind, proof.result))
+        findings += found
+        _print(found)
+        for criterion in faults(proof.result):
+            unjudged += 1
+            why = " ".join(f"{criterion.verdict.cause}; {criterion.verdict.hint}".split())
+            terminal.out(f"{proof.lesson.id} {proof.kind}, {criterion.id}: could not be judged: {why}\n")
+    return unjudged
+
+
+def _print(findings: Sequence[Problem]) -> None:
+    for finding in findings:
+        place = context.shown(finding.file)
+        terminal.out(" ".join(f"{place}: {finding.said}".split()) + "\n")
+
+
+def _summary(lessons: int, ran: int, findings: int, unjudged: int) -> None:
+    counted = f"{findings} finding{'s' if findings != 1 else ''}" if findings else "nothing is wrong"
+    not_judged = f", {unjudged} could not be judged" if unjudged else ""
+    runs = f", {ran} runs" if ran else ", nothing was run"
+    terminal.out(f"{counted}{not_judged}: {lessons} exercise{'s' if lessons != 1 else ''}{runs}\n")
