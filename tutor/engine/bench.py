@@ -20,6 +20,9 @@ from tutor.process import LearnerProcess, ProcessError
 from tutor.ros.domain import NoFreeDomain, reserve_domain
 from tutor.ros.environment import RosEnvironment, learner_env
 from tutor.ros.observer import Observer
+from tutor.sandbox.ros2 import overlay
+from tutor.sandbox.ros2.errors import CommandError
+from tutor.sandbox.ros2.starting import ros2
 
 T = TypeVar("T")
 
@@ -43,32 +46,60 @@ class LiveBench:
         serve: Mapping[str, tuple[str, Handler]] | None = None,
     ) -> AsyncIterator[Run]:
         path = self.submission.files[file].resolve()
+        program = [str(self.ros.python), str(path), *ros_arguments(parameters or {})]
+
+        def command(env: dict[str, str], log_dir: Path) -> list[str]:
+            return program
+
+        async with self._start(path, command, parameters or {}, watch or {}, serve or {}) as run:
+            yield run
+
+    @asynccontextmanager
+    async def launch(self, file: str, *, arguments: Mapping[str, str] | None = None) -> AsyncIterator[Run]:
+        path = self.submission.files[file].resolve()
+        given = [f"{name}:={value}" for name, value in (arguments or {}).items()]
+
+        def command(env: dict[str, str], log_dir: Path) -> list[str]:
+            if self.ros.kind == "system":  # ours does this by itself
+                overlay.make(log_dir / "overlay", path, env, python=str(self.ros.python))
+            return [*ros2(self.ros, env), "launch", str(path), *given]
+
+        async with self._start(path, command, {}, {}, {}) as run:
+            yield run
+
+    @asynccontextmanager
+    async def _start(
+        self,
+        path: Path,
+        command: Callable[[dict[str, str], Path], list[str]],
+        parameters: Mapping[str, Any],
+        watch: Mapping[str, str],
+        serve: Mapping[str, tuple[str, Handler]],
+    ) -> AsyncIterator[Run]:
+        """Run a command, made from its environment and a folder for its logs, on a domain of its own."""
         facts = Facts()
         with _faults(), reserve_domain() as domain_id, tempfile.TemporaryDirectory(prefix="ros-tutor-") as log_dir:
             observer = Observer(domain_id, facts.change)
             try:
                 observer.watch_logs()
-                for topic, type_name in (watch or {}).items():
+                for topic, type_name in watch.items():
                     observer.watch(topic, type_name)
-                for service, (type_name, handler) in (serve or {}).items():
+                for service, (type_name, handler) in serve.items():
                     observer.serve(service, type_name, handler, _recorder(facts, service))
+                env = learner_env(
+                    self.ros,
+                    domain_id=domain_id,
+                    log_dir=Path(log_dir),
+                    package_root=package_root(path),
+                    isolated=True,
+                    environ=os.environ,
+                )
+                env["PYTHONFAULTHANDLER"] = "1"  # see LiveRun.stuck_at
+                argv = command(env, Path(log_dir))
                 async with await LearnerProcess.start(
-                    [str(self.ros.python), str(path), *ros_arguments(parameters or {})],
-                    env={
-                        **learner_env(
-                            self.ros,
-                            domain_id=domain_id,
-                            log_dir=Path(log_dir),
-                            package_root=package_root(path),
-                            isolated=True,
-                            environ=os.environ,
-                        ),
-                        "PYTHONFAULTHANDLER": "1",  # see LiveRun.stuck_at
-                    },
-                    cwd=path.parent,
-                    on_change=facts.change,
+                    argv, env=env, cwd=path.parent, on_change=facts.change
                 ) as process:
-                    yield LiveRun(path, parameters or {}, domain_id, process, observer, facts)
+                    yield LiveRun(path, parameters, domain_id, process, observer, facts)
             finally:
                 observer.close()
 
@@ -90,7 +121,7 @@ def _faults() -> Iterator[None]:
         yield
     except NoFreeDomain as error:
         raise EngineError(str(error), error.mend) from error
-    except ProcessError as error:
+    except (ProcessError, CommandError) as error:
         raise EngineError(str(error)) from error
 
 

@@ -33,7 +33,7 @@ from tutor.judge.trace import (
 from tutor.judge.tracebacks import Frame
 from tutor.process import CpuTime, LearnerProcess, cpu_time, cpu_time_here
 from tutor.ros import echo, graph, parameters
-from tutor.ros.messages import to_plain
+from tutor.ros.messages import UnknownType, to_plain
 from tutor.ros.observer import Observer
 
 T = TypeVar("T")
@@ -46,6 +46,9 @@ MOST_PATIENT = 5
 
 ENOUGH_CPU_S = 2.0
 """No wait is for something that takes a node more CPU time than this: its start takes 0.3 s."""
+
+GOING_S = 1.0
+"""What a process has sent on its way before it ended may take this long to be gone."""
 
 IN_FLIGHT_S = 0.5
 """What a process sent before it ended may arrive this much later."""
@@ -120,6 +123,17 @@ class LiveRun:
 
     def on(self, topic: str) -> Sequence[Sample]:
         return self._observer.samples.get(topic, [])
+
+    def watch(self, topic: str, type: str) -> bool:
+        if topic in self._observer.samples:
+            return True
+        offered = [each for each in self.graph.publishers if each.topic == topic]
+        kept = bool(offered) and all(each.durability == "transient_local" for each in offered)
+        try:
+            self._observer.watch(topic, type, kept=kept)
+        except UnknownType:
+            return False
+        return True
 
     def now(self) -> float:
         return time.time()
@@ -225,7 +239,15 @@ class LiveRun:
         await self.until(lambda: self.exit is not None, limit_s)
         ended = self.exit
         took = time.time() - pressed
-        return Ending(ended, took, limit_s, tuple(line for line in self.output if line.at >= pressed))
+        left = await self._left()
+        return Ending(ended, took, limit_s, tuple(line for line in self.output if line.at >= pressed), left)
+
+    async def _left(self) -> tuple[str, ...]:
+        """What is still there. Once the first process has ended, those that are about to follow it are waited for."""
+        deadline = time.monotonic() + (GOING_S if self.exit is not None else 0.0)
+        while (left := await self._process.survivors()) and time.monotonic() < deadline:
+            await asyncio.sleep(LOOK_EVERY_S)
+        return tuple(survivor.command for survivor in left)
 
     async def stuck_at(self) -> tuple[Frame, ...]:
         if self.exit is not None:

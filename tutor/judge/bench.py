@@ -67,6 +67,9 @@ class Run(Protocol):
     def on(self, topic: str) -> Sequence[Sample]:
         """The samples seen on a watched topic so far."""
 
+    def watch(self, topic: str, type: str) -> bool:
+        """Collect the samples of one more topic from now on. Gives False where this ROS has no such type."""
+
     def now(self) -> float:
         """The wall-clock time, in seconds since the epoch, as in every fact."""
 
@@ -98,7 +101,7 @@ class Run(Protocol):
         """Subscribe as `ros2 topic echo` does: an independent participant, type and QoS taken from the publishers."""
 
     async def interrupt(self, limit_s: float = 5.0) -> Ending:
-        """Press Ctrl+C (SIGINT to the process group) and watch the process end."""
+        """Press Ctrl+C (SIGINT to the process group), watch the process end, and see what it leaves behind."""
 
     async def stuck_at(self) -> tuple[Frame, ...]:
         """Where the process was, had it not come to an end: ends it, and gives all threads' frames, innermost first."""
@@ -122,6 +125,13 @@ class Bench(Protocol):
 
         `parameters` are given as `--ros-args -p name:=value`; `watch` maps topics to types and is subscribed before the
         process starts; `serve` maps service names to a type and a handler, ready before the process starts.
+        """
+
+    def launch(self, file: str, *, arguments: Mapping[str, str] | None = None) -> AbstractAsyncContextManager[Run]:
+        """Start one of the submission's files as `ros2 launch FILE name:=value ...` does.
+
+        The run is that of the whole launch: its process is the launch itself, its graph, logs and samples those of all
+        nodes. Packages resolve as they do in a workspace that is built. Nothing of it is left when the context ends.
         """
 
     def has(self, file: str) -> bool:

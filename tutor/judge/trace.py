@@ -103,12 +103,14 @@ class Ending:
     """What happened from one SIGINT (as Ctrl+C sends it) on.
 
     `exit` is None where the process was still there after `limit_s` seconds; `output` is what it wrote from then on.
+    `left` holds the command lines of the processes that were still there in the end (its own included).
     """
 
     exit: Exit | None
     took_s: float
     limit_s: float
     output: tuple[OutputLine, ...] = ()
+    left: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -90,12 +90,18 @@ class Observer:
         *,
         reliability: ReliabilityPolicy = ReliabilityPolicy.BEST_EFFORT,
         durability: DurabilityPolicy = DurabilityPolicy.VOLATILE,
+        kept: bool = False,
     ) -> None:
         """Collect the samples of a topic. The default QoS matches every publisher.
 
+        `kept`: those, too, that transient local publishers keep for whoever comes late; it matches no other publisher.
+
         Raises UnknownType.
         """
+        message_type = interface(type_name)
         self.samples[topic] = []
+        if kept:
+            reliability, durability = ReliabilityPolicy.RELIABLE, DurabilityPolicy.TRANSIENT_LOCAL
         qos = QoSProfile(history=HistoryPolicy.KEEP_LAST, depth=DEEP, reliability=reliability, durability=durability)
 
         def take(message: Any, info: Any) -> None:
@@ -108,7 +114,7 @@ class Observer:
         taken: list[None] = []
         # rclpy gives the message's info to a callback that takes two arguments; its annotations know one only.
         callback: Any = take
-        subscription = self.node.create_subscription(interface(type_name), topic, callback, qos)
+        subscription = self.node.create_subscription(message_type, topic, callback, qos)
 
     def serve(
         self,
