@@ -8,7 +8,8 @@ import linecache
 import os
 import signal
 import time
-from collections.abc import Callable, Coroutine, Mapping, Sequence
+from collections.abc import AsyncIterator, Callable, Coroutine, Mapping, Sequence
+from contextlib import asynccontextmanager
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, TypeVar
@@ -33,6 +34,7 @@ from tutor.judge.trace import (
 from tutor.judge.tracebacks import Frame
 from tutor.process import CpuTime, LearnerProcess, cpu_time, cpu_time_here
 from tutor.ros import echo, graph, parameters
+from tutor.ros.feed import TopicFeed
 from tutor.ros.messages import UnknownType, to_plain
 from tutor.ros.observer import Observer
 
@@ -226,6 +228,14 @@ class LiveRun:
             answered_at=time.time(),
             limit_s=limit_s,
         )
+
+    @asynccontextmanager
+    async def publisher(self, topic: str, type: str) -> AsyncIterator[TopicFeed]:
+        feed = TopicFeed(self._domain_id, topic, type)
+        try:
+            yield feed
+        finally:
+            feed.close()
 
     async def echo(self, topic: str, *, samples: int, limit_s: float) -> Echo:
         shown = await echo.echo(self._domain_id, topic, samples=samples, limit_s=limit_s)

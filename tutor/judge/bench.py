@@ -14,6 +14,7 @@ from tutor.judge.trace import (
     CallAnswer,
     Echo,
     Ending,
+    Endpoint,
     Exit,
     Graph,
     LogRecord,
@@ -35,6 +36,21 @@ class MachineTooBusy(RuntimeError):
 
 Handler = Callable[[Mapping[str, Any]], Mapping[str, Any]]
 """Answers one service request (fields to values) with a response (fields to values)."""
+
+
+class Feed(Protocol):
+    """A publisher of ours on the learner's domain, with a talker's QoS: reliable, volatile, a queue of 10."""
+
+    @property
+    def endpoint(self) -> Endpoint:
+        """What the learner's node sees of it."""
+
+    @property
+    def subscribers(self) -> int:
+        """How many subscriptions are matched with it now."""
+
+    def publish(self, message: Mapping[str, Any]) -> Sample:
+        """Publish a message (fields to values) at once; gives it with the time at which it was sent."""
 
 
 class Run(Protocol):
@@ -96,6 +112,12 @@ class Run(Protocol):
 
     async def call(self, service: str, type: str, request: Mapping[str, Any], *, limit_s: float) -> CallAnswer:
         """Call a service as `ros2 service call` does: a client of its own, once it is matched."""
+
+    def publisher(self, topic: str, type: str) -> AbstractAsyncContextManager[Feed]:
+        """Publish on a topic, from a node and participant of our own; both are out of the graph when the context ends.
+
+        Messages sent before a subscription is matched are lost (see `Feed.subscribers`).
+        """
 
     async def echo(self, topic: str, *, samples: int, limit_s: float) -> Echo:
         """Subscribe as `ros2 topic echo` does: an independent participant, type and QoS taken from the publishers."""
