@@ -158,15 +158,40 @@ def test_a_report_that_cannot_be_written_does_not_lose_the_progress(run: Run, en
     assert len(progress(home).of("i1.1").attempts) == 1
 
 
-def test_all_judges_what_was_started_and_names_what_was_not(run: Run, engine: FakeEngine) -> None:
+def test_all_fails_where_something_was_not_started_and_says_so(run: Run, engine: FakeEngine, home: Path) -> None:
     run("start", "i1.1")
     run("start", "i2.1")
     ran = run("check", "all")
-    assert ran.code == 0
+    assert ran.code == 1
     assert [submission.exercise for submission in engine.asked[-1][0]] == ["i1.1", "i2.1"]
-    assert "not started, so not judged: " in ran.err
-    assert "i1.3" in ran.err
-    assert "2 of 2 exercises passed" in ran.out
+    assert "i1.3 Calculator Service  FAILED\n  not started; `ros-tutor start i1.3` puts the skeleton" in ran.out
+    assert f"2 of {len(load_course().lessons)} exercises passed" in ran.out
+    assert ran.err == ""
+    assert progress(home).of("i1.3").attempts == ()
+
+    document = json.loads(run("check", "all", "--format", "json").out)
+    assert_report_shape(document)
+    assert document["verdict"] == "failed"
+    assert [exercise["id"] for exercise in document["exercises"]] == [lesson.id for lesson in load_course().lessons]
+    by_id = {exercise["id"]: exercise for exercise in document["exercises"]}
+    assert (by_id["i1.3"]["verdict"], by_id["i1.3"]["submission"]) == ("failed", [])
+    assert {each["cause"] for each in by_id["i1.3"]["criteria"]} == {"not started"}
+    assert by_id["i1.1"]["verdict"] == "passed"
+
+
+def test_all_passes_where_everything_is_there_and_passes(run: Run, engine: FakeEngine) -> None:
+    for lesson in load_course().lessons:
+        run("start", lesson.id)
+    ran = run("check", "all")
+    assert (ran.code, ran.err) == (0, "")
+
+
+def test_a_bonus_alone_does_not_pass_what_was_not_started(run: Run, engine: FakeEngine) -> None:
+    run("start", "i1.1")
+    ran = run("check", "all", "--criterion", "shutdown", "--format", "json")
+    assert ran.code == 1
+    for exercise in json.loads(ran.out)["exercises"]:
+        assert [each["id"] for each in exercise["criteria"]] == ["shutdown"]
 
 
 def test_all_in_a_folder(run: Run, engine: FakeEngine, home: Path) -> None:
@@ -179,9 +204,9 @@ def test_all_in_a_folder(run: Run, engine: FakeEngine, home: Path) -> None:
     (folder / "temperature_publisher.py").touch()
     (folder / "calculator_client.py").touch()
     ran = run("check", "all", folder)
-    assert ran.code == 0
+    assert ran.code == 1
     assert [submission.exercise for submission in engine.asked[-1][0]] == ["i1.1"]
-    assert "left out: i1.3 needs calculator_server.py" in ran.err
+    assert "i1.3 needs calculator_server.py" in " ".join(ran.out.split())
 
 
 def test_all_solutions(run: Run, engine: FakeEngine) -> None:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
+from xml.etree.ElementTree import Element
 
 TEXT_KEYS = ("id", "text", "expected", "observed", "cause", "hint")
 
@@ -39,3 +41,33 @@ def assert_criterion_shape(criterion: Any) -> None:
 def assert_duration(value: Any) -> None:
     assert isinstance(value, float)
     assert value == round(value, 3)
+
+
+JUNIT = {
+    "testsuites": ({"name", "time", "tests", "failures", "errors"}, {"testsuite"}),
+    "testsuite": ({"name", "time", "tests", "failures", "errors", "skipped"}, {"properties", "testcase"}),
+    "properties": (set(), {"property"}),
+    "property": ({"name", "value"}, set()),
+    "testcase": ({"name", "classname", "time"}, {"failure", "error", "skipped"}),
+    "failure": ({"type", "message"}, set()),
+    "error": ({"type", "message"}, set()),
+    "skipped": ({"message"}, set()),
+}
+"""Element, its attributes, its children: a part of Jenkins's junit-10.xsd that GitLab and GitHub's reporters read."""
+
+
+def assert_junit(root: Element) -> None:
+    """Fail unless `root` is what readers of JUnit files know, and its counts are true."""
+    assert root.tag == "testsuites"
+    for element in root.iter():
+        attributes, children = JUNIT[element.tag]
+        assert set(element.keys()) == attributes
+        assert {child.tag for child in element} <= children
+        if "time" in attributes:
+            assert re.fullmatch(r"[0-9]{1,3}\.[0-9]{3}", element.get("time") or "")
+    for suite in root:
+        assert suite[0].tag == "properties"
+        assert int(suite.get("tests") or "") == len(suite.findall("testcase"))
+        for name, tag in (("failures", "failure"), ("errors", "error"), ("skipped", "skipped")):
+            assert int(suite.get(name) or "") == len(suite.findall(f"testcase/{tag}"))
+        assert all(len(case) <= 1 for case in suite.findall("testcase"))

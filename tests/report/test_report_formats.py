@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tests.report.shape import assert_report_shape
+from tests.report.shape import assert_junit, assert_report_shape
 from tutor.content import Checklist, ChecklistGroup, ChecklistItem
 from tutor.judge.result import CriterionResult, Environment, ExerciseResult, Report
 from tutor.judge.verdict import Cause, Status, Verdict, failed, fault, passed, skipped
@@ -104,6 +104,7 @@ def test_colour_is_only_there_when_asked_for(mixed: Report) -> None:
 
 def test_junit_counts_and_keeps_bonus_from_turning_a_build_red(mixed: Report) -> None:
     root = ElementTree.fromstring(render(mixed, "junit"))
+    assert_junit(root)
     suite = root[0]
     assert {name: suite.get(name) for name in ("tests", "failures", "errors", "skipped")} == {
         "tests": "5",
@@ -128,6 +129,80 @@ def test_markdown_escapes_what_it_quotes(mixed: Report) -> None:
     assert "- **observed:** 0.5 Hz over 5 samples" in text
     assert "- **expected:** 2.0 Hz ±20 % with publish\\_rate:=2.0" in text
     assert "```text\n[INFO] [node]: a | b\n" in text
+    assert "<details open><summary>✗ rate: failed</summary>\n\n- **expected:**" in text
+    assert "<details><summary>✗ shutdown: failed (bonus)</summary>\n" in text
+    assert text.count("<details") == text.count("\n</details>\n") == 4
+
+
+def test_markdown_of_several_exercises_begins_with_an_overview() -> None:
+    one = report(criterion("a", passed("", ""))).exercises[0]
+    text = render(Report(ENVIRONMENT, (one, missing("i2.1")), 1.0), "markdown")
+    assert "1 of 2 exercises passed, ROS 2 jazzy" in text
+    assert "| ✓ passed | i1.1 Sensor Publisher | 1 of 1 passed | 4.0 s |" in text
+    assert "| ✗ failed | i2.1 Sensor Publisher | not started | 0.0 s |" in text
+    assert "\nnot started; \\`ros-tutor start i2.1\\` makes it\n" in text
+
+
+def test_what_was_not_handed_in_is_failed_in_every_format() -> None:
+    one = report(criterion("a", passed("", ""))).exercises[0]
+    it = Report(ENVIRONMENT, (one, missing("i2.1")), 1.0)
+    assert it.verdict is Status.FAILED
+    assert "i2.1 Sensor Publisher  FAILED\n  not started; `ros-tutor start i2.1` makes it\n" in render(it, "text")
+    document = json.loads(render(it, "json"))
+    assert_report_shape(document)
+    assert [(c["status"], c["cause"]) for c in document["exercises"][1]["criteria"]] == [("skipped", "not started")] * 2
+    suite = ElementTree.fromstring(render(it, "junit"))[1]
+    assert [suite.get(name) for name in ("tests", "failures", "skipped")] == ["2", "1", "1"]
+
+
+NASTY = [
+    "]]> <![CDATA[ </failure> &lt; &amp;",
+    "a | b || `c` ``d``",
+    "@somebody $x$ <script>alert(1)</script> </details>",
+    "\x1b[31mred\x00\x07\x85\ufffe\ud83d",
+    "🤖 ünïcödé \u202e \u2028 end",
+    "x" * 100_000,
+    "first\nsecond\r\nthird\n```\n# heading\n",
+]
+
+
+@pytest.mark.parametrize("text", NASTY)
+def test_junit_holds_what_xml_cannot(text: str) -> None:
+    root = ElementTree.fromstring(render(nasty_report(text), "junit"))
+    assert_junit(root)
+    failure = root.find("testsuite/testcase/failure")
+    assert failure is not None
+    assert failure.text is not None
+    assert max(map(len, failure.text.split("\n"))) <= 2000 + len("next step: ")
+    assert len(failure.get("message") or "") <= 300
+
+
+@pytest.mark.parametrize("text", NASTY)
+def test_markdown_shows_what_a_learner_wrote_as_text(text: str) -> None:
+    rendered = render(nasty_report(text), "markdown")
+    lines = rendered.splitlines()
+    fences = [line for line in lines if line.startswith("```")]
+    opening = next(fence for fence in fences if fence.endswith("text"))
+    block = rendered.partition(opening)[2].partition("\n" + opening.removesuffix("text") + "\n")[0]
+    outside = rendered.replace(block, "")
+    assert not re.search(r"(?<!\\)<(?!/?details|/?summary|!-- -->)", outside)
+    assert not re.search(r"@\w", outside)
+    assert not re.search(r"(?<!\\)`", outside.replace(opening, "").replace(opening.removesuffix("text"), ""))
+    rows = [line for line in lines if line.startswith("| ")]
+    assert {len(re.findall(r"(?<!\\)\|", row)) for row in rows} == {5}
+    assert rendered.count("\n</details>\n") >= 1
+    assert max(map(len, lines)) < 5000
+
+
+def nasty_report(text: str) -> Report:
+    verdict = Verdict(Status.FAILED, text, text, f"no spin: {text}", text, (text, "last"))
+    return report(CriterionResult("x", text, False, verdict, 1.0))
+
+
+def missing(exercise: str) -> ExerciseResult:
+    verdict = Verdict(Status.SKIPPED, cause="not started", hint=f"`ros-tutor start {exercise}` makes it")
+    criteria = (criterion("a", verdict), criterion("b", verdict, bonus=True))
+    return ExerciseResult(exercise, "Sensor Publisher", (), criteria, 0.0)
 
 
 def test_a_fence_in_the_evidence_does_not_end_the_block() -> None:
@@ -157,7 +232,7 @@ def test_no_text_from_a_learner_breaks_a_format(text: str, line: str, status: St
         assert rendered.endswith("\n")
         assert not re.search("[\x00-\x08\x0b-\x1f\x7f-\x9f]", rendered)
     assert_report_shape(json.loads(render(it, "json")))
-    ElementTree.fromstring(render(it, "junit"))
+    assert_junit(ElementTree.fromstring(render(it, "junit")))
 
 
 CHECKLIST = Checklist((ChecklistGroup("g", "Group <1>", (ChecklistItem("a", "Do a & b"), ChecklistItem("c", "Do c"))),))

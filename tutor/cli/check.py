@@ -14,7 +14,7 @@ from tutor.cli.errors import FAULT, INTERRUPTED, NOT_PASSED, PASSED, UsageError
 if TYPE_CHECKING:
     from tutor.cli.judging import Engine
     from tutor.content import Course
-    from tutor.judge.result import Report
+    from tutor.judge.result import ExerciseResult, Report
     from tutor.judge.submission import Submission
     from tutor.workspace import Workspace
 
@@ -34,7 +34,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace, engine: Engine | None = None) -> int:
     """Judge, write the report, and remember the result where the workspace's own files were judged."""
-    from tutor.cli.choosing import ALL, choose_lessons, choose_submissions
+    from tutor.cli.choosing import ALL, choose_lessons, choose_submissions, with_missing
     from tutor.cli.judging import display_for, judge
     from tutor.workspace import find_submission, solution
 
@@ -42,11 +42,11 @@ def run(arguments: argparse.Namespace, engine: Engine | None = None) -> int:
     course = context.load_course(arguments)
     workspace = context.workspace(arguments)
     lessons = choose_lessons(arguments.exercise, arguments.criterion, course)
-    left_out: Sequence[str] = ()
+    missing: Sequence[ExerciseResult] = ()
     if arguments.solution:
         submissions = [solution(lesson) for lesson in lessons]
     elif arguments.exercise.lower() == ALL:
-        submissions, left_out = choose_submissions(lessons, arguments.path, workspace)
+        submissions, missing = choose_submissions(lessons, arguments.path, workspace)
     else:
         submissions = [find_submission(lessons[0], arguments.path, workspace)]
 
@@ -58,9 +58,8 @@ def run(arguments: argparse.Namespace, engine: Engine | None = None) -> int:
         return INTERRUPTED
     if not arguments.solution:
         _record(report, submissions, course, workspace)  # first: a report that cannot be written must not lose it
+    report = with_missing(report, missing, lessons, only)
     _write(report, arguments)
-    for line in left_out:
-        terminal.say(line)
     return _CODES[report.verdict.value]
 
 

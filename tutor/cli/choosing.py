@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from tutor.cli.errors import UsageError
+from tutor.judge.result import CriterionResult, ExerciseResult, Report
 from tutor.judge.submission import Submission
+from tutor.judge.verdict import Status, Verdict
 
 if TYPE_CHECKING:
     from tutor.content import Course, Lesson
     from tutor.workspace import Workspace
 
 ALL = "all"
+NOT_STARTED = "not started"
 
 
 def choose_lessons(exercise: str, criteria: Sequence[str] | None, course: Course) -> tuple[Lesson, ...]:
@@ -34,8 +38,8 @@ def choose_lessons(exercise: str, criteria: Sequence[str] | None, course: Course
 
 def choose_submissions(
     lessons: Sequence[Lesson], path: Path | None, workspace: Workspace
-) -> tuple[list[Submission], list[str]]:
-    """For `check all`: the submissions that are there, and what to say about what is left out.
+) -> tuple[list[Submission], list[ExerciseResult]]:
+    """For `check all`: the submissions that are there, and a result for each exercise of which there is none.
 
     Raises SubmissionError where there is none at all.
     """
@@ -44,16 +48,42 @@ def choose_submissions(
     if path is None and not workspace.exists:
         find_submission(lessons[0], None, workspace)  # raises: it knows best what to say
     found: list[Submission] = []
-    left_out = []
+    missing: list[ExerciseResult] = []
     for lesson in lessons:
-        if is_started(lesson, path, workspace):
-            try:
-                found.append(find_submission(lesson, path, workspace))
-            except SubmissionError as error:
-                left_out.append(f"left out: {error}")
-    missing = [lesson.id for lesson in lessons if not is_started(lesson, path, workspace)]
-    if missing:
-        left_out.append(f"not started, so not judged: {', '.join(missing)}")
+        try:
+            found.append(find_submission(lesson, path, workspace))
+        except SubmissionError as error:
+            missing.append(_missing(lesson, str(error) if is_started(lesson, path, workspace) else NOT_STARTED))
     if not found:
-        raise SubmissionError(f"there is nothing to judge in {path or workspace.root} ({'; '.join(left_out)})")
-    return found, left_out
+        why = "; ".join(f"{result.id} {result.missing}" for result in missing)
+        raise SubmissionError(f"there is nothing to judge in {path or workspace.root}: {why}")
+    return found, missing
+
+
+def with_missing(
+    report: Report, missing: Sequence[ExerciseResult], lessons: Sequence[Lesson], only: Collection[str] | None
+) -> Report:
+    """The report together with what was not there (of which, too, the criteria in `only` are shown), in lesson order.
+
+    What was not there is not passed: who asks for all of them wants to know that all of them are.
+    """
+    shown = [
+        replace(result, criteria=tuple(each for each in result.criteria if only is None or each.id in only))
+        for result in missing
+    ]
+    order = [lesson.id for lesson in lessons]
+    together = sorted((*report.exercises, *shown), key=lambda result: order.index(result.id))
+    return replace(report, exercises=tuple(together))
+
+
+def _missing(lesson: Lesson, why: str) -> ExerciseResult:
+    names = ", ".join(file.name for file in lesson.files if file.required)
+    hint = f"`ros-tutor start {lesson.id}` puts the skeleton into the workspace" if why == NOT_STARTED else ""
+    verdict = Verdict(Status.SKIPPED, expected=names, cause=why, hint=hint)
+    return ExerciseResult(
+        id=lesson.id,
+        title=lesson.title,
+        submission=(),
+        criteria=tuple(CriterionResult(c.id, c.text, c.bonus, verdict, 0.0) for c in lesson.criteria),
+        duration_s=0.0,
+    )

@@ -21,7 +21,7 @@ class CriterionResult:
 
 @dataclass(frozen=True, slots=True)
 class ExerciseResult:
-    """One exercise, judged. `submission` holds the names of the files that were judged."""
+    """One exercise, judged. `submission` holds the names of the files that were judged: none where none were there."""
 
     id: str
     title: str
@@ -30,11 +30,18 @@ class ExerciseResult:
     duration_s: float
 
     @property
+    def missing(self) -> str:
+        """Why there was nothing to judge, in a few words ("not started"); empty where there was."""
+        return self.criteria[0].verdict.cause if self.criteria and not self.submission else ""
+
+    @property
     def verdict(self) -> Status:
         """`PASSED` if every required criterion passed; `ERROR` if one could not be judged and none failed.
 
-        Where bonus criteria alone were asked for, nothing required is missing.
+        Where bonus criteria alone were asked for, nothing required is missing. What was not there is not passed.
         """
+        if self.missing:
+            return Status.FAILED
         required = [c.verdict.status for c in self.criteria if not c.bonus]
         return overall(required) if required or not self.criteria else Status.PASSED
 

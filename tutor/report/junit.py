@@ -1,4 +1,4 @@
-"""The report as JUnit XML, as continuous integration services read it."""
+"""The report as JUnit XML, as Jenkins, GitLab and GitHub's test reporters read it (Jenkins's junit-10.xsd)."""
 
 from __future__ import annotations
 
@@ -7,55 +7,69 @@ from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from tutor.judge.result import CriterionResult, ExerciseResult, Report
 from tutor.judge.verdict import Status
-from tutor.report.plain import details, printable
+from tutor.report.plain import details, evidence_lines, one_line
+
+_LONGEST = 2000
+_COUNTED = (("failures", "failure"), ("errors", "error"), ("skipped", "skipped"))
 
 
 def render(report: Report) -> str:
     """Write one test suite for each exercise, one test case for each criterion.
 
-    A bonus criterion that did not pass is "skipped" here, since a failure would turn a passed check red.
+    A bonus criterion that did not pass is "skipped" here, since a failure would turn a passed check red; a required one
+    of an exercise that was not handed in is a failure, since nothing else would turn the check red.
     """
     root = Element("testsuites", name="ros-tutor", time=_time(report.duration_s))
     for exercise in report.exercises:
         _suite(root, exercise, report)
-    for name in ("tests", "failures", "errors", "skipped"):
+    for name in ("tests", "failures", "errors"):
         root.set(name, str(sum(int(suite.get(name, "0")) for suite in root)))
     indent(root)
     return '<?xml version="1.0" encoding="UTF-8"?>\n' + tostring(root, encoding="unicode") + "\n"
 
 
 def _suite(root: Element, exercise: ExerciseResult, report: Report) -> None:
-    suite = SubElement(root, "testsuite", name=f"{exercise.id} {exercise.title}", time=_time(exercise.duration_s))
+    name = one_line(f"{exercise.id} {exercise.title}")
+    suite = SubElement(root, "testsuite", name=name, time=_time(exercise.duration_s))
     properties = SubElement(suite, "properties")
-    for name, value in {**asdict(report.environment), "verdict": exercise.verdict.value}.items():
-        SubElement(properties, "property", name=name, value=value)
+    facts = {
+        **asdict(report.environment),
+        "verdict": exercise.verdict.value,
+        "submission": ", ".join(exercise.submission),
+    }
+    for name, value in facts.items():
+        SubElement(properties, "property", name=name, value=one_line(value))
     for criterion in exercise.criteria:
         _case(suite, exercise, criterion)
     suite.set("tests", str(len(exercise.criteria)))
-    for name, tag in (("failures", "failure"), ("errors", "error"), ("skipped", "skipped")):
-        suite.set(name, str(len(suite.findall(f"testcase/{tag}"))))
+    for attribute, tag in _COUNTED:
+        suite.set(attribute, str(len(suite.findall(f"testcase/{tag}"))))
 
 
 def _case(suite: Element, exercise: ExerciseResult, criterion: CriterionResult) -> None:
     case = SubElement(
         suite,
         "testcase",
-        classname=f"ros-tutor.{exercise.id}",
-        name=criterion.id,
+        classname=one_line(f"ros-tutor.{exercise.id}"),
+        name=one_line(criterion.id),
         time=_time(criterion.duration_s),
     )
     verdict = criterion.verdict
     if verdict.passed:
         return
-    tag = {Status.FAILED: "failure", Status.ERROR: "error"}.get(verdict.status, "skipped")
-    message = printable(verdict.cause or verdict.observed)
+    message = one_line(verdict.cause or verdict.observed or verdict.status.value)
     if criterion.bonus:
-        tag, message = "skipped", f"bonus, {verdict.status.value}: {message}"
-    outcome = SubElement(case, tag, message=message)
-    lines = [criterion.text, *(f"{label}: {text}" for label, text in details(verdict))]
-    lines += [f"  {printable(line)}" for line in verdict.evidence]
+        outcome = SubElement(case, "skipped", message=f"bonus, {verdict.status.value}: {message}")
+    elif verdict.status is Status.SKIPPED and not exercise.missing:
+        outcome = SubElement(case, "skipped", message=message)
+    elif verdict.status is Status.ERROR:
+        outcome = SubElement(case, "error", type="could not be judged", message=message)
+    else:
+        outcome = SubElement(case, "failure", type=one_line(verdict.cause.partition(":")[0], 80), message=message)
+    lines = [one_line(criterion.text), *(f"{label}: {one_line(text, _LONGEST)}" for label, text in details(verdict))]
+    lines += [f"  {line}" for line in evidence_lines(verdict)]
     outcome.text = "\n".join(lines)
 
 
 def _time(duration_s: float) -> str:
-    return f"{duration_s:.3f}"
+    return f"{max(duration_s, 0.0):.3f}"

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from html import escape as escape_html
 
 from tutor.judge.result import CriterionResult, ExerciseResult, Report
-from tutor.report.plain import MARKS, describe, details, printable, seconds, tally
+from tutor.judge.verdict import Status
+from tutor.report.plain import MARKS, describe, details, evidence_lines, one_line, printable, seconds, tally
 
-_SPECIAL = re.compile(r"([\\`*_{}\[\]<>#|~])")
+_SPECIAL = re.compile(r"([\\`*_{}\[\]<>#|~$]|&(?=#?\w+;))")
+_MENTION = re.compile(r"@(?=\w)")
+_LONGEST = 2000
 
 
 def render(report: Report) -> str:
@@ -17,22 +21,41 @@ def render(report: Report) -> str:
 
 
 def escape(text: str) -> str:
-    """Text as it is, in one line of Markdown."""
-    return _SPECIAL.sub(r"\\\1", " ".join(printable(text).split()))
+    """Text as it is, in one line of Markdown: nothing in it is markup, HTML, a cell's end, or calls a person."""
+    return _MENTION.sub("@<!-- -->", _SPECIAL.sub(r"\\\1", " ".join(printable(text).split())))
 
 
 def _lines(report: Report) -> Iterator[str]:
     yield f"# ros-tutor: {report.verdict.value}"
     yield ""
-    yield f"{escape(describe(report.environment))}, {seconds(report.duration_s)}"
+    passed = sum(exercise.verdict is Status.PASSED for exercise in report.exercises)
+    several = f"{passed} of {len(report.exercises)} exercises passed, " if len(report.exercises) > 1 else ""
+    yield f"{several}{escape(describe(report.environment))}, {seconds(report.duration_s)}"
+    if several:
+        yield ""
+        yield from _overview(report)
     for exercise in report.exercises:
         yield ""
         yield from _exercise(exercise)
 
 
+def _overview(report: Report) -> Iterator[str]:
+    yield "| | exercise | criteria | time |"
+    yield "|---|---|---|---:|"
+    for exercise in report.exercises:
+        verdict = exercise.verdict
+        counted = escape(exercise.missing) or tally(exercise)
+        name = f"{exercise.id} {escape(exercise.title)}"
+        yield f"| {MARKS[verdict]} {verdict.value} | {name} | {counted} | {seconds(exercise.duration_s)} |"
+
+
 def _exercise(exercise: ExerciseResult) -> Iterator[str]:
     yield f"## {exercise.id} {escape(exercise.title)}: {exercise.verdict.value}"
     yield ""
+    if exercise.missing:
+        hint = exercise.criteria[0].verdict.hint
+        yield escape(f"{exercise.missing}; {hint}" if hint else exercise.missing)
+        return
     yield f"{tally(exercise)}, {seconds(exercise.duration_s)}"
     yield ""
     yield "| | criterion | what it asks for | time |"
@@ -41,7 +64,7 @@ def _exercise(exercise: ExerciseResult) -> Iterator[str]:
         status = criterion.verdict.status
         bonus = " (bonus)" if criterion.bonus else ""
         yield (
-            f"| {MARKS[status]} {status.value} | {escape(criterion.id)} | {escape(criterion.text)}{bonus} "
+            f"| {MARKS[status]} {status.value} | {escape(criterion.id)} | {escape(one_line(criterion.text))}{bonus} "
             f"| {seconds(criterion.duration_s)} |"
         )
     for criterion in exercise.criteria:
@@ -51,16 +74,22 @@ def _exercise(exercise: ExerciseResult) -> Iterator[str]:
 
 
 def _diagnosis(criterion: CriterionResult) -> Iterator[str]:
+    """A block that folds: open where it is the learner's to mend and the verdict depends on it."""
     verdict = criterion.verdict
-    yield f"### {escape(criterion.id)}: {verdict.status.value}"
+    unfolded = " open" if verdict.status in (Status.FAILED, Status.ERROR) and not criterion.bonus else ""
+    bonus = " (bonus)" if criterion.bonus else ""
+    title = escape_html(one_line(f"{MARKS[verdict.status]} {criterion.id}: {verdict.status.value}{bonus}"))
+    yield f"<details{unfolded}><summary>{title}</summary>"
     yield ""
     for label, text in details(verdict):
-        yield f"- **{label}:** {escape(text)}"
+        yield f"- **{label}:** {escape(one_line(text, _LONGEST))}"
     if verdict.evidence:
-        evidence = "\n".join(printable(line) for line in verdict.evidence)
-        longest = max((len(run) for run in re.findall("`+", evidence)), default=0)
+        evidence = evidence_lines(verdict)
+        longest = max((len(run) for line in evidence for run in re.findall("`+", line)), default=0)
         fence = "`" * max(3, longest + 1)
         yield ""
         yield f"{fence}text"
-        yield evidence
+        yield from evidence
         yield fence
+    yield ""
+    yield "</details>"

@@ -22,6 +22,18 @@ def printable(text: str) -> str:
     return _CONTROL.sub(lambda found: found[0].encode("unicode_escape").decode(), text)
 
 
+def one_line(text: str, most: int = 300) -> str:
+    """`printable` text in one line, of `most` characters: what is longer ends in "..."."""
+    text = " ".join(printable(text).split())
+    return text if len(text) <= most else f"{text[: most - 3].rstrip()}..."
+
+
+def evidence_lines(verdict: Verdict, most: int = 500) -> list[str]:
+    """The evidence as `printable` lines of at most `most` characters."""
+    lines = [line for text in verdict.evidence for line in printable(text).split("\n")]
+    return [line if len(line) <= most else f"{line[: most - 3]}..." for line in lines]
+
+
 def details(verdict: Verdict) -> list[tuple[str, str]]:
     """What there is to say about a verdict, as (label, text) pairs without the evidence."""
     pairs = (

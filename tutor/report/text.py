@@ -40,12 +40,11 @@ def render(report: Report, *, color: bool, width: int) -> str:
 
 
 def _exercise(exercise: ExerciseResult) -> RenderableType:
-    heading = Text.assemble(
-        (f"{exercise.id} {exercise.title}", "bold"),
-        "  ",
-        (exercise.verdict.value.upper(), f"bold {STYLES[exercise.verdict]}"),
-        (f"  {tally(exercise)}, {seconds(exercise.duration_s)}", "dim"),
-    )
+    name = (f"{exercise.id} {exercise.title}", "bold")
+    verdict = (exercise.verdict.value.upper(), f"bold {STYLES[exercise.verdict]}")
+    if exercise.missing:
+        return Padding(Group(Text.assemble(name, "  ", verdict), _missing(exercise)), (0, 0, 1, 0))
+    heading = Text.assemble(name, "  ", verdict, (f"  {tally(exercise)}, {seconds(exercise.duration_s)}", "dim"))
     files = Text(printable(", ".join(exercise.submission)), "dim")
     parts: list[RenderableType] = [heading, *([files] if exercise.submission else []), ""]
     id_width = max((len(criterion.id) for criterion in exercise.criteria), default=0)
@@ -55,6 +54,11 @@ def _exercise(exercise: ExerciseResult) -> RenderableType:
             below = 0 if criterion.verdict.status is Status.SKIPPED else 1
             parts.append(Padding(_diagnosis(criterion), (0, 0, below, _INDENT)))
     return Padding(Group(*parts), (0, 0, 1, 0))
+
+
+def _missing(exercise: ExerciseResult) -> RenderableType:
+    hint = exercise.criteria[0].verdict.hint
+    return Padding(Text(printable(f"{exercise.missing}; {hint}" if hint else exercise.missing), "yellow"), (0, 0, 0, 2))
 
 
 def _headline(criterion: CriterionResult, id_width: int) -> RenderableType:
