@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from tutor.engine.errors import EngineError
-from tutor.engine.source import uncalled_main
+from tutor.engine.source import launch_arguments, uncalled_main
 from tutor.judge import tracebacks
 from tutor.judge.trace import (
     CallAnswer,
@@ -259,6 +259,9 @@ class LiveRun:
             await asyncio.sleep(LOOK_EVERY_S)
         return tuple(survivor.command for survivor in left)
 
+    async def commands(self) -> tuple[str, ...]:
+        return tuple(survivor.command for survivor in await self._process.survivors())
+
     async def stuck_at(self) -> tuple[Frame, ...]:
         if self.exit is not None:
             return ()
@@ -275,6 +278,7 @@ class LiveRun:
             file=self._path.name,
             folder=str(self._path.parent),
             uncalled_main=uncalled_main(self._path),
+            launch_arguments=launch_arguments(self._path),
             parameters=self._given,
             started_at=self.started_at,
             samples={topic: tuple(samples) for topic, samples in self._observer.samples.items()},

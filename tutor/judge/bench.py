@@ -125,6 +125,9 @@ class Run(Protocol):
     async def interrupt(self, limit_s: float = 5.0) -> Ending:
         """Press Ctrl+C (SIGINT to the process group), watch the process end, and see what it leaves behind."""
 
+    async def commands(self) -> tuple[str, ...]:
+        """The command lines of all living processes that the learner's process has started, itself included."""
+
     async def stuck_at(self) -> tuple[Frame, ...]:
         """Where the process was, had it not come to an end: ends it, and gives all threads' frames, innermost first."""
 

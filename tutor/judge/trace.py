@@ -182,12 +182,14 @@ class Trace:
     """Everything that was seen of one start of the learner's process.
 
     `folder` is where the learner's file lies. `output` is bounded: `dropped_lines` says how many lines in its middle
-    were not kept. `uncalled_main`: the file defines `main` and calls it nowhere (for a diagnosis, never a verdict).
+    were not kept. `uncalled_main`: the file defines `main` and calls it nowhere; `launch_arguments`: the names
+    that it declares as launch arguments (both for a diagnosis, never a verdict).
     """
 
     file: str
     folder: str = ""
     uncalled_main: bool = False
+    launch_arguments: tuple[str, ...] = ()
     parameters: Mapping[str, Any] = field(default_factory=dict)
     started_at: float = 0.0
     samples: Mapping[str, tuple[Sample, ...]] = field(default_factory=dict)
