@@ -1,0 +1,28 @@
+"""How the watching child process is started."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class LiveCommand:
+    """The command and the whole environment of the child; `domain` is the ROS domain that it watches."""
+
+    argv: tuple[str, ...]
+    env: Mapping[str, str]
+    domain: int
+
+
+def live_command(environ: Mapping[str, str] = os.environ) -> LiveCommand:
+    """Watch the user's own domain, with their own discovery settings, as the node that they run. Reads the disk."""
+    from tutor.ros.environment import detect, tutor_env  # late: the first paint does not wait for it
+
+    text = environ.get("ROS_DOMAIN_ID", "").strip()
+    domain = int(text) if text.isdecimal() else 0
+    env = tutor_env(detect(environ), isolated=False, environ=environ)
+    # -P: a module in the learner's folder must not take the place of one of ours.
+    return LiveCommand((sys.executable, "-P", "-m", "tutor.live"), {**env, "ROS_DOMAIN_ID": str(domain)}, domain)
