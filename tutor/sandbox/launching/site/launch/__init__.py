@@ -1,0 +1,60 @@
+"""The part of ROS 2's `launch` that launch files for the exercises use, where no real one is installed."""
+
+from . import _unsupported
+
+_unsupported.install()
+
+# The order is that of their dependence on each other.
+from . import (  # noqa: E402
+    actions,
+    conditions,
+    descriptions,
+    event_handlers,
+    events,
+    launch_description_sources,
+    logging,
+    substitutions,
+    utilities,
+)
+from .action import Action  # noqa: E402
+from .condition import Condition  # noqa: E402
+from .event import Event  # noqa: E402
+from .event_handler import EventHandler  # noqa: E402
+from .invalid_launch_file_error import InvalidLaunchFileError  # noqa: E402
+from .launch_context import LaunchContext  # noqa: E402
+from .launch_description import LaunchDescription  # noqa: E402
+from .launch_description_entity import LaunchDescriptionEntity  # noqa: E402
+from .launch_description_source import LaunchDescriptionSource  # noqa: E402
+from .launch_service import LaunchService  # noqa: E402
+from .some_entities_type import SomeEntitiesType, SomeEntitiesType_types_tuple  # noqa: E402
+from .some_substitutions_type import SomeSubstitutionsType, SomeSubstitutionsType_types_tuple  # noqa: E402
+from .substitution import Substitution  # noqa: E402
+
+__all__ = [
+    "Action",
+    "Condition",
+    "Event",
+    "EventHandler",
+    "InvalidLaunchFileError",
+    "LaunchContext",
+    "LaunchDescription",
+    "LaunchDescriptionEntity",
+    "LaunchDescriptionSource",
+    "LaunchService",
+    "SomeEntitiesType",
+    "SomeEntitiesType_types_tuple",
+    "SomeSubstitutionsType",
+    "SomeSubstitutionsType_types_tuple",
+    "Substitution",
+    "actions",
+    "conditions",
+    "descriptions",
+    "event_handlers",
+    "events",
+    "launch_description_sources",
+    "logging",
+    "substitutions",
+    "utilities",
+]
+
+__getattr__ = _unsupported.lazily_refusing(__name__, frozenset({"LaunchIntrospector", "frontend"}))

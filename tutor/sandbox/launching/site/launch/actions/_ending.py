@@ -1,0 +1,92 @@
+"""How a process is brought to its end."""
+
+from __future__ import annotations
+
+import logging
+import signal
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from ..action import Action
+from ..event import Event
+from ..event_handler import BaseEventHandler
+from ..events.matchers import matches_action
+from ..events.process.process_targeted_event import ProcessTargetedEvent, SignalProcess
+from ..launch_context import LaunchContext
+from ..some_entities_type import SomeEntitiesType
+from ..substitution import Substitution
+from ..substitutions.python_expression import PythonExpression
+from ..utilities.perform_substitutions_impl import perform_substitutions
+from .emit_event import EmitEvent
+from .opaque_function import OpaqueFunction
+from .timer_action import TimerAction
+
+if TYPE_CHECKING:
+    from .execute_local import ExecuteLocal
+
+
+class OnTargeted(BaseEventHandler):
+    """An event of one class that asks something of one action's process."""
+
+    def __init__(
+        self,
+        event_cls: type[ProcessTargetedEvent],
+        action: ExecuteLocal,
+        respond: Callable[[Any, LaunchContext], SomeEntitiesType | None],
+    ) -> None:
+        super().__init__(matcher=lambda event: isinstance(event, event_cls) and event.process_matcher(action))
+        self._respond = respond
+
+    def handle(self, event: Event, context: LaunchContext) -> SomeEntitiesType | None:
+        super().handle(event, context)
+        return self._respond(event, context)
+
+
+class Escalation:
+    """SIGTERM some time after SIGINT, and SIGKILL some time after that, for a process that does not end."""
+
+    def __init__(
+        self,
+        action: ExecuteLocal,
+        logger: logging.Logger,
+        sigterm_timeout: list[Substitution],
+        sigkill_timeout: list[Substitution],
+    ) -> None:
+        self._action = action
+        self._logger = logger
+        both = PythonExpression(["float(", *sigterm_timeout, ") + float(", *sigkill_timeout, ")"])
+        self._timers = [
+            self._timer(sigterm_timeout, signal.SIGINT, signal.SIGTERM),
+            self._timer([both], signal.SIGTERM, signal.SIGKILL),
+        ]
+
+    def actions(self, *, send_sigint: bool) -> list[Action]:
+        """What starts it."""
+        return [*self._timers, *([self._send(signal.SIGINT)] if send_sigint else [])]
+
+    def cancel(self) -> None:
+        """The process has ended."""
+        for timer in self._timers:
+            timer.cancel()
+
+    def _send(self, number: signal.Signals) -> EmitEvent:
+        event = SignalProcess(signal_number=number, process_matcher=matches_action(self._action))
+        return EmitEvent(event=event)
+
+    def _timer(self, period: list[Substitution], failed: signal.Signals, next_one: signal.Signals) -> TimerAction:
+        def report(context: LaunchContext) -> None:
+            details = self._action.process_details or {}
+            seconds = perform_substitutions(context, period)
+            self._logger.error(
+                f"process[{details.get('name')}] failed to terminate '{seconds}' seconds after receiving "
+                f"'{failed.name}', escalating to '{next_one.name}'"
+            )
+
+        actions = [OpaqueFunction(function=report), self._send(next_one)]
+        return TimerAction(period=period, actions=actions, cancel_on_shutdown=False)
+
+
+def signal_of(event: SignalProcess) -> signal.Signals:
+    """The signal that an event asks for, by number or by name."""
+    asked = event.signal
+    return signal.Signals[asked] if isinstance(asked, str) else asked

@@ -1,0 +1,33 @@
+"""A launch configuration."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ..action import Action
+from ..launch_context import LaunchContext
+from ..some_substitutions_type import SomeSubstitutionsType
+from ..substitution import Substitution
+from ..utilities.normalize_to_list_of_substitutions_impl import normalize_to_list_of_substitutions
+from ..utilities.perform_substitutions_impl import perform_substitutions
+
+
+class SetLaunchConfiguration(Action):
+    """Whatever is visited from here on, in this scope, sees the launch configuration with this value."""
+
+    def __init__(self, name: SomeSubstitutionsType, value: SomeSubstitutionsType, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self._name = normalize_to_list_of_substitutions(name)
+        self._value = normalize_to_list_of_substitutions(value)
+
+    @property
+    def name(self) -> list[Substitution]:
+        return self._name
+
+    @property
+    def value(self) -> list[Substitution]:
+        return self._value
+
+    def execute(self, context: LaunchContext) -> None:
+        name = perform_substitutions(context, self._name)
+        context.launch_configurations[name] = perform_substitutions(context, self._value)

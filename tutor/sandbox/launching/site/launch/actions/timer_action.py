@@ -1,0 +1,111 @@
+"""Actions after some time."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable, Iterable
+from typing import Any
+
+from ..action import Action
+from ..event import Event
+from ..event_handler import BaseEventHandler
+from ..event_handlers.on_shutdown import OnShutdown
+from ..events.timer_event import TimerEvent
+from ..launch_context import LaunchContext
+from ..launch_description_entity import LaunchDescriptionEntity
+from ..some_entities_type import SomeEntitiesType
+from ..some_substitutions_type import SomeSubstitutionsType
+from ..substitution import Substitution
+from ..utilities.ensure_argument_type_impl import ensure_argument_type
+from ..utilities.type_utils import normalize_typed_substitution, perform_typed_substitution
+
+
+class _OnTimer(BaseEventHandler):
+    """Has the actions visited of whichever timer has fired, with the locals that they were written under."""
+
+    def __init__(self) -> None:
+        super().__init__(matcher=lambda event: isinstance(event, TimerEvent))
+
+    def handle(self, event: Event, context: LaunchContext) -> SomeEntitiesType | None:
+        super().handle(event, context)
+        assert isinstance(event, TimerEvent)
+        return event.timer_action.handle(context)
+
+
+class TimerAction(Action):
+    """Visits the actions when `period` seconds are over, unless it is cancelled, or the launch ends, before."""
+
+    def __init__(
+        self,
+        *,
+        period: float | SomeSubstitutionsType,
+        actions: Iterable[LaunchDescriptionEntity],
+        cancel_on_shutdown: bool | SomeSubstitutionsType = True,
+        **kwargs: Any,
+    ) -> None:
+        super().__init__(**kwargs)
+        ensure_argument_type(period, (str, Substitution, Iterable, float, int), "period", "TimerAction")
+        ensure_argument_type(actions, Iterable, "actions", "TimerAction")
+        self._period = normalize_typed_substitution(float(period) if isinstance(period, str | int) else period, float)
+        self._actions = list(actions)
+        self._cancel_on_shutdown = normalize_typed_substitution(cancel_on_shutdown, bool)
+        self._locals: dict[str, Any] = {}
+        self._is_cancelled = False
+        self._cancelled: asyncio.Future[None] | None = None
+        self._completed: asyncio.Future[None] | None = None
+
+    @property
+    def period(self) -> Any:
+        return self._period
+
+    @property
+    def actions(self) -> list[LaunchDescriptionEntity]:
+        return self._actions
+
+    def describe(self) -> str:
+        return f"TimerAction(period={self._period}, actions=<actions>)"
+
+    def describe_conditional_sub_entities(self) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
+        return [(f"{self._period} seconds pass without being canceled", self._actions)]
+
+    def cancel(self) -> None:
+        """Never visit the actions, if that has not been done yet."""
+        self._is_cancelled = True
+        if self._cancelled is not None and not self._cancelled.done():
+            self._cancelled.set_result(None)
+
+    def handle(self, context: LaunchContext) -> SomeEntitiesType | None:
+        context.extend_locals(self._locals)
+        return self._actions
+
+    def execute(self, context: LaunchContext) -> None:
+        loop = context.asyncio_loop
+        self._completed = loop.create_future()
+        self._cancelled = loop.create_future()
+        if self._is_cancelled:
+            self._completed.set_result(None)
+            return
+        if not any(isinstance(handler, _OnTimer) for handler in context._event_handlers):
+            context.register_event_handler(_OnTimer())
+        self._locals = context.get_locals_as_dict()
+        period = perform_typed_substitution(context, self._period, float)
+        waiting = loop.create_task(self._wait(context, period, self._cancelled, self._completed))
+        self._completed.add_done_callback(lambda _: waiting.done())  # the task lives as long as the future
+        if perform_typed_substitution(context, self._cancel_on_shutdown, bool):
+            on_shutdown: Callable[..., None] = lambda event, context: self.cancel()  # noqa: E731
+            context.register_event_handler(OnShutdown(on_shutdown=on_shutdown))
+
+    def get_asyncio_future(self) -> asyncio.Future[None] | None:
+        return self._completed
+
+    async def _wait(
+        self,
+        context: LaunchContext,
+        period: float,
+        cancelled: asyncio.Future[None],
+        completed: asyncio.Future[None],
+    ) -> None:
+        await asyncio.wait([cancelled], timeout=period)
+        if not cancelled.done():
+            context.emit_event_sync(TimerEvent(timer_action=self))
+        completed.set_result(None)

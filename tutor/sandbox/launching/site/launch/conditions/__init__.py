@@ -1,0 +1,19 @@
+"""The conditions."""
+
+from .._unsupported import lazily_refusing
+from .evaluate_condition_expression_impl import evaluate_condition_expression
+from .if_condition import IfCondition
+from .invalid_condition_expression_error import InvalidConditionExpressionError
+from .launch_configuration_equals import LaunchConfigurationEquals, LaunchConfigurationNotEquals
+from .unless_condition import UnlessCondition
+
+__all__ = [
+    "IfCondition",
+    "InvalidConditionExpressionError",
+    "LaunchConfigurationEquals",
+    "LaunchConfigurationNotEquals",
+    "UnlessCondition",
+    "evaluate_condition_expression",
+]
+
+__getattr__ = lazily_refusing(__name__, frozenset())

@@ -1,0 +1,180 @@
+"""All that a running launch file knows."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+from collections import deque
+from collections.abc import Iterable, Mapping, MutableMapping
+from typing import TYPE_CHECKING, Any
+
+from .event import Event
+from .event_handler import BaseEventHandler
+from .substitution import Substitution
+
+if TYPE_CHECKING:
+    from ._subprocess import Process
+
+
+class Locals:
+    """A read-only view of the context's locals, one attribute for each."""
+
+    def __init__(self, members: Mapping[str, Any]) -> None:
+        object.__setattr__(self, "_members", members)
+
+    def __getattr__(self, name: str) -> Any:
+        members: Mapping[str, Any] = object.__getattribute__(self, "_members")
+        try:
+            return members[name]
+        except KeyError:
+            known = ", ".join(members)
+            raise AttributeError(
+                f"context.locals does not contain attribute '{name}', it contains: [{known}]"
+            ) from None
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        raise AttributeError(f"can't set attribute '{name}', locals are read-only")
+
+
+class LaunchContext:
+    """Launch configurations, environment, locals, event handlers and events waiting to be handled.
+
+    The environment is that of this process: what is set in it is seen by whatever is started later.
+    """
+
+    def __init__(self, *, argv: Iterable[str] | None = None, noninteractive: bool = False) -> None:
+        self._argv = list(argv) if argv is not None else []
+        self._noninteractive = noninteractive
+        self._event_queue: asyncio.Queue[Event] = asyncio.Queue()
+        self._event_handlers: deque[BaseEventHandler] = deque()
+        self._completion_futures: list[asyncio.Future[None]] = []
+        self._globals: dict[str, Any] = {}
+        self._locals: dict[str, Any] = {}
+        self._locals_stack: list[dict[str, Any]] = []
+        self._configurations: dict[str, Any] = {}
+        self._configurations_stack: list[dict[str, Any]] = []
+        self._environment_at_start = dict(os.environ)
+        self._environment_stack: list[dict[str, str]] = []
+        self._is_shutdown = False
+        self._loop: asyncio.AbstractEventLoop | None = None
+        self._processes: set[Process] = set()
+
+    @property
+    def argv(self) -> list[str]:
+        return self._argv
+
+    @property
+    def noninteractive(self) -> bool:
+        """Without a terminal: nobody but us passes Ctrl+C on to the processes."""
+        return self._noninteractive
+
+    @property
+    def is_shutdown(self) -> bool:
+        return self._is_shutdown
+
+    def _set_is_shutdown(self, state: bool) -> None:
+        self._is_shutdown = state
+
+    @property
+    def asyncio_loop(self) -> asyncio.AbstractEventLoop:
+        """The loop that runs the launch file; RuntimeError before it runs."""
+        if self._loop is None:
+            raise RuntimeError("the launch file is not running")
+        return self._loop
+
+    def _set_asyncio_loop(self, loop: asyncio.AbstractEventLoop | None) -> None:
+        self._loop = loop
+
+    def add_completion_future(self, completion_future: asyncio.Future[None]) -> None:
+        """The launch does not end before this future is done."""
+        self._completion_futures.append(completion_future)
+
+    # --- locals: known to what an event or a file leads to, and to nothing else
+
+    @property
+    def locals(self) -> Locals:
+        return Locals(self.get_locals_as_dict())
+
+    def get_locals_as_dict(self) -> dict[str, Any]:
+        return {**self._globals, **self._locals}
+
+    def extend_globals(self, extensions: Mapping[str, Any]) -> None:
+        """Add locals that stay for ever."""
+        self._globals.update(extensions)
+
+    def extend_locals(self, extensions: Mapping[str, Any]) -> None:
+        """Add locals that go with the event that is being handled."""
+        self._locals.update(extensions)
+
+    def _push_locals(self) -> None:
+        self._locals_stack.append(dict(self._locals))
+
+    def _pop_locals(self) -> None:
+        self._locals = self._pop(self._locals_stack, "locals")
+
+    # --- launch configurations
+
+    @property
+    def launch_configurations(self) -> dict[str, Any]:
+        return self._configurations
+
+    def _push_launch_configurations(self) -> None:
+        self._configurations_stack.append(dict(self._configurations))
+
+    def _pop_launch_configurations(self) -> None:
+        self._configurations = self._pop(self._configurations_stack, "launch_configurations")
+
+    # --- environment
+
+    @property
+    def environment(self) -> MutableMapping[str, str]:
+        return os.environ
+
+    def _push_environment(self) -> None:
+        self._environment_stack.append(dict(os.environ))
+
+    def _pop_environment(self) -> None:
+        before = self._pop(self._environment_stack, "environment")
+        self._restore_environment(before)
+
+    def _reset_environment(self) -> None:
+        self._restore_environment(self._environment_at_start)
+
+    @staticmethod
+    def _restore_environment(environment: Mapping[str, str]) -> None:
+        # os.environ is not replaced: it is what the C library, and so each child, is told.
+        os.environ.clear()
+        os.environ.update(environment)
+
+    @staticmethod
+    def _pop[T](stack: list[T], what: str) -> T:
+        if not stack:
+            raise RuntimeError(f"{what} stack unexpectedly empty")
+        return stack.pop()
+
+    # --- events
+
+    def would_handle_event(self, event: Event) -> bool:
+        return any(handler.matches(event) for handler in self._event_handlers)
+
+    def register_event_handler(self, event_handler: BaseEventHandler, append: bool = False) -> None:
+        """Add a handler: before all others, or with `append` behind them."""
+        if append:
+            self._event_handlers.append(event_handler)
+        else:
+            self._event_handlers.appendleft(event_handler)
+
+    def unregister_event_handler(self, event_handler: BaseEventHandler) -> None:
+        """Remove a handler; ValueError where it is not registered."""
+        self._event_handlers.remove(event_handler)
+
+    def emit_event_sync(self, event: Event) -> None:
+        """Queue an event."""
+        self._event_queue.put_nowait(event)
+
+    async def emit_event(self, event: Event) -> None:
+        """Queue an event."""
+        await self._event_queue.put(event)
+
+    def perform_substitution(self, substitution: Substitution) -> str:
+        return substitution.perform(self)

@@ -1,0 +1,54 @@
+"""The substitutions."""
+
+from .._unsupported import lazily_refusing
+from .boolean_substitution import AllSubstitution, AndSubstitution, AnySubstitution, NotSubstitution, OrSubstitution
+from .command import Command
+from .environment_variable import EnvironmentVariable
+from .equals_substitution import EqualsSubstitution, NotEqualsSubstitution
+from .find_executable import FindExecutable
+from .if_else_substitution import IfElseSubstitution
+from .launch_configuration import LaunchConfiguration
+from .local_substitution import LocalSubstitution
+from .path_join_substitution import PathJoinSubstitution
+from .python_expression import PythonExpression
+from .substitution_failure import SubstitutionFailure
+from .text_substitution import TextSubstitution
+from .this_launch_file import ThisLaunchFile
+from .this_launch_file_dir import ThisLaunchFileDir
+
+__all__ = [
+    "AllSubstitution",
+    "AndSubstitution",
+    "AnySubstitution",
+    "Command",
+    "EnvironmentVariable",
+    "EqualsSubstitution",
+    "FindExecutable",
+    "IfElseSubstitution",
+    "LaunchConfiguration",
+    "LocalSubstitution",
+    "NotEqualsSubstitution",
+    "NotSubstitution",
+    "OrSubstitution",
+    "PathJoinSubstitution",
+    "PythonExpression",
+    "SubstitutionFailure",
+    "TextSubstitution",
+    "ThisLaunchFile",
+    "ThisLaunchFileDir",
+]
+
+__getattr__ = lazily_refusing(
+    __name__,
+    frozenset(
+        {
+            "AnonName",
+            "FileContent",
+            "ForEachVar",
+            "ForLoopIndex",
+            "LaunchLogDir",
+            "PathSubstitution",
+            "StringJoinSubstitution",
+        }
+    ),
+)

@@ -1,0 +1,30 @@
+"""Parts of a path, joined."""
+
+from __future__ import annotations
+
+import os.path
+from collections.abc import Iterable
+
+from ..launch_context import LaunchContext
+from ..some_substitutions_type import SomeSubstitutionsType
+from ..substitution import Substitution
+from ..utilities.normalize_to_list_of_substitutions_impl import normalize_to_list_of_substitutions
+from ..utilities.perform_substitutions_impl import perform_substitutions
+
+
+class PathJoinSubstitution(Substitution):
+    """The parts, each a text, a substitution or several of them, joined as os.path.join does."""
+
+    def __init__(self, substitutions: SomeSubstitutionsType | Iterable[SomeSubstitutionsType]) -> None:
+        parts = [substitutions] if isinstance(substitutions, str | Substitution) else substitutions
+        self._parts = [normalize_to_list_of_substitutions(part) for part in parts]
+
+    @property
+    def substitutions(self) -> list[Substitution]:
+        return [item for part in self._parts for item in part]
+
+    def describe(self) -> str:
+        return f"PathJoin('{' + '.join(item.describe() for item in self.substitutions)}')"
+
+    def perform(self, context: LaunchContext) -> str:
+        return os.path.join(*[perform_substitutions(context, part) for part in self._parts])

@@ -1,0 +1,27 @@
+"""Whatever may stand for a substitution, as a list of substitutions."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ..substitution import Substitution
+
+
+def normalize_to_list_of_substitutions(subs: Any) -> list[Substitution]:
+    """A text, a substitution, or an iterable of them, as a list; TypeError for anything else."""
+    if isinstance(subs, str | Substitution):
+        return [_substitution(subs)]
+    return [_substitution(item) for item in subs]
+
+
+def _substitution(item: object) -> Substitution:
+    from ..substitutions.text_substitution import TextSubstitution
+
+    if isinstance(item, Substitution):
+        return item
+    if isinstance(item, str):
+        return TextSubstitution(text=item)
+    raise TypeError(
+        f"Failed to normalize given item of type '{type(item)}', when only 'str' or 'launch.Substitution' "
+        "were expected."
+    )

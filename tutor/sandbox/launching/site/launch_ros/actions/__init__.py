@@ -1,0 +1,28 @@
+"""The actions that know ROS."""
+
+from launch._unsupported import lazily_refusing
+
+from .node import Node
+from .push_ros_namespace import PushROSNamespace
+from .push_ros_namespace import PushROSNamespace as PushRosNamespace
+from .set_parameter import SetParameter
+from .set_parameters_from_file import SetParametersFromFile
+from .set_remap import SetRemap
+
+__all__ = ["Node", "PushROSNamespace", "PushRosNamespace", "SetParameter", "SetParametersFromFile", "SetRemap"]
+
+__getattr__ = lazily_refusing(
+    __name__,
+    frozenset(
+        {
+            "ComposableNodeContainer",
+            "LifecycleNode",
+            "LifecycleTransition",
+            "LoadComposableNodes",
+            "ROSTimer",
+            "RosTimer",
+            "SetROSLogDir",
+            "SetUseSimTime",
+        }
+    ),
+)

@@ -1,0 +1,78 @@
+"""Parameters with a type, a name, or in a file."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Any
+
+from launch._unsupported import refuse
+from launch.launch_context import LaunchContext
+from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.substitution import Substitution
+from launch.utilities import ensure_argument_type, normalize_to_list_of_substitutions, perform_substitutions
+from launch.utilities.type_utils import normalize_typed_substitution, perform_typed_substitution
+
+
+class ParameterValue:
+    """A value of a given type; without a type, of the type that its text has as YAML."""
+
+    def __init__(self, value: Any, *, value_type: Any = None) -> None:
+        self._value = normalize_typed_substitution(value, value_type)
+        self._value_type = value_type
+
+    @property
+    def value(self) -> Any:
+        return self._value
+
+    @property
+    def value_type(self) -> Any:
+        return self._value_type
+
+    def evaluate(self, context: LaunchContext) -> Any:
+        """The value; ValueError where it is none of that type."""
+        return perform_typed_substitution(context, self._value, self._value_type)
+
+
+class Parameter:
+    """A name with a value, given to the node with `-p`."""
+
+    def __init__(self, name: SomeSubstitutionsType, value: Any, *, value_type: Any = None) -> None:
+        self._name = normalize_to_list_of_substitutions(name)
+        self._value = ParameterValue(value, value_type=value_type)
+
+    @property
+    def name(self) -> list[Substitution]:
+        return self._name
+
+    @property
+    def value(self) -> Any:
+        return self._value.value
+
+    def evaluate(self, context: LaunchContext) -> tuple[str, Any]:
+        """The name and the value."""
+        return perform_substitutions(context, self._name), self._value.evaluate(context)
+
+
+class ParameterFile:
+    """A YAML file of parameters."""
+
+    def __init__(
+        self, param_file: str | os.PathLike[str] | SomeSubstitutionsType, *, allow_substs: bool = False
+    ) -> None:
+        ensure_argument_type(allow_substs, bool, "allow_substs", "ParameterFile()")
+        if allow_substs:
+            refuse("launch_ros.parameter_descriptions.ParameterFile with allow_substs=True")
+        self._file = (
+            os.fspath(param_file)
+            if isinstance(param_file, os.PathLike)
+            else normalize_to_list_of_substitutions(param_file)
+        )
+
+    @property
+    def param_file(self) -> Any:
+        return self._file
+
+    def evaluate(self, context: LaunchContext) -> Path:
+        """The file's path."""
+        return Path(self._file if isinstance(self._file, str) else perform_substitutions(context, self._file))
