@@ -1,0 +1,19 @@
+"""I1.2 Message Counter and Statistics: a subscriber that sums up what it hears, and notices what it missed."""
+
+from __future__ import annotations
+
+from checks.i1_2 import continuity, judges, scenarios
+from tutor.judge.check import Check, Criterion
+
+CHECK = Check(
+    "i1.2",
+    (
+        Criterion("count", judges.judge_count, (scenarios.steady, scenarios.jump)),
+        Criterion("rate", judges.judge_rate, (scenarios.steady, scenarios.jump)),
+        Criterion("summary", judges.judge_summary, (scenarios.steady, scenarios.jump)),
+        Criterion("restart", continuity.judge_restart, (scenarios.restart, scenarios.steady, scenarios.jump)),
+        Criterion("gaps", continuity.judge_gaps, (scenarios.jump, scenarios.steady)),
+        Criterion("shutdown", judges.judge_shutdown, (scenarios.steady,), bonus=True),
+    ),
+    asks_s=5.0,  # steady: 1 s in which nothing is sent, then 20 messages at 4.9 a second
+)

@@ -1,0 +1,177 @@
+"""I1.2: what must have been seen when N jumps, and when the publisher goes away and a new one starts over."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from checks.i1_2.facts import OURS, Feeding
+from checks.i1_2.judges import NO_SUMMARY, true_total
+from checks.i1_2.reading import Line
+from checks.i1_2.reports import find
+from tutor.judge import causes
+from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped
+
+Kind = tuple[int, str]
+
+
+def judge_restart(restart: Feeding, steady: Feeding, jump: Feeding) -> Verdict:
+    """Judge `restart`."""
+    expected = "the publisher goes away, a new one starts over at 0: the node lives on and keeps counting"
+    if not find(steady):
+        return skipped(NO_SUMMARY)
+    words = causes.last_words(restart.trace)
+    sent, before = len(restart.sent), restart.breaks
+    if restart.trace.exit is not None:
+        return failed(
+            expected, f"the node ended after {sent} of our messages", _of_end(restart, "another publisher"), words
+        )
+    if not before or sent <= before:
+        return failed(
+            expected,
+            f"the new publisher found no subscription on {OURS.topic}",
+            causes.of_deafness(restart.trace, OURS, answers=restart.spins),
+            words,
+        )
+    after = [report for report in find(restart) if report.messages > before]
+    evidence = [str(report) for report in find(restart)]
+    observed = f"{before} messages from the first publisher, {sent - before} from the second"
+    if not after:
+        return failed(
+            expected,
+            f"{observed}; no summary since",
+            Cause(
+                "stopped counting",
+                "the node is there, but sums up nothing that the new publisher sends",
+                "do nothing special when N falls: count on, or set everything back and say so",
+            ),
+            evidence,
+        )
+    told = [line.text for line in said(restart, since=restart.gone_at, usual=(steady, jump))]
+    for report in after:
+        if true_total(report, restart):
+            continue
+        anew = true_total(report, restart, before=before)
+        if anew and told:
+            continue
+        cause = (
+            Cause(
+                "starts over silently",
+                f"it says {anew} after {report.messages} messages, and no log message says that it started over",
+                "go on with the total, or log that the publisher was restarted and that you count from zero",
+            )
+            if anew
+            else Cause(
+                "wrong count after a restart",
+                f"{report.messages} messages in all, {report.messages - before} of them from the new publisher: "
+                "it states neither",
+                "do not compute the total from N; go on counting, or set everything back and say so",
+            )
+        )
+        return failed(expected, f"{observed}; {report}", cause, evidence)
+    return passed(expected, observed, [*evidence, *told[:2]])
+
+
+def judge_gaps(jump: Feeding, steady: Feeding) -> Verdict:
+    """Judge `gaps`."""
+    expected = "when N jumps, a log message or a gap count in the next summary says so; while N rises by one, none does"
+    if not jump.sent or (not find(steady) and not steady.lines):
+        return skipped("not judged, because the node logs nothing about the messages: see `summary`")
+    if jump.trace.exit is not None:
+        words = causes.last_words(jump.trace)
+        return failed(expected, f"the node ended after {len(jump.sent)} messages", _of_end(jump, "a jump of N"), words)
+    at = jump.sent[jump.breaks]
+    told = said(jump, since=at.at, usual=(steady,))
+    observed = f"N jumped from {jump.sent[jump.breaks - 1].number} to {at.number}"
+    if told:
+        return passed(expected, observed, [line.text for line in told[:3]])
+    since = [line for line in jump.lines if line.messages > jump.breaks]
+    return failed(
+        expected, f"{observed}; nothing new was logged", _why_unsaid(jump, steady), [line.text for line in since[:6]]
+    )
+
+
+def _of_end(feeding: Feeding, what: str) -> Cause:
+    return causes.of_process(feeding.trace) or Cause("exit at once", f"the node does not survive {what}", "let it run")
+
+
+def _why_unsaid(jump: Feeding, steady: Feeding) -> Cause:
+    """A kind of message that came with the jump, but not with every message, was a false alarm elsewhere."""
+    at_jump = {line.kind for line in jump.lines if line.messages == jump.breaks + 1}
+    summaries = {line.kind for report in find(steady) for line in report.lines}
+    alarms = [line for line in (*steady.lines, *jump.lines) if line.kind in at_jump - summaries]
+    false = [line for line in alarms if line.messages not in (1, jump.breaks + 1) or line in steady.lines]
+    every = len(false) >= 0.7 * (len(steady.sent) + len(jump.sent) - 2)
+    if false and not every:
+        return Cause(
+            "false alarm",
+            f"it also says so where N rises by one: {false[0].text}",
+            "compare numbers, not texts: int(msg.data.split(':')[1]) must be the last number + 1",
+        )
+    missed = [str(jump.missed), str(jump.missed + 1), "gap", "miss", "lost", "skip", "lücke", "jump"]
+    after = [line for line in jump.trace.output if line.at >= jump.sent[jump.breaks].at and line.stream == "stdout"]
+    printed = next((line.text for line in after if any(word in line.text.casefold() for word in missed[2:])), None)
+    if printed is not None:
+        return Cause("printed, not logged", f"it is only printed: {printed}", "use self.get_logger().warning(...)")
+    return Cause(
+        "gap not noticed",
+        f"{jump.missed} numbers are missing, and nothing tells this from any other message",
+        "keep the last N; where the next one is not that + 1, self.get_logger().warning(...) how many are missing",
+    )
+
+
+def said(feeding: Feeding, *, since: float, usual: Sequence[Feeding]) -> list[Line]:
+    """What the node says, from a time on, that it does not say while N rises by one.
+
+    A message of another kind, or a number that had been constant. The `usual` are other starts, up to their own jump;
+    what comes with a first message is no alarm, and none of the usual kinds.
+    """
+    before = [line for line in feeding.lines if line.at < since and line.messages > 1]
+    elsewhere = [[line for line in other.lines if _calm(line, other)] for other in usual]
+    known = {line.kind for lines in (before, *elsewhere) for line in lines}
+    told = []
+    for line in feeding.lines:
+        if line.at < since:
+            continue
+        mine = [other for other in before if other.kind == line.kind]
+        others = [[other for other in lines if other.kind == line.kind] for lines in elsewhere]
+        if line.kind not in known or _counts_up(line, mine, others, feeding):
+            told.append(line)
+    return told
+
+
+def _calm(line: Line, feeding: Feeding) -> bool:
+    return line.messages > 1 and not (feeding.breaks and line.messages > feeding.breaks)
+
+
+def _counts_up(line: Line, before: Sequence[Line], elsewhere: Iterable[Sequence[Line]], feeding: Feeding) -> bool:
+    """Whether a number in the line has been constant, and now tells of the jump: how many gaps, or missed messages."""
+    if not before:
+        return False
+    for place, number in enumerate(line.numbers):
+        was = {other.numbers[place].value for other in before}
+        usually = [{other.numbers[place].value for other in lines} for lines in elsewhere]
+        if len(was) > 1 or any(len(each) > 1 for each in usually):
+            continue
+        base = was.pop()
+        grown = number.value - base
+        if any(each == {0.0} for each in usually) and _tells_of(grown, feeding, from_zero=True):
+            return True
+        if all(each == {base} for each in usually) and _tells_of(grown, feeding, from_zero=False):
+            return True
+    return False
+
+
+def _tells_of(grown: float, feeding: Feeding, *, from_zero: bool) -> bool:
+    missed = abs(feeding.missed)
+    if grown in (missed, missed + 1):
+        return True
+    if not from_zero:
+        return False
+    seen = feeding.breaks + 1
+    shares = [
+        lost / (whole + more)
+        for lost in (1, missed)
+        for whole in range(seen, len(feeding.sent) + 1)
+        for more in (0, missed, -1)
+    ]
+    return grown == 1 or any(abs(grown - scale * share) <= 0.051 * scale / 10 for share in shares for scale in (1, 100))

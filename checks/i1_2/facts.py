@@ -1,0 +1,108 @@
+"""I1.2: what is sent to the node, and the facts that are gathered."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+
+from checks.i1_2.reading import Line, read
+from tutor.judge.trace import Ending, Endpoint, Trace
+from tutor.judge.tracebacks import Frame
+
+FILE = "message_stats.py"
+TOPIC, TYPE = "/chatter", "std_msgs/msg/String"
+OURS = Endpoint(TOPIC, TYPE, "/talker", "reliable", "volatile")
+EVERY = 10
+"""A summary is asked for after this many messages."""
+
+STEADY_HZ = (4.8, 5.0)
+"""The rate at which a steady talker sends: one of these, by chance, evenly.
+
+Slow enough that a rate taken over the last second is true as soon as ten messages are there; and ten or twenty of
+anything, or the seconds and minutes of it, are no such rate.
+"""
+STEADY_MESSAGES = 20
+QUIET_S = 1.0
+"""A node is up for this long before the first message: a rate counted from its start is then too low to be true."""
+
+MEET_S = 0.4
+"""A best-effort subscription that we have met has met us this much later."""
+
+SOONER_HZ = 8.0
+"""The rate where none is judged."""
+JUMP_AFTER, JUMP_MESSAGES = 14, 20
+RESTART_AFTER, RESTART_MESSAGES = 13, 25
+AWAY_S = 0.7
+"""Nobody restarts a talker in less time."""
+
+LATE_S = 0.5
+"""A summary comes so soon after its message."""
+
+MOST_LATE_S = 1.0
+"""However busy the machine: one that comes later belongs to no message."""
+
+STALL_S = 0.1
+"""Who was kept from running for so long between two messages may not have been back in time for the second."""
+
+
+@dataclass(frozen=True, slots=True)
+class Sent:
+    """One `Hello World: N` of ours: N, when it was sent, and how much of the CPU the machine had owed by then."""
+
+    number: int
+    at: float
+    starved_s: float = 0.0
+
+    @property
+    def content(self) -> str:
+        """What a subscriber gets."""
+        return f"Hello World: {self.number}"
+
+
+@dataclass(frozen=True)
+class Feeding:
+    """A start of the node, and what it was fed.
+
+    `breaks`: how many messages were sent before N jumped or another publisher took over; 0 where neither happened.
+    `gone_at`: when the first publisher was away. `starved_s`: what the machine kept the node, or us, from running
+    until everything was heard. `spins`: whether the node answered a request; if not, `stuck` says where it was.
+    """
+
+    trace: Trace
+    sent: tuple[Sent, ...] = ()
+    breaks: int = 0
+    gone_at: float = 0.0
+    starved_s: float = 0.0
+    spins: bool = True
+    stuck: tuple[Frame, ...] = ()
+    ending: Ending | None = None
+
+    @cached_property
+    def lines(self) -> tuple[Line, ...]:
+        """What the node logged from the first message on, oldest first."""
+        times = [each.at for each in self.sent]
+        logs = sorted(self.trace.logs, key=lambda log: log.stamp)
+        numbered = ((log, bisect_right(times, log.stamp)) for log in logs)
+        return tuple(read(log, messages) for log, messages in numbered if messages)
+
+    @property
+    def late_s(self) -> float:
+        """How long after its message a summary may come on this machine."""
+        return LATE_S + min(self.starved_s, MOST_LATE_S)
+
+    def delay_s(self, index: int) -> float:
+        """How late the machine may have let the node take in this message: what it was kept from running thereafter."""
+        owed = [each.starved_s for each in self.sent[index:]] + [self.sent[0].starved_s + self.starved_s]
+        late = 0.0
+        for before, after in pairwise(owed):
+            late += after - before
+            if after - before < STALL_S:
+                break
+        return late
+
+    @property
+    def missed(self) -> int:
+        """How many numbers were left out where N jumped."""
+        return self.sent[self.breaks].number - self.sent[self.breaks - 1].number - 1

@@ -1,0 +1,213 @@
+"""I1.2: what must have been seen while N rises by one."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from checks.i1_2 import rates
+from checks.i1_2.facts import EVERY, OURS, Feeding
+from checks.i1_2.reading import read
+from checks.i1_2.reports import Report, find, in_time, milestone, totals
+from tutor.judge import causes, ending
+from tutor.judge.trace import LogRecord
+from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped
+
+NO_SUMMARY = "not judged, because there is no summary to read: see `summary`"
+
+
+def judge_count(steady: Feeding, jump: Feeding) -> Verdict:
+    expected = "each summary states how many messages have come"
+    if not find(steady):
+        return skipped(NO_SUMMARY)
+    seen = [(feeding, report) for feeding in (steady, jump) for report in find(feeding)]
+    for feeding, report in seen:
+        if not true_total(report, feeding):
+            sent = report.messages
+            return failed(
+                f"{expected}: {' or '.join(map(str, totals(report, feeding)))}",
+                f"the summary that came after {sent} messages does not say so",
+                _why_miscounted(report, feeding),
+                [str(other) for _, other in seen],
+            )
+    stated = ", ".join(str(true_total(report, feeding)) for feeding, report in seen)
+    return passed(expected, f"{len(seen)} summaries state {stated}", [str(report) for _, report in seen])
+
+
+def true_total(report: Report, feeding: Feeding, *, before: int = 0) -> int:
+    """The true total that a summary states, when the first `before` messages do not count; 0 where it states none.
+
+    One that comes later than its message must also quote the message that it has counted last.
+    """
+    recent = {each.number for each in feeding.sent[before + 1 : report.until]}
+    for total in totals(report, feeding, before=before):
+        last = feeding.sent[before + total - 1].number
+        late = report.messages > before + total
+        if report.states(total) and (not late or last in report.quoted or not recent.intersection(report.quoted)):
+            return total
+    return 0
+
+
+def _why_miscounted(report: Report, feeding: Feeding) -> Cause:
+    sent, last = report.messages, feeding.sent[report.messages - 1].number
+    if feeding.breaks and sent > feeding.breaks and report.states(sent + feeding.missed):
+        return Cause(
+            "missed messages counted",
+            f"it says {sent + feeding.missed}, but {feeding.missed} of these were never sent",
+            "count each call of the callback, and nothing else: self.total_count += 1",
+        )
+    if feeding.breaks and (report.states(last) or report.states(last + 1)):
+        return Cause(
+            "number taken for the count",
+            f"it states the N of “Hello World: {last}”, not how many messages came",
+            "whoever starts late hears the N of others: count yourself, self.total_count += 1 in the callback",
+        )
+    near = next((sent + by for by in (1, -1) if report.states(sent + by)), None)
+    if near is not None:
+        return Cause(
+            "off by one",
+            f"it says {near} after {sent} messages",
+            "begin with 0, and count each message once, before you write the summary",
+        )
+    if not report.numbers:
+        return Cause("no count", "there is no number in it", "put self.total_count into the text of the summary")
+    return Cause(
+        "wrong count",
+        f"none of its numbers ({', '.join(number.text for number in report.numbers)}) is {sent}",
+        "self.total_count += 1 in the callback, once for each message, and put it into the summary",
+    )
+
+
+def judge_rate(steady: Feeding, jump: Feeding) -> Verdict:
+    reports = find(steady)
+    if not reports:
+        return skipped(NO_SUMMARY)
+    allowed = [rates.true_rates(report, steady) for report in reports]
+    low, high = min(each.low for each in allowed), max(each.high for each in allowed)
+    expected = f"each summary states the messages per second: {rates.sent_hz(steady):.2f}, from {low:.1f} to {high:.1f}"
+    evidence = [str(report) for report in reports]
+    stated = rates.stated(reports, allowed, find(jump))
+    if stated is None:
+        wrong = next((r for r, a in zip(reports, allowed, strict=True) if not a.among(r)), reports[-1])
+        return failed(
+            expected,
+            f"after {wrong.messages} messages it states {', '.join(n.text for n in wrong.numbers) or 'no number'}",
+            rates.why_wrong(wrong, steady),
+            evidence,
+        )
+    return passed(expected, f"{', '.join(number.text for number in stated)} messages per second", evidence)
+
+
+def judge_summary(steady: Feeding, jump: Feeding) -> Verdict:
+    expected = f"one summary for every {EVERY} messages, with the first and the last message's content"
+    if not find(steady):
+        return failed(expected, f"none, after {len(steady.sent)} messages", why_silent(steady), _logged(steady))
+    for feeding, messages in ((steady, len(steady.sent)), (jump, jump.breaks)):
+        reports = [report for report in find(feeding) if report.messages <= messages]
+        evidence = [str(report) for report in reports[:8]]
+        if (cause := _why_not_every_ten(reports, feeding, messages)) is not None:
+            if _counts_wrongly(reports, feeding):
+                return skipped("not judged, because `count` did not pass: it sums up by a count that is not true")
+            observed = f"summaries after {', '.join(str(report.messages) for report in reports[:12]) or 'no'} messages"
+            return failed(expected, f"{observed}, of {messages}", cause, evidence)
+        for report in reports:
+            if (cause := _why_incomplete(report, feeding)) is not None:
+                return failed(expected, f"it is incomplete {report}", cause, evidence)
+    complete = find(steady)
+    return passed(
+        expected,
+        f"{len(complete)} for {len(steady.sent)} messages, with both contents",
+        [str(report) for report in complete],
+    )
+
+
+def _why_not_every_ten(reports: Sequence[Report], feeding: Feeding, messages: int) -> Cause | None:
+    due = range(EVERY, messages + 1, EVERY)
+    when = [report.messages for report in reports]
+    hint = f"if self.total_count % {EVERY} == 0: write the summary, in the callback, after counting"
+    if len(reports) > 3 and len(reports) >= 0.7 * messages:
+        return Cause("summary for every message", f"{len(reports)} summaries for {messages} messages", hint)
+    if len(reports) > len(due):
+        return Cause("too many summaries", f"{len(reports)} summaries for {messages} messages", hint)
+    for number in due:
+        on_time = [each for each in reports if in_time(each, feeding) and milestone(each.messages) == number]
+        if not on_time:
+            early = [each for each in when if number - EVERY < each < number]
+            late = [each for each in when if number < each < number + EVERY]
+            said = f"it comes after {(early or late)[-1]}" if early or late else "and none comes later"
+            return Cause("missing summary", f"there is none after {number} messages, {said}", hint)
+    return None
+
+
+def _counts_wrongly(reports: Sequence[Report], feeding: Feeding) -> bool:
+    """Whether each summary would come in time, if its own count were true."""
+    return bool(reports) and all(
+        report.states(EVERY * number) and not true_total(report, feeding)
+        for number, report in enumerate(reports, start=1)
+    )
+
+
+def _why_incomplete(report: Report, feeding: Feeding) -> Cause | None:
+    first = feeding.sent[0]
+    recent = feeding.sent[milestone(report.messages) - 1 : report.until]
+    if first.number not in report.quoted:
+        others = [number for number in report.quoted if number not in {each.number for each in recent}]
+        if others:
+            return Cause(
+                "first message overwritten",
+                f"“{first.content}” was the first one, but it quotes “Hello World: {others[0]}”",
+                "set self.first_message only while it is None, and never again",
+            )
+        return Cause(
+            "first message missing",
+            f"“{first.content}” is not in it",
+            "keep the first message's data in self.first_message, and put it into the summary",
+        )
+    if not any(each.number in report.quoted for each in recent):
+        return Cause(
+            "last message missing",
+            f"“{recent[0].content}” is not in it",
+            "self.last_message = msg.data for each message, before you write the summary",
+        )
+    return None
+
+
+def why_silent(feeding: Feeding) -> Cause:
+    """Why the node logs no summary."""
+    if feeding.trace.exit is not None or not feeding.sent or not (feeding.lines or feeding.spins):
+        return causes.of_deafness(feeding.trace, OURS, answers=feeding.spins, stuck=feeding.stuck)
+    said_of = feeding.sent[0].content, feeding.sent[-1].content
+    printed = causes.of_printed(
+        feeding.trace,
+        lambda text: bool(read(_as_log(text), 1).quoted),
+        "what the node has to say",
+        after=feeding.ending.output if feeding.ending else (),
+    )
+    if printed is not None:
+        return printed
+    quoting = [line.text for line in feeding.trace.output if line.stream == "stderr" and said_of[0] in line.text]
+    if quoting and not feeding.lines:
+        return Cause(
+            "not logged on /rosout",
+            f"it is written, but not by a node's logger: {quoting[0]}",
+            "use self.get_logger().info(...) at INFO or above: only a node's own logger reaches /rosout",
+        )
+    if feeding.lines:
+        return Cause(
+            "no summary",
+            "none of its log messages sums up the messages",
+            f"if self.total_count % {EVERY} == 0: self.get_logger().info(...) with the count, the rate, the first and "
+            "the last message",
+        )
+    return causes.of_deafness(feeding.trace, OURS, answers=feeding.spins, stuck=feeding.stuck)
+
+
+def _as_log(text: str) -> LogRecord:
+    return LogRecord(20, "", text, 0.0, 0.0)
+
+
+def _logged(feeding: Feeding) -> list[str]:
+    return [str(log) for log in feeding.trace.logs[-6:]] or list(causes.last_words(feeding.trace))
+
+
+def judge_shutdown(steady: Feeding) -> Verdict:
+    return ending.judge(steady.trace, steady.ending)

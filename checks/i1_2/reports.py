@@ -1,0 +1,162 @@
+"""Which of the log messages are summaries: found by what they say and when, not by their wording."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+from checks.i1_2.facts import EVERY, LATE_S, Feeding
+from checks.i1_2.reading import Line, Number
+
+AT_ONCE_S = 0.05
+"""Lines that are logged within this time belong together."""
+
+ORDINARY = 0.5
+"""A kind of line that comes with this share of all messages is no summary's, unless the summaries come as often."""
+
+STALE = 4
+"""A summary's last message is at most so many messages old."""
+
+
+@dataclass(frozen=True)
+class Report:
+    """A summary: lines that were logged together. `messages`: how many had been sent when the first was logged."""
+
+    lines: tuple[Line, ...]
+
+    @property
+    def at(self) -> float:
+        return self.lines[0].at
+
+    @property
+    def messages(self) -> int:
+        return self.lines[0].messages
+
+    @property
+    def until(self) -> int:
+        """How many messages had been sent when its last line was logged."""
+        return self.lines[-1].messages
+
+    @property
+    def quoted(self) -> tuple[int, ...]:
+        return tuple(number for line in self.lines for number in line.quoted)
+
+    @property
+    def numbers(self) -> tuple[Number, ...]:
+        return tuple(number for line in self.lines for number in line.numbers)
+
+    @property
+    def kinds(self) -> frozenset[tuple[int, str]]:
+        return frozenset(line.kind for line in self.lines if line.tells)
+
+    def states(self, value: float) -> bool:
+        """Whether this number is in it, in whichever writing."""
+        return any(value in number.values for number in self.numbers)
+
+    def __str__(self) -> str:
+        return f"after {self.messages} messages: " + " / ".join(line.text for line in self.lines)
+
+
+def milestone(messages: int) -> int:
+    """After which message a summary was last due."""
+    return messages - messages % EVERY
+
+
+def in_time(report: Report, feeding: Feeding) -> bool:
+    """Whether the summary belongs to the tenth, twentieth, ... message: it comes with it, or soon after."""
+    due = milestone(report.messages)
+    return due > 0 and report.at - feeding.sent[due - 1].at <= feeding.late_s
+
+
+def totals(report: Report, feeding: Feeding, *, before: int = 0) -> range:
+    """The totals that are true in it, when the first `before` messages do not count.
+
+    It may have been made a moment before it was logged, and it may be logged in several parts.
+    """
+    counted = report.messages - before
+    earliest = counted
+    if milestone(counted) > 0 and (report.at - feeding.sent[before + milestone(counted) - 1].at <= feeding.late_s):
+        earliest = milestone(counted)
+    elif report.at - feeding.sent[report.messages - 1].at <= AT_ONCE_S + feeding.late_s - LATE_S:
+        earliest = counted - 1
+    return range(max(earliest, 1), report.until - before + 1)
+
+
+def find(feeding: Feeding) -> tuple[Report, ...]:
+    """The summaries among what was logged, complete or not, oldest first."""
+    times = Counter(line.kind for line in feeding.lines)
+    usual = {kind for kind, count in times.items() if count >= max(3, ORDINARY * len(feeding.sent))}
+    special = _together([line for line in feeding.lines if line.kind not in usual])
+    if complete := [report for report in special if _complete(report, feeding)]:
+        return _like(complete, special)
+    everything = _together(feeding.lines)
+    complete = [report for report in everything if report.messages > 1 and _complete(report, feeding)]
+    if len(complete) > len(feeding.sent) / 4:
+        return _like(complete, everything)
+    return _likeliest(special, feeding)
+
+
+def _complete(report: Report, feeding: Feeding) -> bool:
+    """Whether it quotes a first message and a recent one."""
+    firsts = {feeding.sent[0].number} | {each.number for each in feeding.sent[feeding.breaks : feeding.breaks + 1]}
+    oldest = max(0, report.messages - 1 - STALE)
+    recent = {each.number for each in feeding.sent[oldest : report.until]}
+    quoted = list(report.quoted)
+    return any(
+        first in quoted and any(last in quoted and (last != first or quoted.count(first) > 1) for last in recent)
+        for first in firsts
+    )
+
+
+def _like(complete: Sequence[Report], candidates: Iterable[Report]) -> tuple[Report, ...]:
+    """The complete ones, and those that share most of their kinds of lines with one of them."""
+    return tuple(
+        each
+        for each in candidates
+        if each in complete or any(2 * len(each.kinds & one.kinds) >= len(one.kinds) for one in complete)
+    )
+
+
+def _likeliest(candidates: Sequence[Report], feeding: Feeding) -> tuple[Report, ...]:
+    """No candidate is a complete summary: those of a family that state a total, or quote a message, most often."""
+
+    def worth(family: Sequence[Report]) -> tuple[int, int]:
+        due = [each for each in family if in_time(each, feeding)]
+        telling = [each for each in due if each.quoted or any(map(each.states, totals(each, feeding)))]
+        return len(telling), -len(family)
+
+    families = [_like([each], candidates) for each in candidates if each.kinds]
+    best = max(families, key=worth, default=())
+    return best if best and worth(best)[0] else ()
+
+
+def _together(lines: Sequence[Line]) -> tuple[Report, ...]:
+    """Lines in groups: those between two messages, or at once, or that make one summary only if taken together."""
+    groups: list[list[Line]] = []
+    for line in lines:
+        if groups and _continues(groups[-1], line):
+            groups[-1].append(line)
+        else:
+            groups.append([line])
+    return tuple(Report(tuple(group)) for group in groups)
+
+
+def _continues(group: Sequence[Line], line: Line) -> bool:
+    before = group[-1]
+    if line.at - before.at <= AT_ONCE_S:
+        return True
+    if line.at - group[0].at > LATE_S or (line.tells and line.kind in {each.kind for each in group}):
+        return False
+    return line.messages == before.messages or milestone(line.messages) == milestone(group[0].messages) > 0
+
+
+def slots(reports: Sequence[Report]) -> list[tuple[Number, ...]] | None:
+    """The numbers of equally worded reports, place by place; None where they are not worded equally."""
+    if any(
+        [line.kind for line in one.lines] != [line.kind for line in other.lines] for one, other in pairwise(reports)
+    ):
+        return None
+    rows = [report.numbers for report in reports]
+    return list(zip(*rows, strict=True)) if len({len(row) for row in rows}) == 1 else None

@@ -1,0 +1,214 @@
+"""I1.2: what is done to the node."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Awaitable, Callable, Iterable
+from dataclasses import replace
+
+from checks.i1_2 import continuity, judges
+from checks.i1_2.facts import (
+    AWAY_S,
+    FILE,
+    JUMP_AFTER,
+    JUMP_MESSAGES,
+    LATE_S,
+    MEET_S,
+    QUIET_S,
+    RESTART_AFTER,
+    RESTART_MESSAGES,
+    SOONER_HZ,
+    STEADY_HZ,
+    STEADY_MESSAGES,
+    TOPIC,
+    TYPE,
+    Feeding,
+    Sent,
+)
+from checks.i1_2.reports import Report, find
+from tutor.judge.bench import Bench, Feed, Run
+from tutor.judge.tracebacks import Frame
+from tutor.judge.waiting import TRIES, appears
+
+SPIN_S = 2.0
+"""A node that is subscribed and spins answers a request within this time; for one that sleeps first, twice as long."""
+
+SAID_S = 0.15
+"""What belongs to one summary is logged within this time, each line after the other."""
+
+STUCK_S = 1.5
+ROUGH_S = 0.15
+"""A node kept from running for longer may have lost messages, and had no fair trial."""
+
+
+async def steady(bench: Bench) -> Feeding:
+    """Feed it evenly from 0 on, then press Ctrl+C."""
+
+    async def once() -> Feeding:
+        async with bench.start(FILE) as run, run.publisher(TOPIC, TYPE) as feed:
+            bench.doing(0.05, "waiting for the subscription")
+            spins = await _meet(run, feed, QUIET_S)
+            if not feed.subscribers:
+                return Feeding(run.trace(), spins=spins, ending=await run.interrupt() if run.exit is None else None)
+            starved = run.starved_s()
+            sent: list[Sent] = []
+            await _send(bench, run, feed, sent, range(STEADY_MESSAGES), random.uniform(*STEADY_HZ))
+            fed = Feeding(run.trace(), tuple(sent), starved_s=run.starved_s() - starved, spins=spins)
+            fed = await _hear_out(run, fed)
+            bench.doing(0.95, "pressing Ctrl+C")
+            return replace(fed, ending=await run.interrupt() if run.exit is None else None)
+
+    async def fair(fed: Feeding) -> bool:
+        nothing = replace(fed, sent=())
+        return all(
+            judge(fed, nothing).passed for judge in (judges.judge_count, judges.judge_rate, judges.judge_summary)
+        )
+
+    fed = await _fairly(once, fair)
+    if fed.sent and not fed.spins and not fed.lines and fed.trace.exit is None:
+        return replace(fed, stuck=await _stuck(bench))
+    return fed
+
+
+async def jump(bench: Bench) -> Feeding:
+    """Feed it from some number on, and leave some out."""
+
+    async def once() -> Feeding:
+        async with bench.start(FILE) as run, run.publisher(TOPIC, TYPE) as feed:
+            spins = await _meet(run, feed, MEET_S)
+            if not feed.subscribers:
+                return Feeding(run.trace(), spins=spins)
+            starved = run.starved_s()
+            sent: list[Sent] = []
+            # Past 100 before the jump: who compares texts, or the last two digits, is mistaken there.
+            first = random.randint(90, 97)
+            skipped = first + JUMP_AFTER + random.randint(4, 8)
+            await _send(bench, run, feed, sent, range(first, first + JUMP_AFTER), SOONER_HZ)
+            await _send(bench, run, feed, sent, range(skipped, skipped + JUMP_MESSAGES - JUMP_AFTER), SOONER_HZ)
+            missed = len(sent) > JUMP_AFTER
+            lost = run.starved_s() - starved
+            return await _hear_out(run, Feeding(run.trace(), tuple(sent), JUMP_AFTER * missed, 0.0, lost, spins))
+
+    async def fair(fed: Feeding) -> bool:
+        even = await bench.facts(steady)
+        told = bool(fed.breaks) and continuity.judge_gaps(fed, even).passed
+        return told and judges.judge_count(even, fed).passed and judges.judge_summary(even, fed).passed
+
+    return await _fairly(once, fair)
+
+
+async def restart(bench: Bench) -> Feeding:
+    """Feed it, take the publisher away, and let another one start over at 0."""
+
+    async def once() -> Feeding:
+        async with bench.start(FILE) as run:
+            sent: list[Sent] = []
+            async with run.publisher(TOPIC, TYPE) as feed:
+                spins = await _meet(run, feed, MEET_S)
+                if not feed.subscribers:
+                    return Feeding(run.trace(), spins=spins)
+                starved = run.starved_s()
+                first = random.randint(991, 996)
+                await _send(bench, run, feed, sent, range(first, first + RESTART_AFTER), SOONER_HZ)
+                await _pause(run, LATE_S / 2)
+            gone_at = run.now()
+            await _pause(run, AWAY_S)
+            async with run.publisher(TOPIC, TYPE) as feed:
+                await run.until(lambda: feed.subscribers > 0, SPIN_S)
+                if feed.subscribers:
+                    await _pause(run, MEET_S)
+                    again = RESTART_MESSAGES - RESTART_AFTER
+                    await _send(bench, run, feed, sent, range(again), SOONER_HZ)
+                lost = run.starved_s() - starved
+                breaks = RESTART_AFTER if len(sent) >= RESTART_AFTER else 0
+                return await _hear_out(run, Feeding(run.trace(), tuple(sent), breaks, gone_at, lost, spins))
+
+    async def fair(fed: Feeding) -> bool:
+        return continuity.judge_restart(fed, await bench.facts(steady), await bench.facts(jump)).passed
+
+    return await _fairly(once, fair)
+
+
+async def _fairly(once: Callable[[], Awaitable[Feeding]], fair: Callable[[Feeding], Awaitable[bool]]) -> Feeding:
+    """Try again where the node did not do well, and the machine may be to blame."""
+    for _ in range(TRIES):
+        fed = await once()
+        if fed.starved_s < ROUGH_S or not fed.sent or await fair(fed):
+            break
+    return fed
+
+
+async def _meet(run: Run, feed: Feed, settled_s: float) -> bool:
+    """Wait for the subscription, and until the node takes in what comes. Gives whether it answered a request."""
+
+    def announced() -> bool:
+        return any((each.topic, each.type) == (TOPIC, TYPE) for each in run.graph.subscriptions)
+
+    await appears(run, lambda: feed.subscribers > 0, promised=announced, rare_s=1.0)
+    met_at = run.now()
+    if run.exit is not None:
+        return True
+    await run.until(lambda: any(_is_parameters(each.type) for each in run.graph.services), 1.0)
+    answered = await run.parameters(SPIN_S) is not None or not any(
+        _is_parameters(each.type) for each in run.graph.services
+    )
+    await _pause(run, met_at + settled_s - run.now())
+    return answered
+
+
+def _is_parameters(type_name: str) -> bool:
+    return type_name == "rcl_interfaces/srv/ListParameters"
+
+
+async def _send(bench: Bench, run: Run, feed: Feed, sent: list[Sent], numbers: Iterable[int], hz: float) -> None:
+    """Send a message for each number, evenly; stop when the node has ended."""
+    next_at = sent[-1].at + 1 / hz if sent else 0.0
+    for number in numbers:
+        if sent or next_at:
+            await _pause(run, next_at - run.now())
+        if run.exit is not None:
+            return
+        sample = feed.publish({"data": f"Hello World: {number}"})
+        sent.append(Sent(number, sample.source_time, run.starved_s()))
+        # Where we were late, the next one is not sooner for it: two at once are not an even rate.
+        next_at = max(next_at, sample.source_time - 0.2 / hz) + 1 / hz
+        bench.doing(0.1 + 0.04 * min(len(sent), 20), f"sending “Hello World: {number}”")
+
+
+async def _pause(run: Run, for_s: float) -> None:
+    """Let time go by, as a talker does between its messages."""
+    until = run.now() + for_s
+    if for_s > 0:
+        await run.until(lambda: run.now() >= until, for_s)
+
+
+async def _hear_out(run: Run, fed: Feeding) -> Feeding:
+    """Wait for the last summary, and until nothing more is logged."""
+
+    def now() -> Feeding:
+        return replace(fed, trace=run.trace())
+
+    def due() -> bool:
+        return any(_of_the_end(report, fed) for report in find(now()))
+
+    if len(fed.sent) % 10 == 0:
+        await run.until(due, LATE_S)
+    seen = -1
+    while len(run.logs) != seen:
+        seen = len(run.logs)
+        await run.until(lambda seen=seen: len(run.logs) != seen, SAID_S)  # type: ignore[misc]
+    return now()
+
+
+def _of_the_end(report: Report, fed: Feeding) -> bool:
+    return report.messages == len(fed.sent)
+
+
+async def _stuck(bench: Bench) -> tuple[Frame, ...]:
+    """Start it once more, only to see where it is while it answers nothing."""
+    async with bench.start(FILE) as run, run.publisher(TOPIC, TYPE) as feed:
+        bench.doing(0.9, "looking where the node is stuck")
+        await appears(run, lambda: feed.subscribers > 0)
+        feed.publish({"data": "Hello World: 0"})
+        await _pause(run, STUCK_S)
+        return await run.stuck_at()
