@@ -1,0 +1,25 @@
+"""I2.3 Multi-Threaded Service: a slow service beside a fast timer that it must not hold up, and a clean end of both."""
+
+from __future__ import annotations
+
+from checks.i2_3 import judges, scenarios
+from tutor.judge.check import Check, Criterion
+
+CHECK = Check(
+    "i2.3",
+    (
+        Criterion("blocks", judges.judge_blocks, (scenarios.lone,)),
+        Criterion("timer", judges.judge_timer, (scenarios.quiet, scenarios.lone)),
+        Criterion("concurrent", judges.judge_concurrent, (scenarios.trio,)),
+        Criterion("shutdown", judges.judge_shutdown, (scenarios.quiet,)),
+        Criterion(
+            "parallel",
+            judges.judge_parallel,
+            (scenarios.lone, scenarios.trio),
+            after=("blocks", "concurrent"),
+            bonus=True,
+        ),
+        Criterion("shutdown-busy", judges.judge_shutdown_busy, (scenarios.interrupted,), bonus=True),
+    ),
+    asks_s=4.0,  # lone: a call of 3 s, and the message of the next tenth tick, 4 s after the timer's start
+)

@@ -1,0 +1,171 @@
+"""I2.3: likely causes, by name."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from checks.i2_3.facts import SERVICE, TYPE, Lone, Quiet, Trio, right_sum
+from checks.i2_3.ticks import HZ, Fault, Series
+from tutor.judge import causes, tracebacks
+from tutor.judge.trace import CallAnswer, Trace
+from tutor.judge.tracebacks import Frame
+from tutor.judge.verdict import Cause
+
+
+def of_no_service(trace: Trace) -> Cause:
+    """Why the service is not there."""
+    if (broken := causes.of_process(trace)) is not None:
+        return broken
+    offered = [s for s in trace.graph.services if not s.type.startswith(("rcl_interfaces/", "type_description_"))]
+    for service in offered:
+        if service.name == SERVICE:
+            return Cause(
+                "wrong type",
+                f"{SERVICE} has the type {service.type}, not {TYPE}",
+                f"create it with AddTwoInts: self.create_service(AddTwoInts, '{SERVICE[1:]}', ...)",
+            )
+    same_type = [service for service in offered if service.type == TYPE]
+    for service in same_type or offered:
+        return Cause(
+            "wrong service name",
+            f"there is {service.name} instead of {SERVICE}",
+            f"name it '{SERVICE[1:]}', spelled like this, without a namespace or ~ in front",
+        )
+    return Cause(
+        "service missing",
+        f"the node is up, but offers no {SERVICE}",
+        f"in __init__: self.create_service(AddTwoInts, '{SERVICE[1:]}', self.slow_add, callback_group=...)",
+    )
+
+
+def of_no_answer(seen: Lone) -> Cause:
+    """Why a call got no answer."""
+    if (broken := causes.of_process(seen.trace)) is not None:
+        return broken
+    own = tracebacks.own(seen.stuck, seen.trace.folder)
+    where = f", at {own}" if own else ""
+    if _in_call(seen.stuck):
+        return Cause(
+            "deadlock by call()",
+            f"the callback waits for another service's answer{where}, which cannot come: the group or the executor is "
+            "busy with this callback",
+            "use call_async() and await it in an async callback, with the client in a callback group of its own",
+        )
+    if not seen.spins:
+        return causes.no_spin(seen.trace)
+    return Cause(
+        "no answer",
+        f"the callback does not come to an end{where}",
+        "let the callback wait 3 s, fill in response.sum and return the response; let nothing wait without a limit",
+    )
+
+
+def of_wrong_sum(answer: CallAnswer) -> Cause:
+    """What may be wrong with this answer."""
+    assert answer.response is not None
+    got, right = answer.response["sum"], right_sum(answer)
+    if got == 0:
+        return Cause("wrong sum", "the sum is 0: was it put into response.sum?", "response.sum = request.a + request.b")
+    return Cause("wrong sum", f"{got} instead of {right}", "response.sum = request.a + request.b")
+
+
+def of_other_pace(alone: Quiet, likely: Series | None) -> Cause:
+    """Why no timer of 10 Hz was heard, though nobody called."""
+    if (broken := causes.of_process(alone.trace)) is not None:
+        return broken
+    if likely is None:
+        printed = _repeated([line.text for line in alone.trace.output if line.stream == "stdout"])
+        if printed:
+            return Cause(
+                "printed, not logged", f"it is only printed: {printed}", "use self.get_logger().info(...) in the timer"
+            )
+        return Cause(
+            "no timer messages",
+            "no log message comes back while nobody calls (debug messages are not shown)",
+            f"self.create_timer({1 / HZ:g}, self.tick, ...), and log the tick's number at info, every tenth time",
+        )
+    if likely.numbered or likely.hz > HZ:
+        return Cause(
+            "wrong timer period",
+            f"the timer ticks {likely.hz:.1f} times per second, not {HZ:g}",
+            f"create_timer takes the period in seconds: {1 / HZ:g}",
+        )
+    return Cause(
+        "wrong timer period",
+        f"{likely.hz:.1f} messages per second, without a number that counts the ticks",
+        f"let the timer have a period of {1 / HZ:g} s; if it logs every tenth tick only, put the tick's number in",
+    )
+
+
+def _repeated(printed: Sequence[str]) -> str | None:
+    return printed[-1] if len(printed) > 4 else None
+
+
+def of_disturbed_timer(seen: Lone, fault: Fault) -> Cause:
+    """Why the timer does not go on during a call as it does outside one."""
+    if (broken := causes.of_process(seen.trace)) is not None:
+        return broken
+    if fault is Fault.FAST:
+        return Cause(
+            "ticks in a burst",
+            "more ticks are logged around a call than the timer makes",
+            "log ticks in the timer's callback only; do not make up for missed ones",
+        )
+    if fault is Fault.SLOW:
+        return Cause(
+            "slowed timer",
+            "the timer ticks during a call, but not as often",
+            "give the timer a callback group of its own and the executor enough threads; let the service sleep",
+        )
+    own = tracebacks.own(seen.stuck, seen.trace.folder)
+    where = f", at {own}" if own else ""
+    if not seen.stuck:
+        return Cause(
+            "blocked executor",
+            "the timer stands still during a call",
+            "use a MultiThreadedExecutor, and put the timer and the service into different callback groups",
+        )
+    if _in_worker(seen.stuck):
+        return Cause(
+            "blocked executor",
+            f"the timer stands still while the service works{where}: they are in one MutuallyExclusiveCallbackGroup "
+            "(a node's default group is one), or the executor has too few threads",
+            "give the timer a ReentrantCallbackGroup of its own, and the executor at least 2 threads: num_threads=4",
+        )
+    return Cause(
+        "blocked executor",
+        f"one thread runs all callbacks, and while the service works{where}, the timer waits",
+        "use executor = MultiThreadedExecutor(num_threads=4), executor.add_node(node), executor.spin()",
+    )
+
+
+def of_lost_calls(seen: Trio, answered: Sequence[CallAnswer]) -> Cause:
+    """Why not every one of three calls at once got its own sum."""
+    if (broken := causes.of_process(seen.trace)) is not None:
+        return broken
+    if len(answered) < len(seen.answers):
+        return Cause(
+            "no answer",
+            f"{len(seen.answers) - len(answered)} of {len(seen.answers)} calls made at once got no answer",
+            "let every call wait its turn or work beside the others, and return its response; refuse none",
+        )
+    sums = [answer.response["sum"] for answer in answered if answer.response is not None]
+    if any(sums.count(right_sum(answer)) > 1 for answer in answered):
+        return Cause(
+            "shared state",
+            "one call was answered with the sum of another: they share a variable",
+            "keep a and b in local variables of the callback, not in self: several calls are in it at once",
+        )
+    return Cause(
+        "wrong sum",
+        f"the sums are {', '.join(map(str, sums))}",
+        "answer every call with its own a + b, also while another one is being worked on",
+    )
+
+
+def _in_call(stuck: Sequence[Frame]) -> bool:
+    return any(frame.function == "call" and frame.path.endswith("rclpy/client.py") for frame in stuck)
+
+
+def _in_worker(stuck: Sequence[Frame]) -> bool:
+    return any(frame.path.endswith("concurrent/futures/thread.py") for frame in stuck)

@@ -1,0 +1,258 @@
+"""I2.3: which log messages are the timer's, how fast they say it ticks, and whether a call disturbs them.
+
+A learner logs every tick or every tenth, with its number or without, in any words and beside any other messages. So
+the timer's messages are found by what they must be: alike, repeated while nobody calls, and ten ticks a second.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import defaultdict
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from enum import Enum
+from itertools import pairwise
+from statistics import median
+
+from tutor.judge.rates import TOLERANCE
+from tutor.judge.trace import LogRecord
+from tutor.judge.wording import shape
+
+HZ = 10.0
+
+SLACK_S = 0.4
+"""A gap is told from jitter when it is longer than the usual interval by this much, and by a tolerance."""
+
+EVEN = 0.5
+"""Messages of different wording are one series if most intervals are within this share of their median."""
+
+CLOCKS_HZ = (1e3, 1e6, 1e9)
+"""A number that rises at one of these speeds is a time in ms, µs or ns, not a count of ticks."""
+
+_NUMBER = re.compile(r"\d+(?:\.\d+)?")
+_WORD_BEFORE = re.compile(r"\w*\W*$")
+_TRUTH = re.compile(r"\b(true|false|yes|no|on|off|idle|busy)\b", re.IGNORECASE)
+
+
+@dataclass(frozen=True, slots=True)
+class Tick:
+    """One log message of a series: when it was logged (seconds since the epoch), and the tick number in it, if any."""
+
+    stamp: float
+    number: float | None
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Key:
+    """What the messages of a series have in common; `of` reads a message, and gives None for one of another series."""
+
+    kind: str
+    text: str = ""
+    column: int | None = None
+    shapes: frozenset[str] = frozenset()
+
+    def of(self, log: LogRecord) -> Tick | None:
+        """The tick that this message tells of, where it belongs to the series."""
+        if self.kind == "word":
+            found = next((each for each in _numbers(log.text) if each[0] == self.text), None)
+            return Tick(log.stamp, found[1], log.text) if found else None
+        if self.kind == "any" and _shape(log.text) in self.shapes:
+            return Tick(log.stamp, None, log.text)
+        if self.kind == "shape" and _shape(log.text) == self.text:
+            numbers = _numbers(log.text)
+            return Tick(log.stamp, None if self.column is None else numbers[self.column][1], log.text)
+        return None
+
+
+@dataclass(frozen=True, slots=True)
+class Series:
+    """Log messages that look like a timer's, logged while nobody called the service. `ticks` are two or more."""
+
+    key: Key
+    ticks: tuple[Tick, ...]
+
+    @property
+    def span_s(self) -> float:
+        """Seconds from the first message to the last."""
+        return self.ticks[-1].stamp - self.ticks[0].stamp
+
+    @property
+    def interval_s(self) -> float:
+        """The mean time between two messages."""
+        return self.span_s / (len(self.ticks) - 1)
+
+    @property
+    def longest_s(self) -> float:
+        """The longest time between two messages."""
+        return max(b.stamp - a.stamp for a, b in pairwise(self.ticks))
+
+    @property
+    def numbered(self) -> bool:
+        """Whether the messages carry the tick's number."""
+        return self.ticks[0].number is not None
+
+    @property
+    def hz(self) -> float:
+        """Ticks in a second: by the tick's number, or where there is none, by the messages."""
+        return _hz(self.ticks)
+
+    @property
+    def is_10_hz(self) -> bool:
+        """Whether this is a timer of 10 Hz, within the tolerance."""
+        return abs(self.hz - HZ) <= TOLERANCE * HZ
+
+    def __str__(self) -> str:
+        by = "by the number in them" if self.numbered else "by their count"
+        return f"{self.hz:.1f} ticks/s {by}, {len(self.ticks)} messages in {self.span_s:.1f} s"
+
+
+class Fault(Enum):
+    """How the timer's messages differ during a call."""
+
+    GAP = "gap"
+    SLOW = "slow"
+    FAST = "fast"
+
+
+@dataclass(frozen=True, slots=True)
+class During:
+    """The timer's messages around one call: `count` of them during its `for_s` seconds, the longest gap touching it.
+
+    `hz`: the ticks in a second, as the series tells them; None where too few messages tell it.
+    """
+
+    count: int
+    expected: float
+    for_s: float
+    longest_s: float
+    allowed_s: float
+    hz: float | None
+    fault: Fault | None
+
+
+def best(found: Iterable[Series]) -> Series | None:
+    """The series that is most likely the timer's: one with tick numbers, else the one with most messages."""
+    return max(found, key=lambda series: (series.is_10_hz, series.numbered, len(series.ticks)), default=None)
+
+
+def all_series(logs: Iterable[LogRecord]) -> list[Series]:
+    """Every way to see repeated messages in these logs."""
+    ordered = sorted(logs, key=lambda log: log.stamp)
+    shapes: dict[str, list[LogRecord]] = defaultdict(list)
+    words: set[str] = set()
+    for log in ordered:
+        shapes[_shape(log.text)].append(log)
+        words.update(before for before, _ in _numbers(log.text) if any(map(str.isalpha, before)))
+    found: list[Series] = []
+    for text, alike in shapes.items():
+        columns = range(min(len(_numbers(log.text)) for log in alike))
+        numbered = [s for c in columns if (s := _counting(_series(Key("shape", text, c), alike)))]
+        found += numbered or _some(_uncounted(_series(Key("shape", text), alike)))
+    for word in words:
+        found += _some(_counting(_series(Key("word", word), ordered)))
+    plain = frozenset(series.key.text for series in found if series.key.kind == "shape" and not series.numbered)
+    if len(plain) > 1:
+        found += _some(_even(_series(Key("any", shapes=plain), ordered)))
+    return found
+
+
+def during(
+    series: Series, logs: Iterable[LogRecord], asked_at: float, answered_at: float, *, until: float, starved_s: float
+) -> During:
+    """How the series went on while a call was made. `until`: how long the node was watched (seconds since the epoch).
+
+    A node that the machine kept from running for `starved_s` may pause that much longer, and tick that much less.
+    """
+    ticks = [tick for log in sorted(logs, key=lambda log: log.stamp) if (tick := series.key.of(log))]
+    before = [tick for tick in ticks if tick.stamp < asked_at][-1:]
+    after = [tick for tick in ticks if tick.stamp > answered_at][:1]
+    within = [tick for tick in ticks if asked_at <= tick.stamp <= answered_at]
+    around = [*before, *within, *after]
+    edges = [
+        *([] if before else [asked_at]),
+        *(tick.stamp for tick in around),
+        *([] if after else [max(until, answered_at)]),
+    ]
+    longest = max(b - a for a, b in pairwise(edges))
+    allowed = (1 + TOLERANCE) * series.longest_s + SLACK_S + starved_s
+    for_s = answered_at - asked_at
+    expected = for_s / series.interval_s
+    least = (1 - TOLERANCE) * max(0.0, for_s - starved_s) / series.interval_s - 1
+    most = (1 + TOLERANCE) * expected + 1
+    told = len(around) > 1 and around[-1].stamp - around[0].stamp >= 0.5 * for_s > 0.5
+    hz = _hz(around) if told else None
+    fault = None
+    if longest > allowed:
+        fault = Fault.GAP
+    elif len(within) < least or (hz and hz < (1 - TOLERANCE) * series.hz * max(0.1, 1 - starved_s / max(for_s, 0.1))):
+        fault = Fault.SLOW
+    elif len(within) > most or _bursts(series, edges) or (hz and hz > (1 + TOLERANCE) * series.hz):
+        fault = Fault.FAST
+    return During(len(within), expected, for_s, longest, allowed, hz, fault)
+
+
+def _bursts(series: Series, stamps: Sequence[float]) -> bool:
+    """Whether half a second of it holds far more messages than it should."""
+    most = 1.5 * 0.5 / series.interval_s + 3
+    return any(sum(start <= stamp < start + 0.5 for stamp in stamps) > most for start in stamps)
+
+
+def _series(key: Key, logs: Iterable[LogRecord]) -> Series | None:
+    ticks = tuple(tick for log in logs if (tick := key.of(log)))
+    return Series(key, ticks) if len(ticks) > 1 and ticks[-1].stamp > ticks[0].stamp else None
+
+
+def _counting(series: Series | None) -> Series | None:
+    """The series, where its numbers count something: whole, always rising (or falling), but no clock."""
+    if series is None:
+        return None
+    numbers = [tick.number or 0.0 for tick in series.ticks]
+    steps = [b - a for a, b in pairwise(numbers)]
+    one_way = all(step > 0 for step in steps) or all(step < 0 for step in steps)
+    if not one_way or not all(number.is_integer() for number in numbers):
+        return None
+    return None if any(abs(series.hz - clock) <= 0.1 * clock for clock in CLOCKS_HZ) else series
+
+
+def _uncounted(series: Series | None) -> Series | None:
+    return series if series and len(series.ticks) > 2 else None
+
+
+def _even(series: Series | None) -> Series | None:
+    """The series, where it is one beat in several wordings, not several messages at each beat."""
+    if series is None or len(series.ticks) < 4:
+        return None
+    steps = [b.stamp - a.stamp for a, b in pairwise(series.ticks)]
+    usual = median(steps)
+    near = sum(abs(step - usual) <= EVEN * usual for step in steps)
+    return series if near >= 0.8 * len(steps) else None
+
+
+def _some(series: Series | None) -> list[Series]:
+    return [] if series is None else [series]
+
+
+def _hz(ticks: Sequence[Tick]) -> float:
+    first, last = ticks[0], ticks[-1]
+    span = last.stamp - first.stamp
+    if span <= 0:
+        return 0.0
+    if first.number is None or last.number is None:
+        return (len(ticks) - 1) / span
+    return abs(last.number - first.number) / span
+
+
+def _shape(text: str) -> str:
+    return _TRUTH.sub("?", shape(text))
+
+
+def _numbers(text: str) -> list[tuple[str, float]]:
+    """The numbers in a text, each with the word and the signs right before it."""
+    found: list[tuple[str, float]] = []
+    end = 0
+    for match in _NUMBER.finditer(text):
+        before = _WORD_BEFORE.search(text[end : match.start()])
+        found.append((before.group() if before else "", float(match.group())))
+        end = match.end()
+    return found

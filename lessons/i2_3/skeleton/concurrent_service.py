@@ -1,0 +1,51 @@
+#!/usr/bin/env python3
+"""Exercise I2.3: a service that takes three seconds, and a timer that must not wait for it."""
+
+import rclpy
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.node import Node
+
+# TODO 1: import AddTwoInts from example_interfaces.srv.
+
+
+class ConcurrentService(Node):
+    """Adds two numbers slowly while a 10 Hz timer ticks on."""
+
+    def __init__(self) -> None:
+        super().__init__("concurrent_service")
+        self.ticks = 0
+        # TODO 2: create the service slow_add, of type AddTwoInts.
+
+        # TODO 3: create a timer of 10 Hz that calls self.tick.
+
+        # TODO 6: put both into callback groups, so that the timer need not wait for the service.
+
+        self.get_logger().info("Concurrent service is up")
+
+    # TODO 4: write the service's callback. It is given a request (a and b) and an empty response: wait for three
+    #         seconds, fill in response.sum, and return the response.
+
+    def tick(self) -> None:
+        """Count, and log every tenth tick. This part is complete."""
+        self.ticks += 1
+        if self.ticks % 10 == 0:
+            self.get_logger().info(f"Tick {self.ticks}")
+
+
+def main() -> None:
+    """Run the node until Ctrl+C."""
+    rclpy.init()
+    node = ConcurrentService()
+    # TODO 5: this executor has one thread only. Use one that has several.
+    executor = SingleThreadedExecutor()
+    executor.add_node(node)
+    try:
+        executor.spin()
+    except (KeyboardInterrupt, ExternalShutdownException):
+        pass  # Ctrl+C, or someone shut ROS down: both are a normal end.
+    finally:
+        rclpy.try_shutdown()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,64 @@
+#!/usr/bin/env python3
+"""Offers /slow_add, which takes three seconds, while a 10 Hz timer keeps ticking."""
+
+import threading
+
+import rclpy
+from example_interfaces.srv import AddTwoInts
+from rclpy.callback_groups import ReentrantCallbackGroup
+from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor
+from rclpy.node import Node
+
+WORK_S = 3.0
+TICK_S = 0.1
+
+
+class ConcurrentService(Node):
+    """Adds two numbers slowly, for several callers at once, and never misses a tick."""
+
+    def __init__(self) -> None:
+        super().__init__("concurrent_service")
+        # Reentrant: calls of the service may overlap each other. The timer has a group of its own, so that no call can
+        # hold it up.
+        self.service_group = ReentrantCallbackGroup()
+        self.timer_group = ReentrantCallbackGroup()
+        self.stopping = threading.Event()
+        self.ticks = 0
+        self.create_service(AddTwoInts, "slow_add", self.slow_add, callback_group=self.service_group)
+        self.create_timer(TICK_S, self.tick, callback_group=self.timer_group)
+        self.get_logger().info("Ready: /slow_add")
+
+    def slow_add(self, request: AddTwoInts.Request, response: AddTwoInts.Response) -> AddTwoInts.Response:
+        """Answer with a + b after three seconds. Several threads may be in here, so nothing is kept in self."""
+        self.get_logger().info(f"Working on {request.a} + {request.b}")
+        # Like time.sleep(WORK_S), but it returns at once when the node is told to stop.
+        if not self.stopping.wait(WORK_S):
+            response.sum = request.a + request.b
+            self.get_logger().info(f"{request.a} + {request.b} = {response.sum}")
+        return response
+
+    def tick(self) -> None:
+        """Count, and log every tenth tick, which is once per second."""
+        self.ticks += 1
+        if self.ticks % 10 == 0:
+            self.get_logger().info(f"Tick {self.ticks}")
+
+
+def main() -> None:
+    """Run the node until Ctrl+C."""
+    rclpy.init()
+    node = ConcurrentService()
+    # Enough threads for some slow calls at once, with one left over for the timer.
+    executor = MultiThreadedExecutor(num_threads=8)
+    executor.add_node(node)
+    try:
+        executor.spin()
+    except (KeyboardInterrupt, ExternalShutdownException):
+        pass  # Ctrl+C, or someone shut ROS down: both are a normal end.
+    finally:
+        node.stopping.set()  # Python ends only when the threads have: wake those that are still waiting.
+        rclpy.try_shutdown()  # Not shutdown(): after Ctrl+C, rclpy has shut down already.
+
+
+if __name__ == "__main__":
+    main()
