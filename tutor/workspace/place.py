@@ -7,6 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+from tutor.workspace.app_state import AppStateFile
 from tutor.workspace.progress_file import ProgressFile, to_stderr
 
 MARKER = ".ros-tutor"
@@ -39,6 +40,10 @@ class Workspace:
     def progress(self, notify: Callable[[str], None] = to_stderr) -> ProgressFile:
         """The progress file; `notify` is told in one line if a damaged one had to be set aside."""
         return ProgressFile(self.root / MARKER / "progress.json", notify)
+
+    def app_state(self, notify: Callable[[str], None] = to_stderr) -> AppStateFile:
+        """What the app remembers; `notify` is told in one line if a damaged file had to be set aside."""
+        return AppStateFile(self.root / MARKER / "app.json", notify)
 
 
 def find_workspace(explicit: Path | None = None) -> Path:

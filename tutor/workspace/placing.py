@@ -40,7 +40,7 @@ def place(files: Mapping[Path, bytes], *, force: bool) -> Placed:
         for path, content in missing.items():
             path.parent.mkdir(parents=True, exist_ok=True)
             if path in in_the_way:
-                backup = _free_name(path)
+                backup = free_name(path)
                 path.rename(backup)
                 backups.append(backup)
                 undo.append(partial(backup.replace, path))
@@ -79,7 +79,8 @@ def _check_folder(folder: Path) -> None:
         raise StorageError(f"cannot write to {nearest}: permission denied")
 
 
-def _free_name(path: Path) -> Path:
+def free_name(path: Path) -> Path:
+    """The next free name for a backup of `path`: `name.~1~`, `name.~2~`, ..."""
     number = 1
     while os.path.lexists(backup := path.with_name(f"{path.name}.~{number}~")):
         number += 1

@@ -1,0 +1,56 @@
+"""What a learner gives their node at its start: parameters and remaps, as they are typed for `ros2 run`. Pure."""
+
+from __future__ import annotations
+
+import re
+import shlex
+from pathlib import Path
+
+from tutor.workspace import RunOptions
+
+_PARAMETER = re.compile(r"(?:[A-Za-z_/*][\w/*]*:)?[A-Za-z_][\w.]*:=\S.*")
+_REMAP = re.compile(
+    r"(?:[A-Za-z_]\w*:)?(?:__(?:node|name|ns)|(?:~/|/)?[A-Za-z_][\w/]*):=(?:~/|/)?[A-Za-z_][\w/]*|__ns:=/"
+)
+_ARGUMENT = re.compile(r"[A-Za-z_][\w.-]*:=.*")
+
+
+def lines(text: str) -> tuple[str, ...]:
+    """The lines that say something; a line that begins with # does not."""
+    found = (line.strip() for line in text.splitlines())
+    return tuple(line for line in found if line and not line.startswith("#"))
+
+
+def is_launch_file(name: str) -> bool:
+    """Whether a file's name says that it is a launch file."""
+    return name.endswith(("_launch.py", ".launch.py"))
+
+
+def problem(options: RunOptions, *, launch: bool) -> str:
+    """What is wrong with the first wrong line, and how it should look; empty where all is well."""
+    for line in options.parameters:
+        if launch and not _ARGUMENT.fullmatch(line):
+            return f"'{line}' is no launch argument: write name:=value, as in topic:=/news"
+        if not launch and not _PARAMETER.fullmatch(line):
+            return f"'{line}' sets no parameter: write name:=value, as in publish_rate:=2.0"
+    for line in options.remaps:
+        if not _REMAP.fullmatch(line):
+            return f"'{line}' remaps nothing: write from:=to, as in chatter:=/news, __node:=other or __ns:=/robot1"
+    return ""
+
+
+def arguments(options: RunOptions, *, launch: bool) -> list[str]:
+    """The words that follow the program's name."""
+    if launch:
+        return list(options.parameters)
+    words = [word for line in options.parameters for word in ("-p", line)]
+    words += [word for line in options.remaps for word in ("-r", line)]
+    return ["--ros-args", *words] if words else []
+
+
+def command_line(package: str, file: str, options: RunOptions) -> str:
+    """What a ROS user types to run this file of a package that is built."""
+    launch = is_launch_file(file)
+    program = file if launch else Path(file).stem
+    words = ["ros2", "launch" if launch else "run", package, program, *arguments(options, launch=launch)]
+    return shlex.join(words)
