@@ -218,8 +218,15 @@ class LiveRun:
         )
 
     async def call(self, service: str, type: str, request: Mapping[str, Any], *, limit_s: float) -> CallAnswer:
+        # A client that has just been made needs a moment to find the server: no part of what the service takes.
         asked = time.time()
-        response = await self._while_alive(self._observer.call(service, type, request, NEVER_S), limit_s, None)
+        if matched := await self._while_alive(self._observer.matched(service, type, NEVER_S), limit_s, False):
+            asked = time.time()
+        response = (
+            None
+            if not matched
+            else await self._while_alive(self._observer.call(service, type, request, NEVER_S), limit_s, None)
+        )
         return CallAnswer(
             service=service,
             request=dict(request),

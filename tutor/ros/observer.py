@@ -135,12 +135,10 @@ class Observer:
 
     async def call(self, service: str, type_name: str, request: Mapping[str, Any], limit_s: float) -> Any | None:
         """Call a service once its server is matched; None where no answer came within the limit."""
-        client = self._client(service, type_name)
         deadline = self._loop.time() + limit_s
-        while not client.service_is_ready():
-            if self._loop.time() >= deadline:
-                return None
-            await asyncio.sleep(0.005)
+        if not await self.matched(service, type_name, limit_s):
+            return None
+        client = self._client(service, type_name)
         filled = fill(interface(type_name).Request(), request)
         answer: asyncio.Future[Any] = self._loop.create_future()
         pending = client.call_async(filled)
@@ -150,6 +148,16 @@ class Observer:
         except TimeoutError:
             client.remove_pending_request(pending)
             return None
+
+    async def matched(self, service: str, type_name: str, limit_s: float) -> bool:
+        """Wait until our client of this service has found its server; False where it has not within the limit."""
+        client = self._client(service, type_name)
+        deadline = self._loop.time() + limit_s
+        while not client.service_is_ready():
+            if self._loop.time() >= deadline:
+                return False
+            await asyncio.sleep(0.005)
+        return True
 
     def close(self) -> None:
         """Leave the domain. Safe to call twice."""
