@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+import asyncio
 import os
 import tempfile
 import time
 from collections.abc import AsyncIterator, Callable, Iterator, Mapping
-from contextlib import asynccontextmanager, contextmanager
-from dataclasses import dataclass
+from contextlib import asynccontextmanager, contextmanager, suppress
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TypeVar
 
+from tutor.engine.admission import Admission
 from tutor.engine.errors import EngineError
 from tutor.engine.run import Facts, LiveRun
+from tutor.engine.source import mentions
 from tutor.judge.bench import Handler, Run, Scenario
 from tutor.judge.submission import Submission
 from tutor.judge.trace import Served
@@ -26,15 +29,28 @@ from tutor.sandbox.ros2.starting import ros2
 
 T = TypeVar("T")
 
+MOST_FILES = 100
+"""Of a folder full of files, no more are looked into."""
+
+_Command = Callable[[dict[str, str], Path], list[str]]
+
+UP_S = 1.5
+"""A process that has no node after this long (and what the machine kept it from running) need not be waited for."""
+
 
 @dataclass(frozen=True, slots=True)
 class LiveBench:
-    """The `Bench` of `tutor.judge.bench` for one scenario."""
+    """The `Bench` of `tutor.judge.bench` for one scenario.
+
+    `asks_s`: how many seconds of the clock its check asks for; where several are to start, the longest goes first.
+    """
 
     submission: Submission
     ros: RosEnvironment
     share: Callable[[Scenario[Any]], Any]
     tell: Callable[[float, str], None]
+    admission: Admission = field(default_factory=Admission)
+    asks_s: float = 0.0
 
     @asynccontextmanager
     async def start(
@@ -64,14 +80,24 @@ class LiveBench:
                 overlay.make(log_dir / "overlay", path, env, python=str(self.ros.python))
             return [*ros2(self.ros, env), "launch", str(path), *given]
 
-        async with self._start(path, command, {}, {}, {}) as run:
+        async with self._start(path, command, {}, {}, {}, nodes=2) as run:
             yield run
 
     @asynccontextmanager
-    async def _start(
+    async def _start(self, path: Path, command: _Command, *given: Any, nodes: int = 1) -> AsyncIterator[Run]:
+        """Run a command as `_run` does, when it is its turn: others may start when it has so many nodes."""
+        async with (
+            self.admission.start(self.asks_s) as up,
+            self._run(path, command, *given) as run,
+            _told_when_up(run, nodes, up),
+        ):
+            yield run
+
+    @asynccontextmanager
+    async def _run(
         self,
         path: Path,
-        command: Callable[[dict[str, str], Path], list[str]],
+        command: _Command,
         parameters: Mapping[str, Any],
         watch: Mapping[str, str],
         serve: Mapping[str, tuple[str, Handler]],
@@ -106,12 +132,33 @@ class LiveBench:
     def has(self, file: str) -> bool:
         return file in self.submission.files
 
+    def mentions(self, *words: str) -> bool:
+        folders = {path.resolve().parent for path in self.submission.files.values()}
+        return any(mentions(path, words) for folder in folders for path in sorted(folder.glob("*.py"))[:MOST_FILES])
+
     async def facts(self, scenario: Scenario[T]) -> T:
         found: T = await self.share(scenario)
         return found
 
     def doing(self, fraction: float, text: str) -> None:
         self.tell(min(1.0, max(0.0, fraction)), text)
+
+
+@asynccontextmanager
+async def _told_when_up(run: Run, nodes: int, up: Callable[[], None]) -> AsyncIterator[None]:
+    """Call `up` as soon as there are so many nodes, the process has ended, or it is not going to make them."""
+
+    async def watch() -> None:
+        with suppress(EngineError):  # whoever works with the run is told
+            await run.until(lambda: len(run.graph.nodes) >= nodes or run.exit is not None, UP_S)
+        up()
+
+    watching = asyncio.ensure_future(watch())
+    try:
+        yield
+    finally:
+        watching.cancel()
+        await asyncio.gather(watching, return_exceptions=True)
 
 
 @contextmanager

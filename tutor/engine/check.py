@@ -8,6 +8,7 @@ from collections.abc import Callable, Sequence
 
 from tutor import __version__
 from tutor.content import Course
+from tutor.engine.admission import Admission
 from tutor.engine.errors import EngineError
 from tutor.judge.check import Check
 from tutor.judge.events import CheckFinished, Event
@@ -21,16 +22,19 @@ async def check(
     *,
     only: frozenset[str] | None = None,
     on_event: Callable[[Event], None] = lambda event: None,
+    admission: Admission | None = None,
 ) -> Report:
     """Judge each submission, in parallel; nothing that was started is left when this returns, is cancelled or raises.
 
-    `only`: the ids of the criteria to show (None: all). Raises EngineError where checks cannot be run here at all.
+    `only`: the ids of the criteria to show (None: all). `admission`: shared among checks that run at once. Raises
+    EngineError where checks cannot be run here at all.
     """
     from tutor.engine.modules import load_check
     from tutor.ros import bytecode, this_process
     from tutor.ros.environment import detect
 
     started = time.monotonic()
+    together = admission or Admission()
     ros = detect()
     try:
         this_process.use(ros, isolated=True)
@@ -42,7 +46,7 @@ async def check(
     async def one(submission: Submission) -> ExerciseResult:
         lesson = course.find(submission.exercise)
         found: Check = load_check(lesson)
-        return await Runner(found, lesson, submission, ros, only, on_event).run()
+        return await Runner(found, lesson, submission, ros, only, on_event, together).run()
 
     tasks = [asyncio.ensure_future(one(submission)) for submission in submissions]
     try:

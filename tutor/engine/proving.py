@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from tutor.content import Course, Lesson
+from tutor.engine.admission import Admission
 from tutor.engine.check import check
 from tutor.judge.result import ExerciseResult
 from tutor.judge.submission import Submission
@@ -37,11 +38,11 @@ async def prove(lessons: Sequence[Lesson], course: Course, on_proof: Callable[[P
 
     Nothing that was started is left when this returns, is cancelled or raises. Raises EngineError.
     """
-    free = asyncio.Semaphore(AT_ONCE)
+    free, admission = asyncio.Semaphore(AT_ONCE), Admission()
 
     async def one(lesson: Lesson, kind: Kind) -> Proof:
         async with free:
-            report = await check([_submission(lesson, kind)], course)
+            report = await check([_submission(lesson, kind)], course, admission=admission)
         proof = Proof(lesson, kind, report.exercises[0])
         on_proof(proof)
         return proof

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterable
 from typing import Any
 
 from tutor.content import Lesson
+from tutor.engine.admission import Admission
 from tutor.engine.bench import LiveBench
 from tutor.engine.errors import EngineError
 from tutor.judge.bench import MachineTooBusy, Scenario
@@ -32,6 +33,7 @@ class Runner:
         ros: RosEnvironment,
         only: frozenset[str] | None,
         on_event: OnEvent,
+        admission: Admission | None = None,
     ) -> None:
         self._check = check
         self._texts = {text.id: text for text in lesson.criteria}
@@ -40,6 +42,7 @@ class Runner:
         self._ros = ros
         self._shown = tuple(c for c in check.criteria if only is None or c.id in only)
         self._on_event = on_event
+        self._admission = admission or Admission()
         self._scenarios: dict[Scenario[Any], asyncio.Task[Any]] = {}
         self._verdicts: dict[str, asyncio.Task[Verdict]] = {}
         self._progress: dict[Scenario[Any], tuple[float, str]] = {}
@@ -75,7 +78,7 @@ class Runner:
             def tell(fraction: float, text: str) -> None:
                 self._tell(scenario, fraction, text)
 
-            bench = LiveBench(self._submission, self._ros, self._ask, tell)
+            bench = LiveBench(self._submission, self._ros, self._ask, tell, self._admission, self._check.asks_s)
             self._scenarios[scenario] = asyncio.ensure_future(scenario(bench))
         return self._scenarios[scenario]
 

@@ -1,0 +1,68 @@
+"""Lets processes start a few at a time, those with the longest way to go first.
+
+A start costs about half a second of CPU time: Python, rclpy, a participant of its own, and one of ours that watches it.
+Thirty starts at once on two cores would all be up only when the last one is, and each then begins to wait for what
+physics asks of it. One after the other, the first is up in half a second, and waits while the others start.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import heapq
+import itertools
+import os
+from collections.abc import AsyncIterator, Callable
+from contextlib import asynccontextmanager
+
+MORE_THAN_CORES = 1
+"""Starts in flight beyond one for each core: a start waits, too, for the disk and for its peers."""
+
+
+class Admission:
+    """How many may start at a time: `slots` (by default one for each core that is ours, and one more)."""
+
+    def __init__(self, slots: int | None = None) -> None:
+        self._free = slots or len(os.sched_getaffinity(0)) + MORE_THAN_CORES
+        self._waiting: list[tuple[float, int, asyncio.Future[None]]] = []
+        self._number = itertools.count()
+
+    @asynccontextmanager
+    async def start(self, asks_s: float) -> AsyncIterator[Callable[[], None]]:
+        """Wait for a slot; who `asks_s` more seconds of the clock goes first.
+
+        Gives what to call when the process is up; the slot is free then, or at the end of the block.
+        """
+        await self._enter(asks_s)
+        held = True
+
+        def up() -> None:
+            nonlocal held
+            if held:
+                held = False
+                self._leave()
+
+        try:
+            yield up
+        finally:
+            up()
+
+    async def _enter(self, asks_s: float) -> None:
+        if self._free:
+            self._free -= 1
+            return
+        turn = asyncio.get_running_loop().create_future()
+        heapq.heappush(self._waiting, (-asks_s, next(self._number), turn))
+        try:
+            await turn
+        except asyncio.CancelledError:
+            if turn.done() and not turn.cancelled():  # it was given a slot at the same moment
+                self._leave()
+            raise
+
+    def _leave(self) -> None:
+        while self._waiting:
+            _, _, turn = heapq.heappop(self._waiting)
+            if not turn.done():
+                turn.set_result(None)
+                return
+        self._free += 1
