@@ -6,7 +6,8 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 from tutor.judge.rates import Rate, describe
-from tutor.judge.trace import Echo, Ending, Parameter, Trace
+from tutor.judge.trace import Echo, Ending, OutputLine, Parameter, Trace
+from tutor.judge.tracebacks import Frame
 from tutor.judge.waiting import window_s
 
 FILE = "temperature_publisher.py"
@@ -14,8 +15,14 @@ TOPIC = "/sensor/temperature"
 TYPE = "std_msgs/msg/Float64"
 LOWEST, HIGHEST = 20.0, 30.0
 
-LISTEN_S = 14.0
-"""Values are collected for at most this long after the first one."""
+LISTEN_S = 26.0
+"""Values are collected for at most this long after the first one, so that a doubtful node at 1 Hz shows plenty."""
+
+LEAST_S = 5.0
+"""Values are collected for this long in any case: the other starts take as long, and more values tell more."""
+
+ECHO_S = 14.0
+"""The echo of a topic that has a message now and then shows one within this time."""
 
 SUGGESTED_RATE, SUGGESTED_NAME = "publish_rate", "sensor_name"
 """The names that are tried where the node never answers a parameter call."""
@@ -34,12 +41,16 @@ SPARE_VALUES = {"Hz": (5.0, 1.0, 3.0, 10.0), "s": (1.0, 0.2, 0.4), "ms": (200.0,
 
 @dataclass(frozen=True)
 class Survey:
-    """A plain start. `echo` is None where nothing came to echo; `ending` where the process had ended by itself."""
+    """A plain start. `echo` is None where nothing came to echo; `ending` where the process had ended by itself.
+
+    `stuck`: where the node was, innermost frame first, when it did not publish and answered nothing.
+    """
 
     trace: Trace
     parameters: tuple[Parameter, ...] | None
     echo: Echo | None
     ending: Ending | None
+    stuck: tuple[Frame, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -84,12 +95,16 @@ class Rates:
 
 @dataclass(frozen=True)
 class NameProbe:
-    """A start with one string parameter set to `value`; `found` is the log message that bears it, or empty."""
+    """A start with one string parameter set to `value`; `found` is the log message that bears it, or empty.
+
+    `at_end`: where nothing was found, what the process wrote when it was ended.
+    """
 
     name: str
     value: str
     found: str
     trace: Trace
+    at_end: tuple[OutputLine, ...] = ()
 
 
 @dataclass(frozen=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Sequence
 
 from checks.i1_1.facts import (
@@ -42,7 +43,7 @@ def judge_publishes(seen: Survey) -> Verdict:
             [f"data: {samples[0].message['data']}"],
         )
     answers = seen.parameters is not None
-    cause = causes.of_silence(seen.trace, TOPIC, TYPE, answers=answers)
+    cause = causes.of_silence(seen.trace, TOPIC, TYPE, answers=answers, stuck=seen.stuck)
     return failed(expected, "no such message", cause, causes.last_words(seen.trace))
 
 
@@ -80,15 +81,16 @@ def _why_outside(outside: Sequence[float]) -> Cause:
 
 def judge_random(found: Values) -> Verdict:
     expected = "values that vary at random: not constant, not a ramp, not a short cycle"
-    for run in found.runs:
-        pattern = randomness.pattern(run)
-        if pattern is not None:
-            return failed(
-                expected,
-                f"{pattern.text} ({len(run)} values)",
-                Cause(pattern.name, pattern.text, "draw a new value in every callback: random.uniform(20.0, 30.0)"),
-                [f"data: {value:g}" for value in run[:8]],
-            )
+    told = [(run, pattern) for run in found.runs if (pattern := randomness.pattern(run)) is not None]
+    telling = sum(len(run) >= randomness.ENOUGH for run in found.runs)
+    if told and (any(pattern.sure for _, pattern in told) or len(told) >= telling):
+        run, pattern = max(told, key=lambda each: (each[1].sure, len(each[0])))
+        return failed(
+            expected,
+            f"{pattern.text} ({len(run)} values)",
+            Cause(pattern.name, pattern.text, "draw a new value in every callback: random.uniform(20.0, 30.0)"),
+            [f"data: {value:g}" for value in run[:8]],
+        )
     longest = max(found.runs, key=len)
     if len(longest) < 3:
         return failed(expected, f"only {len(longest)} values in {LISTEN_S:g} s", _STOPS)
@@ -159,17 +161,7 @@ def _why_rate(group: Sequence[RateProbe], wrong: RateProbe, declared: tuple[Para
         return _rate_not_declared()
     measured = [(probe, probe.rate) for probe in group if probe.rate is not None]
     if measured and len(swapped(group)) == len(measured):
-        if wrong.unit == "Hz":
-            return Cause(
-                "rate used as a period",
-                f"{wrong.name} is given in Hz, but the timer waits that many seconds",
-                "the timer's period is 1.0 / rate",
-            )
-        return Cause(
-            "period used as a rate",
-            f"{wrong.name} is given as a period, but the node publishes that many times a second",
-            f"give {wrong.name} to create_timer as it is, or call it a rate",
-        )
+        return causes.rate_as_period(wrong.name) if wrong.unit == "Hz" else causes.period_as_rate(wrong.name)
     rates_seen = [rate.hz for _, rate in measured]
     if len(rates_seen) > 1 and max(rates_seen) <= min(rates_seen) * (1 + TOLERANCE):
         return Cause(
@@ -208,13 +200,10 @@ def _why_name(found: Names) -> Cause:
         broken = causes.of_process(probe.trace)
         if broken is not None:
             return broken
-        printed = [line.text for line in probe.trace.output if probe.value in line.text]
-        if printed:
-            return Cause(
-                "printed, not logged",
-                f"the name is written with print(): {printed[0]}",
-                "use self.get_logger().info(...): log messages reach /rosout, where others can read them",
-            )
+        says = re.compile(re.escape(probe.value)).search
+        printed = causes.of_printed(probe.trace, says, "the name", after=probe.at_end)
+        if printed is not None:
+            return printed
     if found.declared is None:
         return Cause(
             "parameter not declared",

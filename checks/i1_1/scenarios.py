@@ -7,7 +7,9 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 
 from checks.i1_1.facts import (
+    ECHO_S,
     FILE,
+    LEAST_S,
     LISTEN_S,
     SPARE_VALUES,
     SUGGESTED_NAME,
@@ -31,7 +33,7 @@ from tutor.judge import randomness
 from tutor.judge.bench import Bench, MachineTooBusy, Run
 from tutor.judge.rates import measure
 from tutor.judge.trace import Parameter, Trace
-from tutor.judge.waiting import START_S, TRIES, appears, excused, first_message, window_s
+from tutor.judge.waiting import START_S, TRIES, appears, excused, first_message, stuck, window_s
 
 
 async def survey(bench: Bench) -> Survey:
@@ -41,12 +43,13 @@ async def survey(bench: Bench) -> Survey:
         echo = None
         if await first_message(run, TOPIC, TYPE):
             bench.doing(0.5, "watching as `ros2 topic echo` does")
-            echo = await run.echo(TOPIC, samples=1, limit_s=LISTEN_S)
+            echo = await run.echo(TOPIC, samples=1, limit_s=ECHO_S)
         parameters = await run.parameters(2.0)
         trace = run.trace()
         bench.doing(0.8, "pressing Ctrl+C")
         ended = await run.interrupt() if run.exit is None else None
-        return Survey(trace, parameters, echo, ended)
+    silent = not trace.on(TOPIC) and parameters is None and trace.exit is None and bool(trace.graph.nodes)
+    return Survey(trace, parameters, echo, ended, await stuck(bench, FILE) if silent else ())
 
 
 async def values(bench: Bench) -> Values:
@@ -68,7 +71,7 @@ async def values(bench: Bench) -> Values:
         bench.doing(min(len(mine) / randomness.ENOUGH, 1), f"{len(mine)} temperatures so far")
         # The same values in both starts may be a fixed list: only its second round would tell.
         doubtful = randomness.suspicious(mine) or len(others.intersection(mine)) > len(mine) / 2
-        return len(mine) >= (randomness.PLENTY if doubtful else randomness.ENOUGH)
+        return len(mine) >= randomness.PLENTY or (not doubtful and run.now() >= run.on(TOPIC)[0].source_time + LEAST_S)
 
     seen: dict[int, Run] = {}
     collected = await asyncio.gather(collect(0), collect(1))
@@ -137,7 +140,9 @@ async def names(bench: Bench) -> Names:
                 return next((str(log) for log in run.logs if value in str(log).casefold()), "")
 
             await appears(run, lambda: bool(logged()), promised=lambda: True)
-            return NameProbe(name, value, logged(), run.trace())
+            found, trace = logged(), run.trace()
+            at_end = (await run.interrupt()).output if not found and run.exit is None else ()
+            return NameProbe(name, value, found, trace, at_end)
 
     return Names(declared, tuple(await asyncio.gather(*(probe(i, name) for i, name in enumerate(wanted)))))
 

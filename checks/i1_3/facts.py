@@ -6,7 +6,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from tutor.judge.trace import CallAnswer, Ending, Exit, Level, LogRecord, Served, Service, Trace
+from tutor.judge.trace import CallAnswer, Ending, Exit, Level, LogRecord, OutputLine, Served, Service, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.wording import shape
 
@@ -56,7 +56,10 @@ class Calls:
 
 @dataclass(frozen=True)
 class Division:
-    """A good division, one by zero, and what came after; `said` is what was logged about the division by zero."""
+    """A good division, one by zero, and what came after; `said` is what was logged about the division by zero.
+
+    `at_end`: where nothing was said of an error, what the process wrote when it was ended.
+    """
 
     trace: Trace
     before: CallAnswer | None = None
@@ -64,6 +67,7 @@ class Division:
     after: CallAnswer | None = None
     ordinary: tuple[LogRecord, ...] = ()
     said: tuple[LogRecord, ...] = ()
+    at_end: tuple[OutputLine, ...] = ()
 
 
 @dataclass(frozen=True)

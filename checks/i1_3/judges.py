@@ -22,7 +22,6 @@ from checks.i1_3.facts import (
 )
 from tutor.judge import causes, ending, tracebacks
 from tutor.judge.trace import CallAnswer, Service, Trace
-from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped
 
 
@@ -35,7 +34,12 @@ def judge_services(seen: Calls) -> Verdict:
         return failed(expected, f"missing: {', '.join(missing)}", cause, causes.last_words(seen.trace))
     if unanswered is not None:
         observed = f"no answer from {unanswered.service} in {ANSWER_S:g} s"
-        return failed(expected, observed, _why_unanswered(seen), causes.last_words(seen.trace))
+        return failed(
+            expected,
+            observed,
+            causes.of_no_answer(seen.trace, seen.stuck, spins=seen.spins),
+            causes.last_words(seen.trace),
+        )
     return passed(expected, "all four answer", [f"{name} = {result}" for name, result in _answered(seen.answers)])
 
 
@@ -74,32 +78,6 @@ def _why_missing(trace: Trace, missing: Sequence[str]) -> Cause:
 
 def _of_every_node(service: Service) -> bool:
     return service.type.startswith(("rcl_interfaces/", "type_description_interfaces/"))
-
-
-def _why_unanswered(seen: Calls) -> Cause:
-    broken = causes.of_process(seen.trace)
-    if broken is not None:
-        return broken
-    if not seen.spins:
-        return causes.no_spin(seen.trace)
-    own = tracebacks.own(seen.stuck, seen.trace.folder)
-    where = f", at {own}" if own else ""
-    if _in_call(seen.stuck):
-        return Cause(
-            "deadlock by call()",
-            f"the callback waits for another service's answer{where}, which cannot come: the "
-            "executor is busy with this callback",
-            "use call_async() and await it in an async callback",
-        )
-    return Cause(
-        "blocked executor",
-        f"the node was up, but its callback does not come to an end{where}",
-        "let the callback calculate, fill in the response and return it at once",
-    )
-
-
-def _in_call(stuck: Sequence[Frame]) -> bool:
-    return any(frame.function == "call" and frame.path.endswith("rclpy/client.py") for frame in stuck)
 
 
 def judge_operations(seen: Calls) -> Verdict:
@@ -182,15 +160,11 @@ def judge_division(seen: Division) -> Verdict:
         return failed(expected, f"10 ÷ 0 got no answer in {ANSWER_S:g} s", cause, causes.last_words(seen.trace))
     complaints = complaints_in(seen.ordinary, seen.said)
     if not complaints:
-        printed = [line.text for line in seen.trace.output if line.stream == "stdout" and SAYS_ERROR.search(line.text)]
-        cause = (
-            Cause("printed, not logged", f"it is only printed: {printed[0]}", "use self.get_logger().error(...)")
-            if printed
-            else Cause(
-                "no error message",
-                "nothing that the node logs says that this is an error",
-                "self.get_logger().error('division by zero') before you return the response",
-            )
+        printed = causes.of_printed(seen.trace, SAYS_ERROR.search, "the error", after=seen.at_end)
+        cause = printed or Cause(
+            "no error message",
+            "nothing that the node logs says that this is an error",
+            "self.get_logger().error('division by zero') before you return the response",
         )
         return failed(
             expected,
@@ -258,7 +232,7 @@ def _why_hanging(seen: Demonstration) -> Cause:
     assert seen.trace is not None
     own = tracebacks.own(seen.stuck, seen.trace.folder)
     where = f" at {own}" if own else ""
-    if _in_call(seen.stuck):
+    if causes.in_call(seen.stuck):
         return Cause(
             "deadlock by call()",
             f"the client waits for ever{where}: call() blocks the thread that would have to take in the answer",

@@ -96,7 +96,9 @@ async def division(bench: Bench) -> Division:
         await run.until(lambda: run.exit is not None, AFTERWARDS_S)
         bench.doing(0.8, "calling /divide again: 18 ÷ 3")
         after = await divide(18, 3)
-        return Division(run.trace(), before, by_zero, after, ordinary, said)
+        trace, silent = run.trace(), run.exit is None and not complaints_in(ordinary, said)
+        at_end = (await run.interrupt()).output if silent else ()
+        return Division(trace, before, by_zero, after, ordinary, said, at_end)
 
 
 async def demonstration(bench: Bench) -> Demonstration:

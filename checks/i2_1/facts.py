@@ -30,17 +30,6 @@ ANSWER_S = 5.0
 RARE_S = 3.0
 """At 1 Hz or more, a publisher that exists sends something within this time, late as it may be."""
 
-RCLPYS_OWN = (
-    "Callback returned an invalid type",
-    "Wrong parameter type",
-    "Trying to set a read-only parameter",
-    "parameter list cannot be empty",
-    "not been declared",
-    "Invalid access to undeclared",
-    "cannot be set",
-)
-"""Reasons that rclpy gives by itself: they are not the learner's. (That a value is outside a declared range is.)"""
-
 
 @dataclass(frozen=True)
 class Survey:

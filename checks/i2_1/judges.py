@@ -15,7 +15,6 @@ from checks.i2_1.facts import (
     LAUNCH_HZ,
     PREFIX,
     RATE,
-    RCLPYS_OWN,
     TOPIC,
     TYPE,
     UP_HZ,
@@ -48,11 +47,7 @@ def judge_defaults(seen: Survey) -> Verdict:
             return failed(
                 expected,
                 observed,
-                Cause(
-                    "parameter not declared",
-                    f"the node has no parameter {name}",
-                    f"self.declare_parameter('{name}', {value!r})",
-                ),
+                causes.not_declared(name, value),
             )
         if parameter.type != kind:
             name_of_cause = (
@@ -117,7 +112,7 @@ def _why_launch_rate(rate: Rate | None) -> Cause:
     if rate is not None and rate.agrees(DEFAULT_HZ):
         return _ignored(RATE)
     if rate is None or rate.agrees(1 / LAUNCH_HZ):
-        return _as_period()
+        return causes.rate_as_period(RATE)
     return Cause("wrong rate", f"{RATE} has an effect, but not this one", f"the timer's period is 1.0 / {RATE}")
 
 
@@ -127,10 +122,6 @@ def _ignored(name: str) -> Cause:
         f"{name} given at start-up has no effect",
         f"read it after declaring it: self.get_parameter('{name}').value",
     )
-
-
-def _as_period() -> Cause:
-    return Cause("rate used as a period", f"the timer waits {RATE} seconds", f"the timer's period is 1.0 / {RATE}")
 
 
 def judge_runtime(seen: Switched) -> Verdict:
@@ -206,22 +197,7 @@ def _not_set(expected: str, answer: SetAnswer, trace: Trace) -> Verdict:
             "let every callback return at once: no loop and no sleep in it; let a timer do what has to wait",
         )
         return failed(expected, f"setting {what}: no answer in {ANSWER_S:g} s", cause, causes.last_words(trace))
-    if "invalid type" in answer.reason:
-        cause = Cause(
-            "callback returns None",
-            "the parameter callback does not return a SetParametersResult",
-            "end the callback with: return SetParametersResult(successful=True)",
-        )
-    elif "Wrong parameter type" in answer.reason:
-        cause = Cause("wrong parameter type", answer.reason, "declare it with a default of the type that is set")
-    elif "declared" in answer.reason:
-        cause = Cause("parameter not declared", answer.reason, "declare it in __init__")
-    else:
-        cause = Cause(
-            "rejected",
-            f'the node rejects a good value: "{answer.reason}"',
-            "let the callback return SetParametersResult(successful=True) for it",
-        )
+    cause = causes.of_refusal(answer.reason, answer.values)
     return failed(expected, f'setting {what}: rejected, "{answer.reason}"', cause)
 
 
@@ -253,7 +229,7 @@ def judge_validation(seen: Validated) -> Verdict:
                     "SetParametersResult(successful=False, reason='the rate must be > 0')",
                 ),
             )
-        if any(own in answer.reason for own in RCLPYS_OWN):
+        if any(own in answer.reason for own in causes.RCLPYS_OWN):
             return _not_set(expected, answer, seen.trace)
         if value != seen.before:
             return failed(
@@ -293,20 +269,12 @@ def _why_timer(seen: Retimed, asked: float, rate: Rate | None) -> Cause:
         return cause
     before = DEFAULT_HZ if asked == UP_HZ else UP_HZ
     if rate is not None and rate.agrees(before):
-        return Cause(
-            "timer not replaced",
-            "the parameter changes, but the timer keeps its old period",
-            "in the parameter callback: self.timer.cancel(), then self.timer = self.create_timer(1.0 / rate, ...)",
-        )
+        return causes.timer_not_replaced()
     if rate is not None and rate.hz > asked:
-        return Cause(
-            "old timer kept",
-            f"{rate.hz:.1f} Hz is more than {asked:g} Hz: an older timer publishes too",
-            "cancel the old timer before you make the new one: self.destroy_timer(self.timer)",
-        )
+        return causes.old_timer_kept(rate.hz, asked)
     if rate is None or rate.hz < DOWN_HZ / 2:
         return (
-            _as_period()
+            causes.rate_as_period(RATE)
             if rate is None or rate.agrees(1 / asked)
             else Cause(
                 "wrong rate", f"{rate.hz:.1f} Hz instead of {asked:g} Hz", "the timer's period is 1.0 / rate seconds"

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from tutor.judge.bench import MachineTooBusy, Run
+from tutor.judge.bench import Bench, MachineTooBusy, Run
 from tutor.judge.rates import TOLERANCE, Rate, measure
+from tutor.judge.tracebacks import Frame
 
 START_S = 15.0
 """A process on a slow, busy machine may need this long to come up."""
@@ -18,6 +19,9 @@ RARE_S = 12.0
 
 AGAIN_S = 3.5
 """A second listen is at least this long, so that a rate of 1 Hz, too, can be told for what it is."""
+
+STUCK_S = 1.5
+"""A node that is up has run into what it waits for within this time."""
 
 TRIES = 3
 STARVED = 0.2
@@ -51,6 +55,15 @@ async def first_message(run: Run, topic: str, type_name: str, *, rare_s: float =
         promised=lambda: any(p.topic == topic and p.type == type_name for p in run.graph.publishers),
         rare_s=rare_s,
     )
+
+
+async def stuck(bench: Bench, file: str) -> tuple[Frame, ...]:
+    """Start a node that answered nothing once more, only to see where its threads are: innermost frames first."""
+    async with bench.start(file) as run:
+        bench.doing(0.9, "looking where the node is stuck")
+        await run.until(lambda: bool(run.graph.nodes), START_S)
+        await run.until(lambda: run.exit is not None, STUCK_S)
+        return await run.stuck_at()
 
 
 def window_s(hz: float) -> float:

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable
 
 from tutor.judge.causes import names
 from tutor.judge.trace import OutputLine, Trace
 from tutor.judge.verdict import Cause
 
+_LOGGED = re.compile(r"^(?:\x1b\[\d+m)?\[(?:DEBUG|INFO|WARN|ERROR|FATAL)\] \[\d+\.\d+\] \[")
+"""How the line begins that rclpy writes for a log message, beside sending it to /rosout."""
+
 
 def of_printed(
-    trace: Trace, says: Callable[[str], bool], what: str, *, after: Iterable[OutputLine] = ()
+    trace: Trace, says: Callable[[str], object], what: str, *, after: Iterable[OutputLine] = ()
 ) -> Cause | None:
     """Whether something that should have been logged was only printed; `says` knows it by its text.
 
@@ -37,5 +41,4 @@ def of_printed(
 
 
 def _is_print(line: OutputLine) -> bool:
-    # The console line of a real log message is written by rcutils, to stderr.
-    return line.stream == "stdout"
+    return _LOGGED.match(line.text) is None

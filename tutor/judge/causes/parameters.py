@@ -55,7 +55,7 @@ def of_refusal(reason: str, values: Mapping[str, Any]) -> Cause:
     if "declared" in reason:
         return Cause("parameter not declared", reason, f"declare it in __init__: {', '.join(values)}")
     if "read-only" in reason:
-        return Cause("read-only parameter", reason, "declare it without read_only=True, so that it can be set later")
+        return Cause("rejected", reason, "declare it without read_only=True, so that it can be set later")
     return Cause(
         "rejected",
         f'the node rejects a good value: "{reason}"' if reason else "the node rejects a good value, without a reason",
