@@ -146,8 +146,10 @@ class Observer:
         try:
             return await asyncio.wait_for(answer, max(0.0, deadline - self._loop.time()))
         except TimeoutError:
-            client.remove_pending_request(pending)
             return None
+        finally:  # whoever waits may be cancelled, too
+            if not pending.done():
+                client.remove_pending_request(pending)
 
     async def matched(self, service: str, type_name: str, limit_s: float) -> bool:
         """Wait until our client of this service has found its server; False where it has not within the limit."""

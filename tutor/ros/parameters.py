@@ -46,13 +46,22 @@ async def ask(observer: Observer, nodes: Iterable[str], limit_s: float) -> tuple
 
 
 async def set_values(
-    observer: Observer, node: str, values: Mapping[str, Any], *, atomic: bool, limit_s: float
+    observer: Observer,
+    node: str,
+    values: Mapping[str, Any],
+    *,
+    atomic: bool,
+    limit_s: float,
+    types: Mapping[str, str] | None = None,
 ) -> SetAnswer:
-    """Set parameters of one node in one request. Python floats are doubles, ints integers, as on the command line."""
+    """Set parameters of one node in one request. Python floats are doubles, ints integers, as on the command line.
+
+    `types` names the types of those values that do not tell it themselves, such as an empty list.
+    """
     verb, kind = (
         ("set_parameters_atomically", "SetParametersAtomically") if atomic else ("set_parameters", "SetParameters")
     )
-    wanted = [_message(name, value) for name, value in values.items()]
+    wanted = [_message(name, value, (types or {}).get(name)) for name, value in values.items()]
     asked = time.time()
     answer = await observer.call(f"{node}/{verb}", f"rcl_interfaces/srv/{kind}", {"parameters": wanted}, limit_s)
     if answer is None:
@@ -115,17 +124,21 @@ def _parameter(node: str, name: str, value: Any, descriptor: Any) -> Parameter:
     )
 
 
-def _message(name: str, value: Any) -> Any:
+def _message(name: str, value: Any, type_name: str | None = None) -> Any:
     holder = interface("rcl_interfaces/msg/ParameterValue")()
-    # bool before int: a bool is an int in Python, but not in ROS.
-    for kind, python_type in ((1, bool), (2, int), (3, float), (4, str)):
-        if isinstance(value, python_type):
-            holder.type = kind
-            setattr(holder, str(_FIELDS[kind]), value)
-            break
-    else:
-        raise TypeError(f"no parameter type for {value!r}")
+    holder.type = _kind_of(value) if type_name is None else _TYPES.index(type_name)
+    if type_name == "byte array":
+        value = [bytes([item]) for item in value]
+    setattr(holder, str(_FIELDS[holder.type]), value)
     parameter = interface("rcl_interfaces/msg/Parameter")()
     parameter.name = name
     parameter.value = holder
     return parameter
+
+
+def _kind_of(value: Any) -> int:
+    # bool before int: a bool is an int in Python, but not in ROS.
+    for kind, python_type in ((1, bool), (2, int), (3, float), (4, str)):
+        if isinstance(value, python_type):
+            return kind
+    raise TypeError(f"no parameter type for {value!r}")

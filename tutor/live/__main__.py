@@ -1,0 +1,73 @@
+"""`python -m tutor.live`: watches the user's own domain, for as long as its input is open.
+
+Commands come on stdin, news go to stdout, a JSON object to a line each (`tutor.live.protocol`).
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import os
+import sys
+from typing import BinaryIO
+
+from tutor.live.facts import TopicNews
+from tutor.live.lifeline import die_with_parent, read_lines
+from tutor.live.protocol import News, decode_command, encode
+from tutor.ros.environment import detect
+from tutor.ros.this_process import use
+
+FULL = 1 << 20
+"""With so many bytes unread, news of topics are left out: the next ones say it all again."""
+
+
+def main() -> int:
+    """Watch until stdin ends. Exit code 0."""
+    use(detect(), isolated=False)
+    die_with_parent()
+    # What libraries print must not get among the news.
+    news = os.fdopen(os.dup(sys.stdout.fileno()), "wb", buffering=0)
+    os.dup2(sys.stderr.fileno(), sys.stdout.fileno())
+    asyncio.run(_watch(news))
+    # Threads of the middleware may take their time; nothing of ours is left to be saved.
+    sys.stderr.flush()
+    os._exit(0)
+
+
+async def _watch(pipe: BinaryIO) -> None:
+    from tutor.live.watcher import Watcher  # late: rclpy must find the environment prepared
+
+    loop = asyncio.get_running_loop()
+    transport, _ = await loop.connect_write_pipe(asyncio.BaseProtocol, pipe)
+
+    def say(said: News) -> None:
+        if not (isinstance(said, TopicNews) and transport.get_write_buffer_size() > FULL):
+            transport.write(encode(said).encode() + b"\n")
+
+    watcher = Watcher(_domain_id(), say)
+    running = asyncio.ensure_future(watcher.run())
+
+    def hear(line: str) -> None:
+        loop.call_soon_threadsafe(lambda: watcher.do(decode_command(line)))
+
+    def over() -> None:
+        with contextlib.suppress(RuntimeError):  # the loop is closed: it is over already
+            loop.call_soon_threadsafe(running.cancel)
+
+    read_lines(sys.stdin.buffer, hear, over)
+    try:
+        await running
+    except asyncio.CancelledError:
+        pass
+    finally:
+        watcher.close()
+
+
+def _domain_id() -> int:
+    text = os.environ.get("ROS_DOMAIN_ID", "").strip()
+    return int(text) if text.isdecimal() else 0
+
+
+if __name__ == "__main__":
+    with contextlib.suppress(KeyboardInterrupt):
+        sys.exit(main())

@@ -1,0 +1,72 @@
+"""Calls of services: any number at once, each with a limit, and to be cancelled."""
+
+from __future__ import annotations
+
+import asyncio
+import time
+from collections.abc import Callable
+
+from tutor.live.facts import CallOutcome, RequestForm
+from tutor.live.protocol import Call
+from tutor.ros.as_yaml import to_yaml
+from tutor.ros.messages import UnknownType
+from tutor.ros.observer import Observer
+from tutor.ros.requests import fill_request, request_fields
+
+CANCELLED = "cancelled"
+
+
+def describe(type_name: str) -> RequestForm:
+    """The form of a service type."""
+    try:
+        return RequestForm(type_name, request_fields(type_name))
+    except UnknownType:
+        return RequestForm(type_name, problem=f"This ROS does not have the type {type_name}.")
+
+
+class Calls:
+    """The calls under way. Each is told about when it is over, however it ends."""
+
+    def __init__(self, observer: Observer, tell: Callable[[CallOutcome], object]) -> None:
+        self._observer = observer
+        self._tell = tell
+        self._running: dict[int, asyncio.Task[None]] = {}
+
+    def begin(self, call: Call) -> None:
+        """Call a service."""
+        self._running[call.id] = asyncio.create_task(self._run(call))
+
+    def cancel(self, id: int) -> None:
+        """Wait for this one no longer."""
+        if task := self._running.get(id):
+            task.cancel()
+
+    async def _run(self, call: Call) -> None:
+        at, began = time.time(), time.perf_counter()
+        text, problem = None, ""
+        try:
+            text, problem = await self._call(call)
+        except asyncio.CancelledError:
+            problem = CANCELLED
+        finally:
+            del self._running[call.id]
+        took = time.perf_counter() - began
+        self._tell(CallOutcome(call.id, call.service, call.request, text, problem, at, took))
+
+    async def _call(self, call: Call) -> tuple[str | None, str]:
+        try:
+            request = fill_request(call.type, call.request)
+        except UnknownType:
+            return None, f"This ROS does not have the type {call.type}."
+        except ValueError as error:
+            return None, str(error)
+        fields = {name: getattr(request, name) for name in request.get_fields_and_field_types()}
+        answer = await self._observer.call(call.service, call.type, fields, call.limit_s)
+        if answer is not None:
+            return to_yaml(answer), ""
+        if not self._is_offered(call.service):
+            return None, "no answer: no node offers this service any more"
+        return None, f"no answer within {call.limit_s:g} s: does the node spin, and does its callback return?"
+
+    def _is_offered(self, service: str) -> bool:
+        return any(name == service for name, _ in self._observer.node.get_service_names_and_types())

@@ -1,0 +1,107 @@
+"""The parameters of every node: asked for when it appears, when it says that one changed, and on demand."""
+
+from __future__ import annotations
+
+import array
+import asyncio
+import time
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+from tutor.live.facts import Graph, NodeParameters, SetOutcome
+from tutor.live.protocol import SetParameter
+from tutor.ros.observer import Observer
+from tutor.ros.parameter_events import hear_changes
+from tutor.ros.parameters import ask, set_values
+
+LIMIT_S = 3.0
+"""How long a node may take to answer, in seconds."""
+
+ASK_AGAIN_S = 5.0
+"""A node that did not answer is asked again after this time: it may have begun to spin."""
+
+
+class ParameterWatch:
+    """Tells a NodeParameters for each node that offers parameters, whenever they may have changed."""
+
+    def __init__(self, observer: Observer, tell: Callable[[NodeParameters], object]) -> None:
+        self._observer = observer
+        self._tell = tell
+        self._nodes: frozenset[str] = frozenset()
+        self._asking: dict[str, asyncio.Task[None]] = {}
+        self._dirty: set[str] = set()
+        self._again: dict[str, float] = {}
+        hear_changes(observer, self.ask)
+
+    def look(self, graph: Graph) -> None:
+        """The graph has changed: ask the nodes that are new."""
+        offered = {service.name for service in graph.services}
+        nodes = frozenset(node for node in graph.nodes if f"{node}/list_parameters" in offered)
+        new, self._nodes = nodes - self._nodes, nodes
+        self._again = {node: due for node, due in self._again.items() if node in nodes}
+        for node in new:
+            self.ask(node)
+
+    def ask(self, node: str) -> None:
+        """Ask one node, unless it is being asked: then once more afterwards."""
+        if node not in self._nodes:
+            return
+        if node in self._asking:
+            self._dirty.add(node)
+            return
+        self._asking[node] = asyncio.create_task(self._ask(node))
+
+    def ask_all(self) -> None:
+        """Ask every node."""
+        for node in self._nodes:
+            self.ask(node)
+
+    def ask_silent(self) -> None:
+        """Ask those again that did not answer some time ago."""
+        for node, due in list(self._again.items()):
+            if time.monotonic() >= due:
+                self.ask(node)
+
+    async def set(self, order: SetParameter) -> SetOutcome:
+        """Set one parameter; the node's answer, or that none came."""
+        answer = await set_values(
+            self._observer,
+            order.node,
+            {order.name: order.value},
+            atomic=False,
+            limit_s=LIMIT_S,
+            types={order.name: order.type},
+        )
+        return SetOutcome(
+            id=order.id,
+            node=order.node,
+            name=order.name,
+            value=order.value,
+            answered=answer.answered,
+            accepted=answer.successful,
+            reason=answer.reason,
+            at=answer.asked_at,
+            took_s=answer.answered_at - answer.asked_at,
+        )
+
+    async def _ask(self, node: str) -> None:
+        try:
+            found = await ask(self._observer, [node], LIMIT_S)
+            self._again.pop(node, None)
+            if found is None:
+                self._again[node] = time.monotonic() + ASK_AGAIN_S
+            parameters = tuple(replace(each, value=_plain(each.value)) for each in found or ())
+            self._tell(NodeParameters(node, found is not None, parameters))
+        finally:
+            del self._asking[node]
+        if node in self._dirty:
+            self._dirty.discard(node)
+            self.ask(node)
+
+
+def _plain(value: Any) -> Any:
+    """As JSON can hold it."""
+    if isinstance(value, (array.array, list, tuple)):
+        return [_plain(item) for item in value]
+    return value[0] if isinstance(value, bytes) else value

@@ -1,0 +1,99 @@
+"""Count, rate and jitter of a topic, from the messages' source timestamps and numbers. Pure."""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from tutor.live.facts import Timing
+
+WINDOW_S = 5.0
+"""Rate and jitter are those of the last seconds..."""
+
+FEWEST = 10
+"""... or of so many periods, where a topic is slow."""
+
+_BUCKET_S = 0.25
+_PAUSE = 8.0
+"""A period this many times the mean, and longer than the window, is a pause: measuring begins anew after it."""
+
+
+@dataclass(slots=True)
+class _Bucket:
+    """Periods that ended within a quarter of a second: enough to add them up again, however many there were."""
+
+    begin: float
+    end: float
+    periods: int = 0
+    total: float = 0.0
+    squares: float = 0.0
+    shortest: float = math.inf
+    longest: float = 0.0
+
+    def add(self, period: float, end: float) -> None:
+        self.end = end
+        self.periods += 1
+        self.total += period
+        self.squares += period * period
+        self.shortest = min(self.shortest, period)
+        self.longest = max(self.longest, period)
+
+
+class Statistics:
+    """Of one followed topic. `count` is the number of messages, `missing` of those that the numbers skip."""
+
+    def __init__(self) -> None:
+        self.count = 0
+        self.missing = 0
+        self._buckets: deque[_Bucket] = deque()
+        self._last_stamp: float | None = None
+        self._last_number: int | None = None
+
+    def add(self, stamps: Sequence[float], numbers: Sequence[int | None]) -> None:
+        """Add messages: their source timestamps (s) and their publisher's sequence numbers, in the order of arrival."""
+        self.count += len(stamps)
+        for number in numbers:
+            self._number(number)
+        for stamp in sorted(stamps):  # several publishers' messages arrive a little out of order
+            self._stamp(stamp)
+
+    def timing(self) -> Timing | None:
+        """The periods of the window; None where there is none yet."""
+        periods = sum(bucket.periods for bucket in self._buckets)
+        if periods == 0:
+            return None
+        mean = sum(bucket.total for bucket in self._buckets) / periods
+        variance = sum(bucket.squares for bucket in self._buckets) / periods - mean * mean
+        return Timing(
+            periods=periods,
+            mean_s=mean,
+            deviation_s=math.sqrt(max(0.0, variance)),
+            shortest_s=min(bucket.shortest for bucket in self._buckets),
+            longest_s=max(bucket.longest for bucket in self._buckets),
+        )
+
+    def _number(self, number: int | None) -> None:
+        # A smaller number is another publisher, or one that was started anew: it says nothing about loss.
+        if number is not None and self._last_number is not None and number > self._last_number:
+            self.missing += number - self._last_number - 1
+        self._last_number = number
+
+    def _stamp(self, stamp: float) -> None:
+        last, self._last_stamp = self._last_stamp, max(stamp, self._last_stamp or stamp)
+        if last is None:
+            return
+        period = max(0.0, stamp - last)
+        if period > WINDOW_S and (known := self.timing()) and period > _PAUSE * known.mean_s:
+            self._buckets.clear()
+            return
+        if not self._buckets or stamp - self._buckets[-1].begin >= _BUCKET_S:
+            self._buckets.append(_Bucket(stamp, stamp))
+            self._forget(stamp)
+        self._buckets[-1].add(period, stamp)
+
+    def _forget(self, now: float) -> None:
+        held = sum(bucket.periods for bucket in self._buckets)
+        while self._buckets[0].end < now - WINDOW_S and held - self._buckets[0].periods >= FEWEST:
+            held -= self._buckets.popleft().periods

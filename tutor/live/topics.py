@@ -1,0 +1,177 @@
+"""The topics that are followed: counted in the tap's thread, told about at a bounded rate."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections import deque
+from dataclasses import dataclass, field
+
+from tutor.live.facts import Graph, Qos, Topic, TopicNews
+from tutor.live.statistics import Statistics
+from tutor.ros.as_yaml import number_at, numeric_fields, to_yaml
+from tutor.ros.messages import UnknownType, interface
+from tutor.ros.tap import Batch, Tap, read
+from tutor.ros.whole_graph import qos_of_echo
+
+POINTS_PER_NEWS = 10
+"""Values sampled for a plot between two news: a hundred a second, whatever the topic's rate."""
+
+SILENT_EVERY_S = 1.0
+"""How often a silent topic is told about, in seconds."""
+
+_SHARE_OF_TEXT = 0.2
+"""At most this share of the time is spent on writing a topic's messages as text."""
+
+
+@dataclass(slots=True)
+class _Followed:
+    topic: str
+    type: str = ""
+    qos: Qos = field(default_factory=Qos)
+    opened: object = None
+    problem: str = ""
+    several: bool = False
+    path: str = ""
+    fields: tuple[str, ...] = ()
+    statistics: Statistics = field(default_factory=Statistics)
+    newest: bytes | None = None
+    told: bytes | None = None
+    samples: deque[tuple[float, bytes]] = field(default_factory=lambda: deque(maxlen=POINTS_PER_NEWS))
+    last_at: float | None = None
+    told_at: float = 0.0
+    text_after: float = 0.0
+    stale: bool = True
+    lock: threading.Lock = field(default_factory=threading.Lock)
+
+    def take(self, batch: Batch) -> None:
+        """In the tap's thread."""
+        with self.lock:
+            self.statistics.add(batch.stamps, batch.numbers)
+            self.newest = batch.newest
+            self.samples.append((batch.stamps[-1], batch.newest))
+            self.last_at = time.monotonic()
+            self.stale = True
+
+
+class FollowedTopics:
+    """Which topics are followed, and what has come on them."""
+
+    def __init__(self, tap: Tap) -> None:
+        self._tap = tap
+        self._all: dict[str, _Followed] = {}
+
+    def follow(self, topic: str, graph: Graph) -> None:
+        """Follow a topic, now or as soon as it is there."""
+        if topic not in self._all:
+            self._all[topic] = _Followed(topic)
+            self._settle(self._all[topic], graph.topic(topic))
+
+    def unfollow(self, topic: str) -> None:
+        """Follow it no longer."""
+        if self._all.pop(topic, None) is not None:
+            self._tap.shut(topic)
+
+    def clear(self, topic: str) -> None:
+        """Count from nothing."""
+        if followed := self._all.get(topic):
+            with followed.lock:
+                followed.statistics = Statistics()
+                followed.samples.clear()
+                followed.newest = followed.told = followed.last_at = None
+                followed.stale = True
+
+    def plot(self, topic: str, path: str) -> None:
+        """Sample this field."""
+        if followed := self._all.get(topic):
+            followed.path = path
+            followed.stale = True
+
+    def look(self, graph: Graph) -> None:
+        """The graph has changed: subscribe to what has appeared, and anew where publishers offer another QoS."""
+        for followed in self._all.values():
+            self._settle(followed, graph.topic(followed.topic))
+
+    def news(self) -> list[TopicNews]:
+        """What is new since the last call."""
+        now = time.monotonic()
+        return [self._tell(followed, now) for followed in self._all.values() if _is_due(followed, now)]
+
+    def _settle(self, followed: _Followed, topic: Topic | None) -> None:
+        if topic is None or not topic.publishers:
+            return  # one that has been there may come back: the subscription stays
+        types = tuple(dict.fromkeys(publisher.type for publisher in topic.publishers))
+        followed.several = followed.several or len(topic.publishers) > 1
+        before, followed.problem = followed.problem, _problem(types)
+        followed.stale = followed.stale or followed.problem != before
+        if followed.problem:
+            return
+        reliability, durability = qos_of_echo(topic)
+        wanted = (types[0], reliability, durability)
+        if wanted == followed.opened:
+            return
+        followed.opened = wanted
+        followed.type = types[0]
+        followed.qos = Qos(reliability.short_key, durability.short_key)
+        followed.stale = True
+        self._tap.open(followed.topic, types[0], reliability, durability, followed.take)
+
+    def _tell(self, followed: _Followed, now: float) -> TopicNews:
+        with followed.lock:
+            count, timing = followed.statistics.count, followed.statistics.timing()
+            lost = None if followed.several else followed.statistics.missing
+            samples = list(followed.samples)
+            followed.samples.clear()
+            newest, last_at = followed.newest, followed.last_at
+            followed.stale = False
+        followed.told_at = now
+        text, fields = self._text(followed, newest, now)
+        points = [
+            (stamp, value)
+            for stamp, raw in samples
+            if followed.path and (value := number_at(read(followed.type, raw), followed.path)) is not None
+        ]
+        return TopicNews(
+            topic=followed.topic,
+            type=followed.type,
+            qos=followed.qos,
+            count=count,
+            lost=lost,
+            timing=timing,
+            silent_s=None if last_at is None else max(0.0, now - last_at),
+            text=text,
+            fields=fields,
+            field=followed.path,
+            points=tuple(points),
+            problem=followed.problem,
+        )
+
+    def _text(self, followed: _Followed, newest: bytes | None, now: float) -> tuple[str | None, tuple[str, ...]]:
+        if newest is None or newest is followed.told or now < followed.text_after:
+            return None, ()
+        began = time.perf_counter()
+        message = read(followed.type, newest)
+        text = to_yaml(message)
+        fields = numeric_fields(message)
+        if not followed.path and fields:
+            followed.path = fields[0]
+        changed, followed.fields, followed.told = fields != followed.fields, fields, newest
+        followed.text_after = now + (time.perf_counter() - began) * (1 / _SHARE_OF_TEXT - 1)
+        return text, fields if changed else ()
+
+
+def _is_due(followed: _Followed, now: float) -> bool:
+    if followed.stale or (followed.newest is not followed.told and now >= followed.text_after):
+        return True
+    return followed.last_at is not None and now - followed.told_at >= SILENT_EVERY_S
+
+
+def _problem(types: tuple[str, ...]) -> str:
+    """Why a topic with these publishers' types cannot be shown."""
+    if len(types) > 1:
+        return f"Publishers of different types: {' and '.join(types)}. One topic has one type."
+    try:
+        interface(types[0])
+    except UnknownType:
+        return f"This ROS does not have the type {types[0]}: build or source the package that has it."
+    return ""

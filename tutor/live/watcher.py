@@ -1,0 +1,122 @@
+"""Everything that is watched on one domain, and what is done there on command."""
+
+from __future__ import annotations
+
+import asyncio
+import time
+from collections.abc import Callable
+
+from tutor.live.calls import Calls, describe
+from tutor.live.facts import Graph
+from tutor.live.node_parameters import ParameterWatch
+from tutor.live.protocol import (
+    Attend,
+    Call,
+    Cancel,
+    Clear,
+    Command,
+    Describe,
+    Follow,
+    News,
+    Plot,
+    Ready,
+    Refresh,
+    SetParameter,
+    Trouble,
+    Unfollow,
+)
+from tutor.live.topics import FollowedTopics
+from tutor.ros.observer import Observer
+from tutor.ros.tap import Tap
+from tutor.ros.whole_graph import quick_look, whole_graph
+
+NEWS_EVERY_S = 0.1
+"""Topics are told about at most this often, in seconds, however fast they are."""
+
+LOOK_EVERY_S = 0.5
+LOOK_CLOSELY_EVERY_S = 2.0
+"""The graph is looked at this often, in seconds; closely, where a quick look finds nothing new."""
+
+
+class Watcher:
+    """One participant that watches. `say` is given all news, on the event loop's thread."""
+
+    def __init__(self, domain_id: int, say: Callable[[News], object]) -> None:
+        self._say = say
+        self._observer = Observer(domain_id)
+        self._tap = Tap(self._observer.node.context)
+        self._graph = Graph()
+        self._topics = FollowedTopics(self._tap)
+        self._parameters = ParameterWatch(self._observer, say)
+        self._calls = Calls(self._observer, say)
+        self._seen = True
+        self._sets: set[asyncio.Task[None]] = set()
+        self._known: object = None
+        self._looked_closely = 0.0
+        say(Ready(domain_id))
+
+    async def run(self) -> None:
+        """Tell what is new, until cancelled."""
+        look_at = 0.0
+        while True:
+            now = time.monotonic()
+            if now >= look_at:
+                self._look(now)
+                look_at = now + LOOK_EVERY_S
+                self._parameters.ask_silent()
+            if self._seen:
+                for news in self._topics.news():
+                    self._say(news)
+            if (fault := self._observer.fault) is not None:
+                self._observer.fault = None
+                self._say(Trouble(f"Watching broke: {type(fault).__name__}: {fault}"))
+            await asyncio.sleep(NEWS_EVERY_S)  # the pace of the news, not a wait for anything
+
+    def do(self, command: Command) -> None:
+        """Do what the app asks for; answers come as news."""
+        match command:
+            case Follow(topic):
+                self._topics.follow(topic, self._graph)
+            case Unfollow(topic):
+                self._topics.unfollow(topic)
+            case Clear(topic):
+                self._topics.clear(topic)
+            case Plot(topic, field):
+                self._topics.plot(topic, field)
+            case Attend(seen):
+                self._seen = seen
+            case Refresh():
+                self._looked_closely = 0.0
+                self._look(time.monotonic())
+                self._parameters.ask_all()
+            case SetParameter():
+                task = asyncio.create_task(self._set(command))
+                self._sets.add(task)
+                task.add_done_callback(self._sets.discard)
+            case Describe(type_name):
+                self._say(describe(type_name))
+            case Call():
+                self._calls.begin(command)
+            case Cancel(id):
+                self._calls.cancel(id)
+
+    def close(self) -> None:
+        """Leave the domain."""
+        self._tap.close()
+        self._observer.close()
+
+    async def _set(self, order: SetParameter) -> None:
+        self._say(await self._parameters.set(order))
+        self._parameters.ask(order.node)
+
+    def _look(self, now: float) -> None:
+        known = quick_look(self._observer.node)
+        if known == self._known and now < self._looked_closely + LOOK_CLOSELY_EVERY_S:
+            return
+        self._known, self._looked_closely = known, now
+        graph = whole_graph(self._observer.node)
+        if graph != self._graph:
+            self._graph = graph
+            self._say(graph)
+        self._topics.look(graph)
+        self._parameters.look(graph)

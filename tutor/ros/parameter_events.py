@@ -1,0 +1,25 @@
+"""Hears which nodes' parameters change."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+from collections.abc import Callable
+from typing import Any
+
+from rclpy.qos import qos_profile_parameter_events
+
+from tutor.ros.messages import interface
+from tutor.ros.observer import Observer
+
+
+def hear_changes(observer: Observer, on_change: Callable[[str], None]) -> None:
+    """Call `on_change(node)`, on the event loop's thread, whenever a node says that a parameter of its changed."""
+    loop = asyncio.get_running_loop()
+
+    def heard(event: Any) -> None:
+        with contextlib.suppress(RuntimeError):  # the loop is closed: nobody is interested any more
+            loop.call_soon_threadsafe(on_change, event.node)
+
+    event_type = interface("rcl_interfaces/msg/ParameterEvent")
+    observer.node.create_subscription(event_type, "/parameter_events", heard, qos_profile_parameter_events)

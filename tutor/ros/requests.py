@@ -1,0 +1,64 @@
+"""What a service asks for, as a form: the leaves of its request, their types and defaults; and a form filled in."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from tutor.live.facts import Field
+from tutor.live.forms import shown
+from tutor.ros.as_yaml import is_array
+from tutor.ros.messages import interface
+
+_NESTED = re.compile(r"(\w+)/(\w+)")
+_BYTES = ("octet", "sequence<octet", "octet[")
+
+
+def request_fields(type_name: str) -> tuple[Field, ...]:
+    """The leaves of a service type's request, in their order. Raises UnknownType."""
+    return tuple(_leaves(interface(type_name).Request(), ""))
+
+
+def fill_request(type_name: str, values: Mapping[str, Any]) -> Any:
+    """A request with these values at the paths of its leaves.
+
+    Raises UnknownType, and ValueError with one line where a value does not fit.
+    """
+    request = interface(type_name).Request()
+    types = {field.path: field.type for field in _leaves(request, "")}
+    for path, value in values.items():
+        *way, last = path.split(".")
+        holder = request
+        for step in way:
+            holder = getattr(holder, step)
+        try:
+            setattr(holder, last, _as_field(types.get(path, ""), value))
+        except (AssertionError, AttributeError, TypeError, OverflowError, ValueError) as error:
+            raise ValueError(f"{path}: {error}") from error
+    return request
+
+
+def _leaves(message: Any, path: str) -> Iterator[Field]:
+    for name, type_name in message.get_fields_and_field_types().items():
+        here = f"{path}.{name}" if path else name
+        value = getattr(message, name)
+        if _NESTED.fullmatch(type_name) and hasattr(value, "get_fields_and_field_types"):
+            yield from _leaves(value, here)
+        else:
+            yield Field(here, type_name, shown(_plain(value)))
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, bytes):
+        return value[0] if len(value) == 1 else list(value)
+    if is_array(value):
+        return [_plain(item) for item in value]
+    return value.item() if hasattr(value, "item") else value
+
+
+def _as_field(type_name: str, value: Any) -> Any:
+    """A value as JSON gives it, as rclpy takes it: an octet is a bytes of length one."""
+    if type_name.startswith(_BYTES):
+        return [bytes([item]) for item in value] if isinstance(value, list) else bytes([value])
+    return value
