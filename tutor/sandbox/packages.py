@@ -63,7 +63,7 @@ def with_programs() -> list[str]:
 
 def has(package: str) -> bool:
     """Whether a prefix of AMENT_PREFIX_PATH has this package."""
-    return any((prefix / INDEX / package).is_file() for prefix in _prefixes())
+    return _is_name(package) and any((prefix / INDEX / package).is_file() for prefix in _prefixes())
 
 
 def _prefixes() -> Iterator[Path]:
@@ -72,9 +72,13 @@ def _prefixes() -> Iterator[Path]:
 
 def _prefix(package: str) -> Path:
     for prefix in _prefixes():
-        if package and (prefix / INDEX / package).is_file():
+        if _is_name(package) and (prefix / INDEX / package).is_file():
             return prefix
     raise PackageNotFound(package)
+
+
+def _is_name(text: str) -> bool:
+    return bool(text) and "/" not in text
 
 
 def _programs(prefix: Path, package: str) -> dict[str, Path]:

@@ -14,6 +14,10 @@ from tutor.sandbox.ros2.errors import CommandError
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """[-s] PACKAGE FILE [NAME:=VALUE ...], or [-s] PATH [NAME:=VALUE ...]."""
     parser.add_argument(
+        "-n", "--noninteractive", action="store_true", help="no terminal is there that passes Ctrl+C on to the nodes"
+    )
+    parser.add_argument("-d", "--debug", action="store_true", help="tell more of what launch does")
+    parser.add_argument(
         "-s", "--show-args", "--show-arguments", action="store_true", help="show the arguments that the file takes"
     )
     parser.add_argument("package", metavar="package_name", help="a package, or the path of a launch file")
@@ -32,22 +36,26 @@ def main(arguments: argparse.Namespace) -> int:
             given.insert(0, arguments.file)
     else:
         path = _in_package(arguments.package, arguments.file)
-    values = read_arguments(given)
+    check_arguments(given)
     from tutor.sandbox import launching  # late: whoever only asks for help, or is wrong, needs none of it
 
-    code: int = launching.run(path, values, show_args=arguments.show_args)
+    code: int = launching.run(
+        path,
+        given,
+        show_args=arguments.show_args,
+        noninteractive=arguments.noninteractive,
+        debug=arguments.debug,
+        resolver=packages,
+    )
     return code
 
 
-def read_arguments(given: Sequence[str]) -> dict[str, str]:
-    """Launch arguments as they are typed, by name; of two of one name, the last counts. Raises CommandError."""
-    values = {}
+def check_arguments(given: Sequence[str]) -> None:
+    """Raise CommandError where something is no launch argument."""
     for argument in given:
         name, sign, value = argument.partition(":=")
         if not (name and sign and value):
             raise CommandError(f"malformed launch argument '{argument}', expected format '<name>:=<value>'")
-        values[name] = value
-    return values
 
 
 def _by_path(arguments: argparse.Namespace) -> bool:

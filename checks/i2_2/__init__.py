@@ -1,0 +1,23 @@
+"""I2.2 Launch File Creation: one command that starts two nodes, which can be told where to talk."""
+
+from __future__ import annotations
+
+from checks.i2_2 import judges, scenarios
+from tutor.judge.check import Check, Criterion
+
+CHECK = Check(
+    "i2.2",
+    (
+        Criterion("starts", judges.judge_starts, (scenarios.plain,)),
+        Criterion("topic", judges.judge_topic, (scenarios.plain, scenarios.other_topic), after=("starts",)),
+        Criterion(
+            "namespace",
+            judges.judge_namespace,
+            (scenarios.plain, scenarios.other_namespace, scenarios.both),
+            after=("starts",),
+        ),
+        Criterion("communicates", judges.judge_communicates, (scenarios.plain,), after=("starts",)),
+        Criterion("shutdown", judges.judge_shutdown, (scenarios.plain,), after=("starts",), bonus=True),
+    ),
+    asks_s=0.5,  # the first message of our solution's publisher; a talker of the demo nodes takes 1.0 s
+)

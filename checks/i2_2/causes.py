@@ -1,0 +1,279 @@
+"""I2.2: likely causes, by name."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from checks.i2_2.facts import ARGUMENTS, FILE, NAMESPACE, Launched, publishers, shared, subscriptions, used
+from checks.i2_2.processes import Gone, gone, written_by
+from tutor.judge import causes, tracebacks
+from tutor.judge.trace import Endpoint, Trace
+from tutor.judge.verdict import Cause
+
+_NO_PACKAGE = re.compile(r"package '(?P<name>[^']*)' not found", re.IGNORECASE)
+_NO_PROGRAM = re.compile(r"executable '(?P<name>[^']*)' not found (?:in|on)[^\n]*")
+_NO_FILE = re.compile(r"FileNotFoundError|No such file or directory|\[Errno 2\]")
+_ERROR = re.compile(r"^\[ERROR\] \[launch\]: |Caught exception in launch[^:]*: ")
+_REMAP = re.compile(r"(?:-r|--remap) (?P<source>[^\s:=]+):=(?P<target>\S+)")
+
+
+def of_launch(trace: Trace) -> Cause | None:
+    """Why the launch did not do what it should: its file is broken, or what it starts ends or cannot be found."""
+    own = written_by(trace.output, None)
+    text = "\n".join(line.text for line in own)
+    if found := _NO_PACKAGE.search(text):
+        return Cause(
+            "package not found",
+            _line_of(text, found.start()),
+            "check the spelling of package=; demo_nodes_py, demo_nodes_cpp and my_package are there",
+        )
+    if found := _NO_PROGRAM.search(text):
+        return Cause(
+            "executable not found",
+            _line_of(text, found.start()),
+            "check executable=: talker and listener in the demo packages, minimal_publisher and minimal_subscriber in "
+            "my_package",
+        )
+    if "generate_launch_description" in text and re.search(
+        r"no (?:attribute|function)|not (?:defined|found)|missing|lack", text
+    ):
+        return Cause(
+            "no generate_launch_description",
+            f"{FILE} has no function of this name, which launch calls",
+            "def generate_launch_description(): ... return LaunchDescription([...])",
+        )
+    raised = tracebacks.find(own)
+    if raised:
+        return causes.of_traceback(raised[-1], trace)
+    if "NoneType" in text or re.search(r"return(?:s|ed)? (?:None|nothing)", text):
+        return Cause(
+            "nothing returned",
+            "generate_launch_description() returns None",
+            "end it with: return LaunchDescription([...])",
+        )
+    if error := next((line.text for line in own if _ERROR.search(line.text)), None):
+        return Cause("error in the launch", _ERROR.sub("", error), f"mend this in {FILE}, then launch it yourself")
+    if dead := gone(trace):
+        return _of_dead(dead[0], trace)
+    if trace.exit is not None:
+        return Cause(
+            "nothing to launch",
+            f"the launch ended by itself after {trace.exit.after_s:.1f} s with {trace.exit}, and had started nothing",
+            "put both nodes into the list: LaunchDescription([publisher, subscriber])",
+        )
+    return None
+
+
+def _line_of(text: str, at: int) -> str:
+    line = text[text.rfind("\n", 0, at) + 1 : text.find("\n", at) if "\n" in text[at:] else len(text)]
+    return _ERROR.sub("", _ERROR.sub("", line)).strip()[:400]
+
+
+def _of_dead(dead: Gone, trace: Trace) -> Cause:
+    if dead.traceback is not None:
+        named = causes.of_traceback(dead.traceback, trace)
+        return Cause("a node that ends", f"{dead.process} has ended: {named}", named.hint)
+    words = [line.text for line in dead.output if line.text.strip()][-1:]
+    return Cause(
+        "a node that ends",
+        f"{dead.process} has ended by itself with exit code {dead.code}" + (f": {words[0]}" if words else ""),
+        "start this program alone, with ros2 run or python3, and see what it says",
+    )
+
+
+def of_missing(seen: Launched) -> Cause:
+    """Why there are not two nodes of which one publishes and one subscribes."""
+    trace = seen.trace
+    if (cause := of_launch(trace)) is not None:
+        return cause
+    sending, taking = publishers(trace.graph), subscriptions(trace.graph)
+    if not trace.graph.nodes:
+        return Cause(
+            "no node", "the launch runs, but no ROS node has come up", "start programs that are nodes, with Node(...)"
+        )
+    if (sending or taking) and not (sending and taking):
+        missing, there = ("subscriber", sending) if sending else ("publisher", taking)
+        verb = "subscribes" if sending else "publishes"
+        return Cause(
+            f"no {missing}",
+            f"there is {_nodes(there)}, but nothing {verb}",
+            f"add a Node(...) for the {missing}, and put it into the list that LaunchDescription([...]) is given",
+        )
+    return Cause(
+        "one node only",
+        f"{_nodes([*sending, *taking])} does all by itself"
+        if sending
+        else f"the nodes {', '.join(trace.graph.nodes)} do neither",
+        "start two programs, with a Node(...) for each",
+    )
+
+
+def of_topic(usual: Launched, seen: Launched, wanted: str) -> Cause:
+    """Why, with another topic given, not both nodes use `wanted`, or the default topic is still used."""
+    if (cause := _of_broken(seen)) is not None:
+        return cause
+    graph = seen.trace.graph
+    sends = [each for each in publishers(graph) if each.topic == wanted]
+    takes = [each for each in subscriptions(graph) if each.topic == wanted]
+    if not sends and not takes:
+        return (
+            _of_ignored(seen, "topic", wanted)
+            or _of_remaps(seen, wanted)
+            or Cause(
+                "topic hard-coded",
+                f"neither node uses {wanted}: the remappings do not depend on the argument",
+                "give both nodes remappings=[('chatter', LaunchConfiguration('topic'))]",
+            )
+        )
+    if not sends or not takes:
+        there, others, verb = (
+            (sends, subscriptions(graph), "subscribes to") if sends else (takes, publishers(graph), "publishes on")
+        )
+        stray = [each for each in others if each.node not in {one.node for one in there}] or others
+        where = ", ".join(sorted({f"{each.node} {verb} {each.topic}" for each in stray})) or "the other is not there"
+        return _of_remaps(seen, wanted) or Cause(
+            "remapping missing on one node",
+            f"only {there[0].node} uses {wanted}; {where}",
+            "give the other node the same remappings=[...], from the name that its own code uses",
+        )
+    still = sorted(shared(usual.trace.graph) & used(graph))
+    if still:
+        who = sorted({each.node for each in (*publishers(graph), *subscriptions(graph)) if each.topic in still})
+        return Cause(
+            "default topic still used",
+            f"{', '.join(who)} still {'uses' if len(who) == 1 else 'use'} {', '.join(still)}",
+            "give every node that uses the topic the same remappings=[...]",
+        )
+    return Cause(
+        "no messages",
+        f"both nodes are on {wanted}, but nothing is sent there",
+        "start both by hand with this topic, and see what they say",
+    )
+
+
+def of_namespace(usual: Launched, seen: Launched) -> Cause:
+    """Why, with a namespace given, not both nodes and their topic are under it."""
+    if (cause := _of_broken(seen)) is not None:
+        return cause
+    graph, under = seen.trace.graph, f"/{NAMESPACE}/"
+    ends = [*publishers(graph), *subscriptions(graph)]
+    within = [each for each in ends if each.node.startswith(under)]
+    outside = [each for each in ends if not each.node.startswith(under)]
+    if not within:
+        return _of_ignored(seen, "namespace", NAMESPACE) or Cause(
+            "namespace not used",
+            f"{_nodes(outside)}: no node is under {under[:-1]}",
+            "give both nodes namespace=LaunchConfiguration('namespace'), or put them behind a PushRosNamespace",
+        )
+    if outside and not _both(within):
+        return Cause(
+            "namespace missing on one node",
+            f"{_nodes(within)} is under {under[:-1]}, {_nodes(outside)} is not",
+            "give the other node the same namespace=LaunchConfiguration('namespace')",
+        )
+    absolute = [each for each in within if not each.topic.startswith(under)]
+    if absolute:
+        slash = next((target for _, target in _remaps(seen) if target.startswith("/")), None)
+        because = f"the remapping to {slash} begins with a slash" if slash else "its name begins with a slash"
+        return Cause(
+            "absolute topic",
+            f"the nodes are under {under[:-1]}, but {absolute[0].node} uses {absolute[0].topic}: {because}",
+            "a name that begins with / takes no namespace: remap to the argument's value alone, without a slash",
+        )
+    topic = seen.arguments.get("topic")
+    if topic is not None:
+        return of_topic(usual, seen, f"{under}{topic}")
+    return Cause(
+        "nodes apart",
+        f"{_uses(ends)}: no node subscribes to what another one publishes",
+        "give both nodes the same namespace and the same remappings",
+    )
+
+
+def _of_broken(seen: Launched) -> Cause | None:
+    """Where something ended, or the launch is broken, with these arguments only."""
+    if seen.trace.exit is not None or gone(seen.trace) or not seen.trace.graph.nodes:
+        return of_launch(seen.trace)
+    return None
+
+
+def _of_ignored(seen: Launched, argument: str, value: str) -> Cause | None:
+    """Whether the value that was given reaches no node at all."""
+    word = value.rsplit("/", 1)[-1]
+    nodes = [command for command in seen.commands if f"{argument}:={word}" not in command]
+    if any(word in command for command in nodes):
+        return None
+    declared = seen.trace.launch_arguments
+    others = [name for name in declared if name not in ARGUMENTS]
+    if argument not in declared and others:
+        return Cause(
+            "wrong argument name",
+            f"{argument}:={word} changes nothing; the arguments are called {', '.join(declared)}",
+            f"name it exactly '{argument}', in DeclareLaunchArgument and in LaunchConfiguration",
+        )
+    if argument not in declared:
+        return Cause(
+            "argument missing",
+            f"{argument}:={word} changes nothing: no such argument is declared",
+            f"declare it with DeclareLaunchArgument('{argument}', ...); LaunchConfiguration('{argument}') is its value",
+        )
+    return Cause(
+        f"{argument} hard-coded" if argument == "topic" else "namespace not used",
+        f"the argument {argument} is declared, but its value reaches no node",
+        f"use LaunchConfiguration('{argument}') where the nodes are made, instead of a fixed text",
+    )
+
+
+def _of_remaps(seen: Launched, wanted: str) -> Cause | None:
+    """Whether a remapping to the topic starts from a name that its node does not use."""
+    word = wanted.rsplit("/", 1)[-1]
+    for source, target in _remaps(seen):
+        if target.rsplit("/", 1)[-1] != word or source.startswith("__"):
+            continue
+        ends = [*publishers(seen.trace.graph), *subscriptions(seen.trace.graph)]
+        idle = [each for each in ends if not each.topic.endswith(f"/{word}")]
+        names = sorted({each.topic for each in idle})
+        if not names:
+            continue
+        if source.startswith("/") and any(name.endswith(source) and name != source for name in names):
+            return Cause(
+                "absolute remapping",
+                f"the remapping from {source} means this one name only; in the namespace, the topic is {names[0]}",
+                f"remap from '{source[1:]}', without the slash: then the name is taken within the namespace",
+            )
+        if not any(name.rsplit("/", 1)[-1] == source.rsplit("/", 1)[-1] for name in names):
+            return Cause(
+                "remapping from an unused name",
+                f"{source} is remapped to {target}, but the node uses {', '.join(names)}",
+                f"remap from the name in the node's own code, such as '{names[0].rsplit('/', 1)[-1]}'",
+            )
+    return None
+
+
+def _remaps(seen: Launched) -> list[tuple[str, str]]:
+    """The remappings on the nodes' command lines, from and to."""
+    return [(m["source"], m["target"]) for command in seen.commands for m in _REMAP.finditer(command)]
+
+
+def of_pair(seen: Launched) -> Cause:
+    """Why a publisher and a subscription of two nodes do not come together on one topic."""
+    graph = seen.trace.graph
+    sends, takes = publishers(graph), subscriptions(graph)
+    return Cause(
+        "wrong topic",
+        f"{_uses(sends)}, {_uses(takes, 'subscribes to')}: nobody subscribes to what is published",
+        "remap both to the same name: ('chatter', LaunchConfiguration('topic')) on each",
+    )
+
+
+def _both(ends: Sequence[Endpoint]) -> bool:
+    return len({each.node for each in ends}) > 1
+
+
+def _nodes(ends: Sequence[Endpoint]) -> str:
+    return ", ".join(sorted({each.node for each in ends})) or "no node"
+
+
+def _uses(ends: Sequence[Endpoint], verb: str = "publishes on") -> str:
+    return ", ".join(sorted({f"{each.node} {verb} {each.topic}" for each in ends}))

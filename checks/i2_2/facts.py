@@ -1,0 +1,136 @@
+"""I2.2: what is asked of the launch file, and the facts that are gathered."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from tutor.judge.trace import Ending, Endpoint, Graph, LogRecord, Sample, Trace
+
+FILE = "my_launch.py"
+NAMESPACE = "robot1"
+ARGUMENTS = ("topic", "namespace")
+
+Pair = tuple[Endpoint, Endpoint]
+"""A publisher and a subscription on one topic, of two nodes."""
+
+
+@dataclass(frozen=True)
+class Launched:
+    """One launch. `commands` are the command lines of its processes, itself included.
+
+    `hidden` are topics whose type this ROS does not have, so that their messages cannot be seen. `answering` are the
+    nodes that answered a parameter call after messages had come, None where that was not asked.
+    """
+
+    trace: Trace
+    arguments: Mapping[str, str] = field(default_factory=dict)
+    commands: tuple[str, ...] = ()
+    hidden: frozenset[str] = frozenset()
+    answering: frozenset[str] | None = None
+    ending: Ending | None = None
+
+    @property
+    def typed(self) -> str:
+        """The arguments as one types them."""
+        return " ".join(f"{name}:={value}" for name, value in self.arguments.items()) or "no arguments"
+
+
+def publishers(graph: Graph) -> list[Endpoint]:
+    """The publishers, but for those that ROS makes by itself."""
+    return [each for each in graph.publishers if not _plumbing(each.topic)]
+
+
+def subscriptions(graph: Graph) -> list[Endpoint]:
+    """The subscriptions, but for those that ROS makes by itself."""
+    return [each for each in graph.subscriptions if not _plumbing(each.topic)]
+
+
+def _plumbing(topic: str) -> bool:
+    return topic in ("/rosout", "/parameter_events", "/clock") or any(part.startswith("_") for part in topic.split("/"))
+
+
+def two_nodes(graph: Graph) -> Pair | None:
+    """A publisher and a subscription, on whatever topics, of two nodes; on one topic, if there is such a pair."""
+    apart = (
+        (one, other)
+        for one in publishers(graph)
+        for other in subscriptions(graph)
+        if _of_two_nodes(graph, one.node, other.node)
+    )
+    return next(iter(pairs(graph)), None) or next(apart, None)
+
+
+def pairs(graph: Graph) -> list[Pair]:
+    """All publishers and subscriptions that share a topic and are of two nodes."""
+    return [
+        (one, other)
+        for one in publishers(graph)
+        for other in subscriptions(graph)
+        if one.topic == other.topic and _of_two_nodes(graph, one.node, other.node)
+    ]
+
+
+def _of_two_nodes(graph: Graph, one: str, other: str) -> bool:
+    return one != other or graph.nodes.count(one) > 1
+
+
+def used(graph: Graph) -> set[str]:
+    """The topics that something publishes on or subscribes to."""
+    return {each.topic for each in (*publishers(graph), *subscriptions(graph))}
+
+
+def shared(graph: Graph) -> set[str]:
+    """The topics on which a node publishes to which another one subscribes."""
+    return {one.topic for one, _ in pairs(graph)}
+
+
+def on_topic(graph: Graph, name: str) -> list[Pair]:
+    """The pairs on /name."""
+    return [pair for pair in pairs(graph) if pair[0].topic == f"/{name}"]
+
+
+def in_namespace(graph: Graph, name: str | None = None) -> list[Pair]:
+    """The pairs of which both nodes and the topic (called `name`, if given) are under the namespace."""
+    under = f"/{NAMESPACE}/"
+    return [
+        (one, other)
+        for one, other in pairs(graph)
+        if all(each.startswith(under) for each in (one.topic, one.node, other.node))
+        and (name is None or one.topic.endswith(f"/{name}"))
+    ]
+
+
+def size(graph: Graph) -> tuple[int, int, int]:
+    """How many nodes, publishers and subscriptions there are."""
+    return len(graph.nodes), len(publishers(graph)), len(subscriptions(graph))
+
+
+def heard(pair: Pair, logs: Sequence[LogRecord], samples: Sequence[Sample]) -> list[LogRecord]:
+    """What the subscriber logged that has the content of a message in it."""
+    name = pair[1].node.strip("/").replace("/", ".")
+    own = [log for log in logs if log.name == name or log.name.startswith(f"{name}.")]
+    return [
+        log
+        for log in own
+        if any(
+            text in log.text for sample in samples if sample.source_time <= log.stamp + 0.01 for text in _texts(sample)
+        )
+    ]
+
+
+def _texts(sample: Sample) -> set[str]:
+    """The contents of a message, as they would be written in a log; what is too short to be told is left out."""
+    return {text for value in _leaves(sample.message) if len(text := str(value).strip()) > 0}
+
+
+def _leaves(value: Any) -> Iterator[Any]:
+    if isinstance(value, Mapping):
+        for each in value.values():
+            yield from _leaves(each)
+    elif isinstance(value, (list, tuple)):
+        for each in value[:100]:
+            yield from _leaves(each)
+    else:
+        yield value

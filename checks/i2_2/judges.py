@@ -1,0 +1,160 @@
+"""I2.2: what must have been seen."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from checks.i2_2.causes import of_launch, of_missing, of_namespace, of_pair, of_topic
+from checks.i2_2.facts import (
+    NAMESPACE,
+    Launched,
+    Pair,
+    heard,
+    in_namespace,
+    on_topic,
+    pairs,
+    publishers,
+    shared,
+    subscriptions,
+    two_nodes,
+    used,
+)
+from checks.i2_2.processes import gone, writers, written_by
+from tutor.judge import causes, ending
+from tutor.judge.trace import Graph, OutputLine
+from tutor.judge.verdict import Cause, Verdict, failed, passed
+
+
+def judge_starts(seen: Launched) -> Verdict:
+    expected = "one command, without arguments, starts two nodes: one that publishes and one that subscribes"
+    found = two_nodes(seen.trace.graph)
+    nodes = seen.trace.graph.nodes
+    observed = f"{len(nodes)} node{'s' if len(nodes) != 1 else ''}" + (f": {', '.join(nodes)}" if nodes else "")
+    if found is None:
+        return failed(expected, observed, of_missing(seen), causes.last_words(seen.trace))
+    return passed(expected, observed, _who(found))
+
+
+def judge_topic(usual: Launched, seen: Launched) -> Verdict:
+    name = seen.arguments["topic"]
+    expected = f"with topic:={name}, both nodes use /{name}, and the default topic is unused"
+    found = on_topic(seen.trace.graph, name)
+    if _moved(usual, seen, found) and _sent(seen, found):
+        return passed(expected, _observed(seen), _who(found[0]))
+    return failed(expected, _observed(seen), of_topic(usual, seen, f"/{name}"), causes.last_words(seen.trace))
+
+
+def judge_namespace(usual: Launched, alone: Launched, both: Launched) -> Verdict:
+    topic = both.arguments["topic"]
+    wanted: tuple[tuple[Launched, str, Callable[[Graph], list[Pair]]], ...] = (
+        (alone, "the topic", in_namespace),
+        (both, f"/{NAMESPACE}/{topic}", lambda graph: in_namespace(graph, topic)),
+    )
+    for seen, where, find in wanted:
+        expected = f"with {seen.typed}, both nodes and {where} are under /{NAMESPACE}"
+        found = find(seen.trace.graph)
+        if not (_moved(usual, seen, found) and _sent(seen, found)):
+            cause = of_namespace(usual, seen)
+            return failed(expected, _observed(seen), cause, causes.last_words(seen.trace))
+    expected = f"with namespace:={NAMESPACE}, alone and with a topic, both nodes and the topic are under /{NAMESPACE}"
+    return passed(expected, _observed(both), _who(in_namespace(alone.trace.graph)[0]))
+
+
+def judge_communicates(seen: Launched) -> Verdict:
+    expected = "without arguments, the subscriber gets what the publisher sends"
+    found = pairs(seen.trace.graph)
+    if not found:
+        return failed(expected, _observed(seen), of_pair(seen), causes.last_words(seen.trace))
+    reasons: list[tuple[Pair, Cause]] = []
+    for pair in found:
+        reason = _why_not(seen, pair)
+        if reason is None:
+            topic = pair[0].topic
+            count = len(seen.trace.on(topic))
+            logs = heard(pair, seen.trace.logs, seen.trace.on(topic))
+            observed = f"{count} message{'s' if count != 1 else ''} on {topic}" if count else f"connected on {topic}"
+            return passed(expected, observed, [*_who(pair), *(str(log) for log in logs[:2])])
+        reasons.append((pair, reason))
+    pair, reason = reasons[0]
+    return failed(expected, _observed(seen), reason, causes.last_words(seen.trace))
+
+
+def _why_not(seen: Launched, pair: Pair) -> Cause | None:
+    """Why what `pair` sends does not arrive; None where it does."""
+    one, other = pair
+    if one.type != other.type:
+        return Cause(
+            "wrong type",
+            f"on {one.topic}, {one.node} sends {one.type}, and {other.node} wants {other.type}",
+            "choose two programs whose messages have the same type",
+        )
+    if (cause := causes.incompatible_qos(one, other)) is not None:
+        return cause
+    if not seen.trace.on(one.topic) and one.topic not in seen.hidden:
+        return of_launch(seen.trace) or Cause(
+            "no messages", f"{one.node} publishes nothing on {one.topic}", "start it alone, and see what it says"
+        )
+    alive = seen.answering is not None and other.node in seen.answering
+    mute = not any(
+        service.node == other.node and service.type.endswith("/ListParameters") for service in seen.trace.graph.services
+    )
+    logged = heard(pair, seen.trace.logs, seen.trace.on(one.topic))
+    if alive or (mute and seen.trace.exit is None) or (logged and not gone(seen.trace)):
+        return None
+    return of_launch(seen.trace) or Cause(
+        "no spin",
+        f"{other.node} has a subscription, but answers no request: its callbacks are never run",
+        "let the program call rclpy.spin(node), and no callback block",
+    )
+
+
+def judge_shutdown(seen: Launched) -> Verdict:
+    expected = "one Ctrl+C ends the whole launch within 5 s, and no process is left"
+    ended = seen.ending
+    if ended is not None:
+        # The launch passes on what its nodes write, with a prefix.
+        ended = replace(ended, output=_of_all(ended.output))
+    verdict = ending.judge(seen.trace, ended)
+    if not verdict.passed or ended is None:
+        return replace(verdict, expected=expected)
+    if ended.left:
+        return failed(
+            expected,
+            f"ended {ended.took_s:.2f} s after Ctrl+C with {ended.exit}; {len(ended.left)} left",
+            Cause(
+                "process left behind",
+                f"still there: {ended.left[0][:200]}",
+                f"start it with Node or ExecuteProcess, which end it, and not by Python code in {seen.trace.file}",
+            ),
+            [command[:200] for command in ended.left[:6]],
+        )
+    return passed(expected, f"{verdict.observed}; no process is left")
+
+
+def _of_all(output: tuple[OutputLine, ...]) -> tuple[OutputLine, ...]:
+    return tuple(line for process in (None, *writers(output)) for line in written_by(output, process))
+
+
+def _moved(usual: Launched, seen: Launched, found: list[Pair]) -> bool:
+    """Whether there is a pair where one is wanted, and a topic that the nodes share without arguments is unused."""
+    before = shared(usual.trace.graph)
+    return bool(found) and (not before or bool(before - used(seen.trace.graph)))
+
+
+def _sent(seen: Launched, found: list[Pair]) -> bool:
+    return any(one.topic in seen.hidden or bool(seen.trace.on(one.topic)) for one, _ in found)
+
+
+def _observed(seen: Launched) -> str:
+    graph = seen.trace.graph
+    if not graph.nodes:
+        return "no node" + (f"; the launch ended with {seen.trace.exit}" if seen.trace.exit else "")
+    ends = [f"{each.node} publishes on {each.topic}" for each in publishers(graph)]
+    ends += [f"{each.node} subscribes to {each.topic}" for each in subscriptions(graph)]
+    return "; ".join(sorted(set(ends))) or f"nodes without topics: {', '.join(graph.nodes)}"
+
+
+def _who(pair: Pair) -> list[str]:
+    one, other = pair
+    return [f"{one.node} publishes on {one.topic}", f"{other.node} subscribes to {other.topic}"]

@@ -1,0 +1,64 @@
+"""I2.2: what the launch wrote about its processes, and what they wrote through it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+
+from tutor.judge import tracebacks
+from tutor.judge.trace import OutputLine, Trace
+from tutor.judge.tracebacks import Traceback
+
+_COLOUR = re.compile(r"\x1b\[[0-9;]*m")
+_PREFIX = re.compile(r"^\[(?P<process>[^\]\s]+-\d+)\] ?(?P<text>.*)$")
+_DIED = re.compile(r"\[(?P<process>[^\]\s]+-\d+)\]: process has died \[pid \d+, exit code (?P<code>-?\d+), cmd '")
+_FINISHED = re.compile(r"\[(?P<process>[^\]\s]+-\d+)\]: process has finished cleanly")
+
+
+@dataclass(frozen=True)
+class Gone:
+    """A process that ended while the launch went on. `process` is its name in the launch, such as "talker-1"."""
+
+    process: str
+    code: int
+    output: tuple[OutputLine, ...]
+
+    @property
+    def traceback(self) -> Traceback | None:
+        """The traceback that it ended with, if any."""
+        found = tracebacks.find(self.output)
+        return found[-1] if found else None
+
+
+def gone(trace: Trace) -> list[Gone]:
+    """The processes that had ended, as the launch told, in that order."""
+    found = []
+    for line in trace.output:
+        text = _COLOUR.sub("", line.text)
+        if died := _DIED.search(text):
+            found.append(Gone(died["process"], int(died["code"]), written_by(trace.output, died["process"])))
+        elif finished := _FINISHED.search(text):
+            found.append(Gone(finished["process"], 0, written_by(trace.output, finished["process"])))
+    return found
+
+
+def written_by(output: Iterable[OutputLine], process: str | None) -> tuple[OutputLine, ...]:
+    """What one process wrote, without the launch's prefix; for None, what the launch itself wrote.
+
+    Tracebacks are looked for on stderr, but a launch may pass on all that it hears on its stdout.
+    """
+    found = []
+    for line in output:
+        match = _PREFIX.match(_COLOUR.sub("", line.text))
+        if match is None and process is None:
+            found.append(replace(line, stream="stderr"))
+        elif match is not None and match["process"] == process:
+            found.append(replace(line, stream="stderr", text=match["text"]))
+    return tuple(found)
+
+
+def writers(output: Sequence[OutputLine]) -> list[str]:
+    """The names of all processes that wrote anything."""
+    matches = (_PREFIX.match(_COLOUR.sub("", line.text)) for line in output)
+    return list(dict.fromkeys(match["process"] for match in matches if match))

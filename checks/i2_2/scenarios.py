@@ -1,0 +1,130 @@
+"""I2.2: what is done with the launch file."""
+
+from __future__ import annotations
+
+import asyncio
+import random
+from collections.abc import Callable, Iterable, Mapping
+
+from checks.i2_2.facts import (
+    FILE,
+    NAMESPACE,
+    Launched,
+    Pair,
+    heard,
+    in_namespace,
+    on_topic,
+    pairs,
+    shared,
+    size,
+    two_nodes,
+)
+from tutor.judge.bench import Bench, Run
+from tutor.judge.trace import Graph
+from tutor.judge.waiting import RARE_S, START_S
+
+DELAYED_S = 12.0
+"""A node may be started this much later than the first one, by a timer say."""
+
+SOON_S = 5.0
+"""The same, where nothing in the submission speaks of a delay."""
+
+MORE_S = 6.0
+"""Where two nodes are there, but share no topic, what joins them may come this much later."""
+
+ENDPOINTS_S = 2.0
+"""When as many nodes are there as without arguments, their publishers and subscriptions are there within this time."""
+
+SILENT_S = 1.0
+"""A subscriber that logs what it gets does so within this time."""
+
+
+async def plain(bench: Bench) -> Launched:
+    """Launch without arguments, see the nodes and whether they talk, then press Ctrl+C."""
+    async with bench.launch(FILE) as run:
+        bench.doing(0.1, "launching without arguments")
+        if await run.until(lambda: bool(run.graph.nodes), START_S) and await run.until(
+            lambda: two_nodes(run.graph) is not None, _patience(bench)
+        ):
+            await run.until(lambda: bool(pairs(run.graph)), MORE_S)
+        bench.doing(0.4, "listening to the nodes")
+        hidden = _listen(run, shared(run.graph))
+        await run.until(lambda: _heard_out(run, hidden), RARE_S)
+        asked = await run.parameters(2.0) if pairs(run.graph) else None
+        answering = frozenset(parameter.node for parameter in asked or ())
+        trace, commands = run.trace(), await run.commands()
+        bench.doing(0.8, "pressing Ctrl+C")
+        ending = await run.interrupt() if run.exit is None else None
+        return Launched(trace, {}, commands, hidden, answering, ending)
+
+
+async def other_topic(bench: Bench) -> Launched:
+    """Launch with another topic."""
+    name = _name()
+    return await _varied(bench, {"topic": name}, lambda graph: on_topic(graph, name))
+
+
+async def other_namespace(bench: Bench) -> Launched:
+    """Launch in a namespace."""
+    return await _varied(bench, {"namespace": NAMESPACE}, in_namespace)
+
+
+async def both(bench: Bench) -> Launched:
+    """Launch with another topic, in a namespace."""
+    name = _name()
+    return await _varied(bench, {"topic": name, "namespace": NAMESPACE}, lambda graph: in_namespace(graph, name))
+
+
+async def _varied(bench: Bench, arguments: Mapping[str, str], wanted: Callable[[Graph], list[Pair]]) -> Launched:
+    """Launch with arguments, until the nodes use what is wanted, or as much is there as without arguments."""
+    usual = asyncio.ensure_future(bench.facts(plain))
+    try:
+        async with bench.launch(FILE, arguments=arguments) as run:
+            bench.doing(0.1, "launching with " + " ".join(f"{name}:={value}" for name, value in arguments.items()))
+            await run.until(lambda: bool(wanted(run.graph)) or usual.done(), START_S + DELAYED_S + RARE_S)
+            if not wanted(run.graph):
+                expected = size((await usual).trace.graph)
+                await run.until(lambda: bool(wanted(run.graph)) or _at_least(run.graph, expected), DELAYED_S)
+                await run.until(lambda: bool(wanted(run.graph)), ENDPOINTS_S)
+            hidden = _listen(run, _topics(wanted(run.graph)))
+            if wanted(run.graph) and not hidden:
+                await run.until(lambda: any(run.on(topic) for topic in _topics(wanted(run.graph))), RARE_S)
+            # Whatever else there is without arguments must have had its time, too: it may be where it should not.
+            expected = size((await usual).trace.graph)
+            await run.until(lambda: _at_least(run.graph, expected), ENDPOINTS_S)
+            return Launched(run.trace(), arguments, await run.commands(), hidden)
+    finally:
+        usual.cancel()
+
+
+def _listen(run: Run, topics: Iterable[str]) -> frozenset[str]:
+    """Collect the messages of these topics; gives those whose type this ROS does not have."""
+    types = {each.topic: each.type for each in run.graph.publishers}
+    return frozenset(topic for topic in topics if not run.watch(topic, types[topic]))
+
+
+def _patience(bench: Bench) -> float:
+    """How much later than the first one the last node may come up, in seconds."""
+    return DELAYED_S if bench.mentions("TimerAction", "RegisterEventHandler", "sleep") else SOON_S
+
+
+def _heard_out(run: Run, hidden: frozenset[str]) -> bool:
+    """Whether there is a message on each shared topic, and who subscribes to it has logged it, or will not."""
+    found = pairs(run.graph)
+    if any(heard(pair, run.logs, run.on(pair[0].topic)) for pair in found):
+        return True
+    samples = [sample for pair in found if pair[0].topic not in hidden for sample in run.on(pair[0].topic)]
+    return not found or any(run.now() - sample.received_at > SILENT_S for sample in samples)
+
+
+def _topics(found: Iterable[Pair]) -> set[str]:
+    return {one.topic for one, _ in found}
+
+
+def _at_least(graph: Graph, expected: tuple[int, int, int]) -> bool:
+    return all(here >= wanted for here, wanted in zip(size(graph), expected, strict=True))
+
+
+def _name() -> str:
+    """A topic that no launch file can know beforehand."""
+    return f"topic_{random.randrange(1000, 9999)}"
