@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Sequence
-from importlib.abc import MetaPathFinder
-from importlib.machinery import ModuleSpec
 from types import ModuleType
 from typing import NoReturn
 
@@ -14,12 +12,28 @@ ABSENT_PACKAGES = frozenset({"launch_pytest", "launch_testing", "launch_testing_
 
 ABSENT_MODULES = frozenset(
     {
+        "launch.actions.opaque_coroutine",
         "launch.frontend",
+        "launch.launch_description_sources.frontend_launch_description_source",
         "launch.launch_introspector",
+        "launch.logging.handlers",
+        "launch.substitutions.anon_name",
+        "launch.substitutions.launch_log_dir",
+        "launch.utilities.signal_management",
+        "launch_ros.actions.composable_node_container",
+        "launch_ros.actions.lifecycle_node",
+        "launch_ros.actions.lifecycle_transition",
+        "launch_ros.actions.load_composable_nodes",
+        "launch_ros.actions.ros_timer",
+        "launch_ros.actions.set_ros_log_dir",
+        "launch_ros.actions.set_use_sim_time",
         "launch_ros.descriptions.composable_node",
         "launch_ros.event_handlers",
         "launch_ros.events",
+        "launch_ros.parameters_type",
+        "launch_ros.remap_rule_type",
         "launch_ros.ros_adapters",
+        "launch_ros.substitutions.parameter",
     }
 )
 """Modules of the real packages that people import by path."""
@@ -48,15 +62,12 @@ def lazily_refusing(module: str, absent: frozenset[str]) -> Callable[[str], NoRe
     return getattr_of_module
 
 
-class AbsentModuleFinder(MetaPathFinder):
+class AbsentModuleFinder:
     """Asked last, when nothing else has found a module: refuses those that only an installed ROS 2 has."""
 
-    def find_spec(
-        self, fullname: str, path: Sequence[str] | None = None, target: ModuleType | None = None
-    ) -> ModuleSpec | None:
+    def find_spec(self, fullname: str, path: Sequence[str] | None = None, target: ModuleType | None = None) -> None:
         if fullname.partition(".")[0] in ABSENT_PACKAGES or fullname in ABSENT_MODULES:
             refuse(fullname)
-        return None
 
 
 def install() -> None:

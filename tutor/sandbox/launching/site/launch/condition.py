@@ -21,7 +21,7 @@ class Condition:
 
     def evaluate(self, context: LaunchContext) -> bool:
         """Whether the action is executed; raises where that cannot be told."""
-        self._last_result = self._predicate(context) if self._predicate is not None else True
+        self._last_result = self._predicate(context) if self._predicate is not None else False
         return self._last_result
 
     def last_evaluation_result(self) -> bool | None:

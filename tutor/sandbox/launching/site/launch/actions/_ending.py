@@ -11,7 +11,8 @@ from ..action import Action
 from ..event import Event
 from ..event_handler import BaseEventHandler
 from ..events.matchers import matches_action
-from ..events.process.process_targeted_event import ProcessTargetedEvent, SignalProcess
+from ..events.process.process_targeted_event import ProcessTargetedEvent
+from ..events.process.signal_process import SignalProcess
 from ..launch_context import LaunchContext
 from ..some_entities_type import SomeEntitiesType
 from ..substitution import Substitution

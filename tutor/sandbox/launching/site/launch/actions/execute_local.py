@@ -19,9 +19,12 @@ from ..event_handlers.on_process_io import OnProcessIO
 from ..event_handlers.on_process_start import OnProcessStart
 from ..event_handlers.on_shutdown import OnShutdown
 from ..events.process.process_exited import ProcessExited
-from ..events.process.process_io import ProcessIO, ProcessStderr, ProcessStdout
+from ..events.process.process_io import ProcessIO
 from ..events.process.process_started import ProcessStarted
-from ..events.process.process_targeted_event import ShutdownProcess, SignalProcess
+from ..events.process.process_stderr import ProcessStderr
+from ..events.process.process_stdout import ProcessStdout
+from ..events.process.shutdown_process import ShutdownProcess
+from ..events.process.signal_process import SignalProcess
 from ..events.shutdown import Shutdown
 from ..launch_context import LaunchContext
 from ..launch_description_entity import LaunchDescriptionEntity

@@ -28,10 +28,3 @@ class LaunchConfigurationEquals(Condition):
         expected = None if self._expected is None else perform_substitutions(context, self._expected)
         value = context.launch_configurations.get(self._name)
         return bool(value == expected)
-
-
-class LaunchConfigurationNotEquals(LaunchConfigurationEquals):
-    """True where the launch configuration has another value."""
-
-    def _is_met(self, context: LaunchContext) -> bool:
-        return not super()._is_met(context)

@@ -4,11 +4,13 @@ from .._unsupported import lazily_refusing
 from .boolean_substitution import AllSubstitution, AndSubstitution, AnySubstitution, NotSubstitution, OrSubstitution
 from .command import Command
 from .environment_variable import EnvironmentVariable
-from .equals_substitution import EqualsSubstitution, NotEqualsSubstitution
+from .equals_substitution import EqualsSubstitution
+from .file_content import FileContent
 from .find_executable import FindExecutable
 from .if_else_substitution import IfElseSubstitution
 from .launch_configuration import LaunchConfiguration
 from .local_substitution import LocalSubstitution
+from .not_equals_substitution import NotEqualsSubstitution
 from .path_join_substitution import PathJoinSubstitution
 from .python_expression import PythonExpression
 from .substitution_failure import SubstitutionFailure
@@ -23,6 +25,7 @@ __all__ = [
     "Command",
     "EnvironmentVariable",
     "EqualsSubstitution",
+    "FileContent",
     "FindExecutable",
     "IfElseSubstitution",
     "LaunchConfiguration",
@@ -43,7 +46,6 @@ __getattr__ = lazily_refusing(
     frozenset(
         {
             "AnonName",
-            "FileContent",
             "ForEachVar",
             "ForLoopIndex",
             "LaunchLogDir",

@@ -46,13 +46,6 @@ class EqualsSubstitution(Substitution):
             return left == right
 
 
-class NotEqualsSubstitution(EqualsSubstitution):
-    """`true` where the two do not mean the same."""
-
-    def perform(self, context: LaunchContext) -> str:
-        return str(not self._equal(context)).lower()
-
-
 def _text(value: Any) -> Any:
     if is_substitution(value):
         return value

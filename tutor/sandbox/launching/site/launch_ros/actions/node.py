@@ -24,8 +24,7 @@ from ..utilities.evaluate_parameters import evaluate_parameter_dict
 from ..utilities.names import validate_namespace, validate_node_name
 from ..utilities.namespace_utils import make_namespace_absolute, prefix_namespace
 from ..utilities.normalize_parameters import normalize_parameters
-
-RemapRule = tuple[SomeSubstitutionsType, SomeSubstitutionsType]
+from ..utilities.normalize_remap_rule import SomeRemapRule, normalize_remap_rules
 
 
 class Node(ExecuteProcess):
@@ -48,7 +47,7 @@ class Node(ExecuteProcess):
         namespace: SomeSubstitutionsType | None = None,
         exec_name: SomeSubstitutionsType | None = None,
         parameters: Sequence[Any] | None = None,
-        remappings: Iterable[RemapRule] | None = None,
+        remappings: Iterable[SomeRemapRule] | None = None,
         ros_arguments: Iterable[SomeSubstitutionsType] | None = None,
         arguments: Iterable[SomeSubstitutionsType] | None = None,
         **kwargs: Any,
@@ -65,7 +64,7 @@ class Node(ExecuteProcess):
         self._node_name = name
         self._node_namespace = namespace
         self._parameters = normalize_parameters(parameters or [])
-        self._remappings = [_remap_rule(rule) for rule in remappings or ()]
+        self._remappings = list(normalize_remap_rules(remappings or ()))
         self._final_node_name: str | None = None
         self._final_namespace: str | None = None
         self._final_remappings: list[tuple[str, str]] | None = None
@@ -197,13 +196,6 @@ class Node(ExecuteProcess):
 
 def _perform(context: LaunchContext, value: SomeSubstitutionsType | None) -> str | None:
     return None if value is None else perform_substitutions(context, normalize_to_list_of_substitutions(value))
-
-
-def _remap_rule(rule: RemapRule) -> tuple[Any, Any]:
-    ensure_argument_type(rule, tuple, "remap_rule")
-    if len(rule) != 2:
-        raise TypeError(f"remap_rule must be a tuple of length 2, got length {len(rule)}")
-    return normalize_to_list_of_substitutions(rule[0]), normalize_to_list_of_substitutions(rule[1])
 
 
 def _remove(path: str) -> None:

@@ -2,23 +2,25 @@
 
 from launch._unsupported import lazily_refusing
 
-from .evaluate_parameters import evaluate_parameter_dict
+from .evaluate_parameters import evaluate_parameter_dict, evaluate_parameters
 from .names import validate_namespace, validate_node_name
 from .namespace_utils import is_namespace_absolute, is_root_namespace, make_namespace_absolute, prefix_namespace
 from .normalize_parameters import normalize_parameter_dict, normalize_parameters
+from .normalize_remap_rule import normalize_remap_rule, normalize_remap_rules
 
 __all__ = [
     "evaluate_parameter_dict",
+    "evaluate_parameters",
     "is_namespace_absolute",
     "is_root_namespace",
     "make_namespace_absolute",
     "normalize_parameter_dict",
     "normalize_parameters",
+    "normalize_remap_rule",
+    "normalize_remap_rules",
     "prefix_namespace",
     "validate_namespace",
     "validate_node_name",
 ]
 
-__getattr__ = lazily_refusing(
-    __name__, frozenset({"evaluate_parameters", "normalize_remap_rules", "to_parameters_list"})
-)
+__getattr__ = lazily_refusing(__name__, frozenset({"add_node_name", "get_node_name_count", "to_parameters_list"}))

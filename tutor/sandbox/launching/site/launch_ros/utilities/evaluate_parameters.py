@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 import yaml
@@ -10,9 +11,24 @@ from launch.launch_context import LaunchContext
 from launch.substitution import Substitution
 from launch.utilities import ensure_argument_type, perform_substitutions
 
-from ..parameter_descriptions import ParameterValue
+from ..parameter_descriptions import Parameter, ParameterFile, ParameterValue
 
 SCALARS = (bool, int, float, str)
+
+
+def evaluate_parameters(
+    context: LaunchContext, parameters: Iterable[Any]
+) -> tuple[Path | Parameter | dict[str, Any], ...]:
+    """What normalize_parameters gave: files as paths, dicts with names and values; a Parameter stays what it is."""
+    evaluated: list[Evaluated] = []
+    for item in parameters:
+        if isinstance(item, ParameterFile):
+            evaluated.append(item.evaluate(context))
+        elif isinstance(item, Parameter):
+            evaluated.append(item)
+        else:
+            evaluated.append(evaluate_parameter_dict(context, item))
+    return tuple(evaluated)
 
 
 def evaluate_parameter_dict(context: LaunchContext, parameters: Mapping[Any, Any]) -> dict[str, Any]:

@@ -32,30 +32,3 @@ class ProcessIO(RunningProcessEvent):
     @property
     def from_stderr(self) -> bool:
         return self._fd == 2
-
-
-class ProcessStdin(ProcessIO):
-    """Bytes for the process."""
-
-    name = "launch.events.process.ProcessStdin"
-
-    def __init__(self, *, text: bytes, **kwargs: Any) -> None:
-        super().__init__(text=text, fd=0, **kwargs)
-
-
-class ProcessStdout(ProcessIO):
-    """Bytes on the process's stdout."""
-
-    name = "launch.events.process.ProcessStdout"
-
-    def __init__(self, *, text: bytes, **kwargs: Any) -> None:
-        super().__init__(text=text, fd=1, **kwargs)
-
-
-class ProcessStderr(ProcessIO):
-    """Bytes on the process's stderr."""
-
-    name = "launch.events.process.ProcessStderr"
-
-    def __init__(self, *, text: bytes, **kwargs: Any) -> None:
-        super().__init__(text=text, fd=2, **kwargs)
