@@ -16,9 +16,10 @@ from ..parameter_descriptions import Parameter, ParameterFile, ParameterValue
 SCALARS = (bool, int, float, str)
 
 
-def evaluate_parameters(
-    context: LaunchContext, parameters: Iterable[Any]
-) -> tuple[Path | Parameter | dict[str, Any], ...]:
+Evaluated = Path | Parameter | dict[str, Any]
+
+
+def evaluate_parameters(context: LaunchContext, parameters: Iterable[Any]) -> tuple[Evaluated, ...]:
     """What normalize_parameters gave: files as paths, dicts with names and values; a Parameter stays what it is."""
     evaluated: list[Evaluated] = []
     for item in parameters:
