@@ -36,8 +36,8 @@ LONGEST_STEPS = 6
 class Pattern:
     """A regularity: its name ("constant value", "ramp", "short cycle", "not random") and what it is here.
 
-    `sure`: random values of every kind show it less often than `SURE`. Else some kind does, a walk in equal steps or the
-    like: it counts where every start of the program shows one.
+    `sure`: random values of every kind show it less often than `SURE`. Else some kind does, a walk in equal steps or
+    the like: it counts where every start of the program shows one.
     """
 
     name: str
@@ -67,7 +67,7 @@ def suspicious(values: Sequence[float]) -> bool:
         or again > 2
         or _monotone(values)
         or any(_follows_in_steps(values, period, _tolerance(values)) for period in range(1, 4))
-        or any(_comes_again(values, period) for period in range(2, len(values) - 1))
+        or any(_comes_again(values, period, ALIKE * _span(values)) for period in range(2, len(values) - 1))
         or min(_unexplained(values, 2), _unexplained(_unfolded(values), 2)) < 0.02
     )
 
@@ -99,14 +99,17 @@ def _cycle(values: Sequence[float]) -> Pattern | None:
         choices = min(_different(each, ALIKE * _span(each)) for each in (rest, _steps(rest)))
         for period in range(2, len(rest) - 2):
             repeats = len(rest) - period
-            chance = min(choices**-repeats, _chance_of_a_round(period, repeats) if _distinct(rest[:period]) else 1.0)
-            if chance < SURE and _comes_again(rest, period):
+            if not _comes_again(rest, period, ALIKE * _span(rest)):
+                continue
+            chance = max(choices**-repeats, (2 * ALIKE) ** repeats)  # that alike values come in this order
+            if _distinct(rest[:period]) and _comes_again(rest, period, 1e-9):
+                chance = min(chance, _chance_of_a_round(period, repeats))
+            if chance < SURE / 10:  # there are many periods, and many places to begin, to try
                 return Pattern("short cycle", f"the same {period} values come again and again")
     return None
 
 
-def _comes_again(values: Sequence[float], period: int) -> bool:
-    tolerance = ALIKE * _span(values)
+def _comes_again(values: Sequence[float], period: int, tolerance: float) -> bool:
     return all(abs(a - b) <= tolerance for a, b in zip(values, values[period:], strict=False))
 
 
