@@ -11,6 +11,7 @@ from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from enum import Enum
+from functools import lru_cache
 from itertools import pairwise
 from statistics import median
 
@@ -29,6 +30,9 @@ EVEN = 0.5
 CLOCKS_HZ = (1e3, 1e6, 1e9)
 """A number that rises at one of these speeds is a time in ms, µs or ns, not a count of ticks."""
 
+MOST = 2000
+"""Of a flood of messages, the latest will do."""
+
 _NUMBER = re.compile(r"\d+(?:\.\d+)?")
 _WORD_BEFORE = re.compile(r"\w*\W*$")
 _TRUTH = re.compile(r"\b(true|false|yes|no|on|off|idle|busy)\b", re.IGNORECASE)
@@ -36,11 +40,15 @@ _TRUTH = re.compile(r"\b(true|false|yes|no|on|off|idle|busy)\b", re.IGNORECASE)
 
 @dataclass(frozen=True, slots=True)
 class Tick:
-    """One log message of a series: when it was logged (seconds since the epoch), and the tick number in it, if any."""
+    """One log message of a series: when it was logged (seconds since the epoch), and the tick number in it, if any.
+
+    `whole`: the number is written without decimals.
+    """
 
     stamp: float
     number: float | None
     text: str
+    whole: bool = True
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,12 +64,11 @@ class Key:
         """The tick that this message tells of, where it belongs to the series."""
         if self.kind == "word":
             found = next((each for each in _numbers(log.text) if each[0] == self.text), None)
-            return Tick(log.stamp, found[1], log.text) if found else None
+            return _tick(log, found[1]) if found else None
         if self.kind == "any" and _shape(log.text) in self.shapes:
-            return Tick(log.stamp, None, log.text)
+            return _tick(log, None)
         if self.kind == "shape" and _shape(log.text) == self.text:
-            numbers = _numbers(log.text)
-            return Tick(log.stamp, None if self.column is None else numbers[self.column][1], log.text)
+            return _tick(log, None if self.column is None else _numbers(log.text)[self.column][1])
         return None
 
 
@@ -131,6 +138,19 @@ class During:
     fault: Fault | None
 
 
+def likely(found: Sequence[Series]) -> tuple[Series, ...]:
+    """Those that are of 10 Hz, or else the likeliest of another pace.
+
+    Messages that are some of another series' are not all that the timer logs, and left out.
+    """
+    right = [series for series in found if series.is_10_hz]
+    if not right:
+        one = best(found)
+        return (one,) if one else ()
+    stamps = {series: {tick.stamp for tick in series.ticks} for series in right}
+    return tuple(series for series in right if not any(stamps[series] < stamps[other] for other in right))
+
+
 def best(found: Iterable[Series]) -> Series | None:
     """The series that is most likely the timer's: one with tick numbers, else the one with most messages."""
     return max(found, key=lambda series: (series.is_10_hz, series.numbered, len(series.ticks)), default=None)
@@ -138,19 +158,20 @@ def best(found: Iterable[Series]) -> Series | None:
 
 def all_series(logs: Iterable[LogRecord]) -> list[Series]:
     """Every way to see repeated messages in these logs."""
-    ordered = sorted(logs, key=lambda log: log.stamp)
+    ordered = sorted(logs, key=lambda log: log.stamp)[-MOST:]
     shapes: dict[str, list[LogRecord]] = defaultdict(list)
-    words: set[str] = set()
+    words: dict[str, list[LogRecord]] = defaultdict(list)
     for log in ordered:
         shapes[_shape(log.text)].append(log)
-        words.update(before for before, _ in _numbers(log.text) if any(map(str.isalpha, before)))
+        for word in {before for before, _ in _numbers(log.text) if any(map(str.isalpha, before))}:
+            words[word].append(log)
     found: list[Series] = []
     for text, alike in shapes.items():
         columns = range(min(len(_numbers(log.text)) for log in alike))
         numbered = [s for c in columns if (s := _counting(_series(Key("shape", text, c), alike)))]
         found += numbered or _some(_uncounted(_series(Key("shape", text), alike)))
-    for word in words:
-        found += _some(_counting(_series(Key("word", word), ordered)))
+    for word, alike in words.items():
+        found += _some(_counting(_series(Key("word", word), alike)))
     plain = frozenset(series.key.text for series in found if series.key.kind == "shape" and not series.numbered)
     if len(plain) > 1:
         found += _some(_even(_series(Key("any", shapes=plain), ordered)))
@@ -175,7 +196,7 @@ def during(
         *([] if after else [max(until, answered_at)]),
     ]
     longest = max(b - a for a, b in pairwise(edges))
-    allowed = (1 + TOLERANCE) * series.longest_s + SLACK_S + starved_s
+    allowed = (1 + TOLERANCE) * min(series.longest_s, 2 * series.interval_s) + SLACK_S + starved_s
     for_s = answered_at - asked_at
     expected = for_s / series.interval_s
     least = (1 - TOLERANCE) * max(0.0, for_s - starved_s) / series.interval_s - 1
@@ -204,13 +225,15 @@ def _series(key: Key, logs: Iterable[LogRecord]) -> Series | None:
 
 
 def _counting(series: Series | None) -> Series | None:
-    """The series, where its numbers count something: whole, always rising (or falling), but no clock."""
+    """The series, where its numbers count something: whole, rising (or falling) on and on, but no clock."""
     if series is None:
         return None
     numbers = [tick.number or 0.0 for tick in series.ticks]
     steps = [b - a for a, b in pairwise(numbers)]
-    one_way = all(step > 0 for step in steps) or all(step < 0 for step in steps)
-    if not one_way or not all(number.is_integer() for number in numbers):
+    # Callbacks that overlap may tell of two ticks in the wrong order; a number that starts over counts nothing.
+    one_way = abs(numbers[-1] - numbers[0]) >= 0.8 * sum(map(abs, steps)) and sum(map(bool, steps)) >= 0.8 * len(steps)
+    whole = all(tick.whole for tick in series.ticks) or series.is_10_hz  # "12.0 ticks" counts, "1.2 s" tells the time
+    if not one_way or not whole:
         return None
     return None if any(abs(series.hz - clock) <= 0.1 * clock for clock in CLOCKS_HZ) else series
 
@@ -243,16 +266,24 @@ def _hz(ticks: Sequence[Tick]) -> float:
     return abs(last.number - first.number) / span
 
 
+@lru_cache(4 * MOST)
 def _shape(text: str) -> str:
     return _TRUTH.sub("?", shape(text))
 
 
-def _numbers(text: str) -> list[tuple[str, float]]:
+def _tick(log: LogRecord, written: str | None) -> Tick:
+    if written is None:
+        return Tick(log.stamp, None, log.text)
+    return Tick(log.stamp, float(written), log.text, "." not in written)
+
+
+@lru_cache(4 * MOST)
+def _numbers(text: str) -> tuple[tuple[str, str], ...]:
     """The numbers in a text, each with the word and the signs right before it."""
-    found: list[tuple[str, float]] = []
+    found: list[tuple[str, str]] = []
     end = 0
     for match in _NUMBER.finditer(text):
         before = _WORD_BEFORE.search(text[end : match.start()])
-        found.append((before.group() if before else "", float(match.group())))
+        found.append((before.group() if before else "", match.group()))
         end = match.end()
-    return found
+    return tuple(found)

@@ -9,9 +9,9 @@ from rclpy.node import Node
 class Adder(Node):
     def __init__(self):
         super().__init__('adder')
-        self.create_service(AddTwoInts, 'slow_add', self.handle)
+        self.create_service(AddTwoInts, 'slow_add', self.on_call)
 
-    def handle(self, request, response):
+    def on_call(self, request, response):
         self.get_logger().info('Incoming request')
         time.sleep(3)
         response.sum = request.a + request.b

@@ -1,0 +1,311 @@
+"""I2.3: made log messages of a timer, made calls, and what must be said of each."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from checks.i2_3.facts import SERVICE, TYPE, Interrupted, Lone, Quiet, Trio
+from checks.i2_3.judges import (
+    judge_blocks,
+    judge_concurrent,
+    judge_parallel,
+    judge_shutdown,
+    judge_shutdown_busy,
+    judge_timer,
+)
+from checks.i2_3.ticks import Fault, Series, all_series, during, likely
+from tests.checks.made import (
+    CRASHED,
+    FOLDER,
+    KEYBOARD_INTERRUPT,
+    NO_NODE,
+    START,
+    UP,
+    assert_failed,
+    assert_passed,
+    ending,
+    frame,
+    graph,
+    trace,
+)
+from tutor.judge.bench import MachineTooBusy
+from tutor.judge.trace import CallAnswer, LogRecord
+from tutor.judge.verdict import Status
+
+SERVING = graph(services={SERVICE: TYPE})
+ASKED = START + 0.3
+IN_WORKER = (frame("slow_add"), frame("_worker", "/usr/lib/python3.12/concurrent/futures/thread.py"))
+IN_CALL = (frame("call", "/venv/rclpy/client.py"), frame("slow_add"))
+
+Text = Callable[[int], str]
+
+
+def says(text: str, at: float, level: int = 20) -> LogRecord:
+    return LogRecord(level, "node", text, at, at)
+
+
+def ticking(
+    text: Text = "Timer tick: {}".format,
+    *,
+    until_s: float = 4.6,
+    every: int = 10,
+    hz: float = 10.0,
+    jitter_s: float = 0.0,
+    stands_still: tuple[float, float] | None = None,
+    seed: int = 1,
+) -> list[LogRecord]:
+    """A timer's messages from START on; while it stands still (from, to; seconds after START), it does not count."""
+    chance = random.Random(seed)
+    logs: list[LogRecord] = []
+    number = step = 0
+    while (at := (step := step + 1) / hz) <= until_s:
+        if stands_still and stands_still[0] <= at < stands_still[1]:
+            continue
+        number += 1
+        if number % every == 0:
+            logs.append(says(text(number), START + at + chance.uniform(0, jitter_s)))
+    return logs
+
+
+def seen_in(logs: Sequence[LogRecord]) -> tuple[Series, ...]:
+    return likely(all_series(logs))
+
+
+def answer(took_s: float = 3.01, a: int = 5, b: int = 3, sum_: int | None = 8, asked_at: float = ASKED) -> CallAnswer:
+    response = None if sum_ is None else {"sum": sum_}
+    return CallAnswer(SERVICE, {"a": a, "b": b}, response, asked_at, asked_at + took_s, 12.0)
+
+
+def lone(logs: Sequence[LogRecord] = (), called: CallAnswer | None = None, **more: Any) -> Lone:
+    return Lone(trace(graph=SERVING, logs=logs), called or answer(), START + 4.7, **more)
+
+
+def quiet(logs: Sequence[LogRecord], **more: Any) -> Quiet:
+    return Quiet(trace(graph=SERVING, logs=logs), seen_in(logs), **more)
+
+
+@given(st.floats(2.8, 3.35), st.integers(-900, 900), st.integers(-900, 900))
+def test_three_seconds(took_s: float, a: int, b: int) -> None:
+    assert_passed(judge_blocks(lone(called=answer(took_s, a, b, a + b))))
+
+
+@given(st.floats(0, 2.7) | st.floats(3.5, 12))
+def test_other_times(took_s: float) -> None:
+    assert_failed(judge_blocks(lone(called=answer(took_s))), "too quick" if took_s < 3 else "too slow", "s")
+
+
+def test_a_busy_machine_may_take_longer_but_never_less() -> None:
+    assert_passed(judge_blocks(lone(called=answer(3.7), starved_s=0.4)))
+    assert_failed(judge_blocks(lone(called=answer(2.6), starved_s=2.0)), "too quick")
+    assert_failed(judge_blocks(lone(called=answer(4.0), starved_s=0.4)), "too slow", "4.0 s")
+    with pytest.raises(MachineTooBusy):
+        judge_blocks(lone(called=answer(4.5), starved_s=1.0, excused=True))
+
+
+@pytest.mark.parametrize(
+    ("seen", "cause", "word"),
+    [
+        (lone(called=answer(sum_=2)), "wrong sum", "2 instead of 8"),
+        (lone(called=answer(sum_=0)), "wrong sum", "response.sum"),
+        (lone(called=answer(sum_=None), stuck=IN_CALL), "deadlock by call()", "line 12"),
+        (lone(called=answer(sum_=None), stuck=IN_WORKER), "no answer", "line 12"),
+        (lone(called=answer(sum_=None), spins=False), "no spin", "/node"),
+        (Lone(CRASHED), "unhandled exception", "line 12"),
+        (Lone(NO_NODE), "no node", ""),
+        (Lone(trace(graph=UP)), "service missing", SERVICE),
+        (Lone(trace(graph=graph(services={"/slow_sum": TYPE}))), "wrong service name", "/slow_sum"),
+        (Lone(trace(graph=graph(services={"/me/slow_add": TYPE}))), "wrong service name", "namespace"),
+        (Lone(trace(graph=graph(services={SERVICE: "std_srvs/srv/Trigger"}))), "wrong type", "Trigger"),
+        (
+            Lone(trace(graph=graph(services={"/node/get_parameters": "rcl_interfaces/srv/GetParameters"}))),
+            "service missing",
+            SERVICE,
+        ),
+    ],
+)
+def test_no_right_answer(seen: Lone, cause: str, word: str) -> None:
+    assert_failed(judge_blocks(seen), cause, word)
+
+
+TEXTS: list[Text] = [
+    "Timer tick: {}".format,
+    "{}".format,
+    "[{:05d}] still alive".format,
+    "10 Hz timer: tick {}".format,
+    "⏰ {} ticks".format,
+    "Takt Nummer {}".format,
+    "таймер {}".format,
+    lambda n: f"tick #{n} at {START + n / 10:.2f}, 3 calls",
+    lambda n: f"{START + n / 10:.3f} tick {n}",
+    lambda n: f"elapsed {n / 10:.1f} s, tick {n}",
+    lambda n: f"ticks left: {1000 - n}",
+    lambda n: f"tick {n} ({'BUSY' if 3 < n < 33 else 'idle'})",
+    lambda n: f"tick {n}: {random.Random(n).choice(['still here', 'alive', 'going strong'])}",
+]
+
+
+@pytest.mark.parametrize("text", TEXTS)
+@pytest.mark.parametrize("every", [1, 2, 5, 10, 20])
+def test_a_timer_is_found_and_goes_on(text: Text, every: int) -> None:
+    alone = quiet(ticking(text, until_s=8, every=every))
+    during_call = [
+        *ticking(text, every=every),
+        says("Service called: 5 + 3", ASKED),
+        *(says(f"working: {percent} %", ASKED + percent / 34) for percent in range(0, 100, 3)),
+        says("Service complete: 8", ASKED + 3.01),
+    ]
+    assert_passed(judge_timer(alone, lone(during_call)))
+
+
+@pytest.mark.parametrize("text", TEXTS)
+@pytest.mark.parametrize("every", [1, 5, 10, 20])
+def test_a_timer_that_stands_still_is_found_out(text: Text, every: int) -> None:
+    alone = quiet(ticking(text, until_s=8, every=every))
+    blocked = ticking(text, every=every, stands_still=(0.3, 3.31), until_s=8)
+    seen = Lone(trace(graph=SERVING, logs=blocked), answer(), START + 8, stuck=IN_WORKER)
+    assert_failed(judge_timer(alone, seen), "blocked executor", "line 12", "default group")
+    alone_thread = Lone(seen.trace, seen.answer, seen.until, stuck=(frame("slow_add"),))
+    assert_failed(judge_timer(alone, alone_thread), "blocked executor", "one thread")
+
+
+UNNUMBERED: list[Text] = [
+    lambda n: "tick",
+    lambda n: f"alive at {START + n / 10:.3f}",
+    lambda n: f"up for {n * 100} ms",
+    lambda n: "tick" if n % 2 else "tock",
+    lambda n: "|/-\\"[n % 4],
+]
+
+
+@pytest.mark.parametrize("text", UNNUMBERED)
+def test_without_a_number_ten_messages_per_second_are_the_timer(text: Text) -> None:
+    assert_passed(judge_timer(quiet(ticking(text, every=1)), lone(ticking(text, every=1))))
+    blocked = ticking(text, every=1, stands_still=(0.4, 3.3))
+    assert_failed(judge_timer(quiet(ticking(text, every=1)), lone(blocked)), "blocked executor")
+
+
+@pytest.mark.parametrize("text", UNNUMBERED[:3])
+def test_without_a_number_one_message_per_second_is_no_timer_of_10_hz(text: Text) -> None:
+    assert_failed(judge_timer(quiet(ticking(text, every=10)), lone(ticking(text))), "wrong timer period", "0.1 s")
+
+
+@given(st.floats(0.2, 7.5) | st.floats(12.6, 100), st.sampled_from([1, 2, 5, 10]))
+def test_other_rates(hz: float, every: int) -> None:
+    alone = quiet(ticking(hz=hz, every=every, until_s=4.1 * every / hz))
+    assert_failed(judge_timer(alone, lone()), "wrong timer period", "times per second")
+
+
+@given(st.floats(8.5, 11.5), st.sampled_from([1, 2, 5, 10]), st.integers(0, 100), st.floats(0, 0.03))
+def test_jitter_is_no_fault(hz: float, every: int, seed: int, jitter_s: float) -> None:
+    def logs(until_s: float, seed: int) -> list[LogRecord]:
+        return ticking(hz=hz, every=every, until_s=until_s, jitter_s=jitter_s, seed=seed)
+
+    assert_passed(judge_timer(quiet(logs(3.6, seed)), lone(logs(4.7, seed + 1))))
+
+
+@given(st.floats(0.3, 1.5), st.floats(1.2, 3.0), st.sampled_from([1, 2, 5]))
+def test_a_gap_of_more_than_a_second_is_one(start: float, length: float, every: int) -> None:
+    logs = ticking(every=every, stands_still=(start, start + length), until_s=6)
+    verdict = judge_timer(quiet(ticking(every=every)), Lone(trace(graph=SERVING, logs=logs), answer(), START + 6))
+    assert verdict.status is Status.FAILED
+
+
+def test_a_gap_that_the_machine_made_is_excused() -> None:
+    blocked = ticking(every=1, stands_still=(0.5, 1.6))
+    assert_passed(judge_timer(quiet(ticking(every=1)), lone(blocked, starved_s=1.0)))
+    with pytest.raises(MachineTooBusy):
+        judge_timer(quiet(ticking(every=1)), lone(ticking(stands_still=(0.4, 3)), excused=True))
+    with pytest.raises(MachineTooBusy):
+        judge_timer(quiet(ticking(hz=7), excused=True), lone())
+
+
+def test_missed_ticks_made_up_for_are_a_gap_and_a_burst() -> None:
+    burst = [says(f"Timer tick: {n}", START + 3.32 + n / 1e4) for n in range(3, 34)]
+    logs = [*ticking(every=1, until_s=0.25), *burst, *ticking(every=1)[33:]]
+    assert_failed(judge_timer(quiet(ticking(every=1)), lone(logs, stuck=IN_WORKER)), "blocked executor")
+
+
+def test_a_burst_without_a_gap() -> None:
+    logs = [*ticking(every=1), *(says("Timer tick: 99", START + 3.2 + n / 1e3) for n in range(20))]
+    assert_failed(judge_timer(quiet(ticking(every=1)), lone(logs)), "ticks in a burst")
+
+
+def test_every_second_tick_left_out_during_a_call() -> None:
+    kept = [log for n, log in enumerate(ticking(lambda n: "tick", every=1)) if n % 2 or not 3 < n < 33]
+    assert_failed(judge_timer(quiet(ticking(lambda n: "tick", every=1)), lone(kept)), "slowed timer")
+
+
+def test_a_timer_that_never_comes_back() -> None:
+    assert_failed(judge_timer(quiet(ticking()), lone(ticking(until_s=2))), "blocked executor")
+
+
+def test_only_the_service_logs() -> None:
+    assert_failed(judge_timer(quiet([says("Ready", START)]), lone(ticking(every=1))), "no timer messages")
+    printing = Quiet(trace(graph=SERVING, out="\n".join(f"tick {n}" for n in range(20))))
+    assert_failed(judge_timer(printing, lone()), "printed, not logged", "tick 19")
+    assert_failed(judge_timer(Quiet(CRASHED), lone()), "unhandled exception", FOLDER.rsplit("/", 1)[-1][:0])
+
+
+def test_a_second_timer_is_not_taken_for_the_fast_one() -> None:
+    slow = [says(f"heartbeat {n}", START + n) for n in range(1, 9)]
+    alone = quiet([*ticking(), *slow])
+    assert_passed(judge_timer(alone, lone([*ticking(), *slow])))
+    blocked = ticking(stands_still=(0.4, 3.3))
+    assert_failed(judge_timer(alone, lone([*blocked, *slow])), "blocked executor")
+    assert_failed(judge_timer(quiet(slow), lone(slow)), "wrong timer period", "1.0 times")
+
+
+def test_a_timer_without_a_call_is_not_judged() -> None:
+    assert judge_timer(quiet(ticking()), Lone(trace(graph=UP))).status is Status.SKIPPED
+    assert_failed(judge_timer(quiet(ticking(hz=5)), Lone(trace(graph=UP))), "wrong timer period")
+
+
+def test_numbers_that_tell_the_time_are_no_ticks() -> None:
+    (series,) = seen_in(ticking(lambda n: f"{n * 100_000_000} ns", every=1))
+    assert not series.numbered
+    assert during(series, [], START, START + 3, until=START + 4, starved_s=0).fault is Fault.GAP
+
+
+def three(*sums: int | None, took_s: Sequence[float] = (3.0, 3.0, 3.0), starved_s: float = 0.0) -> Trio:
+    answers = tuple(answer(took, 1000 * n, 5, sum_) for n, (took, sum_) in enumerate(zip(took_s, sums, strict=True), 1))
+    return Trio(trace(graph=SERVING), answers, starved_s)
+
+
+def test_three_at_once() -> None:
+    assert_passed(judge_concurrent(three(1005, 2005, 3005)))
+    assert_passed(judge_concurrent(three(1005, 2005, 3005, took_s=(9.0, 3.0, 6.0))))
+    assert_failed(judge_concurrent(three(3005, 3005, 3005)), "shared state", "1 of 3")
+    assert_failed(judge_concurrent(three(1005, -1, -1)), "wrong sum", "-1")
+    assert_failed(judge_concurrent(three(1005, None, None)), "no answer", "2 of 3")
+    assert_failed(judge_concurrent(Trio(CRASHED, three(1005, None, None).answers)), "unhandled exception")
+    assert judge_concurrent(Trio(trace(graph=UP))).status is Status.SKIPPED
+
+
+@given(st.permutations([1005, 2005, 3005]))
+def test_each_its_own_sum(sums: list[int]) -> None:
+    right = sums == [1005, 2005, 3005]
+    assert judge_concurrent(three(*sums)).status is (Status.PASSED if right else Status.FAILED)
+
+
+def test_parallel() -> None:
+    sums = (1005, 2005, 3005)
+    assert_passed(judge_parallel(lone(), three(*sums, took_s=(3.0, 3.1, 4.4))))
+    assert_passed(judge_parallel(lone(), three(*sums, took_s=(3.0, 3.1, 5.0), starved_s=0.6)))
+    assert_failed(judge_parallel(lone(), three(*sums, took_s=(3.0, 3.0, 6.0))), "one call at a time", "2.0 times")
+
+
+def test_shutdown() -> None:
+    assert_passed(judge_shutdown(quiet([], ending=ending())))
+    assert_failed(judge_shutdown(quiet([], ending=ending(1, err=KEYBOARD_INTERRUPT))), "traceback on exit")
+    assert_passed(judge_shutdown_busy(Interrupted(trace(graph=SERVING), True, ending(130))))
+    assert_failed(
+        judge_shutdown_busy(Interrupted(trace(graph=SERVING), True, ending(still_there=True))), "SIGINT ignored"
+    )
+    assert_failed(judge_shutdown_busy(Interrupted(CRASHED, False)), "unhandled exception")
+    assert judge_shutdown_busy(Interrupted(trace(graph=UP), False, ending())).status is Status.SKIPPED
