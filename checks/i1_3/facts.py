@@ -72,12 +72,16 @@ class Division:
 
 @dataclass(frozen=True)
 class Demonstration:
-    """A run of the client against servers of ours. None of it where the submission has no client."""
+    """A run of the client against servers of ours. None of it where the submission has no client.
+
+    `stuck`: where it was when it did not end; `clients`: the service clients that it had.
+    """
 
     trace: Trace | None
     served: tuple[Served, ...] = ()
     exit: Exit | None = None
     stuck: tuple[Frame, ...] = ()
+    clients: tuple[Service, ...] = ()
 
 
 def right_result(service: str, a: int, b: int) -> int:

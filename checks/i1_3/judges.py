@@ -34,12 +34,9 @@ def judge_services(seen: Calls) -> Verdict:
         return failed(expected, f"missing: {', '.join(missing)}", cause, causes.last_words(seen.trace))
     if unanswered is not None:
         observed = f"no answer from {unanswered.service} in {ANSWER_S:g} s"
-        return failed(
-            expected,
-            observed,
-            causes.of_no_answer(seen.trace, seen.stuck, spins=seen.spins),
-            causes.last_words(seen.trace),
-        )
+        silent = [service for service in seen.trace.graph.services if service.name == unanswered.service]
+        cause = causes.incompatible_service(silent) or causes.of_no_answer(seen.trace, seen.stuck, spins=seen.spins)
+        return failed(expected, observed, cause, causes.last_words(seen.trace))
     return passed(expected, "all four answer", [f"{name} = {result}" for name, result in _answered(seen.answers)])
 
 
@@ -211,25 +208,29 @@ def judge_client(seen: Demonstration) -> Verdict:
             cause = Cause("non-zero exit", f"the client {ended}", "end with return or sys.exit(0) when all went well")
         return failed(expected, f"{ended}; called {_listed(called)}", cause, words)
     if missing:
-        cause = (
-            Cause(
-                "no main call",
-                "main() is defined, but nothing calls it",
-                'end the file with: if __name__ == "__main__": main()',
-            )
-            if seen.trace.uncalled_main and not called
-            else Cause(
-                "not called",
-                f"{', '.join(missing)} got no request",
-                "call each service, and wait for each answer before you go on",
-            )
-        )
+        cause = causes.incompatible_service(seen.clients) or _why_not_called(seen.trace, called, missing)
         return failed(expected, f"{ended}; {', '.join(missing)} not called", cause, words)
     return passed(expected, f"{len(seen.served)} calls, {ended}", calls_made)
 
 
+def _why_not_called(trace: Trace, called: set[str], missing: Sequence[str]) -> Cause:
+    if trace.uncalled_main and not called:
+        return Cause(
+            "no main call",
+            "main() is defined, but nothing calls it",
+            'end the file with: if __name__ == "__main__": main()',
+        )
+    return Cause(
+        "not called",
+        f"{', '.join(missing)} got no request",
+        "call each service, and wait for each answer before you go on",
+    )
+
+
 def _why_hanging(seen: Demonstration) -> Cause:
     assert seen.trace is not None
+    if (mismatched := causes.incompatible_service(seen.clients)) is not None:
+        return mismatched
     own = tracebacks.own(seen.stuck, seen.trace.folder)
     where = f" at {own}" if own else ""
     if causes.in_call(seen.stuck):

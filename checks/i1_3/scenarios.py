@@ -25,7 +25,7 @@ from checks.i1_3.facts import (
     right_result,
 )
 from tutor.judge.bench import Bench, Run
-from tutor.judge.trace import CallAnswer
+from tutor.judge.trace import CallAnswer, Service
 from tutor.judge.tracebacks import Frame
 from tutor.judge.waiting import appears
 
@@ -108,9 +108,15 @@ async def demonstration(bench: Bench) -> Demonstration:
     servers = {name: (TYPE, _server(name)) for name in SIGNS}
     async with bench.start(CLIENT, serve=servers) as run:
         bench.doing(0.2, "running the client against our servers")
-        await run.until(lambda: run.exit is not None, CLIENT_S)
+        clients: set[Service] = set()  # what it had while it ran: afterwards, the graph no longer knows
+
+        def over() -> bool:
+            clients.update(run.graph.clients if run.exit is None else ())
+            return run.exit is not None
+
+        await run.until(over, CLIENT_S)
         trace, served, ended = run.trace(), tuple(run.served), run.exit
-        return Demonstration(trace, served, ended, await run.stuck_at() if ended is None else ())
+        return Demonstration(trace, served, ended, await run.stuck_at() if ended is None else (), tuple(clients))
 
 
 def _operands(service: str) -> list[tuple[int, int]]:

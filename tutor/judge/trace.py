@@ -60,11 +60,12 @@ class Endpoint:
 
 @dataclass(frozen=True, slots=True)
 class Service:
-    """A service server in the graph."""
+    """A service server or client in the graph. `reliability` is that of what it sends: answers, or requests."""
 
     name: str
     type: str
     node: str
+    reliability: str = "reliable"
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,6 +76,7 @@ class Graph:
     publishers: tuple[Endpoint, ...] = ()
     subscriptions: tuple[Endpoint, ...] = ()
     services: tuple[Service, ...] = ()
+    clients: tuple[Service, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Sequence
 
 from rclpy.node import Node
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 from tutor.judge.trace import Endpoint, Graph, Service
 from tutor.ros.observer import OUR_PREFIX
+
+_AskByNode = Callable[[str, str], Sequence[tuple[str, Sequence[str]]]]
 
 _PLUMBING = ("/rosout", "/parameter_events")
 
@@ -30,7 +32,8 @@ def graph(node: Node) -> Graph:
         nodes=tuple(nodes),
         publishers=_endpoints(topics, node.get_publishers_info_by_topic),
         subscriptions=_endpoints(topics, node.get_subscriptions_info_by_topic),
-        services=_services(node, set(nodes)),
+        services=_services(node, set(nodes), node.get_service_names_and_types_by_node, "rr{}Reply"),
+        clients=_services(node, set(nodes), node.get_client_names_and_types_by_node, "rq{}Request"),
     )
 
 
@@ -51,13 +54,26 @@ def _endpoint(topic: str, info: TopicEndpointInfo) -> Endpoint:
     )
 
 
-def _services(node: Node, nodes: set[str]) -> tuple[Service, ...]:
+def _services(node: Node, nodes: set[str], ask: _AskByNode, sends_on: str) -> tuple[Service, ...]:
+    """The service servers or clients; `sends_on` is the DDS topic of what they send, with {} for the service's name."""
     found: list[Service] = []
     for full in sorted(nodes):
         namespace, _, name = full.rpartition("/")
         try:
-            offered = node.get_service_names_and_types_by_node(name, namespace or "/")
+            offered = ask(name, namespace or "/")
         except RuntimeError:  # the node left between the two questions
             continue
-        found += [Service(service, type_name, full) for service, types in offered for type_name in types]
+        for service, types in offered:
+            reliability = _reliability(node, sends_on.format(service), full) if _is_own(types) else "reliable"
+            found += [Service(service, type_name, full, reliability) for type_name in types]
     return tuple(found)
+
+
+def _is_own(types: Iterable[str]) -> bool:
+    return not any(each.startswith(("rcl_interfaces/", "type_description_interfaces/")) for each in types)
+
+
+def _reliability(node: Node, dds_topic: str, full: str) -> str:
+    senders = node.get_publishers_info_by_topic(dds_topic, no_mangle=True)
+    mine = [info for info in senders if full_name(info.node_name, info.node_namespace) == full]
+    return mine[0].qos_profile.reliability.short_key if mine else "reliable"

@@ -13,13 +13,21 @@ from tutor.judge.causes.parameters import (
     timer_not_replaced,
 )
 from tutor.judge.causes.process import QUICK_S, in_call, last_words, no_spin, of_no_answer, of_process, same_name
-from tutor.judge.causes.topics import incompatible_qos, of_deafness, of_qos, of_silence, wrong_topic
+from tutor.judge.causes.topics import (
+    incompatible_qos,
+    incompatible_service,
+    of_deafness,
+    of_qos,
+    of_silence,
+    wrong_topic,
+)
 
 __all__ = [
     "QUICK_S",
     "RCLPYS_OWN",
     "in_call",
     "incompatible_qos",
+    "incompatible_service",
     "last_words",
     "no_spin",
     "not_declared",

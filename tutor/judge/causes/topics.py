@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 
 from tutor.judge.causes import names
 from tutor.judge.causes.process import node_names, of_no_answer, of_process
-from tutor.judge.trace import Endpoint, Trace
+from tutor.judge.trace import Endpoint, Service, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Cause
 
@@ -74,6 +74,19 @@ def incompatible_qos(publisher: Endpoint, subscription: Endpoint) -> Cause | Non
         "they are not connected",
         f"give both the same {policy}: with a plain depth, such as 10, instead of a QoSProfile they match",
     )
+
+
+def incompatible_service(services: Iterable[Service]) -> Cause | None:
+    """Whether one of the learner's service servers or clients sends best effort, where the other side is reliable."""
+    for service in services:
+        if service.reliability == "best_effort":
+            return Cause(
+                names.INCOMPATIBLE_QOS,
+                f"{service.name} was made with reliability best_effort, the other side asks for reliable: they are not "
+                "connected",
+                "leave qos_profile out: the default of services is right",
+            )
+    return None
 
 
 def of_qos(trace: Trace, topic: str) -> Cause | None:
