@@ -1,0 +1,35 @@
+"""Every cause that the contract lists is proved: by a submission that is judged to fail for it, and for nothing else."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.judging import find
+from tutor.judge.causes.names import MEANINGS
+
+
+def proofs() -> dict[str, list[str]]:
+    """For each name, the submissions and criteria of which it, and no alternative, must be the cause."""
+    found: dict[str, list[str]] = {name: [] for name in MEANINGS}
+    for case in find()[0]:
+        for criterion, texts in case.expected.causes.items():
+            if len(texts) == 1 and texts[0] in found:
+                found[texts[0]].append(f"{case} {criterion}".strip())
+    return found
+
+
+PROOFS = proofs()
+
+
+@pytest.mark.parametrize("name", MEANINGS)
+def test_a_submission_proves_it(name: str) -> None:
+    assert PROOFS[name], f"no submission must fail with the cause {name!r}"
+
+
+def test_each_name_says_what_it_stands_for() -> None:
+    assert all(MEANINGS.values())
+
+
+if __name__ == "__main__":
+    for name, meaning in MEANINGS.items():
+        print(f"{name}: {meaning}", *(PROOFS[name] or ["-"]), sep="\n    ")
