@@ -2,14 +2,36 @@
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import Callable
+from pathlib import Path
+from typing import ClassVar
 
+from textual import events, on
 from textual.app import ComposeResult
-from textual.containers import Vertical
-from textual.widgets import Static
+from textual.binding import Binding, BindingType
+from textual.containers import Horizontal, Vertical
+from textual.content import Content
+from textual.message import Message
+from textual.widgets import ContentSwitcher, Static
+from textual.worker import Worker
 
 from tutor.content import Lesson
+from tutor.live.facts import CallOutcome, Graph, NodeParameters, RequestForm, SetOutcome, TopicNews
+from tutor.live.protocol import Attend, Command, Follow, News, Plot, Unfollow
+from tutor.live.protocol import Trouble as ChildTrouble
+from tutor.tui import messages
+from tutor.tui.live.child import LiveChild
 from tutor.tui.live.command import LiveCommand, live_command
+from tutor.tui.live.graph_panel import GraphPanel
+from tutor.tui.live.parameters_panel import ParametersPanel
+from tutor.tui.live.presets import PRESETS, Preset
+from tutor.tui.live.services_panel import ServicesPanel
+from tutor.tui.live.state import LiveState, is_plumbing, is_plumbing_service
+from tutor.tui.live.strip import TabStrip
+from tutor.tui.live.topics_panel import Order, TopicsPanel
+
+TABS = {"topics": "Topics", "parameters": "Parameters", "services": "Services", "graph": "Graph"}
 
 
 class LivePane(Vertical):
@@ -20,33 +42,257 @@ class LivePane(Vertical):
     - `start_watching()` when the page is first opened, or a node of the learner runs. Returns at once; asked again, it
       does nothing while it watches. A test passes a function that gives another `LiveCommand`; it is called in a
       worker thread.
-    - `stop_watching()` to end it; returns at once, and the child ends for certain. `await close_down()` does the same and
-      waits (well under two seconds). A pane that is unmounted, or whose app is killed, ends its child as well.
+    - `stop_watching()` to end it; returns at once, and the child ends for certain. `await close_down()` does the same
+      and waits (well under two seconds). A pane that is unmounted, or whose app is killed, ends its child as well.
     - `show_for(lesson)` when another lesson is shown: its topic, node and service are chosen as soon as they appear,
       unless the learner has chosen others.
     - `focus_content()` to put the focus where the arrow keys are of use.
 
-    It posts `tutor.tui.messages.Trouble` (bubbles up to the screen, for a toast). Keys in it: [ and ] turn its own tabs,
-    Enter chooses, Space pauses; the footer shows those that go. Single letters of the screen go on working, except in
-    the inputs of its forms.
+    It posts `tutor.tui.messages.Trouble` (bubbles up to the screen, for a toast). Keys in it: [ and ] turn its own
+    tabs, Enter chooses, Space pauses, x, y, u, + and -: each panel shows those that go in its last line. Other keys of
+    the screen go on working, except in the inputs of its forms.
     """
 
-    DEFAULT_CSS = "LivePane { background: $surface; }"
+    DEFAULT_CSS = Path(__file__).with_name("pane.tcss").read_text("utf-8")
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("left_square_bracket", "step(-1)", "Previous tab", show=False),
+        Binding("right_square_bracket", "step(1)", "Next tab", show=False),
+    ]
+
+    class Arrived(Message):
+        """The watching process has told something."""
+
+        def __init__(self, news: News) -> None:
+            super().__init__()
+            self.news = news
+
+    def __init__(self, id: str | None = None) -> None:
+        super().__init__(id=id)
+        self.state = LiveState()
+        self._child: LiveChild | None = None
+        self._worker: Worker[None] | None = None
+        self._command: Callable[[], LiveCommand] = live_command
+        self._broken = ""
+        self._preset = Preset()
+        self._seen = False
 
     def compose(self) -> ComposeResult:
-        yield Static("Nothing is watched yet.", id="live-empty")
+        with Horizontal(id="live-head"):
+            yield TabStrip(TABS, id="live-tabs")
+            yield Static(id="live-standing")
+        yield Static(id="live-empty")
+        yield Static(id="live-note", markup=False)
+        with ContentSwitcher(initial="topics", id="live-panels"):
+            yield TopicsPanel(self.state, id="topics")
+            yield ParametersPanel(self.state, id="parameters")
+            yield ServicesPanel(self.state, id="services")
+            yield GraphPanel(self.state, id="graph")
+
+    def on_mount(self) -> None:
+        self._show_standing()
+
+    # --- the watching process ---
+
+    @property
+    def watching(self) -> bool:
+        """Whether the child runs, or is about to."""
+        return self._worker is not None
 
     def start_watching(self, command: Callable[[], LiveCommand] = live_command) -> None:
         """Start the child process that watches, unless it runs."""
+        if self._worker is None:
+            self._command, self._broken = command, ""
+            self._worker = self.run_worker(self._watch(command), group="live", exit_on_error=False)
+            self._show_standing()
 
     def stop_watching(self) -> None:
         """End the child process."""
+        if self._worker is not None:
+            self._worker.cancel()
 
     async def close_down(self) -> None:
         """End the child process, and wait until it is gone."""
+        if (child := self._child) is not None:
+            self.stop_watching()
+            await child.stop()
+
+    async def _watch(self, command: Callable[[], LiveCommand]) -> None:
+        child: LiveChild | None = None
+        fault = "ended by itself"
+        try:
+            found = await asyncio.to_thread(command)
+            self.state.domain = found.domain
+            self._child = child = await LiveChild.start(found)
+            child.send(Attend(self._seen))
+            for view in self.state.topics.values():
+                child.send(Follow(view.topic))
+                if view.path:
+                    child.send(Plot(view.topic, view.path))
+            async for news in child.news():
+                self.post_message(self.Arrived(news))
+            fault = child.last_words or fault
+        except asyncio.CancelledError:
+            fault = ""
+            raise
+        except (OSError, ValueError) as error:
+            fault = str(error)
+        finally:
+            if child is not None:
+                child.let_go()
+            self._child = self._worker = None
+            self.state.lost()
+            if self.is_attached:
+                self._broken = fault
+                self._show_all()
+                if fault:
+                    self.post_message(messages.Trouble(f"The live page no longer watches: {fault}"))
+            if child is not None:
+                await child.stop()
+
+    @on(Order)
+    def _order(self, message: Order) -> None:
+        message.stop()
+        self._send(message.command)
+        if isinstance(message.command, Follow | Unfollow):
+            self._show_standing()
+
+    def _send(self, command: Command) -> None:
+        if self._child is not None:
+            self._child.send(command)
+
+    # --- what it tells ---
+
+    @on(Arrived)
+    async def _arrived(self, message: Arrived) -> None:
+        message.stop()
+        news = message.news
+        self.state.hear(news)
+        match news:
+            case TopicNews(topic):
+                self.query_one(TopicsPanel).show_news(topic)
+            case Graph():
+                self._show_all()
+                await self._choose_service()
+            case NodeParameters():
+                self.query_one(ParametersPanel).show_list()
+                self._show_standing()
+            case SetOutcome():
+                self.query_one(ParametersPanel).show_history()
+            case CallOutcome():
+                self.query_one(ServicesPanel).show_history()
+            case RequestForm():
+                await self.query_one(ServicesPanel).show_form()
+            case ChildTrouble(text):
+                self.post_message(messages.Trouble(text))
+            case _:
+                self._show_standing()
+
+    def _show_all(self) -> None:
+        self.query_one(TopicsPanel).show_list()
+        self.query_one(ParametersPanel).show_list()
+        self.query_one(ServicesPanel).show_list()
+        self.query_one(ServicesPanel).show_history()
+        self.query_one(GraphPanel).show_list()
+        self._show_standing()
+
+    def _show_standing(self) -> None:
+        """The tabs' counts, what is watched, and what to do where there is nothing to see."""
+        state = self.state
+        graph = state.graph or Graph()
+        counts = {
+            "topics": sum(not is_plumbing(topic.name) for topic in graph.topics),
+            "parameters": len(state.listed_parameters(everything=False)),
+            "services": sum(not is_plumbing_service(service.name) for service in graph.services),
+            "graph": 0,
+        }
+        labels = {name: f"{label} {counts[name]}" if counts[name] else label for name, label in TABS.items()}
+        if broken := len(state.mismatches()):
+            labels["graph"] = f"Graph ✗ {broken}"
+        self.query_one(TabStrip).labels = labels
+        nodes = len(state.nodes)
+        domain = f"domain {state.domain}"
+        word = f"● {nodes} node{'' if nodes == 1 else 's'} · {domain}" if state.ready else "◐ starting"
+        if self._worker is None:
+            word = "! not watching" if self._broken else "not watching"
+        self.query_one("#live-standing", Static).update(word)
+        came = any(view.news is not None and view.news.count for view in state.topics.values())
+        text = self._nothing()
+        self.set_class(bool(text) and not came, "-empty")
+        self.set_class(bool(text) and came, "-note")
+        self.query_one("#live-empty" if not came else "#live-note", Static).update(text)
+
+    def _nothing(self) -> Content:
+        """Why nothing can be seen, and what to do; empty where there is a node."""
+        domain = self.state.domain
+        if self._broken:
+            return _advice("Nothing is watched", f"{self._broken}\nTurn to another page and back to watch again.")
+        if self._worker is None:
+            return _advice("Nothing is watched yet", "")
+        if self.state.graph is None and not self.state.ready:
+            return _advice("Joining your ROS domain", "")
+        if self.state.nodes:
+            return Content("")
+        return Content.assemble(
+            (f"No node runs in domain {domain}", "bold $foreground"),
+            ": press ",
+            ("r", "bold $accent"),
+            " to run yours.\nTopics, parameters, services and the graph come here.",
+        )
+
+    # --- what is chosen ---
 
     def show_for(self, lesson: Lesson) -> None:
         """Choose what this lesson is about, once it appears."""
+        topics = self.query_one(TopicsPanel)
+        for name in self._preset.topics:
+            view = self.state.topics.get(name)
+            if view is not None and (view.news is None or not view.news.count):
+                del self.state.topics[name]
+                self._send(Unfollow(name))
+        self._preset = PRESETS.get(lesson.id, Preset())
+        for name in reversed(self._preset.topics):
+            topics.follow(name)
+        topics.show_list()
+
+    async def _choose_service(self) -> None:
+        panel = self.query_one(ServicesPanel)
+        if panel.chosen is None and self._preset.service and self.state.graph:
+            for service in self.state.graph.services:
+                if service.name == self._preset.service:
+                    await panel.choose(service, focus=False)
 
     def focus_content(self) -> None:
         """Focus what the arrow keys move in."""
+        target = {"topics": "#topics-table", "parameters": "#parameters-table", "services": "#services-table"}
+        self.query_one(target.get(self.query_one(TabStrip).active, "#graph-view")).focus()
+
+    def action_step(self, by: int) -> None:
+        """To the next tab, or the one before."""
+        self.query_one(TabStrip).action_step(by)
+
+    @on(TabStrip.Turned)
+    def _turned(self, message: TabStrip.Turned) -> None:
+        message.stop()
+        self.query_one("#live-panels", ContentSwitcher).current = message.tab
+        if self.has_focus_within and not self.query_one(TabStrip).has_focus:
+            self.focus_content()
+
+    # --- who looks ---
+
+    def on_show(self, event: events.Show) -> None:
+        """The page is turned to."""
+        self._attend(True)
+        if self._broken:
+            self.start_watching(self._command)
+
+    def on_hide(self, event: events.Hide) -> None:
+        """Another page is."""
+        self._attend(False)
+
+    def _attend(self, seen: bool) -> None:
+        self._seen = seen
+        self._send(Attend(seen))
+
+
+def _advice(head: str, text: str) -> Content:
+    return Content.assemble((head, "bold $foreground"), f"\n\n{text}" if text else "")

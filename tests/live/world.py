@@ -1,0 +1,121 @@
+"""A domain of its own with nodes on it, and an app that is nothing but the live page."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import ClassVar
+
+from textual.app import App, ComposeResult
+
+from tutor.ros.domain import reserve_domain
+from tutor.ros.environment import detect, learner_env
+from tutor.tui import messages
+from tutor.tui.live.command import LiveCommand, live_command
+from tutor.tui.live.pane import LivePane
+from tutor.tui.themes import DARK, LIGHT
+
+THERMOMETER = Path(__file__).with_name("thermometer.py")
+
+
+class World:
+    """One ROS domain that nothing else uses, visible to this host only."""
+
+    def __init__(self, domain: int) -> None:
+        self.domain = domain
+        self.environ = {
+            **os.environ,
+            "ROS_DOMAIN_ID": str(domain),
+            "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
+        }
+        self._running: list[subprocess.Popen[bytes]] = []
+
+    def run(self, script: Path, *arguments: str) -> subprocess.Popen[bytes]:
+        """Start a node, and wait until it says that it is ready."""
+        ros = detect(self.environ)
+        logs = Path(tempfile.gettempdir()) / "ros-tutor-log"
+        env = learner_env(
+            ros, domain_id=self.domain, log_dir=logs, package_root=None, isolated=False, environ=self.environ
+        )
+        process = subprocess.Popen(
+            [str(ros.python), str(script), *arguments],
+            env=env,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            start_new_session=True,
+        )
+        self._running.append(process)
+        assert process.stdout is not None
+        assert process.stdout.readline() == b"ready\n"
+        return process
+
+    def interrupt(self, process: subprocess.Popen[bytes]) -> None:
+        """Press Ctrl+C: the node leaves the graph at once."""
+        process.send_signal(signal.SIGINT)
+        process.wait(10)
+
+    def end(self, process: subprocess.Popen[bytes]) -> None:
+        process.kill()
+        process.wait()
+        if process.stdout is not None:
+            process.stdout.close()
+        self._running.remove(process)
+
+    def close(self) -> None:
+        for process in list(self._running):
+            self.end(process)
+
+    def command(self) -> LiveCommand:
+        """How the app watches this domain."""
+        return live_command(self.environ)
+
+
+@contextmanager
+def world() -> Iterator[World]:
+    with reserve_domain() as domain:
+        made = World(domain)
+        try:
+            yield made
+        finally:
+            made.close()
+
+
+class LiveApp(App[int]):
+    """The live page alone."""
+
+    CSS: ClassVar[str] = "LivePane { height: 1fr; }"
+
+    def __init__(self, around: World) -> None:
+        super().__init__()
+        self.around = around
+        self.told: list[str] = []
+        for theme in (DARK, LIGHT):
+            self.register_theme(theme)
+        self.theme = DARK.name
+        self.animation_level = "none"
+
+    def compose(self) -> ComposeResult:
+        yield LivePane(id="live")
+
+    def on_mount(self) -> None:
+        self.pane.start_watching(self.around.command)
+        self.pane.focus_content()
+
+    @property
+    def pane(self) -> LivePane:
+        return self.query_one(LivePane)
+
+    def on_trouble(self, message: messages.Trouble) -> None:
+        self.told.append(message.text)
+
+
+if __name__ == "__main__":  # to look around by hand: python -m tests.live.world
+    with world() as around:
+        around.run(THERMOMETER, *sys.argv[1:])
+        LiveApp(around).run()

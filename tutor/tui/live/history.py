@@ -1,0 +1,74 @@
+"""What was done and what became of it, newest first."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterable
+from typing import ClassVar
+
+from tutor.live.facts import CallOutcome, SetOutcome
+from tutor.live.forms import shown
+from tutor.tui.live.words import period
+from tutor.tui.widgets.line_view import LineView, Row
+
+_LONGEST_VALUE = 60
+
+
+class HistoryView(LineView):
+    """Lines of outcomes: a mark, a word and a time each; colour is never the only sign."""
+
+    COMPONENT_CLASSES: ClassVar[set[str]] = {f"line--{kind}" for kind in ("quiet", "good", "bad", "busy", "name")}
+    DEFAULT_CSS = """
+    HistoryView {
+        & > .line--quiet { color: $quiet; }
+        & > .line--good { color: $good; }
+        & > .line--bad { color: $bad; }
+        & > .line--busy { color: $busy; }
+        & > .line--name { color: $code-type; }
+    }
+    """
+
+
+def set_rows(outcome: SetOutcome) -> Iterable[Row]:
+    """One set of a parameter."""
+    what = f"{outcome.node} {outcome.name} = {_value(outcome.value)}"
+    if not outcome.answered:
+        mark, word, kind = "!", f"no answer within {period(outcome.took_s)}: does the node spin?", "bad"
+    elif outcome.accepted:
+        mark, word, kind = "✓", f"accepted, {period(outcome.took_s)}", "good"
+    else:
+        mark, word, kind = "✗", "rejected", "bad"
+    yield ((f" {mark} ", kind), (_clock(outcome.at), "quiet"), (f"  {what}  ", ""), (word, kind))
+    if outcome.answered and (outcome.reason or not outcome.accepted):
+        yield ((" " * 13, ""), (outcome.reason or "the node gave no reason", "quiet" if outcome.accepted else "bad"))
+
+
+def call_rows(outcome: CallOutcome) -> Iterable[Row]:
+    """One call of a service, with its answer."""
+    asked = ", ".join(f"{path}={_value(value)}" for path, value in outcome.request.items())
+    head: Row = ((_clock(outcome.at), "quiet"), (f"  {outcome.service} ", ""), (asked, "quiet"))
+    if outcome.text is not None:
+        yield ((" ✓ ", "good"), *head)
+        yield ((f"   answered in {period(outcome.took_s)}", "good"),)
+        for line in outcome.text.splitlines():
+            yield ((f"   {line}", ""),)
+    else:
+        mark, kind = ("■", "quiet") if outcome.problem == "cancelled" else ("✗", "bad")
+        yield ((f" {mark} ", kind), *head)
+        yield ((f"   {outcome.problem}", kind), (f" after {period(outcome.took_s)}", "quiet"))
+
+
+def waiting_row(service: str, since: float, now: float) -> Row:
+    """A call under way."""
+    return ((" ◐ ", "busy"), (_clock(since), "quiet"), (f"  {service}  ", ""), (f"waiting {now - since:.1f} s", "busy"))
+
+
+def _clock(at: float) -> str:
+    return time.strftime("%H:%M:%S", time.localtime(at))
+
+
+def _value(value: object) -> str:
+    text = shown(value)
+    if isinstance(value, str) and (not text or text != text.strip()):
+        text = f"'{text}'"
+    return text if len(text) <= _LONGEST_VALUE else f"{text[:_LONGEST_VALUE]}..."

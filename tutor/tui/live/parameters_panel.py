@@ -1,0 +1,175 @@
+"""The parameters of all nodes: a table to set them in, and what became of every set."""
+
+from __future__ import annotations
+
+import itertools
+from typing import ClassVar
+
+from rich.text import Text
+from textual import on
+from textual.app import ComposeResult
+from textual.binding import Binding, BindingType
+from textual.containers import Horizontal, Vertical
+from textual.widgets import DataTable, Input, Static
+
+from tutor.judge.trace import Parameter
+from tutor.live.forms import parse_parameter, shown
+from tutor.live.protocol import Refresh, SetParameter
+from tutor.tui.live import words
+from tutor.tui.live.history import HistoryView, set_rows
+from tutor.tui.live.state import LiveState
+from tutor.tui.live.strip import ActionBar
+from tutor.tui.live.topics_panel import Order
+
+_COLUMNS = ("Node", "Parameter", "Value", "Type", "Allowed")
+_LONGEST_VALUE = 40
+_EDITING = (("Enter", "Set", "set"), ("Esc", "Leave it", "leave"))
+
+_numbers = itertools.count(1)
+
+
+class ParametersPanel(Vertical):
+    """Enter opens the value under the cursor; Enter again sets it, and the node's answer is kept below."""
+
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("R", "refresh", "Ask again", show=False),
+        Binding("u", "all", "All", show=False),
+        Binding("escape", "leave", "Leave it", show=False),
+    ]
+
+    def __init__(self, state: LiveState, id: str | None = None) -> None:
+        super().__init__(id=id)
+        self.state = state
+        self.editing: Parameter | None = None
+        self.everything = False
+        self._listed: tuple[Parameter, ...] = ()
+
+    def compose(self) -> ComposeResult:
+        yield DataTable(id="parameters-table", cursor_type="row", cell_padding=1)
+        yield Static(id="parameters-silent")
+        with Horizontal(id="parameter-edit"):
+            yield Static(id="parameter-name")
+            yield Input(id="parameter-value", compact=True)
+        yield Static(id="parameter-problem")
+        yield HistoryView(id="parameter-history")
+        yield ActionBar(id="parameter-actions")
+
+    def on_mount(self) -> None:
+        for name in _COLUMNS:
+            self.table.add_column(name, key=name)
+        self.show_history()
+        self._show_actions()
+
+    @property
+    def table(self) -> DataTable[Text]:
+        """The table of parameters."""
+        return self.query_one("#parameters-table", DataTable)
+
+    # --- what is shown ---
+
+    def show_list(self) -> None:
+        """A node's parameters have changed, or there is another node."""
+        listed = tuple(self.state.listed_parameters(self.everything))
+        table = self.table
+        if [_key(each) for each in listed] != [_key(each) for each in self._listed]:
+            chosen = self._under_cursor()
+            table.clear()
+            for each in listed:
+                table.add_row(*self._cells(each), key=_key(each))
+            if chosen is not None and _key(chosen) in table.rows:
+                table.move_cursor(row=table.get_row_index(_key(chosen)))
+        elif listed != self._listed:
+            for each in listed:
+                for name, cell in zip(_COLUMNS, self._cells(each), strict=True):
+                    if table.get_cell(_key(each), name) != cell:
+                        table.update_cell(_key(each), name, cell, update_width=True)
+        self._listed = listed
+        if self.editing is not None and _key(self.editing) not in table.rows:
+            self.action_leave()
+        silent = sorted(node for node, held in self.state.parameters.items() if not held.answered)
+        text = (
+            f"! {', '.join(silent)} does not answer: does it spin? (Asked again every few seconds.)" if silent else ""
+        )
+        self.query_one("#parameters-silent", Static).update(text)
+        self.set_class(bool(silent), "-silent")
+
+    def show_history(self) -> None:
+        """A set has an outcome."""
+        rows = [row for outcome in self.state.sets for row in set_rows(outcome)]
+        nothing = (((" What you set, and what the node says to it, is listed here.", "quiet"),),)
+        self.query_one("#parameter-history", HistoryView).show_rows(rows or nothing)
+
+    def _show_actions(self) -> None:
+        more = ("u", "Only its own" if self.everything else "All (use_sim_time, too)", "all")
+        at_rest = (("Enter", "Set", "edit"), ("R", "Ask again", "refresh"), more)
+        self.query_one("#parameter-actions", ActionBar).actions = at_rest if self.editing is None else _EDITING
+
+    def _cells(self, each: Parameter) -> tuple[Text, ...]:
+        value = shown(each.value) if each.value is not None else "(not set)"
+        if len(value) > _LONGEST_VALUE:
+            value = f"{value[:_LONGEST_VALUE]}..."
+        return (Text(each.node), Text(each.name), Text(value), Text(each.type), Text(words.allowed(each)))
+
+    def _under_cursor(self) -> Parameter | None:
+        row = self.table.cursor_row
+        return self._listed[row] if 0 <= row < len(self._listed) else None
+
+    # --- what is done ---
+
+    def action_refresh(self) -> None:
+        self.post_message(Order(Refresh()))
+
+    def action_all(self) -> None:
+        """Show what every node has, too, or hide it."""
+        self.everything = not self.everything
+        self.show_list()
+        self._show_actions()
+
+    @on(DataTable.RowSelected, "#parameters-table")
+    def action_edit(self) -> None:
+        """Open the value under the cursor."""
+        if (chosen := self._under_cursor()) is None:
+            return
+        if chosen.read_only:
+            self.notify(f"{chosen.name} is read-only: it is set when the node starts.", markup=False)
+            return
+        self.editing = chosen
+        self.query_one("#parameter-name", Static).update(f"Set {chosen.node} {chosen.name} ({chosen.type})")
+        field = self.query_one("#parameter-value", Input)
+        field.value = shown(chosen.value)
+        self.query_one("#parameter-problem", Static).update("")
+        self.add_class("-editing")
+        self._show_actions()
+        field.focus()
+
+    @on(Input.Submitted, "#parameter-value")
+    def action_set(self) -> None:
+        """Set it to what was typed."""
+        if self.editing is None:
+            return
+        try:
+            kind, value = parse_parameter(self.editing, self.query_one("#parameter-value", Input).value)
+        except ValueError as error:
+            self.query_one("#parameter-problem", Static).update(f"✗ {error}")
+            self.add_class("-problem")
+            return
+        order = SetParameter(next(_numbers), self.editing.node, self.editing.name, kind, value)
+        self.post_message(Order(order))
+        self.action_leave()
+
+    @on(Input.Changed, "#parameter-value")
+    def _typed(self) -> None:
+        self.remove_class("-problem")
+
+    def action_leave(self) -> None:
+        """Back to the table."""
+        if self.editing is None:
+            return
+        self.editing = None
+        self.remove_class("-editing", "-problem")
+        self._show_actions()
+        self.table.focus()
+
+
+def _key(parameter: Parameter) -> str:
+    return f"{parameter.node} {parameter.name}"

@@ -1,0 +1,101 @@
+"""A form made from what a service asks for: a typed input for each field, errors in plain words."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from textual import on
+from textual.app import ComposeResult
+from textual.containers import Horizontal, Vertical, VerticalScroll
+from textual.message import Message
+from textual.widgets import Input, Static
+
+from tutor.live.facts import Field, RequestForm
+from tutor.live.forms import parse
+
+
+class FieldRow(Vertical):
+    """One field: its name and type, an input, and what is wrong with it."""
+
+    def __init__(self, field: Field) -> None:
+        super().__init__()
+        self.field = field
+
+    def compose(self) -> ComposeResult:
+        with Horizontal():
+            yield Static(f"{self.field.path} [$quiet]{self.field.type.replace('[', chr(92) + '[')}[/]", classes="label")
+            yield Input(self.field.default, compact=True)
+        yield Static(classes="problem", markup=False)
+
+    @property
+    def input(self) -> Input:
+        """Where the value is typed."""
+        return self.query_one(Input)
+
+    def read(self) -> Any:
+        """The value. Raises ValueError where the text is none; then the row says so."""
+        try:
+            value = parse(self.field.type, self.input.value)
+        except ValueError as error:
+            self.query_one(".problem", Static).update(f"✗ {error}")
+            self.add_class("-problem")
+            raise
+        self.remove_class("-problem")
+        return value
+
+    @on(Input.Changed)
+    def _typed(self) -> None:
+        self.remove_class("-problem")
+
+
+class ServiceForm(VerticalScroll, can_focus=False):
+    """The fields of one service's request, with their defaults."""
+
+    class Sent(Message):
+        """The learner wants the call to be made."""
+
+    def __init__(self, id: str | None = None) -> None:
+        super().__init__(id=id)
+        self.form: RequestForm | None = None
+
+    async def show(self, form: RequestForm) -> None:
+        """Show another form."""
+        self.form = form
+        await self.remove_children()
+        if form.problem:
+            await self.mount(Static(f"✗ {form.problem}", classes="problem", markup=False))
+        elif not form.fields:
+            await self.mount(Static("The request has no fields.", classes="quiet"))
+        else:
+            await self.mount(*(FieldRow(field) for field in form.fields))
+
+    async def forget(self) -> None:
+        """Show none."""
+        self.form = None
+        await self.remove_children()
+
+    def values(self) -> dict[str, Any] | None:
+        """What was typed, by the fields' paths; None where something is wrong, which is then shown."""
+        values: dict[str, Any] = {}
+        wrong: list[FieldRow] = []
+        for row in self.query(FieldRow):
+            try:
+                values[row.field.path] = row.read()
+            except ValueError:
+                wrong.append(row)
+        if wrong:
+            wrong[0].input.focus()
+            return None
+        return values
+
+    def focus_first(self) -> bool:
+        """Focus the first input; whether there is one."""
+        for row in self.query(FieldRow):
+            row.input.focus()
+            return True
+        return False
+
+    @on(Input.Submitted)
+    def _submitted(self, event: Input.Submitted) -> None:
+        event.stop()
+        self.post_message(self.Sent())

@@ -1,0 +1,185 @@
+"""The services: a list, a form to call one, and the answers."""
+
+from __future__ import annotations
+
+import itertools
+import time
+from typing import ClassVar
+
+from rich.text import Text
+from textual import on
+from textual.app import ComposeResult
+from textual.binding import Binding, BindingType
+from textual.containers import Horizontal, Vertical
+from textual.content import Content
+from textual.widgets import DataTable, Static
+
+from tutor.live.facts import Service
+from tutor.live.protocol import Call, Cancel, Describe
+from tutor.tui.live import words
+from tutor.tui.live.history import HistoryView, call_rows, waiting_row
+from tutor.tui.live.request_form import ServiceForm
+from tutor.tui.live.state import LiveState, is_plumbing_service
+from tutor.tui.live.strip import Action, ActionBar
+from tutor.tui.live.topics_panel import Order
+
+LIMIT_S = 30.0
+"""How long an answer is waited for, in seconds."""
+
+_COLUMNS = ("Service", "Type", "Node")
+_EVERY_S = 0.1
+
+_numbers = itertools.count(1)
+
+
+class ServicesPanel(Vertical):
+    """Enter opens the form of the service under the cursor; Enter in the form calls it."""
+
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("escape", "leave", "Back", show=False),
+        Binding("u", "all", "All", show=False),
+    ]
+
+    def __init__(self, state: LiveState, id: str | None = None) -> None:
+        super().__init__(id=id)
+        self.state = state
+        self.chosen: Service | None = None
+        self.show_all = False
+        self._listed: tuple[Service, ...] = ()
+
+    def compose(self) -> ComposeResult:
+        yield DataTable(id="services-table", cursor_type="row", cell_padding=1)
+        yield Static(id="service-head")
+        with Horizontal(id="service-body"):
+            yield ServiceForm(id="service-form")
+            yield HistoryView(id="service-history")
+        yield ActionBar(id="service-actions")
+
+    def on_mount(self) -> None:
+        for name in _COLUMNS:
+            self.table.add_column(name, key=name)
+        self._clock = self.set_interval(_EVERY_S, self.show_history, pause=True)
+        self.show_history()
+        self._show_actions()
+
+    @property
+    def table(self) -> DataTable[Text]:
+        """The list of services."""
+        return self.query_one("#services-table", DataTable)
+
+    # --- what is shown ---
+
+    def show_list(self) -> None:
+        """The graph has changed."""
+        services = self.state.graph.services if self.state.graph else ()
+        listed = tuple(each for each in services if self.show_all or not is_plumbing_service(each.name))
+        if listed == self._listed:
+            return
+        self._listed = listed
+        chosen = self.chosen.name if self.chosen else ""
+        table = self.table
+        table.clear()
+        for each in listed:
+            types = " and ".join(words.short_type(name) for name in each.types)
+            table.add_row(Text(each.name), Text(types), Text(", ".join(each.nodes)), key=each.name)
+        if chosen in table.rows:
+            table.move_cursor(row=table.get_row_index(chosen))
+        self._show_actions()
+
+    async def show_form(self) -> None:
+        """The form that was asked for has come."""
+        if self.chosen is None or (form := self.state.forms.get(self.chosen.types[0])) is None:
+            return
+        shown = self.query_one(ServiceForm)
+        if shown.form is not form:
+            await shown.show(form)
+            if self.screen.focused is self.table and self.has_class("-asked"):
+                shown.focus_first()
+        self.remove_class("-asked")
+        self._show_actions()
+
+    def show_history(self) -> None:
+        """A call has begun or ended, or time goes by while one is under way."""
+        now = time.time()
+        rows = [waiting_row(service, since, now) for service, since in self.state.waiting.values()]
+        rows += [row for outcome in self.state.calls for row in call_rows(outcome)]
+        nothing = (((" The answers are listed here, with their times.", "quiet"),),)
+        self.query_one("#service-history", HistoryView).show_rows(rows or nothing)
+        if self.state.waiting:
+            self._clock.resume()
+        else:
+            self._clock.pause()
+            self._show_actions()
+
+    def _show_actions(self) -> None:
+        actions: list[Action] = []
+        if self.state.waiting:
+            actions.append(("Esc", "Cancel the call", "leave"))
+        if self.chosen is not None and self.query_one(ServiceForm).form is not None:
+            actions.append(("Enter", "Call", "call"))
+        elif self._listed:
+            actions.append(("Enter", "Choose", "choose"))
+        actions.append(("u", "Fewer" if self.show_all else "All (those for parameters, too)", "all"))
+        bar = self.query_one("#service-actions", ActionBar)
+        bar.actions = tuple(actions)
+        head = self.query_one("#service-head", Static)
+        if self.chosen is None:
+            head.update(
+                Content.styled("Choose a service, and press Enter: its form comes here." if self._listed else "")
+            )
+        else:
+            types = " and ".join(words.short_type(name) for name in self.chosen.types)
+            head.update(Content.assemble((self.chosen.name, "bold"), (f"  {types}", "$quiet")))
+
+    # --- what is done ---
+
+    @on(DataTable.RowSelected, "#services-table")
+    async def action_choose(self) -> None:
+        """Open the form of the service under the cursor."""
+        row = self.table.cursor_row
+        if 0 <= row < len(self._listed):
+            await self.choose(self._listed[row])
+
+    async def choose(self, service: Service, focus: bool = True) -> None:
+        """Open the form of this service."""
+        again = self.chosen == service and self.query_one(ServiceForm).form is not None
+        self.chosen = service
+        if service.name in self.table.rows:
+            self.table.move_cursor(row=self.table.get_row_index(service.name))
+        if again:
+            self.query_one(ServiceForm).focus_first()
+            return
+        await self.query_one(ServiceForm).forget()
+        self.set_class(focus, "-asked")
+        self._show_actions()
+        if service.types[0] in self.state.forms:
+            await self.show_form()
+        else:
+            self.post_message(Order(Describe(service.types[0])))
+
+    @on(ServiceForm.Sent)
+    def action_call(self) -> None:
+        """Call the service with what was typed."""
+        form = self.query_one(ServiceForm)
+        if self.chosen is None or form.form is None or form.form.problem:
+            return
+        if (request := form.values()) is None:
+            return
+        id = next(_numbers)
+        self.state.waiting[id] = (self.chosen.name, time.time())
+        self.post_message(Order(Call(id, self.chosen.name, self.chosen.types[0], request, LIMIT_S)))
+        self.show_history()
+        self._show_actions()
+
+    def action_leave(self) -> None:
+        """Cancel what is under way; else back to the list."""
+        if self.state.waiting:
+            self.post_message(Order(Cancel(next(reversed(self.state.waiting)))))
+        else:
+            self.table.focus()
+
+    def action_all(self) -> None:
+        """Show those that every node has, too, or hide them."""
+        self.show_all = not self.show_all
+        self.show_list()
+        self._show_actions()

@@ -1,0 +1,158 @@
+"""What the app knows of the domain, from the news of the watching process. Pure."""
+
+from __future__ import annotations
+
+import time
+from collections import deque
+from dataclasses import dataclass, field, replace
+
+from tutor.judge.trace import Parameter
+from tutor.live.facts import CallOutcome, Graph, NodeParameters, RequestForm, SetOutcome, Topic, TopicNews
+from tutor.live.mismatch import Connection, connections
+from tutor.live.protocol import News, Ready
+
+KEEP_POINTS_S = 120.0
+"""How much of a plotted field is kept, in seconds."""
+
+_MOST_POINTS = 20_000
+_MOST_OUTCOMES = 200
+
+
+@dataclass(slots=True)
+class TopicView:
+    """A followed topic as it is shown. While `paused`, what is shown stays, and everything is counted all the same."""
+
+    topic: str
+    news: TopicNews | None = None
+    text: str = ""
+    fields: tuple[str, ...] = ()
+    path: str = ""
+    points: deque[tuple[float, float]] = field(default_factory=lambda: deque(maxlen=_MOST_POINTS))
+    news_at: float = 0.0
+    paused: bool = False
+    held: tuple[TopicNews | None, str, tuple[tuple[float, float], ...], float] | None = None
+
+    def hear(self, news: TopicNews, now: float) -> None:
+        """Take news of it; `now` is a wall-clock time in seconds."""
+        self.news, self.news_at = news, now
+        self.text = news.text if news.text is not None else self.text
+        self.fields = news.fields or self.fields
+        if news.field and not self.path:
+            self.path = news.field
+        if news.field == self.path:  # points of the one before may still be on their way
+            self.points.extend(news.points)
+        while self.points and self.points[0][0] < self.points[-1][0] - KEEP_POINTS_S:
+            self.points.popleft()
+
+    def pause(self, now: float) -> None:
+        """Hold what is shown, or let it go on."""
+        self.paused = not self.paused
+        self.held = (self.news, self.text, tuple(self.points), now) if self.paused else None
+
+    def clear(self) -> None:
+        """Forget what has come."""
+        self.text = ""
+        self.points.clear()
+        self.news = None if self.news is None else replace(self.news, count=0, timing=None, silent_s=None, lost=0)
+        self.paused, self.held = False, None
+
+    def plot(self, path: str) -> None:
+        """Show another field."""
+        self.path = path
+        self.points.clear()
+
+
+@dataclass(slots=True)
+class LiveState:
+    """Everything that is known. `waiting` are the calls without an answer yet, by id: the service, and since when."""
+
+    domain: int = 0
+    ready: bool = False
+    graph: Graph | None = None
+    topics: dict[str, TopicView] = field(default_factory=dict)
+    parameters: dict[str, NodeParameters] = field(default_factory=dict)
+    sets: deque[SetOutcome] = field(default_factory=lambda: deque(maxlen=_MOST_OUTCOMES))
+    calls: deque[CallOutcome] = field(default_factory=lambda: deque(maxlen=_MOST_OUTCOMES))
+    waiting: dict[int, tuple[str, float]] = field(default_factory=dict)
+    forms: dict[str, RequestForm] = field(default_factory=dict)
+
+    def hear(self, news: News) -> None:
+        """Take news."""
+        match news:
+            case Ready(domain):
+                self.domain, self.ready = domain, True
+            case Graph():
+                self.graph = news
+                self.parameters = {node: held for node, held in self.parameters.items() if node in news.nodes}
+            case TopicNews():
+                if view := self.topics.get(news.topic):
+                    view.hear(news, time.time())
+            case NodeParameters():
+                self.parameters[news.node] = news
+            case SetOutcome():
+                self.sets.appendleft(news)
+            case CallOutcome():
+                self.waiting.pop(news.id, None)
+                self.calls.appendleft(news)
+            case RequestForm():
+                self.forms[news.type] = news
+
+    def lost(self) -> None:
+        """The watching process is gone: nothing is known any more, but what was done is kept."""
+        self.ready, self.graph = False, None
+        self.parameters.clear()
+        self.waiting.clear()
+
+    @property
+    def nodes(self) -> tuple[str, ...]:
+        """Every node's name."""
+        return self.graph.nodes if self.graph else ()
+
+    def listed_topics(self) -> list[Topic]:
+        """Those in the graph, and those that are followed though nobody has them now; the plumbing last."""
+        there = {topic.name: topic for topic in self.graph.topics} if self.graph else {}
+        for name in self.topics:
+            there.setdefault(name, Topic(name))
+        return sorted(there.values(), key=lambda topic: (is_plumbing(topic.name), topic.name))
+
+    def mismatches(self) -> list[Connection]:
+        """Every pair of endpoints between which no message can go."""
+        topics = self.graph.topics if self.graph else ()
+        return [pair for topic in topics for pair in connections(topic) if pair.problems]
+
+    def listed_parameters(self, everything: bool = True) -> list[Parameter]:
+        """Of every node that answered, in the order of their names; without `everything` only those of its own."""
+        return [
+            each
+            for node in sorted(self.parameters)
+            for each in sorted(self.parameters[node].parameters, key=lambda parameter: parameter.name)
+            if everything or not is_plumbing_parameter(each.name)
+        ]
+
+
+def is_plumbing(topic: str) -> bool:
+    """Whether every node has this topic."""
+    return topic in ("/rosout", "/parameter_events")
+
+
+def is_plumbing_service(name: str) -> bool:
+    """Whether every node offers such a service."""
+    return name.rpartition("/")[2] in _SERVICES_OF_EVERY_NODE
+
+
+def is_plumbing_parameter(name: str) -> bool:
+    """Whether nodes have such a parameter without declaring it."""
+    return name in ("use_sim_time", "start_type_description_service") or name.startswith("qos_overrides.")
+
+
+_SERVICES_OF_EVERY_NODE = frozenset(
+    (
+        "describe_parameters",
+        "get_parameter_types",
+        "get_parameters",
+        "get_type_description",
+        "list_parameters",
+        "set_parameters",
+        "set_parameters_atomically",
+    )
+)

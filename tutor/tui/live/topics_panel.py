@@ -1,0 +1,261 @@
+"""The topics: a list of all, and what comes on the one that is chosen."""
+
+from __future__ import annotations
+
+import time
+from typing import ClassVar
+
+from rich.text import Text
+from textual import on
+from textual.app import ComposeResult
+from textual.binding import Binding, BindingType
+from textual.containers import Horizontal, Vertical
+from textual.content import Content
+from textual.message import Message
+from textual.widgets import DataTable, Static
+
+from tutor.live.facts import Topic
+from tutor.live.protocol import Clear, Command, Follow, Plot, Unfollow
+from tutor.tui.live import words
+from tutor.tui.live.plot_view import PlotView
+from tutor.tui.live.state import LiveState, TopicView
+from tutor.tui.live.strip import Action, ActionBar
+from tutor.tui.widgets.line_view import LineView
+
+_COLUMNS = ("", "Topic", "Rate", "Messages", "Pub", "Sub", "Type")
+_OTHER_FIELD = ("y", "Field", "next_field")
+
+
+class Order(Message):
+    """The watching process is to do this."""
+
+    def __init__(self, command: Command) -> None:
+        super().__init__()
+        self.command = command
+
+
+class TopicsPanel(Vertical):
+    """Enter follows the topic under the cursor; it is shown below, as `ros2 topic echo` writes it, with a plot."""
+
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("space", "pause", "Pause", show=False),
+        Binding("x", "clear", "Clear", show=False),
+        Binding("y", "next_field", "Field", show=False),
+        Binding("plus,equals_sign", "zoom(1)", "Longer", show=False),
+        Binding("minus", "zoom(-1)", "Shorter", show=False),
+        Binding("delete,backspace", "unfollow", "Unfollow", show=False),
+    ]
+
+    def __init__(self, state: LiveState, id: str | None = None) -> None:
+        super().__init__(id=id)
+        self.state = state
+        self.chosen = ""
+        self._listed: tuple[Topic, ...] = ()
+
+    def compose(self) -> ComposeResult:
+        yield DataTable(id="topics-table", cursor_type="row", cell_padding=1)
+        yield Static(id="topic-head")
+        with Horizontal(id="topic-body"):
+            yield LineView(id="topic-echo")
+            with Vertical(id="topic-plot"):
+                yield Static(id="plot-head")
+                yield PlotView(id="plot")
+        yield ActionBar(id="topic-actions")
+
+    def on_mount(self) -> None:
+        table = self.table
+        for name in _COLUMNS:
+            table.add_column(name, key=name or "mark")
+        self.set_interval(1.0, self._tick)  # silence is told by the clock, not by news
+
+    @property
+    def table(self) -> DataTable[Text]:
+        """The list of topics."""
+        return self.query_one("#topics-table", DataTable)
+
+    @property
+    def view(self) -> TopicView | None:
+        """The chosen topic, where it is followed."""
+        return self.state.topics.get(self.chosen)
+
+    # --- what is shown ---
+
+    def show_list(self) -> None:
+        """The graph has changed, or what is followed has."""
+        listed = tuple(self.state.listed_topics())
+        table = self.table
+        if [topic.name for topic in listed] != [topic.name for topic in self._listed]:
+            chosen = self.chosen or (listed[0].name if listed else "")
+            with self.prevent(DataTable.RowHighlighted):
+                table.clear()
+                for topic in listed:
+                    table.add_row(*self._cells(topic), key=topic.name)
+                names = [topic.name for topic in listed]
+                if names:
+                    table.move_cursor(row=names.index(chosen) if chosen in names else 0)
+                    self.chosen = chosen if chosen in names else names[0]
+        elif listed != self._listed:
+            for topic in listed:
+                self._update(topic)
+        self._listed = listed
+        self.show_chosen()
+
+    def show_news(self, name: str) -> None:
+        """Something has come on a topic."""
+        if topic := next((topic for topic in self._listed if topic.name == name), None):
+            self._update(topic)
+        if name == self.chosen:
+            self.show_chosen()
+
+    def show_chosen(self) -> None:
+        """Show the topic under the cursor."""
+        view = self.view
+        now = time.time()
+        self.set_class(view is None or not view.fields, "-no-numbers")
+        self.query_one("#topic-actions", ActionBar).actions = self._actions(view)
+        self.query_one("#topic-head", Static).update(self._head(view, now))
+        if view is None:
+            self.query_one("#topic-echo", LineView).show_rows([])
+            return
+        text, points = view.text, view.points
+        if view.held is not None:
+            _, text, held, now = view.held
+            self.query_one(PlotView).show(held, now)
+        else:
+            self.query_one(PlotView).show(tuple(points), max(now, points[-1][0]) if points else now)
+        rows = [((line, ""),) for line in text.splitlines()]
+        self.query_one("#topic-echo", LineView).show_rows([*rows, (("---", ""),)] if rows else [])
+        place = view.fields.index(view.path) + 1 if view.path in view.fields else 1
+        value = f" = {view.points[-1][1]:g}" if view.points and view.held is None else ""
+        more = f"  {place} of {len(view.fields)}" if len(view.fields) > 1 else ""
+        self.query_one("#plot-head", Static).update(
+            Content.assemble((view.path, "bold $primary"), value, (more, "$quiet"))
+        )
+
+    def _head(self, view: TopicView | None, now: float) -> Content:
+        if not self.chosen:
+            return Content("")
+        name = Content.styled(self.chosen, "bold")
+        if view is None:
+            return Content.assemble(name, ("\nNot followed: press Enter to see what comes.", "$quiet"))
+        news = view.held[0] if view.held is not None else view.news
+        if news is None:
+            return Content.assemble(name, ("\n◐ subscribing", "$quiet"))
+        facts = f"  {words.short_type(news.type)} · {news.qos}" if news.type else ""
+        first = Content.assemble(name, (facts, "$quiet"))
+        if news.problem:
+            return Content.assemble(first, (f"\n✗ {news.problem}", "$bad"))
+        if not news.count:
+            topic = self.state.graph.topic(self.chosen) if self.state.graph else None
+            nobody = topic is None or not topic.publishers
+            said = "nobody publishes on it: start the node that does" if nobody else "no message yet"
+            return Content.assemble(first, (f"\n◐ {said}", "$warn" if nobody else "$quiet"))
+        since = 0.0 if view.held is not None else max(0.0, now - view.news_at)
+        numbers = words.numbers(news, since)
+        if view.held is not None and view.news is not None:
+            more = view.news.count - news.count
+            return Content.assemble(first, (f"\n▮▮ paused (+{more:,}) ", "bold $warn"), numbers)
+        mark, ink = ("■", "$quiet") if words.is_silent(news, since) else ("●", "$good")
+        return Content.assemble(first, "\n", (f"{mark} ", ink), numbers)
+
+    def _actions(self, view: TopicView | None) -> tuple[Action, ...]:
+        if not self.chosen:
+            return ()
+        if view is None:
+            return (("Enter", "Follow", "follow"),)
+        several = (_OTHER_FIELD,) if len(view.fields) > 1 else ()
+        zoom: tuple[Action, ...] = (("+", "Longer", "zoom(1)"), ("-", "Shorter", "zoom(-1)")) if view.fields else ()
+        return (
+            ("Space", "Go on" if view.paused else "Pause", "pause"),
+            ("x", "Clear", "clear"),
+            *several,
+            *zoom,
+            ("Del", "Unfollow", "unfollow"),
+        )
+
+    def _cells(self, topic: Topic) -> tuple[Text, ...]:
+        view = self.state.topics.get(topic.name)
+        news = view.news if view else None
+        silent = news is not None and view is not None and words.is_silent(news, max(0.0, time.time() - view.news_at))
+        timing = news.timing if news and not silent else None
+        types = [words.short_type(name) for name in topic.types]
+        pub, sub = len(topic.publishers), len(topic.subscriptions)
+        return (
+            Text("●" if view else " "),
+            Text(topic.name),
+            Text(words.rate(timing.rate_hz) if timing else "silent" if silent else "", justify="right"),
+            Text(f"{news.count:,}" if news else "", justify="right"),
+            Text(str(pub), justify="right"),
+            Text(str(sub), justify="right"),
+            Text("✗ " + " and ".join(types) if len(types) > 1 else "".join(types)),
+        )
+
+    def _update(self, topic: Topic) -> None:
+        table = self.table
+        if topic.name not in table.rows:
+            return
+        for name, cell in zip(_COLUMNS, self._cells(topic), strict=True):
+            key = name or "mark"
+            if table.get_cell(topic.name, key) != cell:
+                table.update_cell(topic.name, key, cell, update_width=True)
+
+    def _tick(self) -> None:
+        if self.display and self.view is not None:
+            self.show_news(self.chosen)
+
+    # --- what is done ---
+
+    def follow(self, topic: str) -> None:
+        """Follow a topic, now or when it appears, and show it."""
+        if topic not in self.state.topics:
+            self.state.topics[topic] = TopicView(topic)
+            self.post_message(Order(Follow(topic)))
+        self.chosen = topic
+        self.show_list()
+        if topic in self.table.rows:
+            self.table.move_cursor(row=self.table.get_row_index(topic))
+
+    @on(DataTable.RowHighlighted, "#topics-table")
+    def _highlighted(self, event: DataTable.RowHighlighted) -> None:
+        if event.row_key.value:
+            self.chosen = event.row_key.value
+            self.show_chosen()
+
+    @on(DataTable.RowSelected, "#topics-table")
+    def _selected(self, event: DataTable.RowSelected) -> None:
+        if event.row_key.value:
+            self.follow(event.row_key.value)
+
+    def action_follow(self) -> None:
+        if self.chosen:
+            self.follow(self.chosen)
+
+    def action_unfollow(self) -> None:
+        if self.state.topics.pop(self.chosen, None) is not None:
+            self.post_message(Order(Unfollow(self.chosen)))
+            for topic in self._listed:
+                self._update(topic)
+            self.show_list()
+
+    def action_pause(self) -> None:
+        if self.view is not None:
+            self.view.pause(time.time())
+            self.show_chosen()
+
+    def action_clear(self) -> None:
+        if self.view is not None:
+            self.view.clear()
+            self.post_message(Order(Clear(self.chosen)))
+            self.show_news(self.chosen)
+
+    def action_next_field(self) -> None:
+        view = self.view
+        if view is None or len(view.fields) < 2:
+            return
+        place = view.fields.index(view.path) if view.path in view.fields else -1
+        view.plot(view.fields[(place + 1) % len(view.fields)])
+        self.post_message(Order(Plot(self.chosen, view.path)))
+        self.show_chosen()
+
+    def action_zoom(self, by: int) -> None:
+        self.query_one(PlotView).zoom(by)

@@ -1,0 +1,61 @@
+"""Numbers and names as the live page shows them. Pure."""
+
+from __future__ import annotations
+
+from tutor.judge.trace import Parameter
+from tutor.live.facts import TopicNews
+
+
+def short_type(name: str) -> str:
+    """A type without `msg` or `srv` in its middle, as it is written in interface files."""
+    parts = name.split("/")
+    return f"{parts[0]}/{parts[-1]}" if len(parts) == 3 else name
+
+
+def rate(hz: float) -> str:
+    """A rate with three or four digits."""
+    if hz >= 1000:
+        return f"{hz:,.0f} Hz"
+    return f"{hz:.1f} Hz" if hz >= 10 else f"{hz:.2f} Hz"
+
+
+def period(seconds: float) -> str:
+    """A period with three digits, in the unit that suits it."""
+    return f"{seconds:.3g} s" if seconds >= 1 else f"{seconds * 1000:.3g} ms"
+
+
+def periods(shortest_s: float, longest_s: float) -> str:
+    """From the shortest to the longest, the unit once where they share it."""
+    first, last = period(shortest_s), period(longest_s)
+    return f"{first.split()[0] if first.split()[1] == last.split()[1] else first} to {last}"
+
+
+def is_silent(news: TopicNews, since_news_s: float = 0.0) -> bool:
+    """Whether a topic has stopped: silent for much longer than its period."""
+    if news.silent_s is None:
+        return False
+    usual = news.timing.mean_s if news.timing else 1.0
+    return news.silent_s + since_news_s > max(1.5, 4 * usual)
+
+
+def numbers(news: TopicNews, since_news_s: float = 0.0) -> str:
+    """Count, rate and jitter in one line; `since_news_s` is how long ago that news came, in seconds."""
+    parts = [f"{news.count:,} message{'' if news.count == 1 else 's'}"]
+    timing = news.timing
+    if timing and is_silent(news, since_news_s):
+        parts.append(f"silent for {period((news.silent_s or 0.0) + since_news_s)}")
+    elif timing:
+        parts.append(rate(timing.rate_hz))
+        parts.append(f"jitter {period(timing.deviation_s)} ({period(timing.shortest_s)} to {period(timing.longest_s)})")
+    if news.lost:
+        parts.append(f"! {news.lost:,} lost")
+    return " · ".join(parts)
+
+
+def allowed(parameter: Parameter) -> str:
+    """What a parameter may be set to."""
+    if parameter.read_only:
+        return "read-only"
+    if parameter.minimum is None or parameter.maximum is None:
+        return ""
+    return f"{parameter.minimum:g} to {parameter.maximum:g}"
