@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from checks.i1_2.facts import OURS, Feeding
-from checks.i1_2.judges import NO_SUMMARY, true_total
+from checks.i1_2.judges import NO_SUMMARY, counts_truly, true_total
 from checks.i1_2.reading import Line
 from checks.i1_2.reports import find
 from tutor.judge import causes
@@ -46,6 +46,8 @@ def judge_restart(restart: Feeding, steady: Feeding, jump: Feeding) -> Verdict:
             ),
             evidence,
         )
+    if not counts_truly(steady, jump):
+        return skipped("not judged, because `count` did not pass")
     told = [line.text for line in said(restart, since=restart.gone_at, usual=(steady, jump))]
     for report in after:
         if true_total(report, restart):
@@ -95,13 +97,12 @@ def _of_end(feeding: Feeding, what: str) -> Cause:
 
 
 def _why_unsaid(jump: Feeding, steady: Feeding) -> Cause:
-    """A kind of message that came with the jump, but not with every message, was a false alarm elsewhere."""
-    at_jump = {line.kind for line in jump.lines if line.messages == jump.breaks + 1}
-    summaries = {line.kind for report in find(steady) for line in report.lines}
-    alarms = [line for line in (*steady.lines, *jump.lines) if line.kind in at_jump - summaries]
-    false = [line for line in alarms if line.messages not in (1, jump.breaks + 1) or line in steady.lines]
-    every = len(false) >= 0.7 * (len(steady.sent) + len(jump.sent) - 2)
-    if false and not every:
+    """A kind of message that came after the jump, but not with every message, was a false alarm elsewhere."""
+    summaries = {line.kind for report in (*find(steady), *find(jump)) for line in report.lines}
+    since = {line.kind for line in jump.lines if line.messages > jump.breaks} - summaries
+    before = [line for line in (*steady.lines, *jump.lines) if line.messages > 1 and line.kind in since]
+    false = [line for line in before if line in steady.lines or line.messages <= jump.breaks]
+    if 0 < len(false) < 0.7 * (len(steady.sent) + jump.breaks - 2):
         return Cause(
             "false alarm",
             f"it also says so where N rises by one: {false[0].text}",
@@ -128,13 +129,16 @@ def said(feeding: Feeding, *, since: float, usual: Sequence[Feeding]) -> list[Li
     before = [line for line in feeding.lines if line.at < since and line.messages > 1]
     elsewhere = [[line for line in other.lines if _calm(line, other)] for other in usual]
     known = {line.kind for lines in (before, *elsewhere) for line in lines}
+    summaries = {line.kind for report in find(feeding) for line in report.lines}
     told = []
     for line in feeding.lines:
         if line.at < since:
             continue
         mine = [other for other in before if other.kind == line.kind]
         others = [[other for other in lines if other.kind == line.kind] for lines in elsewhere]
-        if line.kind not in known or _counts_up(line, mine, others, feeding):
+        # In what is logged with every message, a number is no message of its own.
+        summed_up = line.kind in summaries and _counts_up(line, mine, others, feeding)
+        if line.kind not in known or summed_up:
             told.append(line)
     return told
 

@@ -17,11 +17,11 @@ OURS = Endpoint(TOPIC, TYPE, "/talker", "reliable", "volatile")
 EVERY = 10
 """A summary is asked for after this many messages."""
 
-STEADY_HZ = (4.8, 5.0)
-"""The rate at which a steady talker sends: one of these, by chance, evenly.
+STEADY_HZ = (4.9, 5.0)
+"""The rate at which a steady talker sends: between these, by chance, evenly.
 
-Slow enough that a rate taken over the last second is true as soon as ten messages are there; and ten or twenty of
-anything, or the seconds and minutes of it, are no such rate.
+Slow enough that a rate taken over the last second is true as soon as ten messages are there. Ten and twenty are no such
+rate, nor are ten and twenty messages by the seconds that it took, 1.8 and 3.8, when these are cut off.
 """
 STEADY_MESSAGES = 20
 QUIET_S = 1.0
@@ -90,14 +90,14 @@ class Feeding:
     @property
     def late_s(self) -> float:
         """How long after its message a summary may come on this machine."""
-        return LATE_S + min(self.starved_s, MOST_LATE_S)
+        return LATE_S + min(max(self.starved_s, 0.0), MOST_LATE_S)
 
     def delay_s(self, index: int) -> float:
         """How late the machine may have let the node take in this message: what it was kept from running thereafter."""
         owed = [each.starved_s for each in self.sent[index:]] + [self.sent[0].starved_s + self.starved_s]
         late = 0.0
         for before, after in pairwise(owed):
-            late += after - before
+            late += max(after - before, 0.0)
             if after - before < STALL_S:
                 break
         return late

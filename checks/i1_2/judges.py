@@ -9,6 +9,7 @@ from checks.i1_2.facts import EVERY, OURS, Feeding
 from checks.i1_2.reading import read
 from checks.i1_2.reports import Report, find, in_time, milestone, totals
 from tutor.judge import causes, ending
+from tutor.judge.bench import MachineTooBusy
 from tutor.judge.trace import LogRecord
 from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped
 
@@ -31,6 +32,11 @@ def judge_count(steady: Feeding, jump: Feeding) -> Verdict:
             )
     stated = ", ".join(str(true_total(report, feeding)) for feeding, report in seen)
     return passed(expected, f"{len(seen)} summaries state {stated}", [str(report) for _, report in seen])
+
+
+def counts_truly(*feedings: Feeding) -> bool:
+    """Whether every summary states the true total."""
+    return all(true_total(report, feeding) for feeding in feedings for report in find(feeding))
 
 
 def true_total(report: Report, feeding: Feeding, *, before: int = 0) -> int:
@@ -91,9 +97,11 @@ def judge_rate(steady: Feeding, jump: Feeding) -> Verdict:
         return failed(
             expected,
             f"after {wrong.messages} messages it states {', '.join(n.text for n in wrong.numbers) or 'no number'}",
-            rates.why_wrong(wrong, steady),
+            rates.why_wrong(reports, steady),
             evidence,
         )
+    if rates.doubtful(stated, reports, steady):
+        raise MachineTooBusy("this machine is too busy to send messages at an even rate")
     return passed(expected, f"{', '.join(number.text for number in stated)} messages per second", evidence)
 
 
@@ -173,32 +181,30 @@ def _why_incomplete(report: Report, feeding: Feeding) -> Cause | None:
 
 def why_silent(feeding: Feeding) -> Cause:
     """Why the node logs no summary."""
-    if feeding.trace.exit is not None or not feeding.sent or not (feeding.lines or feeding.spins):
-        return causes.of_deafness(feeding.trace, OURS, answers=feeding.spins, stuck=feeding.stuck)
-    said_of = feeding.sent[0].content, feeding.sent[-1].content
+    trace = feeding.trace
+    if trace.exit is not None or not feeding.sent or not (feeding.lines or feeding.spins):
+        return causes.of_deafness(trace, OURS, answers=feeding.spins, stuck=feeding.stuck)
     printed = causes.of_printed(
-        feeding.trace,
+        trace,
         lambda text: bool(read(_as_log(text), 1).quoted),
         "what the node has to say",
         after=feeding.ending.output if feeding.ending else (),
     )
     if printed is not None:
         return printed
-    quoting = [line.text for line in feeding.trace.output if line.stream == "stderr" and said_of[0] in line.text]
-    if quoting and not feeding.lines:
+    written = [line.text for line in trace.output if line.stream == "stderr" and read(_as_log(line.text), 1).quoted]
+    if written and not feeding.lines:
         return Cause(
             "not logged on /rosout",
-            f"it is written, but not by a node's logger: {quoting[0]}",
-            "use self.get_logger().info(...) at INFO or above: only a node's own logger reaches /rosout",
+            f"it is written to the terminal, but by no node's logger: {written[0]}",
+            "use self.get_logger().info(...), at INFO or above: only a node's own logger reaches /rosout",
         )
-    if feeding.lines:
-        return Cause(
-            "no summary",
-            "none of its log messages sums up the messages",
-            f"if self.total_count % {EVERY} == 0: self.get_logger().info(...) with the count, the rate, the first and "
-            "the last message",
-        )
-    return causes.of_deafness(feeding.trace, OURS, answers=feeding.spins, stuck=feeding.stuck)
+    return Cause(
+        "no summary",
+        "none of its log messages sums up the messages" if feeding.lines else "no log message follows from a message",
+        f"count in the callback; if self.total_count % {EVERY} == 0: self.get_logger().info(...) with the count, the "
+        "rate, the first and the last message",
+    )
 
 
 def _as_log(text: str) -> LogRecord:

@@ -54,7 +54,7 @@ def true_rates(report: Report, feeding: Feeding) -> Range:
             count, since = until - first, feeding.sent[first].at
             span = max(last_at - since, DELAY_S)
             delay = min(DELAY_S + feeding.delay_s(first), 0.7 * span)
-            if count >= EVERY:  # as many as a summary has: since the first of them, until it is logged
+            if count >= EVERY or first == 0:  # since the first of them, until it is logged
                 least.append((count - 1) / (max(report.at - since, span) + DELAY_S))
                 most.append(count / (span - delay))
             least.append((count - 1) / (span + DELAY_S))
@@ -84,12 +84,29 @@ def stated(reports: Sequence[Report], allowed: Sequence[Range], elsewhere: Seque
     return found
 
 
-def why_wrong(report: Report, feeding: Feeding) -> Cause:
-    """What kind of mistake leads to the numbers in a report without a true rate."""
-    true = true_rates(report, feeding)
-    elapsed = max(report.at - feeding.sent[0].at, 0.001)
+def doubtful(numbers: Sequence[Number], reports: Sequence[Report], feeding: Feeding) -> bool:
+    """Whether these only seem to be the rate, because a busy machine sent the messages at another pace than planned.
+
+    They may as well be the elapsed seconds, or the messages by whole seconds: at the pace that was planned, these are
+    far from any true rate.
+    """
+    pairs = list(zip(numbers, reports, strict=True))
+    elapsed = [max(report.at - feeding.sent[0].at, DELAY_S) for _, report in pairs]
+    whole = [report.messages / max(int(span), 1) for (_, report), span in zip(pairs, elapsed, strict=True)]
+    return any(
+        all(
+            abs(number.value - other) < 0.01 + DELAY_S * other for (number, _), other in zip(pairs, others, strict=True)
+        )
+        for others in (elapsed, whole)
+    )
+
+
+def why_wrong(reports: Sequence[Report], feeding: Feeding) -> Cause:
+    """What kind of mistake leads to the numbers in reports without a true rate."""
     hint = "self.total_count / (time.time() - self.start_time), where start_time is when the first message came"
-    found = [number for number in report.numbers if number.value > 0 and not report_counts(number, report)]
+    report = reports[0]
+    true = true_rates(report, feeding)
+    found = [number for number in report.numbers if number.value > 0 and number.value != report.messages]
     for number in found:
         if 1 / number.value in true:
             return Cause(
@@ -100,18 +117,19 @@ def why_wrong(report: Report, feeding: Feeding) -> Cause:
     for number in found:
         if number.value / 60 in true:
             return Cause("rate per minute", f"{number.text} is messages per minute", hint)
-        if number.value / 1000 in true or number.value * 1000 in true:
-            return Cause("rate in another unit", f"{number.text} is off by a factor of a thousand", hint)
-    for number in found:
-        since = report.messages / number.value
-        if elapsed + 0.7 <= since <= report.at - feeding.trace.started_at + 0.5:
+        if any(number.value * by in true for by in (1e-3, 1e3, 1e6, 1e9)):
+            return Cause("rate in another unit", f"{number.text} is off by a factor of a thousand, or of several", hint)
+    waited = [_waited_s(each, feeding) for each in reports]
+    for number, before in waited[0] if waited else ():
+        if before > 0.7 and all(any(abs(before - same) < 0.2 for _, same in each) for each in waited):
             return Cause(
                 "counted from the node's start",
-                f"{number.text} is {report.messages} messages in {since:.1f} s, but the first came {elapsed:.1f} s "
-                "before this summary",
+                f"{number.text} is right if the clock starts {before:.1f} s before the first message",
                 "set self.start_time in the callback, when the first message comes, not in __init__",
             )
-        if elapsed >= 1 and abs(number.value - report.messages / int(elapsed)) < 0.1:
+    for number, before in waited[0] if waited else ():
+        elapsed = report.at - feeding.sent[0].at
+        if abs(elapsed + before - max(int(elapsed), 1)) < 0.01:
             return Cause(
                 "seconds cut off",
                 f"{number.text} is {report.messages} messages in {int(elapsed)} s, but it took {elapsed:.1f} s",
@@ -122,6 +140,11 @@ def why_wrong(report: Report, feeding: Feeding) -> Cause:
     return Cause("wrong rate", f"none of {', '.join(number.text for number in found)} is the rate", hint)
 
 
-def report_counts(number: Number, report: Report) -> bool:
-    """Whether this is the number of messages, which is no rate."""
-    return number.value == report.messages
+def _waited_s(report: Report, feeding: Feeding) -> list[tuple[Number, float]]:
+    """For each number, if it were a rate: how long before the first message the clock was started, in seconds."""
+    elapsed = report.at - feeding.sent[0].at
+    return [
+        (number, report.messages / number.value - elapsed)
+        for number in report.numbers
+        if number.value > 0 and number.value != report.messages
+    ]

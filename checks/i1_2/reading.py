@@ -6,6 +6,7 @@ In any language and any format: nothing is known of the words.
 from __future__ import annotations
 
 import re
+import unicodedata
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
@@ -61,7 +62,7 @@ class Line:
 
 def read(log: LogRecord, messages: int) -> Line:
     """Read one log message, logged after so many `messages` had been sent."""
-    text = _COLOUR.sub("", log.text)
+    text = unicodedata.normalize("NFKC", _COLOUR.sub("", log.text))
     quoted = tuple(int(found[1]) for found in _CONTENT.finditer(text))
     plain = _CLOCK.sub("@", _CONTENT.sub("“”", text))
     numbers = tuple(Number(found[0], tuple(values(found[0]))) for found in _NUMBER.finditer(plain))

@@ -88,10 +88,10 @@ def find(feeding: Feeding) -> tuple[Report, ...]:
     """The summaries among what was logged, complete or not, oldest first."""
     times = Counter(line.kind for line in feeding.lines)
     usual = {kind for kind, count in times.items() if count >= max(3, ORDINARY * len(feeding.sent))}
-    special = _together([line for line in feeding.lines if line.kind not in usual])
+    special = _together([line for line in feeding.lines if line.kind not in usual], feeding)
     if complete := [report for report in special if _complete(report, feeding)]:
         return _like(complete, special)
-    everything = _together(feeding.lines)
+    everything = _together(feeding.lines, feeding)
     complete = [report for report in everything if report.messages > 1 and _complete(report, feeding)]
     if len(complete) > len(feeding.sent) / 4:
         return _like(complete, everything)
@@ -115,7 +115,7 @@ def _like(complete: Sequence[Report], candidates: Iterable[Report]) -> tuple[Rep
     return tuple(
         each
         for each in candidates
-        if each in complete or any(2 * len(each.kinds & one.kinds) >= len(one.kinds) for one in complete)
+        if each in complete or any(2 * len(each.kinds & one.kinds) > len(one.kinds) for one in complete)
     )
 
 
@@ -132,24 +132,30 @@ def _likeliest(candidates: Sequence[Report], feeding: Feeding) -> tuple[Report, 
     return best if best and worth(best)[0] else ()
 
 
-def _together(lines: Sequence[Line]) -> tuple[Report, ...]:
-    """Lines in groups: those between two messages, or at once, or that make one summary only if taken together."""
-    groups: list[list[Line]] = []
+def _together(lines: Sequence[Line], feeding: Feeding) -> tuple[Report, ...]:
+    """Lines that were logged at once, or between the same two messages; and groups that only together are complete."""
+    groups: list[Report] = []
     for line in lines:
-        if groups and _continues(groups[-1], line):
-            groups[-1].append(line)
+        before = groups[-1].lines[-1] if groups else None
+        if before and (line.messages == before.messages or line.at - before.at <= AT_ONCE_S):
+            groups[-1] = Report((*groups[-1].lines, line))
         else:
-            groups.append([line])
-    return tuple(Report(tuple(group)) for group in groups)
+            groups.append(Report((line,)))
+    joined: list[Report] = []
+    for group in groups:
+        if joined and (whole := _joined(joined[-1], group, feeding)):
+            joined[-1] = whole
+        else:
+            joined.append(group)
+    return tuple(joined)
 
 
-def _continues(group: Sequence[Line], line: Line) -> bool:
-    before = group[-1]
-    if line.at - before.at <= AT_ONCE_S:
-        return True
-    if line.at - group[0].at > LATE_S or (line.tells and line.kind in {each.kind for each in group}):
-        return False
-    return line.messages == before.messages or milestone(line.messages) == milestone(group[0].messages) > 0
+def _joined(one: Report, other: Report, feeding: Feeding) -> Report | None:
+    """One summary that was interrupted by a message; None where these are none."""
+    whole = Report(one.lines + other.lines)
+    soon = other.at - one.at <= LATE_S and milestone(other.messages) == milestone(one.messages) > 0
+    apart = not _complete(one, feeding) and not _complete(other, feeding) and not one.kinds & other.kinds
+    return whole if soon and apart and _complete(whole, feeding) else None
 
 
 def slots(reports: Sequence[Report]) -> list[tuple[Number, ...]] | None:

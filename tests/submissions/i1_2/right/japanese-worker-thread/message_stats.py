@@ -6,7 +6,7 @@ from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from std_msgs.msg import String
 
-WIDE = str.maketrans("0123456789.", "0123456789.")
+WIDE = str.maketrans("0123456789.", "０１２３４５６７８９．")
 
 
 class Tokei(Node):
