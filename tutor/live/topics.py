@@ -154,7 +154,7 @@ class FollowedTopics:
         text = to_yaml(message)
         fields = numeric_fields(message)
         if not followed.path and fields:
-            followed.path = fields[0]
+            followed.path = next((path for path in fields if "stamp" not in path.split(".")), fields[0])
         changed, followed.fields, followed.told = fields != followed.fields, fields, newest
         followed.text_after = now + (time.perf_counter() - began) * (1 / _SHARE_OF_TEXT - 1)
         return text, fields if changed else ()

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import ClassVar
+
+from rich.cells import cell_len, chop_cells
+from textual import events
 
 from tutor.live.facts import CallOutcome, SetOutcome
 from tutor.live.forms import shown
@@ -27,6 +30,50 @@ class HistoryView(LineView):
         & > .line--name { color: $code-type; }
     }
     """
+
+    def __init__(self, id: str | None = None) -> None:
+        super().__init__(id=id)
+        self._unwrapped: Sequence[Row] = ()
+
+    def show_outcomes(self, rows: Sequence[Row]) -> None:
+        """Show these rows, folded to the width; the place that is looked at stays."""
+        self._unwrapped = rows
+        width = max(24, self.scrollable_content_region.width)
+        self.show_rows([folded for row in rows for folded in _folded(row, width)])
+
+    def on_resize(self, event: events.Resize) -> None:
+        """Fold anew."""
+        self.show_outcomes(self._unwrapped)
+
+
+def _folded(row: Row, width: int) -> Iterable[Row]:
+    """A row in as many as it takes: its last piece goes on below, set in as far as the row's first one."""
+    if not row or sum(cell_len(text) for text, _ in row) <= width:
+        return [row]
+    *head, (last, kind) = row
+    room = width - sum(cell_len(text) for text, _ in head)
+    indent = cell_len(row[0][0]) if head else len(last) - len(last.lstrip())
+    rest = last
+    rows: list[Row] = []
+    if room >= min(12, cell_len(last)):
+        first, rest = _cut(last, room)
+        rows.append((*head, (first, kind)))
+    else:
+        rows.append(tuple(head))
+    while rest := rest.strip():
+        first, rest = _cut(rest, width - indent)
+        rows.append(((" " * indent, ""), (first, kind)))
+    return rows
+
+
+def _cut(text: str, room: int) -> tuple[str, str]:
+    """As many words as there is room for (at least one cell of one), and the rest."""
+    if cell_len(text) <= room:
+        return text, ""
+    head = chop_cells(text, max(1, room))[0]
+    if " " in head.strip():
+        head = head[: head.rindex(" ") + 1]
+    return head, text[len(head) :]
 
 
 def set_rows(outcome: SetOutcome) -> Iterable[Row]:

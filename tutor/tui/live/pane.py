@@ -216,12 +216,12 @@ class LivePane(Vertical):
             word = "! not watching" if self._broken else "not watching"
         self.query_one("#live-standing", Static).update(word)
         came = any(view.news is not None and view.news.count for view in state.topics.values())
-        text = self._nothing()
+        text = self._nothing(short=came)
         self.set_class(bool(text) and not came, "-empty")
         self.set_class(bool(text) and came, "-note")
         self.query_one("#live-empty" if not came else "#live-note", Static).update(text)
 
-    def _nothing(self) -> Content:
+    def _nothing(self, short: bool) -> Content:
         """Why nothing can be seen, and what to do; empty where there is a node."""
         domain = self.state.domain
         if self._broken:
@@ -236,7 +236,7 @@ class LivePane(Vertical):
             (f"No node runs in domain {domain}", "bold $foreground"),
             ": press ",
             ("r", "bold $accent"),
-            " to run yours.\nTopics, parameters, services and the graph come here.",
+            " to run yours." if short else " to run yours.\nTopics, parameters, services and the graph come here.",
         )
 
     # --- what is chosen ---

@@ -97,7 +97,7 @@ class ParametersPanel(Vertical):
         """A set has an outcome."""
         rows = [row for outcome in self.state.sets for row in set_rows(outcome)]
         nothing = (((" What you set, and what the node says to it, is listed here.", "quiet"),),)
-        self.query_one("#parameter-history", HistoryView).show_rows(rows or nothing)
+        self.query_one("#parameter-history", HistoryView).show_outcomes(rows or nothing)
 
     def _show_actions(self) -> None:
         more = ("u", "Only its own" if self.everything else "All (use_sim_time, too)", "all")

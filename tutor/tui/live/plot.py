@@ -27,8 +27,8 @@ class Plot:
     below: str
 
 
-def draw(points: Sequence[Point], width: int, height: int, now: float, span_s: float) -> Plot:
-    """Draw the points of the last `span_s` seconds into so many cells, labels included."""
+def draw(points: Sequence[Point], width: int, height: int, now: float, span_s: float, end: str = "now") -> Plot:
+    """Draw the points of the `span_s` seconds before `now` into so many cells, labels included; `end` names `now`."""
     seen = [point for point in points if now - span_s <= point[0] <= now]
     low, high, step = _scale(value for _, value in seen)
     labels = _labels(low, high, step, max(1, height - 1))
@@ -45,7 +45,7 @@ def draw(points: Sequence[Point], width: int, height: int, now: float, span_s: f
         grid.line((x, y) if before is None or hole else before, (x, y))
         before, last_t = (x, y), t
     edge = [f"{label:>{margin}}" + ("┤" if label else "│") for label in labels]
-    return Plot(tuple(zip(edge, grid.rows(), strict=True)), _below(margin, cells, span_s))
+    return Plot(tuple(zip(edge, grid.rows(), strict=True)), _below(margin, cells, span_s, end))
 
 
 def limits(values: Iterable[float]) -> tuple[float, float]:
@@ -93,8 +93,8 @@ def short(value: float, span: float) -> str:
     return "0" if text in ("-0", "") else text
 
 
-def _below(margin: int, cells: int, span_s: float) -> str:
-    left, right = f"{span_s:g} s ago", "now"
+def _below(margin: int, cells: int, span_s: float, right: str) -> str:
+    left = f"{span_s:g} s {'ago' if right == 'now' else 'before'}"
     gap = cells - len(left) - len(right)
     return " " * (margin + 1) + (left + " " * gap + right if gap > 0 else right.rjust(cells))
 

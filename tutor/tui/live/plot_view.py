@@ -23,11 +23,12 @@ class PlotView(Widget):
         super().__init__(id=id)
         self.points: Sequence[Point] = ()
         self.now = 0.0
+        self.end = "now"
         self.span_s = SPANS_S[1]
 
-    def show(self, points: Sequence[Point], now: float) -> None:
-        """Show these; `now` is at the right edge."""
-        self.points, self.now = points, now
+    def show(self, points: Sequence[Point], now: float, end: str = "now") -> None:
+        """Show these; `now` is at the right edge, and named `end`."""
+        self.points, self.now, self.end = points, now, end
         self.refresh()
 
     def zoom(self, by: int) -> None:
@@ -43,6 +44,6 @@ class PlotView(Widget):
             return Content("")
         if not self.points:
             return Content.styled("no numbers yet", "$quiet")
-        plot = draw(self.points, width, height, self.now, self.span_s)
+        plot = draw(self.points, width, height, self.now, self.span_s, self.end)
         rows = [Content.assemble((axis, "$quiet"), (dots, "$busy")) for axis, dots in plot.rows]
         return Content("\n").join([*rows, Content.styled(plot.below, "$quiet")])

@@ -104,7 +104,7 @@ class ServicesPanel(Vertical):
         rows = [waiting_row(service, since, now) for service, since in self.state.waiting.values()]
         rows += [row for outcome in self.state.calls for row in call_rows(outcome)]
         nothing = (((" The answers are listed here, with their times.", "quiet"),),)
-        self.query_one("#service-history", HistoryView).show_rows(rows or nothing)
+        self.query_one("#service-history", HistoryView).show_outcomes(rows or nothing)
         if self.state.waiting:
             self._clock.resume()
         else:

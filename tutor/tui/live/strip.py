@@ -12,7 +12,6 @@ from textual.message import Message
 from textual.reactive import reactive
 from textual.widget import Widget
 
-
 _BETWEEN_TABS = 1
 _BETWEEN_ACTIONS = 3
 

@@ -120,7 +120,9 @@ class TopicsPanel(Vertical):
         text, points = view.text, view.points
         if view.held is not None:
             _, text, held, now = view.held
-            self.query_one(PlotView).show(held, now)
+            self.query_one(PlotView).show(held, now, "paused")
+        elif points and view.news and words.is_silent(view.news, max(0.0, now - view.news_at)):
+            self.query_one(PlotView).show(tuple(points), points[-1][0], "the last one")
         else:
             self.query_one(PlotView).show(tuple(points), max(now, points[-1][0]) if points else now)
         rows = [((line, ""),) for line in text.splitlines()]

@@ -46,7 +46,10 @@ def numbers(news: TopicNews, since_news_s: float = 0.0) -> str:
         parts.append(f"silent for {period((news.silent_s or 0.0) + since_news_s)}")
     elif timing:
         parts.append(rate(timing.rate_hz))
-        parts.append(f"jitter {period(timing.deviation_s)} ({period(timing.shortest_s)} to {period(timing.longest_s)})")
+        if timing.periods > 1:
+            parts.append(
+                f"jitter {period(timing.deviation_s)} ({period(timing.shortest_s)} to {period(timing.longest_s)})"
+            )
     if news.lost:
         parts.append(f"! {news.lost:,} lost")
     return " · ".join(parts)
