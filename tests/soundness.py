@@ -1,9 +1,10 @@
 """Judge every submission under tests/submissions and compare with what its expect.yaml says.
 
-    uv run python -m tests.soundness [EXERCISE[/right|wrong[/NAME]] ...] [--times N] [--jobs N]
+    uv run python -m tests.soundness [EXERCISE[/right|wrong[/NAME]] ...] [--times N] [--jobs N] [--busy]
 
-prints each verdict that is not as expected, then a table: for each exercise how many right and wrong submissions were
-judged right, and the false passes and false failures.
+tells of each run on stderr. At the end, on stdout: each verdict that is not as expected, the submissions that are not
+judged the same each time, and a table: for each exercise how many right and wrong ones were judged right, the false
+passes and false failures, and how long a verdict took.
 """
 
 from __future__ import annotations
@@ -11,195 +12,146 @@ from __future__ import annotations
 import argparse
 import asyncio
 import json
+import os
+import signal
+import statistics
+import subprocess
 import sys
-import time
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
-from pathlib import Path
-from typing import Any
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 
-import yaml
+from tests.judging import Outcome, find, holds_here, judge
+from tutor.content.submissions import Case
 
-from tutor.judge.events import ExerciseJudged, decode
-from tutor.judge.result import ExerciseResult
-from tutor.judge.verdict import Status
-
-ROOT = Path(__file__).parent / "submissions"
-LIMIT_S = 180.0
-
-
-@dataclass(frozen=True)
-class Case:
-    """One submission folder and what it must be judged as."""
-
-    exercise: str
-    kind: str
-    folder: Path
-    expect: Mapping[str, Any]
-
-    def __str__(self) -> str:
-        return f"{self.exercise}/{self.kind}/{self.folder.name}"
+# Ends by itself when its owner is gone, however that happened: before its first instruction, too, so it is told who
+# that is instead of asking. It has an end of its own as well, should it ever be wrong about that.
+BUSY = """
+import os, sys, time
+owner, until = int(sys.argv[1]), time.monotonic() + float(sys.argv[2])
+while os.getppid() == owner and time.monotonic() < until:
+    for _ in range(100_000): pass
+"""
+BUSY_LIMIT_S = 6 * 3600.0
+COLUMNS = ("exercise", "kind", "submissions", "runs", "as expected", "false passes", "false failures", "not judged")
+TIMES = ("min s", "median", "max s")
 
 
-@dataclass
-class Outcome:
-    """What one run of one case gave. `wrong` says in words what is not as expected; empty where all is."""
-
-    case: Case
-    wrong: list[str] = field(default_factory=list)
-    false_pass: bool = False
-    false_failure: bool = False
-    took_s: float = 0.0
-
-
-def cases(wanted: Sequence[str] = ()) -> list[Case]:
-    """The cases whose name begins with one of `wanted` (all, without any)."""
-    found = [
-        Case(path.parts[-4].replace("_", "."), path.parts[-3], path.parent, yaml.safe_load(path.read_text()))
-        for path in sorted(ROOT.glob("*/*/*/expect.yaml"))
-    ]
-    return [case for case in found if not wanted or any(str(case).startswith(each) for each in wanted)]
-
-
-async def judge(case: Case) -> Outcome:
-    """Check the submission as the terminal app does, in a process of its own, and compare."""
-    started = time.monotonic()
-    process = await asyncio.create_subprocess_exec(
-        sys.executable,
-        "-m",
-        "tutor.engine",
-        case.exercise,
-        str(case.folder),
-        stdout=asyncio.subprocess.PIPE,
-        stderr=asyncio.subprocess.PIPE,
-        stdin=asyncio.subprocess.DEVNULL,
-        limit=2**24,
-    )
-    try:
-        out, err = await asyncio.wait_for(process.communicate(), LIMIT_S)
-    except TimeoutError:
-        process.terminate()
-        out, err = await process.communicate()
-        return Outcome(case, [f"no verdict in {LIMIT_S:g} s"], took_s=LIMIT_S)
-    results = [e.result for e in map(decode, out.decode().splitlines()) if isinstance(e, ExerciseJudged)]
-    took = time.monotonic() - started
-    if not results:
-        return Outcome(case, [f"no verdict: exit code {process.returncode}: {err.decode()[-500:]}"], took_s=took)
-    outcome = compare(case, results[0])
-    outcome.took_s = took
-    if err:
-        outcome.wrong.append(f"stderr: {err.decode()[-300:]}")
-    outcome.wrong += [f"left behind: {line}" for line in _left(case.expect.get("gone", ""))]
-    return outcome
-
-
-def compare(case: Case, result: ExerciseResult) -> Outcome:
-    """Hold the result against expect.yaml (see tests/submissions/README.md)."""
-    expect = case.expect
-    fails, any_of = set(expect.get("fails", ())), set(expect.get("fails_any", ()))
-    bonus_failed, either = set(expect.get("bonus_failed", ())), set(expect.get("either", ()))
-    not_passed = set(expect.get("not_passed", ()))
-    outcome = Outcome(case)
-    some_failed = any(c.verdict.status is Status.FAILED for c in result.criteria)
-    for criterion in result.criteria:
-        status, cause = criterion.verdict.status, criterion.verdict.cause
-        told = f"{criterion.id} {status.value}: {criterion.verdict.observed} | {cause}"
-        if status is Status.ERROR:
-            outcome.wrong.append(told)
-        elif criterion.id in fails | bonus_failed:
-            if status is not Status.FAILED:
-                outcome.wrong.append(f"should fail: {told}")
-                outcome.false_pass |= status is Status.PASSED
-            else:
-                outcome.wrong += _wrong_cause(expect.get("cause"), criterion.id, cause, criterion.id in fails)
-        elif criterion.id in any_of:
-            if status is Status.FAILED:
-                outcome.wrong += _wrong_cause(expect.get("cause"), criterion.id, cause, True)
-        elif criterion.id in not_passed:
-            if status is Status.PASSED:
-                outcome.wrong.append(f"should not pass: {told}")
-                outcome.false_pass = True
-        elif criterion.id not in either and (status is Status.FAILED or (status is Status.SKIPPED and not some_failed)):
-            outcome.wrong.append(f"should pass: {told}")
-            outcome.false_failure = True
-    if any_of and not any(c.id in any_of and c.verdict.status is Status.FAILED for c in result.criteria):
-        outcome.wrong.append(f"one of {', '.join(sorted(any_of))} should fail")
-        outcome.false_pass = True
-    return outcome
-
-
-def _wrong_cause(wanted: Any, criterion: str, cause: str, required: bool) -> list[str]:
-    if isinstance(wanted, Mapping):
-        wanted = wanted.get(criterion)
-    elif not required:
-        wanted = None
-    texts = [wanted] if isinstance(wanted, str) else list(wanted or ())
-    if not texts or any(str(text).casefold() in cause.casefold() for text in texts):
-        return []
-    return [f"{criterion}: cause is “{cause}”, not {' or '.join(map(str, texts))}"]
-
-
-def _left(text: str) -> list[str]:
-    if not text:
-        return []
-    commands = []
-    for path in Path("/proc").glob("[0-9]*/cmdline"):
-        try:
-            commands.append(path.read_bytes().replace(b"\0", b" ").decode(errors="replace"))
-        except OSError:
-            continue
-    return [command for command in commands if text in command]
-
-
-async def judge_all(chosen: Iterable[Case], jobs: int) -> list[Outcome]:
-    """Judge the cases, `jobs` at a time, telling of each that is not as expected."""
+async def judge_all(chosen: Sequence[Case], jobs: int) -> list[Outcome]:
+    """Judge the cases, `jobs` at a time, telling of each on stderr. Cancelled, it gives what there is so far."""
     free = asyncio.Semaphore(jobs)
+    outcomes: list[Outcome] = []
 
-    async def one(case: Case) -> Outcome:
+    async def one(case: Case) -> None:
         async with free:
             outcome = await judge(case)
-        mark = "  " if not outcome.wrong else "! "
-        print(f"{mark}{outcome.took_s:6.1f} s  {case}", *outcome.wrong, sep="\n        ", flush=True)
-        return outcome
+        outcomes.append(outcome)
+        mark = "! " if outcome.wrong else "  "
+        count = f"{len(outcomes)}/{len(chosen)}"
+        said = [f"{mark}{count:>9}{outcome.took_s:7.1f} s  {case}", *outcome.wrong]
+        print("\n        ".join(said), file=sys.stderr, flush=True)
 
-    return list(await asyncio.gather(*(one(case) for case in chosen)))
+    tasks = [asyncio.ensure_future(one(case)) for case in chosen]
+    loop = asyncio.get_running_loop()
+    for number in (signal.SIGINT, signal.SIGTERM):
+        loop.add_signal_handler(number, lambda: [task.cancel() for task in tasks])
+    for ended in await asyncio.gather(*tasks, return_exceptions=True):
+        if isinstance(ended, Exception):
+            raise ended
+    return outcomes
+
+
+@contextmanager
+def busy_cores(count: int) -> Iterator[None]:
+    """Keep so many cores busy, at normal priority."""
+    command = [sys.executable, "-I", "-S", "-c", BUSY, str(os.getpid()), str(BUSY_LIMIT_S)]
+    loops = [subprocess.Popen(command) for _ in range(count)]
+    try:
+        yield
+    finally:
+        for loop in loops:
+            loop.kill()
+        for loop in loops:
+            loop.wait()
 
 
 def table(outcomes: Sequence[Outcome]) -> str:
-    """One line for each exercise and kind."""
-    lines = [
-        f"{'exercise':<10}{'kind':<8}{'submissions':>12}{'runs':>6}{'as expected':>13}"
-        f"{'false passes':>14}{'false failures':>16}"
-    ]
-    for exercise, kind in sorted({(o.case.exercise, o.case.kind) for o in outcomes}):
-        mine = [o for o in outcomes if (o.case.exercise, o.case.kind) == (exercise, kind)]
-        count = Counter(
-            as_expected=sum(not o.wrong for o in mine),
-            false_pass=sum(o.false_pass for o in mine),
-            false_failure=sum(o.false_failure for o in mine),
-        )
-        lines.append(
-            f"{exercise:<10}{kind:<8}{len({str(o.case) for o in mine}):>12}{len(mine):>6}{count['as_expected']:>13}"
-            f"{count['false_pass']:>14}{count['false_failure']:>16}"
-        )
+    """One line for each exercise and kind, and one for all."""
+    groups = sorted({(o.case.exercise, o.case.kind) for o in outcomes})
+    rows = [(*group, *_figures([o for o in outcomes if (o.case.exercise, o.case.kind) == group])) for group in groups]
+    rows.append(("all", "", *_figures(outcomes)))
+    heads = (*COLUMNS, *TIMES)
+    widths = [max(len(head), *(len(row[place]) for row in rows)) for place, head in enumerate(heads)]
+    lines = []
+    for row in (heads, *rows):
+        cells = [
+            f"{cell:<{width}}" if place < 2 else f"{cell:>{width}}"
+            for place, (cell, width) in enumerate(zip(row, widths, strict=True))
+        ]
+        lines.append("  ".join(cells).rstrip())
     return "\n".join(lines)
 
 
+def _figures(outcomes: Sequence[Outcome]) -> tuple[str, ...]:
+    took = [outcome.took_s for outcome in outcomes] or [0.0]
+    counts = (
+        len({str(outcome.case) for outcome in outcomes}),
+        len(outcomes),
+        sum(not outcome.wrong for outcome in outcomes),
+        sum(outcome.false_pass for outcome in outcomes),
+        sum(outcome.false_failure for outcome in outcomes),
+        sum(any(text.startswith(("not judged", "no verdict")) for text in outcome.wrong) for outcome in outcomes),
+    )
+    return (*map(str, counts), *(f"{value:.1f}" for value in (min(took), statistics.median(took), max(took))))
+
+
+def flaky(outcomes: Sequence[Outcome]) -> list[str]:
+    """The submissions that were not judged the same each time, each with what differed and how often it came."""
+    lines = []
+    for name in sorted({str(outcome.case) for outcome in outcomes}):
+        verdicts = Counter(outcome.verdict for outcome in outcomes if str(outcome.case) == name)
+        if len(verdicts) > 1:
+            every = [set(verdict.split()) for verdict in verdicts]
+            same = set.intersection(*every)
+            lines.append(f"{name}:")
+            for verdict, times in verdicts.most_common():
+                differs = " ".join(word for word in verdict.split() if word not in same)
+                lines.append(f"    {times} times {differs or 'without the others'}")
+    return lines
+
+
 def main() -> int:
-    """Exit code 0 where every verdict is as expected, else 1."""
+    """Exit code 0 where every verdict is as expected, 1 where not, 2 where there is nothing to judge."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("wanted", nargs="*")
-    parser.add_argument("--times", type=int, default=1)
-    parser.add_argument("--jobs", type=int, default=3)
+    parser.add_argument("--times", type=int, default=1, help="judge each so often")
+    parser.add_argument("--jobs", type=int, default=3, help="so many at a time")
+    parser.add_argument("--busy", action="store_true", help="with a busy loop beside it for each core")
     parser.add_argument("--json", action="store_true", help="print the wrong ones as JSON, too")
     arguments = parser.parse_args()
-    chosen = cases(arguments.wanted) * arguments.times
-    outcomes = asyncio.run(judge_all(chosen, arguments.jobs))
+    found, broken = find(arguments.wanted)
+    for error in broken:
+        print(f"! {error}", file=sys.stderr)
+    here = [case for case in found if holds_here(case)]
+    if len(here) < len(found):
+        print(f"{len(found) - len(here)} are about another ROS than this, and left out", file=sys.stderr)
+    if not here:
+        print(f"no submission is called {' or '.join(arguments.wanted) or 'anything'}", file=sys.stderr)
+        return 2
+    with busy_cores(len(os.sched_getaffinity(0)) if arguments.busy else 0):
+        outcomes = asyncio.run(judge_all(here * arguments.times, arguments.jobs))
+    wrong = [outcome for outcome in outcomes if outcome.wrong]
     if arguments.json:
-        print(json.dumps([{"case": str(o.case), "wrong": o.wrong} for o in outcomes if o.wrong]))
+        print(json.dumps([{"case": str(o.case), "wrong": o.wrong} for o in wrong]))
+    for outcome in wrong:
+        print(f"not as expected: {outcome.case}", *outcome.wrong, sep="\n        ")
+    if lines := flaky(outcomes):
+        print("not the same each time:", *lines, sep="\n    ")
     print(table(outcomes))
-    return 1 if any(o.wrong for o in outcomes) or not outcomes else 0
+    complete = len(outcomes) == len(here) * arguments.times
+    if not complete:
+        print(f"interrupted: {len(outcomes)} of {len(here) * arguments.times} runs", file=sys.stderr)
+    return 1 if wrong or broken or not complete else 0
 
 
 if __name__ == "__main__":

@@ -1,23 +1,31 @@
-"""Submissions under tests/submissions are judged as their expect.yaml says.
+"""Submissions under tests/submissions are judged as their expect.yaml says: a sample, so that the tests end in minutes.
 
-All the right ones and every second wrong one, so that the tests end in minutes; `python -m tests.soundness` judges all.
+All the right ones and enough wrong ones (see `tests.sampling`); `python -m tests.soundness` judges all.
 """
 
 from __future__ import annotations
 
 import asyncio
+import subprocess
+import sys
 import threading
+import time
 from collections.abc import Iterator
 from concurrent.futures import Future
+from pathlib import Path
 
 import pytest
 
-from tests.soundness import Case, Outcome, cases, compare, judge
+from tests import soundness
+from tests.judging import Outcome, compare, find, holds_here, judge
+from tests.sampling import sample, shows
+from tutor.content.submissions import Case, Expected
 from tutor.judge.result import CriterionResult, ExerciseResult
 from tutor.judge.verdict import Status, Verdict
 
 JOBS = 6
-ALL = [case for case in cases() if case.kind == "right"] + [case for case in cases() if case.kind == "wrong"][::2]
+EVERY, BROKEN = find()
+ALL = [case for case in sample(EVERY) if holds_here(case)]
 
 
 @pytest.fixture(scope="module")
@@ -75,18 +83,87 @@ def _result(**statuses: Status) -> ExerciseResult:
     )
 
 
-def _case(**expect: object) -> Case:
-    return Case("x", "wrong", ALL[0].folder, expect)
+def _case(name: str = "a", kind: str = "wrong", exercise: str = "x1.1", **keys: object) -> Case:
+    return Case(exercise, kind, Path(name), Expected("made", **keys))  # type: ignore[arg-type]
+
+
+def test_every_submission_can_be_read() -> None:
+    assert [str(error) for error in BROKEN] == []
 
 
 def test_a_false_pass_and_a_false_failure_are_told() -> None:
     """The comparison itself can fail: else every submission would be as expected."""
     mixed = _result(a=Status.FAILED, b=Status.PASSED, bonus=Status.PASSED)
-    assert compare(_case(fails=["a"], cause="broke"), mixed).wrong == []
-    assert compare(_case(fails=["b"]), mixed).false_pass
-    assert compare(_case(fails=["b"]), mixed).false_failure
-    assert compare(_case(fails=["a"], bonus_failed=["bonus"]), mixed).false_pass
-    assert compare(_case(fails=["a"], cause="no spin"), mixed).wrong == ["a: cause is “a broke”, not no spin"]
-    assert compare(_case(passes="all"), _result(a=Status.ERROR)).wrong
-    assert compare(_case(passes="all"), _result(a=Status.SKIPPED)).false_failure
-    assert compare(_case(not_passed=["a"]), _result(a=Status.PASSED)).false_pass
+    assert compare(_case(fails=("a",), causes={"": ("Broke",)}), mixed).wrong == []
+    assert compare(_case(fails=("b",)), mixed).false_pass
+    assert compare(_case(fails=("b",)), mixed).false_failure
+    assert compare(_case(fails=("a",), bonus_failed=("bonus",)), mixed).false_pass
+    assert compare(_case(fails=("a",), causes={"": ("no spin",)}), mixed).wrong == [
+        "a: cause is “a broke”, not no spin"
+    ]
+    assert compare(_case(fails=("a",), causes={"a": ("no", "broke")}), mixed).wrong == []
+    assert compare(_case(fails_any=("b",), either=("a",)), mixed).wrong == ["one of b should fail"]
+    assert compare(_case(passes=True), _result(a=Status.ERROR)).wrong[0].startswith("not judged: ")
+    assert compare(_case(passes=True), _result(a=Status.SKIPPED)).false_failure
+    assert compare(_case(not_passed=("a",)), _result(a=Status.PASSED)).false_pass
+
+
+def test_the_sample_has_all_right_ones_and_each_criterion_and_cause() -> None:
+    cases = [
+        _case("r1", "right"),
+        _case("r2", "right"),
+        _case("one", fails=("a",), causes={"": ("no spin",)}),
+        _case("two", fails=("a", "b"), causes={"": ("No spin",)}),
+        _case("three", fails=("b",), causes={"b": ("other", "ramp")}),
+        _case("four", bonus_failed=("c",)),
+        _case("five", fails=("a",), exercise="x1.2"),
+        _case("six", fails=("a",), exercise="x1.2"),
+    ]
+    assert [case.folder.name for case in sample(cases)] == ["r1", "r2", "two", "three", "four", "five"]
+    assert sample(cases[::-1]) == sample(cases)[::-1]
+
+
+def test_the_real_sample_leaves_nothing_out() -> None:
+    chosen = sample(EVERY)
+    assert set().union(*map(shows, chosen)) == set().union(*map(shows, EVERY))
+    assert {case for case in map(str, EVERY) if "/right/" in case} <= set(map(str, chosen))
+
+
+def _outcome(name: str, verdict: str, took_s: float, *wrong: str) -> Outcome:
+    return Outcome(_case(name), list(wrong), took_s=took_s, verdict=verdict, false_pass=bool(wrong))
+
+
+def test_the_table_counts_and_the_flaky_are_named() -> None:
+    outcomes = [
+        _outcome("steady", "a:failed b:passed", 1.0),
+        _outcome("steady", "a:failed b:passed", 2.0),
+        _outcome("shaky", "a:failed b:passed", 3.0),
+        _outcome("shaky", "a:passed b:passed", 9.0, "should fail: a"),
+    ]
+    head, row, total = (line.split() for line in soundness.table(outcomes).splitlines())
+    assert head[0] == "exercise"
+    assert row == ["x1.1", "wrong", "2", "4", "3", "1", "0", "0", "1.0", "2.5", "9.0"]
+    assert total == ["all", *row[2:]]
+    assert soundness.flaky(outcomes) == ["x1.1/wrong/shaky:", "    1 times a:failed", "    1 times a:passed"]
+
+
+BUSY_AND_KILLED = """
+import os, signal
+from tests import soundness
+soundness.BUSY_LIMIT_S = 60.0  # should this fail, nothing is left for long
+with soundness.busy_cores(2):
+    os.kill(os.getpid(), signal.SIGKILL)
+"""
+
+
+@pytest.mark.timeout(100)
+def test_busy_loops_end_even_where_their_owner_is_killed_before_they_begin() -> None:
+    started = time.monotonic()
+    killed = subprocess.run(
+        [sys.executable, "-c", BUSY_AND_KILLED],
+        stdout=subprocess.PIPE,  # at its end, nobody holds it any more: neither the owner nor the loops
+        cwd=Path(__file__).parents[1],
+        check=False,
+    )
+    assert (killed.returncode, killed.stdout) == (-9, b"")
+    assert time.monotonic() - started < 50

@@ -1,0 +1,37 @@
+"""Which test submissions the tests judge: enough to show each criterion kept and broken, and each cause named.
+
+`python -m tests.soundness` judges all of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from tutor.content.submissions import RIGHT, WRONG, Case
+
+
+def sample(cases: Sequence[Case]) -> list[Case]:
+    """All right ones; of the wrong ones so many that each criterion of each exercise, and each cause, is among them.
+
+    Always the same ones, whatever order they come in: those that show most first, then by name.
+    """
+    wrong = sorted((case for case in cases if case.kind == WRONG), key=str)
+    missing = set().union(*map(shows, wrong))
+    chosen: list[Case] = []
+    while missing:
+        best = max(wrong, key=lambda case: len(shows(case) & missing))
+        chosen.append(best)
+        missing -= shows(best)
+    return [case for case in cases if case.kind == RIGHT or case in chosen]
+
+
+def shows(case: Case) -> frozenset[tuple[str, str]]:
+    """What a wrong submission shows: (exercise, criterion) for what it breaks, ("cause", name) for why."""
+    expected = case.expected
+    broken = {(case.exercise, criterion) for criterion in (*expected.fails, *expected.bonus_failed)}
+    return frozenset(broken | {("cause", name) for name in _first(expected.causes.values())})
+
+
+def _first(causes: Iterable[Sequence[str]]) -> list[str]:
+    # Of several that would do, the first is the one that its author thought of.
+    return [texts[0].casefold() for texts in causes]
