@@ -32,11 +32,11 @@ from tutor.judge.waiting import IN_FLIGHT_S, STARVED, TRIES, appears
 UP_S = 1.5
 """What a node logs later than this after its first sign of life is no greeting."""
 
-OTHER_PACE_S = 6.0
-"""Time enough to see that the messages that come are of another pace."""
+LISTEN_S = 6.5
+"""Time enough to see that what comes is of another pace, or that nothing comes, not even from a tick in fifty."""
 
-NONE_S = 11.5
-"""Time enough to see that there are none, or two of a timer that logs every 50th tick."""
+RARE_S = 12.0
+"""Time enough for a second message of a timer that logs every fiftieth tick."""
 
 LOOK_EVERY_S = 0.1
 
@@ -72,7 +72,7 @@ async def _listen(run: Run, up_at: float) -> None:
             enough = _told(run.logs) or run.now() - up_at > _patience_s(run.logs)
         return enough
 
-    await run.until(heard, 2 * NONE_S)
+    await run.until(heard, 2 * RARE_S)
 
 
 def _told(logs: Sequence[LogRecord]) -> bool:
@@ -88,8 +88,8 @@ def _patience_s(logs: Sequence[LogRecord]) -> float:
     often = [series for series in all_series(logs) if len(series.ticks) > 2]
     late = [log for log in logs if log.stamp - logs[0].stamp > UP_S]
     if any(not any(series.key.of(log) for series in often) for log in late):
-        return 2 * NONE_S - 1
-    return OTHER_PACE_S if often else NONE_S
+        return RARE_S
+    return LISTEN_S
 
 
 def _may_be_10_hz(series: Series, share: float) -> bool:
