@@ -9,6 +9,7 @@ from typing import Any
 from tutor.judge import tracebacks
 from tutor.judge.rates import Rate
 from tutor.judge.trace import Ending, Parameter, Sample, SetAnswer, Trace
+from tutor.judge.tracebacks import Frame
 
 FILE = "parameterized_publisher.py"
 TOPIC = "/chatter"
@@ -33,11 +34,15 @@ RARE_S = 3.0
 
 @dataclass(frozen=True)
 class Survey:
-    """A plain start. `parameters` is None where no node answered; `ending` where the process had ended by itself."""
+    """A plain start. `parameters` is None where no node answered; `ending` where the process had ended by itself.
+
+    Here and below, `stuck` is where the node was, innermost frame first, when it answered nothing.
+    """
 
     trace: Trace
     parameters: tuple[Parameter, ...] | None
     ending: Ending | None
+    stuck: tuple[Frame, ...] = ()
 
     def value_of(self, name: str) -> Parameter | None:
         return find(self.parameters or (), name)
@@ -69,6 +74,7 @@ class Switched:
     off_for_s: float = 0.0
     set_on: SetAnswer | None = None
     resumed: Sample | None = None
+    stuck: tuple[Frame, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -81,6 +87,7 @@ class Validated:
     rejected: tuple[tuple[SetAnswer, Any], ...] = ()
     rate: Rate | None = None
     messages: int = 0
+    stuck: tuple[Frame, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -89,6 +96,7 @@ class Retimed:
 
     trace: Trace
     steps: tuple[tuple[SetAnswer, Rate | None, int], ...] = ()
+    stuck: tuple[Frame, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -103,6 +111,7 @@ class Atomic:
     shown: Sample | None = None
     rate: Rate | None = None
     messages: int = 0
+    stuck: tuple[Frame, ...] = ()
 
 
 def find(parameters: Sequence[Parameter], name: str) -> Parameter | None:

@@ -30,6 +30,7 @@ from checks.i2_1.facts import (
 from tutor.judge import causes, ending, tracebacks
 from tutor.judge.rates import TOLERANCE, Rate, describe
 from tutor.judge.trace import SetAnswer, Trace
+from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Cause, Verdict, failed, passed
 from tutor.judge.wording import shape
 
@@ -37,7 +38,7 @@ from tutor.judge.wording import shape
 def judge_defaults(seen: Survey) -> Verdict:
     expected = ", ".join(f"{name} = {_show(value)} ({kind})" for name, (kind, value) in DEFAULTS.items())
     if seen.parameters is None:
-        cause = causes.of_process(seen.trace) or causes.no_spin(seen.trace)
+        cause = causes.of_no_answer(seen.trace, seen.stuck)
         return failed(expected, "the node answers no parameter call", cause, causes.last_words(seen.trace))
     found = {name: seen.value_of(name) for name in DEFAULTS}
     observed = ", ".join(f"{n} = {_show(p.value)} ({p.type})" if p else f"no {n}" for n, p in found.items())
@@ -126,11 +127,12 @@ def _ignored(name: str) -> Cause:
 
 def judge_runtime(seen: Switched) -> Verdict:
     expected = f"setting {PREFIX} and {ENABLED} on the running node takes effect within one period"
-    if seen.set_prefix is None or seen.set_off is None or seen.set_on is None:
-        return _not_running(seen.trace, expected)
     for answer in (seen.set_prefix, seen.set_off, seen.set_on):
+        if answer is None:
+            return _not_running(seen.trace, seen.stuck, expected)
         if not answer.answered or not answer.successful:
-            return _not_set(expected, answer, seen.trace)
+            return _not_set(expected, answer, seen.trace, seen.stuck)
+    assert seen.set_on is not None
     if seen.after_prefix is None:
         return failed(
             expected,
@@ -176,26 +178,22 @@ def _last(trace: Trace) -> str:
     return text(samples[-1]) if samples else "nothing"
 
 
-def _not_running(trace: Trace, expected: str) -> Verdict:
+def _not_running(trace: Trace, stuck: Sequence[Frame], expected: str) -> Verdict:
     if trace.on(TOPIC):
         return failed(
             expected,
             "the node answers no parameter call",
-            causes.of_process(trace) or causes.no_spin(trace),
+            causes.of_no_answer(trace, stuck),
             causes.last_words(trace),
         )
-    cause = causes.of_silence(trace, TOPIC, TYPE, answers=False)
+    cause = causes.of_silence(trace, TOPIC, TYPE, answers=False, stuck=stuck)
     return failed(expected, f"no message on {TOPIC} to start with", cause, causes.last_words(trace))
 
 
-def _not_set(expected: str, answer: SetAnswer, trace: Trace) -> Verdict:
+def _not_set(expected: str, answer: SetAnswer, trace: Trace, stuck: Sequence[Frame]) -> Verdict:
     what = ", ".join(f"{name} to {_show(value)}" for name, value in answer.values.items())
     if not answer.answered:
-        cause = causes.of_process(trace) or Cause(
-            "blocked executor",
-            "the node answered before, and no longer does: one of its callbacks does not come to an end",
-            "let every callback return at once: no loop and no sleep in it; let a timer do what has to wait",
-        )
+        cause = causes.of_no_answer(trace, stuck, spins=True)
         return failed(expected, f"setting {what}: no answer in {ANSWER_S:g} s", cause, causes.last_words(trace))
     cause = causes.of_refusal(answer.reason, answer.values)
     return failed(expected, f'setting {what}: rejected, "{answer.reason}"', cause)
@@ -204,11 +202,11 @@ def _not_set(expected: str, answer: SetAnswer, trace: Trace) -> Verdict:
 def judge_validation(seen: Validated) -> Verdict:
     expected = f"{RATE} 0.0 and -1.0 are rejected with a reason; the value and the rate stay at {seen.base_hz} Hz"
     if not seen.rejected:
-        return _not_running(seen.trace, expected)
+        return _not_running(seen.trace, seen.stuck, expected)
     for answer, value in seen.rejected:
         bad = answer.values[RATE]
         if not answer.answered:
-            return _not_set(expected, answer, seen.trace)
+            return _not_set(expected, answer, seen.trace, seen.stuck)
         if answer.successful:
             return failed(
                 expected,
@@ -230,7 +228,7 @@ def judge_validation(seen: Validated) -> Verdict:
                 ),
             )
         if any(own in answer.reason for own in causes.RCLPYS_OWN):
-            return _not_set(expected, answer, seen.trace)
+            return _not_set(expected, answer, seen.trace, seen.stuck)
         if value != seen.before:
             return failed(
                 expected,
@@ -250,11 +248,11 @@ def judge_validation(seen: Validated) -> Verdict:
 def judge_timer(seen: Retimed) -> Verdict:
     expected = f"setting {RATE} changes the measured rate: {UP_HZ} Hz, then {DOWN_HZ} Hz, ±{TOLERANCE:.0%}"
     if not seen.steps:
-        return _not_running(seen.trace, expected)
+        return _not_running(seen.trace, seen.stuck, expected)
     for answer, rate, messages in seen.steps:
         asked = answer.values[RATE]
         if not answer.answered or not answer.successful:
-            return _not_set(expected, answer, seen.trace)
+            return _not_set(expected, answer, seen.trace, seen.stuck)
         if rate is None or not rate.agrees(asked):
             return failed(
                 expected,
@@ -286,10 +284,10 @@ def _why_timer(seen: Retimed, asked: float, rate: Rate | None) -> Cause:
 def judge_atomic(seen: Atomic) -> Verdict:
     expected = f"an atomic set of a good {PREFIX} and a bad {RATE}, in either order, changes nothing at all"
     if not seen.answers:
-        return _not_running(seen.trace, expected)
+        return _not_running(seen.trace, seen.stuck, expected)
     unanswered = next((answer for answer in seen.answers if not answer.answered), None)
     if unanswered is not None:
-        return _not_set(expected, unanswered, seen.trace)
+        return _not_set(expected, unanswered, seen.trace, seen.stuck)
     if any(answer.successful for answer in seen.answers):
         return failed(
             expected,
@@ -301,7 +299,7 @@ def judge_atomic(seen: Atomic) -> Verdict:
             ),
         )
     if "declared" in seen.answers[0].reason:
-        return _not_set(expected, seen.answers[0], seen.trace)
+        return _not_set(expected, seen.answers[0], seen.trace, seen.stuck)
     changed = next((held for held in seen.values if held != seen.before), None)
     partial = "only validate in the on-set callback; apply in a post-set callback (add_post_set_parameters_callback)"
     if changed is not None or seen.shown is not None:

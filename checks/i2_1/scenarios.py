@@ -34,7 +34,8 @@ from checks.i2_1.facts import (
 from tutor.judge.bench import Bench, Run
 from tutor.judge.rates import Rate
 from tutor.judge.trace import Parameter, Sample, SetAnswer, Trace
-from tutor.judge.waiting import START_S, appears, first_message, steady_rate
+from tutor.judge.tracebacks import Frame
+from tutor.judge.waiting import START_S, appears, first_message, steady_rate, stuck
 
 
 async def survey(bench: Bench) -> Survey:
@@ -48,7 +49,7 @@ async def survey(bench: Bench) -> Survey:
             await first_message(run, TOPIC, TYPE, rare_s=RARE_S)
         trace = run.trace()
         ended = await run.interrupt() if run.exit is None else None
-        return Survey(trace, declared, ended)
+    return Survey(trace, declared, ended, () if declared is not None else await _stuck(bench, trace))
 
 
 async def launched(bench: Bench) -> Launched:
@@ -86,10 +87,12 @@ async def switched(bench: Bench) -> Switched:
         bench.doing(0.05, "waiting for it to publish")
         node = await _publishing(run)
         if node is None:
-            return Switched(run.trace(), prefix)
+            return Switched(trace := run.trace(), prefix, stuck=await _stuck(bench, trace))
         period = 1 / await _base_hz(run)
         bench.doing(0.2, f"setting {PREFIX} to {prefix}")
         set_prefix = await run.set_parameters(node, {PREFIX: prefix}, limit_s=ANSWER_S)
+        if not set_prefix.answered:
+            return Switched(run.trace(), prefix, set_prefix, stuck=await run.stuck_at())
         due = set_prefix.answered_at + period + 0.1
 
         def shown() -> Sample | None:
@@ -102,6 +105,8 @@ async def switched(bench: Bench) -> Switched:
         changed = shown()
         bench.doing(0.4, f"setting {ENABLED} to false, listening for silence")
         set_off = await run.set_parameters(node, {ENABLED: False}, limit_s=ANSWER_S)
+        if not set_off.answered:
+            return Switched(run.trace(), prefix, set_prefix, changed, set_off, stuck=await run.stuck_at())
         quiet_from = set_off.answered_at + period + 0.1
 
         def noise() -> list[Sample]:
@@ -125,12 +130,15 @@ async def validated(bench: Bench) -> Validated:
         bench.doing(0.05, "waiting for it to publish")
         node = await _publishing(run)
         if node is None:
-            return Validated(run.trace())
+            return Validated(trace := run.trace(), stuck=await _stuck(bench, trace))
         base_hz, (before,) = await _base_hz(run), await _held(run, (RATE,))
         rejected: list[tuple[SetAnswer, Any]] = []
         for bad in BAD_RATES:
             bench.doing(0.2, f"setting {RATE} to {bad}")
             answer = await run.set_parameters(node, {RATE: bad}, limit_s=ANSWER_S)
+            if not answer.answered:
+                rejected.append((answer, None))
+                return Validated(run.trace(), base_hz, before, tuple(rejected), stuck=await run.stuck_at())
             rejected.append((answer, (await _held(run, (RATE,)))[0]))
         bench.doing(0.4, "measuring the rate after it")
         rate, messages = await steady_rate(run, TOPIC, base_hz, since=rejected[-1][0].answered_at)
@@ -143,12 +151,14 @@ async def retimed(bench: Bench) -> Retimed:
         bench.doing(0.05, "waiting for it to publish")
         node = await _publishing(run)
         if node is None:
-            return Retimed(run.trace())
+            return Retimed(trace := run.trace(), stuck=await _stuck(bench, trace))
         steps: list[tuple[SetAnswer, Rate | None, int]] = []
         old_hz = await _base_hz(run)
         for done, new_hz in ((0.3, UP_HZ), (0.6, DOWN_HZ)):
             bench.doing(done, f"setting {RATE} to {new_hz}")
             answer = await run.set_parameters(node, {RATE: new_hz}, limit_s=ANSWER_S)
+            if not answer.answered:
+                return Retimed(run.trace(), (*steps, (answer, None, 0)), await run.stuck_at())
             settled = answer.answered_at + 1 / old_hz + 0.05
             await run.until(lambda settled=settled: run.now() >= settled, 1 / old_hz + 1)  # type: ignore[misc]
             rate, messages = await steady_rate(run, TOPIC, new_hz, since=settled)
@@ -162,7 +172,7 @@ async def atomic(bench: Bench) -> Atomic:
     async with bench.start(FILE, watch={TOPIC: TYPE}) as run:
         node = await _publishing(run)
         if node is None:
-            return Atomic(run.trace())
+            return Atomic(trace := run.trace(), stuck=await _stuck(bench, trace))
         base_hz = await _base_hz(run)
         before = await _held(run, (PREFIX, RATE))
         tokens = ("Partial1", "Partial2")
@@ -171,6 +181,8 @@ async def atomic(bench: Bench) -> Atomic:
         for request in ({PREFIX: tokens[0], RATE: BAD_RATES[1]}, {RATE: BAD_RATES[1], PREFIX: tokens[1]}):
             bench.doing(0.4, f"setting {' and '.join(request)} atomically")
             answers.append(await run.set_parameters(node, request, atomic=True, limit_s=ANSWER_S))
+            if not answers[-1].answered:
+                return Atomic(run.trace(), base_hz, tuple(answers), before, stuck=await run.stuck_at())
             values.append(await _held(run, (PREFIX, RATE)))
         rate, messages = await steady_rate(run, TOPIC, base_hz, since=answers[-1].answered_at)
         shown = next((s for s in run.on(TOPIC) if any(token in text(s) for token in tokens)), None)
@@ -188,6 +200,16 @@ async def bad_launches(bench: Bench) -> tuple[Trace, ...]:
             return run.trace()
 
     return tuple(await asyncio.gather(*(one(bad) for bad in BAD_RATES)))
+
+
+async def silent(bench: Bench) -> tuple[Frame, ...]:
+    """Where the node is while it answers nothing."""
+    return await stuck(bench, FILE)
+
+
+async def _stuck(bench: Bench, trace: Trace) -> tuple[Frame, ...]:
+    """Where the node of this trace is, if it is one that runs but does nothing."""
+    return await bench.facts(silent) if trace.graph.nodes and trace.exit is None else ()
 
 
 async def _node(run: Run) -> str | None:
