@@ -29,6 +29,14 @@ def of_printed(
             "use self.get_logger().info(...): log messages reach /rosout, where others can read them, and no buffering "
             "holds them back",
         )
+    seen = {log.text for log in trace.logs}
+    logged = [line.text for line in trace.output if _LOGGED.match(line.text) and says(line.text)]
+    if logged and not any(text.endswith(each) for text in logged for each in seen):
+        return Cause(
+            "not the node's logger",
+            f"{what} is logged by a logger that belongs to no node, so it does not reach /rosout: {logged[0]}",
+            "use self.get_logger(): rclpy.logging.get_logger(...) writes to the terminal only",
+        )
     late = [line.text for line in after if _is_print(line) and says(line.text)]
     if late:
         return Cause(
