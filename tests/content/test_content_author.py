@@ -1,0 +1,254 @@
+"""What `author check` proves beyond the lessons: checks, commands, test submissions, verdicts on our own code."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from tutor.content import ContentError, Course, Lesson, load_course
+from tutor.content.lint_checks import lint_check, lint_strays
+from tutor.content.lint_commands import lint_commands
+from tutor.content.lint_submissions import lint_submissions
+from tutor.content.proof import faults, findings_of
+from tutor.content.submissions import read_expected
+from tutor.judge.check import Check, Criterion
+from tutor.judge.result import CriterionResult, ExerciseResult
+from tutor.judge.verdict import Cause, Status, Verdict, failed, fault, passed, skipped
+
+FAILED = failed("a", "2 Hz", Cause("no spin", "it never spins", "spin"))
+
+
+@pytest.fixture
+def course(lesson_folder: Path) -> Course:
+    checks = lesson_folder.parents[1] / "checks" / "x1_1"
+    checks.mkdir(parents=True)
+    (checks / "__init__.py").write_text('CHECK = None\nFILE = "mover.py"\n')
+    return load_course()
+
+
+def judge() -> Verdict:
+    return passed("", "")
+
+
+def check(*criteria: str, exercise: str = "x1.1", bonus: tuple[str, ...] = ("stops",)) -> Check:
+    return Check(exercise, tuple(Criterion(each, judge, (), bonus=each in bonus) for each in criteria))
+
+
+# --- lessons and checks ---
+
+
+@pytest.mark.parametrize(
+    ("made", "place", "text"),
+    [
+        (check("moves", "stops"), "", ""),
+        (check("moves", "stops", exercise="x1.2"), "checks/x1_1/__init__.py", "it judges x1.2"),
+        (check("moves"), "checks/x1_1/__init__.py", "the criterion stops of the lesson is not judged"),
+        (
+            check("moves", "stops", "jumps"),
+            "lesson.md",
+            "the criterion jumps is judged, but the lesson does not have it",
+        ),
+        (
+            check("moves", "stops", bonus=()),
+            "lesson.md",
+            "the criterion stops is a bonus here and required in the check",
+        ),
+        (
+            check("stops", "moves"),
+            "lesson.md",
+            "the criteria are in another order than in the check, which has stops, moves",
+        ),
+    ],
+)
+def test_a_lesson_and_its_check_agree(course: Course, made: Check, place: str, text: str) -> None:
+    found = list(lint_check(course.lessons[0], made))
+    assert [problem.text for problem in found] == ([text] if text else [])
+    assert all(str(problem.file).endswith(place) for problem in found)
+
+
+def test_a_check_names_the_lessons_files(course: Course) -> None:
+    lesson = course.lessons[0]
+    lesson.check.write_text('FILE = "walker.py"\n')
+    assert [problem.text for problem in lint_check(lesson, check("moves", "stops"))] == [
+        "the file mover.py is named nowhere in it"
+    ]
+    lesson.check.with_name("facts.py").write_text('FILE = "mover.py"\n')
+    assert list(lint_check(lesson, check("moves", "stops"))) == []
+
+
+def test_strays_beside_lessons_and_checks_are_found(course: Course, lesson_folder: Path) -> None:
+    root = lesson_folder.parents[1]
+    assert list(lint_strays(course, course.lessons)) == []
+    for stray in ("lessons/notes.txt", "checks/x1_2.py", "checks/__init__.py"):
+        (root / stray).touch()
+    (root / "checks" / "__pycache__").mkdir()
+    found = [str(problem.file.relative_to(root)) for problem in lint_strays(course, course.lessons)]
+    assert found == ["lessons/notes.txt", "checks/x1_2.py"]
+
+
+# --- commands ---
+
+
+@pytest.mark.parametrize(
+    ("line", "text"),
+    [
+        ("python3 mover.py --ros-args \\\n    -p speed:=1.0  # faster", ""),
+        ("python3 given.py", ""),
+        ("ros2 launch my_package given.py", ""),
+        ("ros2 run my_package mover", ""),
+        ("ros-tutor check x1.1 --criterion moves", ""),
+        ("python3 walker.py", "there is no file walker.py"),
+        ("ros2 run my_package walker", "my_package has no program walker"),
+        ("ros-tutor check x1.1 --criterion flies", "there is no criterion flies"),
+        ("ros-tutor chek x1.1", "no such command"),
+    ],
+)
+def test_a_lessons_commands_can_be_typed(course: Course, line: str, text: str) -> None:
+    lesson = replace(course.lessons[0], body=f"```bash\n{line}\n```\n\n```python\nopen('other.py')\n```\n")
+
+    def usage(argv: list[str]) -> str:
+        return "" if argv[0] == "check" else "no such command"
+
+    found = [problem.text for problem in lint_commands(lesson, {"given.py"}, usage)]
+    assert len(found) == bool(text)
+    assert not text or found[0].endswith(f": {text}")
+
+
+# --- test submissions ---
+
+RIGHT = "says: right\npasses: all\n"
+GOOD = {
+    "x1_1/right/plain": RIGHT,
+    "x1_1/wrong/moves": "says: it stands\nfails: [moves]\ncause: no spin\n",
+    "x1_1/wrong/stops": "says: goes on\nbonus_failed: [stops]\ncause: {stops: [a, b]}\ngone: sleep 1\nros: bundled\n",
+}
+
+
+def submissions(root: Path, course: Course, made: Mapping[str, str]) -> list[str]:
+    for name, expect in made.items():
+        folder = root / name
+        folder.mkdir(parents=True)
+        (folder / "mover.py").touch()
+        (folder / "expect.yaml").write_text(expect)
+    return [
+        f"{problem.file.relative_to(root)}: {problem.text}"
+        for problem in lint_submissions(root, course, course.lessons)
+    ]
+
+
+def test_right_submissions_have_no_problem(course: Course, tmp_path: Path) -> None:
+    root = tmp_path / "submissions"
+    root.mkdir()
+    (root / "README.md").touch()
+    assert submissions(root, course, GOOD) == []
+
+
+@pytest.mark.parametrize(
+    ("name", "expect", "text"),
+    [
+        ("x1_1/wrong/a", "fails: [moves]\n", "says: this field is missing"),
+        ("x1_1/wrong/a", "says: a\nfails: [moves]\nfail: [stops]\n", "line 3: fail: there is no such field"),
+        ("x1_1/wrong/a", "says: a\nfails: moves\n", "line 2: fails: expected a list, found a text"),
+        ("x1_1/wrong/a", "says: a\nfails: [moves]\ncause: [1]\n", "cause: expected a text, or for criteria"),
+        ("x1_1/right/a", "says: a\npasses: most\n", "passes: expected all, found 'most'"),
+        ("x1_1/wrong/a", "says: a\nfails: [flies]\n", "fails: there is no criterion 'flies'"),
+        ("x1_1/wrong/a", "says: a\nfails: [moves]\ncause: {flies: b}\n", "cause: there is no criterion 'flies'"),
+        ("x1_1/wrong/a", "says: a\nfails: [stops]\n", "fails: stops is a bonus"),
+        ("x1_1/wrong/a", "says: a\nbonus_failed: [moves]\n", "bonus_failed: moves is no bonus"),
+        ("x1_1/wrong/a", "says: a\nfails: [moves]\neither: [moves]\n", "moves is in fails and in another key"),
+        ("x1_1/wrong/a", "says: a\neither: [moves]\n", "nothing fails, and this is a wrong one"),
+        ("x1_1/wrong/a", "says: a\npasses: all\nfails: [moves]\n", "a wrong one does not pass"),
+        ("x1_1/right/a", "says: a\n", "a right one passes"),
+        ("x1_1/right/a", RIGHT + "either: [moves]\n", "moves does not have to pass, and this is a right one"),
+        ("x1_2/right/a", RIGHT, "x1_2: this belongs to no exercise"),
+        ("x1_1/maybe/a", RIGHT, "x1_1/maybe: this is no submission"),
+    ],
+)
+def test_what_is_wrong_with_a_submission_is_found(
+    course: Course, tmp_path: Path, name: str, expect: str, text: str
+) -> None:
+    (found,) = submissions(tmp_path / "submissions", course, {**GOOD, name: expect})
+    assert text in found
+
+
+def test_files_that_are_no_submission_are_found(course: Course, tmp_path: Path) -> None:
+    root = tmp_path / "submissions"
+    submissions(root, course, GOOD)
+    (root / "x1_1/right/empty").mkdir()
+    (root / "x1_1/right/mover.py").touch()
+    (root / "x1_1/right/plain/mover.py").unlink()
+    assert [problem.text for problem in lint_submissions(root, course, course.lessons)] == [
+        "there is no expect.yaml",
+        "this is no submission",
+        "there is no mover.py",
+    ]
+
+
+def test_each_criterion_is_kept_and_broken_by_one(course: Course, tmp_path: Path) -> None:
+    made = {"x1_1/right/plain": RIGHT + "bonus_failed: [stops]\n"}
+    assert submissions(tmp_path / "submissions", course, made) == [
+        "x1_1/wrong: no submission breaks moves",
+        "x1_1/right: no submission keeps stops",
+    ]
+
+
+def test_what_a_submission_must_be_judged_as(tmp_path: Path) -> None:
+    file = tmp_path / "expect.yaml"
+    file.write_text("says: x\nfails: [a]\ncause: {a: one, b: [two, three]}\n")
+    expected = read_expected(file)
+    assert expected.fails == ("a",)
+    assert expected.causes == {"a": ("one",), "b": ("two", "three")}
+    file.write_text("says: x\ncause: one\n")
+    assert read_expected(file).causes == {"": ("one",)}
+    with pytest.raises(ContentError, match="cannot be read"):
+        read_expected(tmp_path / "nowhere.yaml")
+
+
+# --- verdicts on our own code ---
+
+
+def result(lesson: Lesson, **verdicts: Verdict) -> ExerciseResult:
+    criteria = tuple(CriterionResult(name, name, name == "stops", verdict, 1.0) for name, verdict in verdicts.items())
+    return ExerciseResult(lesson.id, lesson.title, ("mover.py",), criteria, 1.0)
+
+
+@pytest.mark.parametrize(
+    ("kind", "moves", "stops", "text"),
+    [
+        ("solution", passed("", ""), passed("", ""), ""),
+        ("solution", passed("", ""), FAILED, "stops does not pass (2 Hz | no spin: it never spins)"),
+        ("solution", skipped("no"), passed("", ""), "moves does not pass (no)"),
+        ("solution", fault("busy", "wait"), passed("", ""), ""),
+        ("skeleton", FAILED, passed("", ""), ""),
+        ("skeleton", FAILED, skipped("no"), ""),
+        (
+            "skeleton",
+            FAILED,
+            FAILED,
+            "stops fails, and the lesson says that it is not open (2 Hz | no spin: it never spins)",
+        ),
+        ("skeleton", fault("busy", "wait"), passed("", ""), ""),
+        ("skeleton", skipped("no"), skipped("no"), "no criterion fails"),
+    ],
+)
+def test_our_own_code_is_judged_as_the_lesson_says(
+    course: Course, kind: str, moves: Verdict, stops: Verdict, text: str
+) -> None:
+    lesson = course.lessons[0]
+    judged = result(lesson, moves=moves, stops=stops)
+    found = list(findings_of(lesson, kind, judged))
+    assert [problem.text for problem in found] == ([text] if text else [])
+    assert all(problem.file == lesson.folder / kind for problem in found)
+    assert [c.id for c in faults(judged)] == (["moves"] if moves.status is Status.ERROR else [])
+
+
+def test_a_skeleton_that_passes_what_is_open_is_found(course: Course) -> None:
+    lesson = course.lessons[0]
+    found = findings_of(lesson, "skeleton", result(lesson, moves=passed("", ""), stops=passed("", "")))
+    assert [problem.text for problem in found] == [
+        "moves passes, and the lesson says that it is open",
+        "no criterion fails",
+    ]
