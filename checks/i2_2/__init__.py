@@ -13,7 +13,7 @@ CHECK = Check(
         Criterion(
             "namespace",
             judges.judge_namespace,
-            (scenarios.plain, scenarios.other_namespace, scenarios.both),
+            (scenarios.plain, scenarios.other_topic, scenarios.other_namespace, scenarios.both),
             after=("starts",),
         ),
         Criterion("communicates", judges.judge_communicates, (scenarios.plain,), after=("starts",)),

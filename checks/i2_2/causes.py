@@ -6,7 +6,7 @@ import re
 from collections.abc import Sequence
 
 from checks.i2_2.facts import ARGUMENTS, FILE, NAMESPACE, Launched, publishers, shared, subscriptions, used
-from checks.i2_2.processes import Gone, gone, written_by
+from checks.i2_2.processes import Gone, gone, writers, written_by
 from tutor.judge import causes, tracebacks
 from tutor.judge.trace import Endpoint, Trace
 from tutor.judge.verdict import Cause
@@ -14,6 +14,7 @@ from tutor.judge.verdict import Cause
 _NO_PACKAGE = re.compile(r"package '(?P<name>[^']*)' not found", re.IGNORECASE)
 _NO_PROGRAM = re.compile(r"executable '(?P<name>[^']*)' not found (?:in|on)[^\n]*")
 _NO_FILE = re.compile(r"FileNotFoundError|No such file or directory|\[Errno 2\]")
+_NO_FUNCTION = re.compile(r"required function '?generate_launch_description|no attribute '?generate_launch_description")
 _ERROR = re.compile(r"^\[ERROR\] \[launch\]: |Caught exception in launch[^:]*: ")
 _REMAP = re.compile(r"(?:-r|--remap) (?P<source>[^\s:=]+):=(?P<target>\S+)")
 
@@ -35,17 +36,15 @@ def of_launch(trace: Trace) -> Cause | None:
             "check executable=: talker and listener in the demo packages, minimal_publisher and minimal_subscriber in "
             "my_package",
         )
-    if "generate_launch_description" in text and re.search(
-        r"no (?:attribute|function)|not (?:defined|found)|missing|lack", text
-    ):
-        return Cause(
-            "no generate_launch_description",
-            f"{FILE} has no function of this name, which launch calls",
-            "def generate_launch_description(): ... return LaunchDescription([...])",
-        )
     raised = tracebacks.find(own)
     if raised:
         return causes.of_traceback(raised[-1], trace)
+    if _NO_FUNCTION.search(text):
+        return Cause(
+            "no generate_launch_description",
+            f"{trace.file} has no function of this name, which launch calls",
+            "def generate_launch_description(): ... return LaunchDescription([...])",
+        )
     if "NoneType" in text or re.search(r"return(?:s|ed)? (?:None|nothing)", text):
         return Cause(
             "nothing returned",
@@ -54,8 +53,11 @@ def of_launch(trace: Trace) -> Cause | None:
         )
     if error := next((line.text for line in own if _ERROR.search(line.text)), None):
         return Cause("error in the launch", _ERROR.sub("", error), f"mend this in {FILE}, then launch it yourself")
-    if dead := gone(trace):
+    if dead := gone(trace.output):
         return _of_dead(dead[0], trace)
+    for process in writers(trace.output):
+        if left := tracebacks.find(written_by(trace.output, process)):
+            return causes.of_traceback(left[-1], trace)
     if trace.exit is not None:
         return Cause(
             "nothing to launch",
@@ -193,7 +195,7 @@ def of_namespace(usual: Launched, seen: Launched) -> Cause:
 
 def _of_broken(seen: Launched) -> Cause | None:
     """Where something ended, or the launch is broken, with these arguments only."""
-    if seen.trace.exit is not None or gone(seen.trace) or not seen.trace.graph.nodes:
+    if seen.trace.exit is not None or gone(seen.trace.output) or not seen.trace.graph.nodes:
         return of_launch(seen.trace)
     return None
 
@@ -201,7 +203,7 @@ def _of_broken(seen: Launched) -> Cause | None:
 def _of_ignored(seen: Launched, argument: str, value: str) -> Cause | None:
     """Whether the value that was given reaches no node at all."""
     word = value.rsplit("/", 1)[-1]
-    nodes = [command for command in seen.commands if f"{argument}:={word}" not in command]
+    nodes = [command for command in seen.commands if seen.trace.file not in command]  # the launch has it by itself
     if any(word in command for command in nodes):
         return None
     declared = seen.trace.launch_arguments
@@ -228,6 +230,14 @@ def _of_ignored(seen: Launched, argument: str, value: str) -> Cause | None:
 def _of_remaps(seen: Launched, wanted: str) -> Cause | None:
     """Whether a remapping to the topic starts from a name that its node does not use."""
     word = wanted.rsplit("/", 1)[-1]
+    turned = [(source, target) for source, target in _remaps(seen) if source.rsplit("/", 1)[-1] == word]
+    if turned:
+        source, target = turned[0]
+        return Cause(
+            "remapping the wrong way round",
+            f"{source} is remapped to {target}, so that {target} stays what it is",
+            f"first the name in the node's code, then the new one: ('{target}', LaunchConfiguration('topic'))",
+        )
     for source, target in _remaps(seen):
         if target.rsplit("/", 1)[-1] != word or source.startswith("__"):
             continue

@@ -21,7 +21,8 @@ class Launched:
     """One launch. `commands` are the command lines of its processes, itself included.
 
     `hidden` are topics whose type this ROS does not have, so that their messages cannot be seen. `answering` are the
-    nodes that answered a parameter call after messages had come, None where that was not asked.
+    nodes that answered a parameter call after messages had come, None where that was not asked. `parted`: the nodes had
+    met, and do so no longer; the graph is then that of their meeting.
     """
 
     trace: Trace
@@ -30,6 +31,7 @@ class Launched:
     hidden: frozenset[str] = frozenset()
     answering: frozenset[str] | None = None
     ending: Ending | None = None
+    parted: bool = False
 
     @property
     def typed(self) -> str:
@@ -100,6 +102,17 @@ def in_namespace(graph: Graph, name: str | None = None) -> list[Pair]:
         if all(each.startswith(under) for each in (one.topic, one.node, other.node))
         and (name is None or one.topic.endswith(f"/{name}"))
     ]
+
+
+def two_in_namespace(graph: Graph) -> bool:
+    """Whether a publisher and a subscription of two nodes are under the namespace, on whatever topics there."""
+    under = f"/{NAMESPACE}/"
+    return any(
+        _of_two_nodes(graph, one.node, other.node)
+        for one in publishers(graph)
+        for other in subscriptions(graph)
+        if all(name.startswith(under) for each in (one, other) for name in (each.node, each.topic))
+    )
 
 
 def size(graph: Graph) -> tuple[int, int, int]:

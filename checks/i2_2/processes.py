@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 from tutor.judge import tracebacks
-from tutor.judge.trace import OutputLine, Trace
+from tutor.judge.trace import OutputLine
 from tutor.judge.tracebacks import Traceback
 
 _COLOUR = re.compile(r"\x1b\[[0-9;]*m")
@@ -31,15 +31,15 @@ class Gone:
         return found[-1] if found else None
 
 
-def gone(trace: Trace) -> list[Gone]:
+def gone(output: Sequence[OutputLine]) -> list[Gone]:
     """The processes that had ended, as the launch told, in that order."""
     found = []
-    for line in trace.output:
+    for line in output:
         text = _COLOUR.sub("", line.text)
         if died := _DIED.search(text):
-            found.append(Gone(died["process"], int(died["code"]), written_by(trace.output, died["process"])))
+            found.append(Gone(died["process"], int(died["code"]), written_by(output, died["process"])))
         elif finished := _FINISHED.search(text):
-            found.append(Gone(finished["process"], 0, written_by(trace.output, finished["process"])))
+            found.append(Gone(finished["process"], 0, written_by(output, finished["process"])))
     return found
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import random
 from collections.abc import Callable, Iterable, Mapping
+from dataclasses import replace
 
 from checks.i2_2.facts import (
     FILE,
@@ -19,8 +20,9 @@ from checks.i2_2.facts import (
     size,
     two_nodes,
 )
+from checks.i2_2.processes import gone
 from tutor.judge.bench import Bench, Run
-from tutor.judge.trace import Graph
+from tutor.judge.trace import Graph, Trace
 from tutor.judge.waiting import RARE_S, START_S
 
 DELAYED_S = 12.0
@@ -35,6 +37,9 @@ MORE_S = 6.0
 ENDPOINTS_S = 2.0
 """When as many nodes are there as without arguments, their publishers and subscriptions are there within this time."""
 
+GONE_S = 3.0
+"""A launch tells that a process has ended within this time."""
+
 SILENT_S = 1.0
 """A subscriber that logs what it gets does so within this time."""
 
@@ -48,14 +53,18 @@ async def plain(bench: Bench) -> Launched:
         ):
             await run.until(lambda: bool(pairs(run.graph)), MORE_S)
         bench.doing(0.4, "listening to the nodes")
-        hidden = _listen(run, shared(run.graph))
+        met = run.graph
+        hidden = _listen(run, shared(met))
         await run.until(lambda: _heard_out(run, hidden), RARE_S)
         asked = await run.parameters(2.0) if pairs(run.graph) else None
         answering = frozenset(parameter.node for parameter in asked or ())
+        if pairs(met):  # a node that has gone is told of a little later
+            await run.until(lambda: bool(pairs(run.graph)) or bool(gone(run.output)), GONE_S)
         trace, commands = run.trace(), await run.commands()
+        parted = bool(pairs(met)) and not pairs(trace.graph)
         bench.doing(0.8, "pressing Ctrl+C")
         ending = await run.interrupt() if run.exit is None else None
-        return Launched(trace, {}, commands, hidden, answering, ending)
+        return Launched(_with(trace, met, pairs), {}, commands, hidden, answering, ending, parted)
 
 
 async def other_topic(bench: Bench) -> Launched:
@@ -86,15 +95,22 @@ async def _varied(bench: Bench, arguments: Mapping[str, str], wanted: Callable[[
                 expected = size((await usual).trace.graph)
                 await run.until(lambda: bool(wanted(run.graph)) or _at_least(run.graph, expected), DELAYED_S)
                 await run.until(lambda: bool(wanted(run.graph)), ENDPOINTS_S)
-            hidden = _listen(run, _topics(wanted(run.graph)))
-            if wanted(run.graph) and not hidden:
-                await run.until(lambda: any(run.on(topic) for topic in _topics(wanted(run.graph))), RARE_S)
+            met = run.graph
+            topics = _topics(wanted(met))
+            hidden = _listen(run, topics)
+            if topics and not hidden:
+                await run.until(lambda: any(run.on(topic) for topic in topics), RARE_S)
             # Whatever else there is without arguments must have had its time, too: it may be where it should not.
             expected = size((await usual).trace.graph)
             await run.until(lambda: _at_least(run.graph, expected), ENDPOINTS_S)
-            return Launched(run.trace(), arguments, await run.commands(), hidden)
+            return Launched(_with(run.trace(), met, wanted), arguments, await run.commands(), hidden)
     finally:
         usual.cancel()
+
+
+def _with(trace: Trace, met: Graph, wanted: Callable[[Graph], list[Pair]]) -> Trace:
+    """The trace, with the graph as it was when the nodes met, should they be gone by now."""
+    return replace(trace, graph=met) if wanted(met) and not wanted(trace.graph) else trace
 
 
 def _listen(run: Run, topics: Iterable[str]) -> frozenset[str]:

@@ -1,0 +1,16 @@
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument
+from launch.substitutions import LaunchConfiguration
+from launch_ros.actions import Node
+
+
+def generate_launch_description():
+    args = {'package': 'my_package', 'namespace': LaunchConfiguration('namespace'), 'output': 'screen'}
+    remappings = [('chatter', LaunchConfiguration('topic'))]
+    return LaunchDescription([
+        DeclareLaunchArgument('topic', default_value='chatter'),
+        DeclareLaunchArgument('namespace', default_value=''),
+        Node(executable='minimal_publisher', remappings=remappings, **args),
+        Node(executable='minimal_subscriber', remappings=remappings, name='logger', **args),
+        Node(executable='minimal_subscriber', **args),
+    ])
