@@ -1,0 +1,56 @@
+"""Each case of the table, with ours and, where there is one, with the real launch."""
+
+from __future__ import annotations
+
+import importlib.util
+import os
+from collections.abc import Sequence
+from fnmatch import fnmatchcase
+from pathlib import Path
+
+import pytest
+
+from tests.sandbox.launching.case import Case
+from tests.sandbox.launching.cases import arguments, conditions, events, nodes, scoping
+from tests.sandbox.launching.stage import Stage
+
+ALL = tuple(case for table in (arguments, scoping, conditions, nodes, events) for case in table.CASES)
+REAL = all(importlib.util.find_spec(name) is not None for name in ("launch", "launch_ros"))
+
+
+def test_the_table_is_large_and_says_where_each_case_is_from() -> None:
+    assert len(ALL) >= 45
+    assert len({case.id for case in ALL}) == len(ALL)
+    assert all(case.source.startswith(("launch", "ros2launch", "docs.ros.org")) for case in ALL)
+
+
+@pytest.mark.parametrize("case", ALL, ids=lambda case: case.id)
+def test_ours(case: Case, tmp_path: Path) -> None:
+    judge(case, Stage(tmp_path), python_path="")
+
+
+@pytest.mark.skipif(not REAL, reason="no real launch is installed")
+@pytest.mark.parametrize("case", ALL, ids=lambda case: case.id)
+def test_real(case: Case, tmp_path: Path) -> None:
+    judge(case, Stage(tmp_path), python_path=os.environ.get("PYTHONPATH", ""))
+
+
+def judge(case: Case, stage: Stage, *, python_path: str) -> None:
+    ran = stage.run_case(case, python_path)
+    shown = "\n".join(ran.lines)
+    assert missing(case.log, ran.log) is None, f"not in this order: {missing(case.log, ran.log)}\n{shown}"
+    for text in case.absent:
+        assert text not in shown
+    if case.says or "output" in case.id:
+        assert ran.says == dict(case.says), shown
+    assert ran.code == case.code, shown
+
+
+def missing(expected: Sequence[str], lines: Sequence[str]) -> str | None:
+    """The first of the patterns (`*` stands for anything) that no line matches behind those before it."""
+    rest = iter(lines)
+    for pattern in expected:
+        plain = pattern.replace("[", "[[]")
+        if not any(fnmatchcase(line, plain) for line in rest):
+            return pattern
+    return None
