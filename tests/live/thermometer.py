@@ -15,6 +15,7 @@ from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor, SetParam
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
 from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor
 from rclpy.node import Node
+from rclpy.parameter import Parameter
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from std_msgs.msg import Float64, String
 
@@ -27,6 +28,8 @@ class Thermometer(Node):
         self.declare_parameter("sensor_name", "kitchen")
         self.declare_parameter("serial", "A-17", ParameterDescriptor(read_only=True))
         self.declare_parameter("limits", [20.0, 30.0])
+        self.calls = 0
+        self.declare_parameter("calls", self.calls)
         self.add_on_set_parameters_callback(self.check)
         self.values = self.create_publisher(Float64, "/sensor/temperature", 10)
         self.twists = self.create_publisher(Twist, "/cmd_vel", 10)
@@ -55,6 +58,8 @@ class Thermometer(Node):
 
     def add(self, request: Any, response: Any) -> Any:
         response.sum = request.a + request.b
+        self.calls += 1
+        self.set_parameters([Parameter("calls", value=self.calls)])
         return response
 
     def slow(self, request: Any, response: Any) -> Any:

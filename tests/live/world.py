@@ -71,6 +71,11 @@ class World:
         for process in list(self._running):
             self.end(process)
 
+    def said(self, process: subprocess.Popen[bytes]) -> str:
+        """The next line that a node prints."""
+        assert process.stdout is not None
+        return process.stdout.readline().decode().strip()
+
     def command(self) -> LiveCommand:
         """How the app watches this domain."""
         return live_command(self.environ)

@@ -21,7 +21,9 @@ def rate(hz: float) -> str:
 
 def period(seconds: float) -> str:
     """A period with three digits, in the unit that suits it."""
-    return f"{seconds:.3g} s" if seconds >= 1 else f"{seconds * 1000:.3g} ms"
+    if seconds >= 100:
+        return f"{seconds:.0f} s"
+    return f"{seconds:.3g} s" if seconds >= 0.9995 else f"{seconds * 1000:.3g} ms"
 
 
 def periods(shortest_s: float, longest_s: float) -> str:
@@ -47,9 +49,7 @@ def numbers(news: TopicNews, since_news_s: float = 0.0) -> str:
     elif timing:
         parts.append(rate(timing.rate_hz))
         if timing.periods > 1:
-            parts.append(
-                f"jitter {period(timing.deviation_s)} ({period(timing.shortest_s)} to {period(timing.longest_s)})"
-            )
+            parts.append(f"jitter {period(timing.deviation_s)} ({periods(timing.shortest_s, timing.longest_s)})")
     if news.lost:
         parts.append(f"! {news.lost:,} lost")
     return " · ".join(parts)

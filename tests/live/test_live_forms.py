@@ -1,0 +1,75 @@
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tutor.judge.trace import Parameter
+from tutor.live.forms import parse, parse_parameter, shown
+
+
+@pytest.mark.parametrize(
+    ("type_name", "text", "value"),
+    [
+        ("int64", " -3 ", -3),
+        ("uint8", "0xff", 255),
+        ("boolean", "True", True),
+        ("double", "2", 2.0),
+        ("float", ".inf", float("inf")),
+        ("string", " a ", " a "),
+        ("string<5>", "abcde", "abcde"),
+        ("octet", "7", 7),
+        ("sequence<double>", "[1, 2.5]", [1.0, 2.5]),
+        ("sequence<string, 3>", '[a, "b c"]', ["a", "b c"]),
+        ("int32[2]", "[1, 2]", [1, 2]),
+        ("sequence<int64>", "", []),
+    ],
+)
+def test_a_text_becomes_a_value(type_name: str, text: str, value: Any) -> None:
+    made = parse(type_name, text)
+    assert made == value
+    assert type(made) is type(value)
+
+
+@pytest.mark.parametrize(
+    ("type_name", "text", "words"),
+    [
+        ("int64", "3.5", "whole number"),
+        ("int64", "", "whole number"),
+        ("uint8", "256", "from 0 to 255"),
+        ("int8", "-129", "from -128 to 127"),
+        ("boolean", "yes", "true or false"),
+        ("double", "warm", "such as 2.5"),
+        ("string<2>", "abc", "At most 2 characters"),
+        ("sequence<double>", "1, 2", "brackets"),
+        ("sequence<double>", "[1, x]", "such as 2.5"),
+        ("sequence<int64, 1>", "[1, 2]", "At most 1"),
+        ("int32[2]", "[1]", "Exactly 2"),
+        ("sequence<rcl_interfaces/Parameter>", "[1]", "cannot be filled in"),
+    ],
+)
+def test_what_is_wrong_is_said_plainly(type_name: str, text: str, words: str) -> None:
+    with pytest.raises(ValueError, match=words):
+        parse(type_name, text)
+
+
+@given(st.lists(st.text(st.characters(codec="utf-8", exclude_categories=["Cc", "Cs", "Zl", "Zp"]))))
+def test_a_shown_list_of_texts_reads_back(values: list[str]) -> None:
+    assert parse("sequence<string>", shown(values)) == values
+
+
+@given(st.one_of(st.integers(-(2**63), 2**63 - 1), st.booleans(), st.floats(allow_nan=False)))
+def test_a_shown_value_reads_back(value: int | float | bool) -> None:
+    kind = {bool: "boolean", int: "int64", float: "double"}[type(value)]
+    assert parse(kind, shown(value)) == value
+
+
+def test_a_parameter_keeps_its_type_and_one_without_takes_the_texts() -> None:
+    assert parse_parameter(Parameter("/n", "rate", "double", 1.0), "5") == ("double", 5.0)
+    assert parse_parameter(Parameter("/n", "names", "string array", []), "[1]") == ("string array", ["1"])
+    unset = Parameter("/n", "any", "not set", None)
+    assert parse_parameter(unset, "5") == ("integer", 5)
+    assert parse_parameter(unset, "true") == ("boolean", True)
+    assert parse_parameter(unset, "[") == ("string", "[")

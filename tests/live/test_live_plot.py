@@ -1,0 +1,65 @@
+from __future__ import annotations
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tutor.tui.live.plot import draw, limits, short
+
+
+def dots(rows: tuple[tuple[str, str], ...]) -> list[str]:
+    return [text for _, text in rows]
+
+
+def test_a_rising_line_goes_from_the_lower_left_to_the_upper_right() -> None:
+    plot = draw([(n / 10, n / 10) for n in range(101)], 40, 11, 10.0, 10.0)
+    rows = dots(plot.rows)
+    assert rows[0].rstrip()
+    assert not rows[0][:20].strip()
+    assert rows[-1][0] != " "
+    assert plot.rows[0][0].strip() == "10┤"
+    assert plot.rows[-1][0].strip() == "0┤"
+    assert plot.below.split() == ["10", "s", "ago", "now"]
+
+
+def test_what_is_older_than_the_span_is_not_drawn() -> None:
+    plot = draw([(0.0, 1000.0), (95.0, 1.0), (100.0, 2.0)], 40, 8, 100.0, 10.0)
+    assert plot.rows[0][0].strip() == "2┤"
+
+
+def test_a_long_silence_is_left_open() -> None:
+    points = [(n / 10, 1.0) for n in range(20)] + [(8 + n / 10, 1.0) for n in range(20)]
+    line = next(text for text in dots(draw(points, 45, 8, 10.0, 10.0).rows) if text.strip())
+    assert "          " in line.strip()
+
+
+def test_a_slow_topic_is_one_line_all_the_same() -> None:
+    line = next(
+        text for text in dots(draw([(float(n), 1.0) for n in range(11)], 45, 8, 10.0, 10.0).rows) if text.strip()
+    )
+    assert " " not in line.strip()
+
+
+def test_the_axis_holds_still_while_the_values_vary_a_little() -> None:
+    assert limits([20.1, 29.7]) == limits([20.4, 29.2]) == (20.0, 30.0)
+    low, high = limits([0.5])
+    assert low < 0.5 < high
+
+
+@pytest.mark.parametrize(
+    ("value", "span", "text"), [(25.0, 10.0, "25"), (0.55, 0.1, "0.55"), (-0.0, 1.0, "0"), (1.8e9, 1e9, "1.80e+09")]
+)
+def test_labels_have_as_many_digits_as_they_need(value: float, span: float, text: str) -> None:
+    assert short(value, span) == text
+
+
+@given(
+    st.lists(st.tuples(st.floats(0, 100), st.floats(-1e300, 1e300)), max_size=50),
+    st.integers(12, 200),
+    st.integers(3, 60),
+)
+def test_whatever_the_values_it_fits(points: list[tuple[float, float]], width: int, height: int) -> None:
+    plot = draw(sorted(points), width, height, 100.0, 60.0)
+    assert len(plot.rows) == height - 1
+    lines = [axis + text for axis, text in plot.rows]
+    assert all(len(line) <= max(width, len(axis) + 1) for line, (axis, _) in zip(lines, plot.rows, strict=True))

@@ -1,0 +1,165 @@
+"""The watching process on a real domain: what it counts, and that it never outlives the app."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import select
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from tests.live.world import World, world
+from tutor.live.facts import TopicNews
+from tutor.live.protocol import Attend, Command, Follow, News, Ready, decode_news, encode
+
+METRONOME = Path(__file__).with_name("metronome.py")
+LIMIT_S = 30.0
+
+
+class Watching:
+    """The child, as a test talks to it."""
+
+    def __init__(self, around: World) -> None:
+        command = around.command()
+        pipe = subprocess.PIPE
+        self.process = subprocess.Popen(
+            command.argv, env=dict(command.env), stdin=pipe, stdout=pipe, stderr=subprocess.DEVNULL, bufsize=0
+        )
+        self._held = b""
+
+    def tell(self, command: Command) -> None:
+        assert self.process.stdin is not None
+        self.process.stdin.write(encode(command).encode() + b"\n")
+
+    def news(self, limit_s: float = LIMIT_S) -> Iterator[News]:
+        assert self.process.stdout is not None
+        deadline = time.monotonic() + limit_s
+        while select.select([self.process.stdout], [], [], max(0.0, deadline - time.monotonic()))[0]:
+            if not (some := os.read(self.process.stdout.fileno(), 1 << 16)):
+                return
+            *lines, self._held = (self._held + some).split(b"\n")
+            for line in lines:
+                yield decode_news(line.decode())
+
+    def ready(self) -> None:
+        assert any(isinstance(news, Ready) for news in self.news())
+
+    def close(self) -> None:
+        for end in (self.process.stdin, self.process.stdout):
+            assert end is not None
+            with contextlib.suppress(BrokenPipeError):
+                end.close()
+        self.process.wait(5)
+
+
+@pytest.fixture
+def around() -> Iterator[World]:
+    with world() as made:
+        yield made
+
+
+def test_every_message_of_a_1_khz_topic_is_counted_and_news_of_it_are_few(around: World) -> None:
+    watching = Watching(around)
+    try:
+        watching.tell(Follow("/ticks"))
+        watching.ready()
+        node = around.run(METRONOME, "1000", "3000")
+        last: TopicNews | None = None
+        began, heard = 0.0, 0
+        for news in watching.news():
+            if isinstance(news, TopicNews) and news.count:
+                began = began or time.monotonic()
+                heard, last = heard + 1, news
+                if news.count >= 3000:
+                    break
+        assert last is not None
+        assert last.count == 3000
+        assert last.lost == 0
+        assert heard <= 12 * (time.monotonic() - began) + 3
+        assert last.fields == ()  # told once, with the first message
+        assert last.timing is not None
+        assert last.timing.rate_hz == pytest.approx(1000, rel=0.2)
+        assert around.said(node).startswith("3000 ")
+    finally:
+        watching.close()
+
+
+def test_where_nobody_looks_it_counts_on_in_silence(around: World) -> None:
+    watching = Watching(around)
+    try:
+        watching.tell(Follow("/ticks"))
+        watching.tell(Attend(False))
+        watching.ready()
+        node = around.run(METRONOME, "500", "500")
+        assert around.said(node).startswith("500 ")
+        watching.tell(Attend(True))
+        counts = (news.count for news in watching.news() if isinstance(news, TopicNews))
+        assert next(count for count in counts if count) == 500
+    finally:
+        watching.close()
+
+
+def test_it_ends_when_its_input_ends(around: World) -> None:
+    watching = Watching(around)
+    watching.ready()
+    assert watching.process.stdin is not None
+    watching.process.stdin.close()
+    assert watching.process.wait(5) == 0
+    watching.close()
+
+
+def test_it_ends_even_before_it_has_begun(around: World) -> None:
+    watching = Watching(around)
+    assert watching.process.stdin is not None
+    watching.process.stdin.close()
+    assert watching.process.wait(20) == 0
+    watching.close()
+
+
+def test_a_line_that_is_no_command_does_no_harm(around: World) -> None:
+    watching = Watching(around)
+    try:
+        assert watching.process.stdin is not None
+        watching.process.stdin.write(b'{"kind": "Dance"}\n\xff\n')
+        watching.ready()
+        watching.tell(Follow("/ticks"))
+        assert any(isinstance(news, TopicNews) for news in watching.news())
+    finally:
+        watching.close()
+
+
+# An app that starts the child as the real one does, keeps the pipe's end open elsewhere, and is then killed.
+APP = """
+import asyncio, os, sys
+from tutor.tui.live.child import LiveChild
+from tutor.tui.live.command import live_command
+
+async def main():
+    child = await LiveChild.start(live_command())
+    async for news in child.news():
+        print(child.pid, flush=True)
+        break
+    await asyncio.sleep(60)
+
+asyncio.run(main())
+"""
+
+
+def test_it_does_not_outlive_an_app_that_is_killed(around: World) -> None:
+    app = subprocess.Popen([sys.executable, "-c", APP], env=around.environ, stdout=subprocess.PIPE)
+    assert app.stdout is not None
+    pid = int(app.stdout.readline())
+    ended = os.pidfd_open(pid)
+    try:
+        app.send_signal(signal.SIGKILL)
+        app.wait(5)
+        assert select.select([ended], [], [], 5.0)[0], "the child is still there"
+    finally:
+        os.close(ended)
+        app.stdout.close()

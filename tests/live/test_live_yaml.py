@@ -1,0 +1,78 @@
+"""A message as text, against what `ros2 topic echo` is known to write."""
+
+from __future__ import annotations
+
+import pytest
+from geometry_msgs.msg import PoseWithCovariance, Twist
+from rcl_interfaces.msg import ParameterValue
+from sensor_msgs.msg import LaserScan
+from std_msgs.msg import Byte, Float64, Float64MultiArray, String
+
+from tutor.live.facts import Field
+from tutor.ros.as_yaml import LONGEST, number_at, numeric_fields, to_yaml
+from tutor.ros.messages import UnknownType
+from tutor.ros.requests import fill_request, request_fields
+from tutor.sandbox import interfaces
+
+
+def test_nested_messages_are_blocks_in_the_order_of_the_fields() -> None:
+    twist = Twist()
+    twist.angular.z = 0.5
+    assert to_yaml(twist) == "linear:\n  x: 0.0\n  y: 0.0\n  z: 0.0\nangular:\n  x: 0.0\n  y: 0.0\n  z: 0.5\n"
+
+
+def test_texts_are_quoted_where_yaml_needs_it_and_cut_where_they_are_long() -> None:
+    assert to_yaml(String(data="Hello World: 3")) == "data: 'Hello World: 3'\n"
+    assert to_yaml(String(data="wärme")) == "data: wärme\n"
+    assert to_yaml(String(data="")) == "data: ''\n"
+    assert to_yaml(String(data="x" * 200)) == f"data: {'x' * LONGEST}...\n"
+
+
+def test_arrays_are_lists_and_cut_where_they_are_long() -> None:
+    assert to_yaml(Float64MultiArray(data=[1.0, 2.0])).endswith("data:\n- 1.0\n- 2.0\n")
+    lines = to_yaml(Float64MultiArray(data=[1.0] * 500)).splitlines()
+    assert lines[-1] == "- '...'"
+    assert lines.count("- 1.0") == LONGEST
+    assert to_yaml(PoseWithCovariance()).count("- 0.0") == 36
+
+
+def test_a_byte_is_written_as_a_character() -> None:
+    assert to_yaml(Byte(data=b"A")) == "data: A\n"
+
+
+def test_numbers_are_found_by_name_in_nested_messages_and_arrays() -> None:
+    scan = LaserScan(ranges=[1.0] * 500)
+    fields = numeric_fields(scan)
+    assert {"header.stamp.sec", "angle_min", "ranges[3]"} <= set(fields)
+    assert "header.frame_id" not in fields
+    assert len(fields) <= 64
+    assert number_at(scan, "ranges[3]") == 1.0
+    assert number_at(scan, "header.stamp.sec") == 0.0
+    assert number_at(scan, "ranges[900]") is None
+    assert number_at(scan, "no.such.field") is None
+    assert number_at(Float64(data=float("nan")), "data") is None
+    assert numeric_fields(String(data="3")) == ()
+
+
+def test_every_found_field_can_be_read() -> None:
+    for message in (Twist(), PoseWithCovariance(), Float64MultiArray(data=[1.0]), ParameterValue()):
+        assert all(number_at(message, path) is not None for path in numeric_fields(message)), message
+
+
+interfaces.activate()
+
+
+def test_a_request_is_a_form_of_its_leaves_with_their_defaults() -> None:
+    assert request_fields("example_interfaces/srv/AddTwoInts") == (Field("a", "int64", "0"), Field("b", "int64", "0"))
+    found = request_fields("nav_msgs/srv/GetPlan")
+    assert Field("start.pose.position.x", "double", "0.0") in found
+    assert Field("start.header.frame_id", "string", "") in found
+    assert Field("start.pose.orientation.w", "double", "1.0") in found
+    with pytest.raises(UnknownType):
+        request_fields("no_such/srv/Type")
+
+
+def test_a_filled_form_is_a_request() -> None:
+    request = fill_request("nav_msgs/srv/GetPlan", {"start.pose.position.x": 2.0, "start.header.frame_id": "map"})
+    assert request.start.pose.position.x == 2.0
+    assert request.start.header.frame_id == "map"
