@@ -4,11 +4,23 @@ from __future__ import annotations
 
 import pytest
 
-from tests.checks.made import CRASH, CRASHED, FOLDER, NO_NODE, UP, exited, graph, lines, trace
+from tests.checks.made import CRASH, CRASHED, FOLDER, NO_NODE, UP, exited, graph, lines, log, trace
 from tests.judge.real import crash
-from tutor.judge.causes import last_words, of_process, of_silence, same_name, wrong_topic
-from tutor.judge.trace import Endpoint, Graph, Trace
-from tutor.judge.tracebacks import Traceback, find
+from tutor.judge.causes import (
+    incompatible_service,
+    last_words,
+    of_deafness,
+    of_no_answer,
+    of_printed,
+    of_process,
+    of_qos,
+    of_refusal,
+    of_silence,
+    same_name,
+    wrong_topic,
+)
+from tutor.judge.trace import Endpoint, Graph, Service, Trace
+from tutor.judge.tracebacks import Frame, Traceback, find
 
 TOPIC, TYPE = "/sensor/temperature", "std_msgs/msg/Float64"
 NOWHERE = Graph()
@@ -30,6 +42,7 @@ expecting type '{wanted}': wrong"""
         (trace(graph=NOWHERE, err=crash("import std_msg")), "import error", "No module named 'std_msg'"),
         (trace(graph=NOWHERE, err=crash("from os import nothing")), "import error", "line 1"),
         (trace(err=parameter_type("INTEGER", "DOUBLE"), exit=exited(1)), "integer parameter", "line 9"),
+        (trace(err=parameter_type("DOUBLE", "INTEGER"), exit=exited(1)), "integer parameter", "line 9"),
         (trace(err=parameter_type("STRING", "DOUBLE"), exit=exited(1)), "wrong parameter type", "publish_rate"),
         (trace(err=crash("raise SystemError('x')"), exit=exited(1)), "float in an int field", "SystemError"),
         (
@@ -116,3 +129,146 @@ def test_two_nodes_of_one_name_are_told_and_two_of_different_names_are_not() -> 
     assert cause.name == "second node of the same name"
     assert "2 nodes called /talker" in cause.text
     assert same_name(Trace("x.py", graph=Graph(nodes=("/a", "/talker")))) is None
+
+
+OURS = Endpoint("/chatter", "std_msgs/msg/String", "/ours", "reliable", "volatile")
+
+
+def subscribed(topic: str = OURS.topic, type_name: str = OURS.type, *qos: str) -> Trace:
+    asked = Endpoint(topic, type_name, "/node", *(qos or ("reliable", "volatile")))
+    return trace(graph=Graph(nodes=("/node",), subscriptions=(asked,)))
+
+
+@pytest.mark.parametrize(
+    ("seen", "answers", "cause", "word"),
+    [
+        (CRASHED, True, "unhandled exception", ""),
+        (subscribed(OURS.topic, OURS.type, "reliable", "transient_local"), True, "incompatible QoS", "durability"),
+        (subscribed("/chater"), True, "wrong topic", "are taken from /chater, not from /chatter"),
+        (subscribed("/Chatter"), True, "wrong topic", "capital"),
+        (subscribed(OURS.topic, "std_msgs/msg/Int32"), True, "wrong type", "Int32"),
+        (subscribed(), False, "no spin", "/node"),
+        (subscribed(), True, "callback does nothing", "/chatter"),
+        (trace(graph=UP), True, "no subscription", "/chatter"),
+    ],
+)
+def test_why_a_subscriber_took_in_nothing(seen: Trace, answers: bool, cause: str, word: str) -> None:
+    found = of_deafness(seen, OURS, answers=answers)
+    assert found.name == cause
+    assert word in found.text
+    assert found.hint
+
+
+@pytest.mark.parametrize(
+    ("offered", "asked", "policy"),
+    [
+        (("best_effort", "volatile"), ("reliable", "volatile"), "reliability"),
+        (("reliable", "volatile"), ("reliable", "transient_local"), "durability"),
+        (("reliable", "transient_local"), ("best_effort", "volatile"), ""),
+        (("best_effort", "volatile"), ("best_effort", "volatile"), ""),
+        (("system_default", "system_default"), ("reliable", "volatile"), ""),
+    ],
+)
+def test_qos_of_the_learners_own_endpoints(offered: tuple[str, str], asked: tuple[str, str], policy: str) -> None:
+    both = Graph(
+        publishers=(Endpoint("/a", "T", "/one", *offered),), subscriptions=(Endpoint("/a", "T", "/two", *asked),)
+    )
+    found = of_qos(trace(graph=both), "/a")
+    assert (found.name if found else "") == ("incompatible QoS" if policy else "")
+    assert found is None or policy in found.text
+    assert of_qos(trace(graph=both), "/b") is None
+
+
+def test_a_service_with_best_effort_is_not_connected() -> None:
+    services = [Service("/add", "T", "/node"), Service("/divide", "T", "/node", "best_effort")]
+    found = incompatible_service(services)
+    assert found is not None
+    assert (found.name, "/divide" in found.text) == ("incompatible QoS", True)
+    assert incompatible_service(services[:1]) is None
+
+
+OWN = Frame(f"{FOLDER}/node.py", 12, "tick", "time.sleep(9)")
+MAIN = Frame(f"{FOLDER}/node.py", 30, "main", "rclpy.spin(node)")
+EXECUTOR = Frame("/lib/rclpy/executors.py", 296, "spin", "")
+CALL = Frame("/lib/rclpy/client.py", 90, "call", "")
+
+
+@pytest.mark.parametrize(
+    ("stuck", "spins", "cause"),
+    [
+        ((OWN, EXECUTOR, MAIN), False, "blocked executor"),
+        ((OWN, EXECUTOR, MAIN), True, "blocked executor"),
+        ((CALL, OWN, EXECUTOR, MAIN), False, "deadlock by call()"),
+        ((OWN, MAIN), False, "no spin"),
+        ((), False, "no spin"),
+        ((EXECUTOR, MAIN), False, "no spin"),
+    ],
+)
+def test_why_a_node_answers_nothing(stuck: tuple[Frame, ...], spins: bool, cause: str) -> None:
+    found = of_no_answer(trace(), stuck, spins=spins)
+    assert found.name == cause
+    assert ("line 12" in found.text) == (OWN in stuck and cause != "no spin")
+    assert of_no_answer(CRASHED, stuck).name == "unhandled exception"
+
+
+CONSOLE = "[INFO] [1763716000.125] [node]: kx7 is up"
+
+
+@pytest.mark.parametrize(
+    ("seen", "after", "cause"),
+    [
+        (trace(out="kx7: 25"), "", "printed, not logged"),
+        (trace(err="INFO:root:kx7: 25"), "", "printed, not logged"),
+        (trace(), "kx7: 25", "output held back by buffering"),
+        (trace(err=CONSOLE), "", "not the node's logger"),
+        (trace(err=CONSOLE, logs=[log("kx7 is up")]), "", ""),
+        (trace(out="something else"), "bye", ""),
+    ],
+)
+def test_what_was_printed_instead_of_logged(seen: Trace, after: str, cause: str) -> None:
+    found = of_printed(seen, lambda text: "kx7" in text, "the name", after=lines(after, "stdout"))
+    assert (found.name if found else "") == cause
+
+
+@pytest.mark.parametrize(
+    ("reason", "cause"),
+    [
+        ("Callback returned an invalid type", "callback returns None"),
+        ("Wrong parameter type, expected 'Type.INTEGER' got 'Type.DOUBLE'", "integer parameter"),
+        ("Wrong parameter type, expected 'Type.STRING' got 'Type.DOUBLE'", "wrong parameter type"),
+        ("rate has not been declared", "parameter not declared"),
+        ("Trying to set a read-only parameter: rate.", "rejected"),
+        ("too fast", "rejected"),
+        ("", "rejected"),
+    ],
+)
+def test_why_a_good_value_is_refused(reason: str, cause: str) -> None:
+    found = of_refusal(reason, {"rate": 10.0})
+    assert found.name == cause
+    assert found.hint
+
+
+def test_a_chain_of_exceptions_is_named_by_the_one_that_tells_most() -> None:
+    wrapped = "try:\n    import std_msg\nexcept ImportError as error:\n    raise RuntimeError('set it up') from error"
+    found = of_process(trace(err=crash(wrapped), exit=exited(1)))
+    assert found is not None
+    assert found.name == "import error"
+    assert "std_msg" in found.text
+    assert "set it up" in found.text
+    found = of_process(trace(err=crash("try:\n    1 / 0\nfinally:\n    undefined"), exit=exited(1)))
+    assert found is not None
+    assert found.name == "unhandled exception"
+    assert "ZeroDivisionError" in found.text
+    assert "line 2" in found.text
+
+
+def test_a_service_callback_without_a_response() -> None:
+    text = f"""Traceback (most recent call last):
+  File "{FOLDER}/node.py", line 30, in main
+    rclpy.spin(node)
+  File "/lib/rclpy/service.py", line 75, in send_response
+    raise TypeError()
+TypeError"""
+    found = of_process(trace(err=text, exit=exited(1)))
+    assert found is not None
+    assert found.name == "response not returned"

@@ -1,4 +1,4 @@
-"""Every cause that the contract lists is proved: by a submission that is judged to fail for it, and for nothing else."""
+"""Every cause that the contract lists is proved: by a submission that must fail for it, and for nothing else."""
 
 from __future__ import annotations
 

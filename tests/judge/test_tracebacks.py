@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from tests.checks.made import CRASH, FOLDER, lines, trace
 from tests.judge.real import OWN, crash
 from tutor.judge.trace import OutputLine
-from tutor.judge.tracebacks import Frame, dumped, find, last, own, without
+from tutor.judge.tracebacks import Frame, called_by_executor, dumped, find, last, own, without
 
 CALLS = """\
 def tick():
@@ -103,6 +103,51 @@ def test_chained_exceptions_are_found_in_their_order(how: str, types: list[str])
     assert [each.type for each in found] == types
     assert [[frame.line for frame in each.frames] for each in found][-1] == [4]
     assert last(trace(err=text)) == found[-1]
+
+
+def test_an_exception_knows_what_it_followed() -> None:
+    (first, second) = find(lines(crash("try:\n    1 / 0\nexcept ZeroDivisionError:\n    raise RuntimeError('two')\n")))
+    assert (first.follows, second.follows, second.origin) == (None, first, first)
+    alone = find(lines(f"{CRASH}\n{CRASH}"))
+    assert [each.follows for each in alone] == [None, None]
+
+
+GROUP = """\
+def work(kind):
+    raise kind("no")
+
+found = []
+for kind in (ValueError, KeyError):
+    try:
+        work(kind)
+    except Exception as error:
+        found.append(error)
+raise ExceptionGroup("many", [found[0], ExceptionGroup("more", [found[1]])])
+"""
+
+
+def test_a_group_of_exceptions_is_read_one_by_one() -> None:
+    found = find(lines(f"before\n{crash(GROUP)}\nafter\n| a table |"))
+    assert [each.raised for each in found] == [
+        "ExceptionGroup: many (2 sub-exceptions)",
+        "ValueError: no",
+        "ExceptionGroup: more (1 sub-exception)",
+        "KeyError: 'no'",
+    ]
+    mine = found[-1].own(FOLDER)
+    assert mine is not None
+    assert (mine.line, mine.code) == (2, 'raise kind("no")')
+    assert "| a table |" in without(lines(f"{crash(GROUP)}\n| a table |"))
+    assert not [line for line in without(lines(crash(GROUP))) if "raise kind" in line]
+
+
+def test_the_way_out_of_an_executor_to_a_callback() -> None:
+    callback, main = Frame(f"{FOLDER}/node.py", 3, "tick", ""), Frame(f"{FOLDER}/node.py", 9, "main", "")
+    spin = Frame("/lib/rclpy/executors.py", 5, "spin", "")
+    assert called_by_executor((callback, spin, main), FOLDER)
+    assert not called_by_executor((spin, main), FOLDER)
+    assert not called_by_executor((callback, main), FOLDER)
+    assert not called_by_executor((), FOLDER)
 
 
 def test_an_exception_in_a_thread() -> None:

@@ -95,11 +95,12 @@ def _ramp(values: Sequence[float]) -> Pattern | None:
 def _cycle(values: Sequence[float]) -> Pattern | None:
     for first in range(len(values) // 4 + 1):  # it may take a while until a program is in its round
         rest = values[first:]
+        tolerance = ALIKE * _span(rest)
         # A random walk chooses among its few steps, not among all the values that it has been at.
-        choices = min(_different(each, ALIKE * _span(each)) for each in (rest, _steps(rest)))
+        choices = min(_different(rest, tolerance), _different(_steps(rest), ALIKE * _span(_steps(rest))))
         for period in range(2, len(rest) - 2):
             repeats = len(rest) - period
-            if not _comes_again(rest, period, ALIKE * _span(rest)):
+            if not _comes_again(rest, period, tolerance):
                 continue
             chance = max(choices**-repeats, (2 * ALIKE) ** repeats)  # that alike values come in this order
             if _distinct(rest[:period]) and _comes_again(rest, period, 1e-9):

@@ -14,7 +14,7 @@ _RAISED = re.compile(r"^(?P<type>[^\W\d][\w.]*(?:\.<locals>\.[\w.]+)*)(?:: (?P<m
 _DUMPED = re.compile(r'^  File "(?P<path>[^"]+)", line (?P<line>\d+) in (?P<function>.+)$')
 _COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 _GROUP = re.compile(r"^\s*\+ Exception Group Traceback \(most recent call last\):$")
-_MARGIN = re.compile(r"^ *(?:\| ?|\+ |\+(?:-\+)?-+(?: (?:\d+|\.\.\.) -+)?$)")
+_MARGIN = re.compile(r"^ {2,}(?:\| ?|\+ |\+(?:-\+)?-+(?: (?:\d+|\.\.\.) -+)?$)")
 _CHAINED = (
     "During handling of the above exception, another exception occurred:",
     "The above exception was the direct cause of the following exception:",
@@ -152,7 +152,7 @@ def _without_margins(lines: Sequence[str]) -> list[str]:
             inner = text[margin.end() :]
             plain.append(_HEADER if _GROUP.match(inner) else inner)
         else:
-            inside = not text.strip()
+            inside = False
             plain.append(text)
     return plain
 
