@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import fcntl
+import io
 import os
 import pty
 import re
@@ -17,6 +18,11 @@ from collections.abc import Mapping
 from pathlib import Path
 
 import pytest
+
+from tests.cli.fake_engine import FAILURE
+from tutor.cli.live import LiveDisplay, _Line
+from tutor.content import load_course
+from tutor.judge.result import CriterionResult
 
 LIMIT_S = 30.0
 
@@ -120,6 +126,30 @@ def test_many_exercises_on_a_low_terminal_take_a_line_each(env: dict[str, str]) 
     code, _, err = in_terminal(command("check", "all", "--solution"), env, rows=12)
     assert code == 1
     assert re.search(r"i1\.1.*\d of \d passed", err)
+
+
+def test_all_exercises_fit_on_a_common_terminal_with_a_bar_for_each_criterion() -> None:
+    from rich.console import Console
+
+    course = load_course()
+    display = LiveDisplay(course, vanishing=True)
+    output = io.StringIO()
+    display._console = Console(file=output, width=80, height=24, force_terminal=True, color_system=None)
+    for lesson in course.lessons:
+        display._lines[lesson.id] = {each.id: _Line(0.5, "waiting for the first message") for each in lesson.criteria}
+        done = CriterionResult("x", "x", False, FAILURE, 1.0)
+        display._lines[lesson.id][lesson.criteria[0].id] = _Line(1.0, "", done)
+    display.stopping()
+    display._console.print(display._draw())
+    drawn = output.getvalue().rstrip("\n").split("\n")
+    assert len(drawn) <= 24
+    assert max(map(len, drawn)) <= 80
+    for lesson, row in zip(course.lessons, drawn, strict=False):
+        assert f"{lesson.id}" in row
+        assert "✗" + "▅" * (len(lesson.criteria) - 1) in row
+        assert f"0 of {len(lesson.criteria)} passed" in row
+    assert any("waiting for the first message" in row and "i1.1 sensor-name" in row for row in drawn)
+    assert drawn[-1].startswith("Stopping")
 
 
 def test_no_color_and_dumb_terminals_are_honoured(env: dict[str, str]) -> None:

@@ -1,4 +1,8 @@
-"""What `ros-tutor check` shows on a terminal while it works: a line for each criterion."""
+"""What `ros-tutor check` shows on a terminal while it works: a line for each criterion.
+
+Where that is more than the terminal has rows: a line for each exercise with a small bar for each criterion, and below
+them as many of those under way as there is room for.
+"""
 
 from __future__ import annotations
 
@@ -20,6 +24,7 @@ from tutor.report.plain import MARKS, printable, seconds
 from tutor.report.text import STYLES
 
 _PER_SECOND = 10
+_EIGHTHS = "▁▂▃▄▅▆▇█"
 
 
 @dataclass(slots=True)
@@ -83,8 +88,11 @@ class LiveDisplay:
     def _draw(self) -> RenderableType:
         exercises = list(self._lines)  # a copy: another thread draws while events come in
         needed = sum(len(self._lines[exercise]) + 2 for exercise in exercises)
-        short = len(exercises) > 1 and needed > self._console.height - 2
-        parts = [self._summaries(exercises)] if short else [self._exercise(exercise) for exercise in exercises]
+        rows = self._console.height - 2
+        if len(exercises) > 1 and needed > rows:
+            parts = [self._summaries(exercises), *self._under_way(exercises, rows - len(exercises) - 1)]
+        else:
+            parts = [self._exercise(exercise) for exercise in exercises]
         if self._stopping:
             parts.append(Text("Stopping what was started ...", "yellow"))
         return Group(*parts)
@@ -112,24 +120,52 @@ class LiveDisplay:
         )
 
     def _summaries(self, exercises: list[str]) -> RenderableType:
-        """One line for each exercise, where the terminal is too low for one for each criterion."""
-        grid = _grid(max(len(exercise) for exercise in exercises))
+        """One line for each exercise."""
+        grid = Table.grid(padding=(0, 2, 0, 0))
+        grid.add_column(width=1)
+        for _ in range(3):
+            grid.add_column(no_wrap=True)
+        grid.add_column(no_wrap=True, overflow="ellipsis")
         for exercise in exercises:
             lines = self._lines[exercise]
             results = [line.result for line in lines.values() if line.result is not None]
-            done = sum(1.0 if line.result else line.fraction for line in lines.values())
-            bar = ProgressBar(total=float(max(len(lines), 1)), completed=done, width=20, complete_style="cyan")
-            now = next((line.doing for line in lines.values() if line.result is None and line.doing), "")
             passed = sum(result.verdict.passed for result in results)
-            mark: RenderableType = self._spinner if len(results) < len(lines) else Text("✓", "dim")
-            grid.add_row(mark, Text(exercise), bar, Text(f"{passed} of {len(lines)} passed  {printable(now)}", "dim"))
+            mark: RenderableType = self._spinner if len(results) < len(lines) else Text("·", "dim")
+            bars = Text().join(_small_bar(line) for line in list(lines.values()))
+            title = Text(self._titles.get(exercise, ""), "dim")
+            grid.add_row(mark, Text(exercise), bars, Text(f"{passed} of {len(lines)} passed"), title)
         return grid
+
+    def _under_way(self, exercises: list[str], rows: int) -> list[RenderableType]:
+        """A line with a bar for criteria that are not judged yet, in so many rows."""
+        under_way = [
+            (line, exercise, criterion)
+            for exercise in exercises
+            for criterion, line in list(self._lines[exercise].items())
+            if line.result is None and line.doing
+        ]
+        names = [f"{exercise} {criterion}" for _, exercise, criterion in under_way[: max(rows, 0)]]
+        if not names:
+            return []
+        grid = _grid(max(map(len, names)))
+        for name, (line, _, criterion) in zip(names, under_way, strict=False):
+            spinner, _, *rest = self._row(criterion, line)
+            grid.add_row(spinner, Text(name), *rest)
+        return ["", grid]
+
+
+def _small_bar(line: _Line) -> Text:
+    """One criterion in one column: how far it is, or how it ended."""
+    if line.result is None:
+        return Text(_EIGHTHS[min(int(line.fraction * len(_EIGHTHS)), len(_EIGHTHS) - 1)], "cyan")
+    status = line.result.verdict.status
+    return Text(MARKS[status], STYLES[status])
 
 
 def _grid(width: int) -> Table:
-    grid = Table.grid(padding=(0, 2, 0, 0))
+    grid = Table.grid(padding=(0, 2, 0, 0), expand=True)
     grid.add_column(width=1)
     grid.add_column(width=width, no_wrap=True)
     grid.add_column(width=22, no_wrap=True)
-    grid.add_column(no_wrap=True, overflow="ellipsis")
+    grid.add_column(ratio=1, no_wrap=True, overflow="ellipsis")
     return grid
