@@ -17,8 +17,11 @@ from textual.widgets import Static
 from tests.tui import made
 from tutor.judge.events import Event
 from tutor.tui.app import TutorApp
+from tutor.tui.node import Node
 from tutor.tui.screens.main import MainScreen
+from tutor.tui.widgets.code_pane import CodePane
 from tutor.tui.widgets.criteria import CriteriaPanel
+from tutor.tui.widgets.editor import CodeEditor
 from tutor.tui.widgets.line_view import LineView
 
 LIMIT_S = 15.0
@@ -34,6 +37,24 @@ class Learner:
     def main(self) -> MainScreen:
         assert self.app.main is not None
         return self.app.main
+
+    @property
+    def node(self) -> Node | None:
+        """The node whose log is shown."""
+        shown = self.main.nodes.shown
+        return None if shown is None else self.main.nodes.known.get(shown)
+
+    @property
+    def editor(self) -> CodeEditor:
+        """The editor of the file that is shown."""
+        found = self.main.query_one(CodePane).editor
+        assert found is not None
+        return found
+
+    @property
+    def file(self) -> Path:
+        """The file that is shown."""
+        return self.main.session.path
 
     async def press(self, *keys: str) -> None:
         await self.pilot.press(*keys)

@@ -12,7 +12,7 @@ from tutor.judge.result import CriterionResult, Environment, ExerciseResult, Rep
 from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped
 from tutor.tui.desk import Desk
 from tutor.tui.node import NodeCommand
-from tutor.workspace import Workspace
+from tutor.workspace import RunOptions, Workspace
 
 BODY = """\
 ## Objective
@@ -108,9 +108,15 @@ class MadeDesk(Desk):
     def check_command(self, lesson: Lesson) -> Sequence[str]:
         return self.engine.command
 
-    def node_command(self, file: LessonFile) -> NodeCommand:
+    def node_command(self, file: LessonFile, options: RunOptions) -> NodeCommand:
         path = self.path(file)
-        return NodeCommand(file.name, (sys.executable, "-I", str(path)), {"PYTHONUNBUFFERED": "1"}, path.parent)
+        return NodeCommand(
+            file.name,
+            (sys.executable, "-I", str(path)),
+            {"PYTHONUNBUFFERED": "1"},
+            path.parent,
+            self.command_line(file, options),
+        )
 
 
 ENGINE = """\

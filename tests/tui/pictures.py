@@ -21,6 +21,7 @@ from tutor.judge.verdict import Status
 from tutor.tui.app import TutorApp
 from tutor.tui.screens.main import MainScreen
 from tutor.tui.themes import DARK, LIGHT
+from tutor.tui.widgets.code_pane import CodePane
 
 LIMIT_S = 10.0
 
@@ -62,10 +63,10 @@ class Album:
             self.take(pilot, "welcome")
         async with self.opened() as (pilot, _):
             main = screen(pilot)
-            await until(pilot, lambda: bool(main.progress.exercises))
+            await until(pilot, lambda: bool(main.session.progress.exercises))
             self.take(pilot, "lesson")
             await pilot.press("2")
-            await until(pilot, lambda: "signal" in main.query_one("#code-view").plain)  # type: ignore[attr-defined]
+            await until(pilot, lambda: main.query_one(CodePane).editor is not None)
             self.take(pilot, "code")
             await pilot.press("n", "2")
             await pilot.pause(0.1)
@@ -92,10 +93,10 @@ class Album:
         async with self.opened() as (pilot, _):
             main = screen(pilot)
             await pilot.press("r")
-            await until(pilot, lambda: main.node is not None and len(main.node.state.lines) >= 4)
+            await until(pilot, lambda: any(len(each.state.lines) >= 4 for each in main.nodes.running))
             self.take(pilot, "running")
             await pilot.press("r")
-            await until(pilot, lambda: main.node is not None and not main.node.state.alive)
+            await until(pilot, lambda: not main.nodes.running)
             self.take(pilot, "stopped")
 
     async def check(self, passing: bool) -> None:
@@ -108,14 +109,14 @@ class Album:
             say += [made.doing(names[n], f, t, lesson.id) for n, f, t in STEPS if n < len(names)]
             say += [CriterionJudged(lesson.id, made.result(names[0], made.GOOD))]
             await asyncio.to_thread(desk.engine.say, *say)
-            await until(pilot, lambda: main.findings[lesson.id].criteria[0].verdict is not None)
+            await until(pilot, lambda: main.session.findings[lesson.id].criteria[0].verdict is not None)
             if not passing:
                 self.take(pilot, "checking")
             await asyncio.to_thread(desk.engine.say, *made.whole(lesson, made.GOOD if passing else made.BAD))
             desk.engine.close()
-            await until(pilot, lambda: main.checking is None)
-            await until(pilot, lambda: main.progress.of(lesson.id).last is not None)
-            found = main.findings[lesson.id].result
+            await until(pilot, lambda: main.checks.running is None)
+            await until(pilot, lambda: main.session.progress.of(lesson.id).last is not None)
+            found = main.session.findings[lesson.id].result
             assert found is not None
             assert (found.verdict is Status.PASSED) == passing
             self.take(pilot, "passed" if passing else "failed")
@@ -124,7 +125,7 @@ class Album:
         async with self.opened() as (pilot, desk):
             await pilot.press("c")
             await asyncio.to_thread(desk.engine.say, "crash")
-            await until(pilot, lambda: screen(pilot).checking is None)
+            await until(pilot, lambda: screen(pilot).checks.running is None)
             self.take(pilot, "crashed")
 
 

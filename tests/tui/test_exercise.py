@@ -28,7 +28,7 @@ async def test_start_never_touches_what_is_there(learner: Any) -> None:
         assert path.read_text() == "mine = 1\n"
 
 
-@pytest.mark.parametrize("key", ["r", "c", "e"])
+@pytest.mark.parametrize("key", ["r", "c", "e", "E"])
 async def test_where_the_file_is_missing_the_start_is_offered(learner: Any, key: str) -> None:
     async with learner() as me:
         await me.press("n", key)
@@ -48,7 +48,7 @@ async def test_hints_come_one_by_one_and_are_remembered(learner: Any) -> None:
         await me.press("h")
         await me.sees("hint 2 of 3", "create_timer takes seconds.")
         await me.press("escape")
-        await me.until(lambda: me.main.progress.of("i1.1").hints == 2)
+        await me.until(lambda: me.main.session.progress.of("i1.1").hints == 2)
         assert me.desk.progress().of("i1.1").hints == 2
         await me.press("h")
         await me.sees("hint 2 of 3")
@@ -61,12 +61,14 @@ async def test_the_solution_is_shown_only_after_a_question(learner: Any) -> None
         await me.press("escape")
         assert "# the solution" not in me.screen()
         await me.press("v", "enter")
-        await me.sees("I1.1 solution: thermometer.py", "# the solution")
+        await me.sees("Our solution, to read", "# the solution")
+        await me.press("escape")
+        await me.until(lambda: "# the solution" not in me.screen())
 
 
 async def test_without_a_terminal_to_hand_over_the_editor_is_refused_in_words(learner: Any) -> None:
     async with learner() as me:
-        await me.press("e")
+        await me.press("E")
         await me.sees("cannot be handed")
 
 
@@ -74,6 +76,6 @@ async def test_damaged_progress_is_told_and_kept_aside(learner: Any) -> None:
     async with learner() as me:
         file = me.desk.workspace.root / ".ros-tutor" / "progress.json"
         file.write_text("{ not json")
-        me.main.read_progress()
+        me.main.records.read()
         await me.sees("could not")
         assert len(list(file.parent.glob("progress.json.damaged-*"))) == 1

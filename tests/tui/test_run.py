@@ -37,7 +37,7 @@ async def test_a_node_that_ignores_ctrl_c_is_ended_all_the_same(learner: Any, mo
         )
         await me.press("r")
         await me.sees("deaf")
-        pid = int(me.main.node.state.lines[0].text)
+        pid = int(me.node.state.lines[0].text)
         await me.press("r")
         await me.sees("ignored Ctrl+C")
         await me.until(lambda: not alive(pid))
@@ -54,11 +54,11 @@ async def test_a_flood_of_lines_leaves_the_app_usable(learner: Any) -> None:
     async with learner() as me:
         me.desk.path(me.desk.lessons[0].files[0]).write_text("n = 0\nwhile True:\n    n += 1\n    print('line', n)\n")
         await me.press("r")
-        await me.until(lambda: me.main.node is not None and me.main.node.state.dropped > 0)
+        await me.until(lambda: me.node is not None and me.node.state.dropped > 0)
         await me.press("1")
         await me.sees("Objective")
         await me.press("r")
-        await me.until(lambda: me.main.node.state.phase is Phase.ENDED)
+        await me.until(lambda: me.node.state.phase is Phase.ENDED)
 
 
 async def test_the_node_runs_on_while_another_lesson_is_read_and_the_terminal_changes(learner: Any) -> None:
@@ -77,7 +77,7 @@ async def test_quitting_ends_the_node(learner: Any) -> None:
         me.desk.path(me.desk.lessons[0].files[0]).write_text("import os\nprint(os.getpid(), flush=True)\n" + made.NODE)
         await me.press("r")
         await me.sees("ready")
-        pid = int(next(line.text for line in me.main.node.state.lines if line.text.isdecimal()))
+        pid = int(next(line.text for line in me.node.state.lines if line.text.isdecimal()))
         assert alive(pid)
         await me.press("q")
         await me.until(lambda: me.app.return_code == 0)

@@ -54,8 +54,8 @@ class TutorApp(App[int]):
         self.call_later(self.notify, text, severity="warning", timeout=12, markup=False)
 
     def get_system_commands(self, screen: Screen[Any]) -> Iterable[SystemCommand]:
-        """Of Textual's own commands only the themes: the rest is ours, or not for a learner."""
-        yield SystemCommand("Choose a theme", "Dark, light, and others", self.search_themes)
+        """None of Textual's own: ours are in the palette already."""
+        return ()
 
     async def _create(self, wanted: bool | None) -> None:
         """Create the workspace, with the first exercise in it."""
@@ -66,7 +66,10 @@ class TutorApp(App[int]):
         self._begin()
 
     def _begin(self) -> None:
-        self.main = MainScreen(self.desk)
+        state = self.desk.app_state()
+        if state.theme in (DARK.name, LIGHT.name):
+            self.theme = state.theme
+        self.main = MainScreen(self.desk, state)
         self.push_screen(self.main)
 
     def action_switch_theme(self) -> None:

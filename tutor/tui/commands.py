@@ -2,75 +2,113 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import partial
-from typing import TYPE_CHECKING
 
 from textual.binding import Binding, BindingType
-from textual.command import DiscoveryHit, Hit, Hits, Provider
 
-from tutor.tui import words
-
-if TYPE_CHECKING:
-    from tutor.tui.screens.main import MainScreen
+_KEY_NAMES = {"escape": "Esc", "question_mark": "?", "slash": "/", "space": "Space"}
 
 
 @dataclass(frozen=True, slots=True)
 class Command:
-    """One thing to do. `label` is for the footer, `text` for help and palette. `footer`: shown at the bottom."""
+    """One thing to do. `name` is what the screen knows it by; `label` is for the footer, `text` for help and palette.
 
-    key: str
-    action: str
+    `keys`: any of them does it, the first is shown in the footer where `footer` says so. One key may belong to several
+    commands, of which only one makes sense at a time.
+    """
+
+    name: str
+    keys: tuple[str, ...]
     label: str
     text: str
     footer: bool = False
     palette: bool = True
 
     @property
-    def shown_key(self) -> str:
-        """The key as the learner reads it."""
-        return {"escape": "Esc", "question_mark": "?", "ctrl+p": "Ctrl+P"}.get(self.key, self.key)
+    def shown_keys(self) -> tuple[str, ...]:
+        """The keys as the learner reads them."""
+        return tuple(shown(key) for key in self.keys)
 
-    def binding(self) -> Binding:
-        """As Textual wants it."""
-        return Binding(self.key, self.action, self.label, show=self.footer, key_display=self.shown_key)
+    def bindings(self) -> Iterator[Binding]:
+        """As Textual wants them."""
+        for number, key in enumerate(self.keys):
+            yield Binding(
+                key, f"do('{self.name}')", self.label, show=self.footer and number == 0, key_display=shown(key)
+            )
+
+
+def shown(key: str) -> str:
+    """A key as the learner reads it."""
+    if key in _KEY_NAMES:
+        return _KEY_NAMES[key]
+    if key.startswith("ctrl+"):
+        return f"Ctrl+{key.removeprefix('ctrl+').upper()}"
+    return key.upper() if key.startswith("f") and key[1:].isdecimal() else key
 
 
 GROUPS: tuple[tuple[str, tuple[Command, ...]], ...] = (
     (
         "Your node",
         (
-            Command("r", "run_node", "Run", "Run your node in your own ROS domain", footer=True),
-            Command("r", "stop_node", "Stop", "Stop your node, as Ctrl+C does", footer=True),
-            Command("c", "check", "Check", "Check your node against the criteria", footer=True),
-            Command("c", "cancel_check", "Cancel", "Cancel the running check", footer=True),
-            Command("escape", "cancel_check", "Cancel", "Cancel the running check", palette=False),
+            Command("run", ("r", "f5"), "Run", "Run your node in your own ROS domain", footer=True),
+            Command("stop", ("r", "f6"), "Stop", "Stop your node, as Ctrl+C does", footer=True),
+            Command("restart", ("f5",), "Restart", "Stop your node and run it anew"),
+            Command("options", ("o",), "Options", "Set parameters and remaps"),
+            Command("restart_on_save", ("W",), "Restart on save", "Restart on each save: on or off"),
         ),
     ),
     (
-        "The exercise",
+        "The check",
         (
-            Command("s", "start_exercise", "Start", "Put the skeleton into your workspace", footer=True),
-            Command("e", "edit", "Edit", "Open the file in your editor ($EDITOR)", footer=True),
-            Command("f", "next_file", "File", "Show the exercise's other file"),
-            Command("h", "hint", "Hint", "Show the next hint", footer=True),
-            Command("v", "solution", "Solution", "Show our solution (asks first)"),
+            Command("check", ("c", "f9"), "Check", "Check your node against the criteria", footer=True),
+            Command("cancel", ("c", "f9", "escape"), "Cancel", "Cancel the running check", footer=True),
+            Command("watch", ("w",), "Watch", "Check on each save: on or off"),
+            Command("evidence", ("i",), "Evidence", "Show or hide the evidence"),
+            Command("attempts", ("a",), "Attempts", "Show your attempts over time"),
+            Command("hint", ("h",), "Hint", "Show the next hint", footer=True),
+        ),
+    ),
+    (
+        "Your code",
+        (
+            Command("start", ("s",), "Start", "Put the skeleton into your workspace"),
+            Command("edit", ("e",), "Edit", "Edit your file here; Esc leaves the editor", footer=True),
+            Command("save", ("ctrl+s",), "Save", "Save (it is also saved as you go)"),
+            Command("own_editor", ("E",), "$EDITOR", "Open it in your editor ($EDITOR)"),
+            Command("next_file", ("f",), "File", "Show the exercise's other file"),
+            Command("skeleton", ("k",), "Skeleton", "Show the skeleton"),
+            Command("changes", ("d",), "Changes", "Show what you changed in the skeleton"),
+            Command("solution", ("v",), "Solution", "Show our solution (asks first)"),
+            Command("against", ("V",), "Compare", "Compare your file with our solution"),
+            Command("reset", ("Z",), "Reset", "Begin anew with the skeleton (keeps a backup)"),
+        ),
+    ),
+    (
+        "The log",
+        (
+            Command("level", ("m",), "Level", "Choose the lowest level that is shown"),
+            Command("filter", ("slash",), "Filter", "Show only lines with a certain text"),
+            Command("pause", ("space",), "Pause", "Pause the log, or follow it again"),
+            Command("clear", ("x",), "Clear", "Clear the log"),
+            Command("go_to_error", ("g",), "Go to error", "Go to the last error in your code"),
         ),
     ),
     (
         "Around",
         (
-            Command("n", "next_lesson", "Next", "Go to the next lesson", footer=True),
-            Command("p", "previous_lesson", "Prev", "Go to the previous lesson", footer=True),
-            Command("l", "lessons", "Lessons", "Show or hide the list of lessons"),
-            Command("1", "tab('lesson')", "Lesson", "Show the lesson"),
-            Command("2", "tab('code')", "Code", "Show your code"),
-            Command("3", "tab('log')", "Log", "Show the log of your node"),
-            Command("4", "tab('criteria')", "Criteria", "Show the criteria"),
-            Command("t", "app.switch_theme", "Theme", "Switch between the dark and the light theme"),
-            Command("question_mark", "help", "Help", "Show all keys", footer=True),
-            Command("q", "app.quit", "Quit", "Stop everything and leave", footer=True),
+            Command("next", ("n",), "Next", "Go to the next lesson", footer=True),
+            Command("previous", ("p",), "Prev", "Go to the previous lesson"),
+            Command("lessons", ("l",), "Lessons", "Show or hide the list of lessons"),
+            Command("zoom", ("z",), "Zoom", "Give the page all the room, or not"),
+            Command("page_lesson", ("1", "f2"), "Lesson", "Show the lesson"),
+            Command("page_code", ("2", "f3"), "Code", "Show your code"),
+            Command("page_log", ("3", "f4"), "Log", "Show the log of your node"),
+            Command("page_live", ("4", "f7"), "Live", "Show topics, parameters, services, live"),
+            Command("page_criteria", ("5", "f8"), "Criteria", "Show the criteria"),
+            Command("theme", ("t",), "Theme", "Switch between the dark and the light theme"),
+            Command("help", ("question_mark", "f1"), "Help", "Show all keys", footer=True),
+            Command("quit", ("q",), "Quit", "Stop everything and leave", footer=True),
         ),
     ),
 )
@@ -84,36 +122,15 @@ def commands() -> Iterator[Command]:
 
 def bindings() -> list[BindingType]:
     """The keys of the main screen."""
-    return [command.binding() for command in commands()]
+    return [binding for command in commands() for binding in command.bindings()]
 
 
-class TutorCommands(Provider):
-    """The command palette: every action, and every lesson to go to."""
-
-    def _offers(self) -> Iterator[tuple[str, str, Callable[[], object]]]:
-        screen = self.screen
-        from tutor.tui.screens.main import MainScreen
-
-        if not isinstance(screen, MainScreen):
-            return
-        for command in commands():
-            if command.palette and screen.can(command.action):
-                yield command.text, f"Key {command.shown_key}", partial(screen.run_action, command.action)
-        yield from self._lessons(screen)
-
-    def _lessons(self, screen: MainScreen) -> Iterator[tuple[str, str, Callable[[], object]]]:
-        for lesson in screen.desk.lessons:
-            name = f"Go to {words.label(lesson)} {lesson.title}"
-            yield name, f"{lesson.unit}, {lesson.difficulty}", partial(screen.go_to, lesson)
-
-    async def discover(self) -> Hits:
-        """What is offered before anything is typed."""
-        for name, about, run in self._offers():
-            yield DiscoveryHit(name, run, help=about)
-
-    async def search(self, query: str) -> Hits:
-        """What fits the typed text."""
-        matcher = self.matcher(query)
-        for name, about, run in self._offers():
-            if (score := matcher.match(name)) > 0:
-                yield Hit(score, matcher.highlight(name), run, help=about)
+def local(names: str, *, shown_key: int = 0) -> list[BindingType]:
+    """The footer of a panel that has the focus: these commands of the screen, each by its key number `shown_key`."""
+    table = {command.name: command for command in commands()}
+    found: list[BindingType] = []
+    for name in names.split():
+        command = table[name]
+        key = command.keys[min(shown_key, len(command.keys) - 1)]
+        found.append(Binding(key, f"screen.do('{name}')", command.label, show=True, key_display=shown(key)))
+    return found

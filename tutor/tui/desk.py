@@ -13,8 +13,9 @@ from pathlib import Path
 
 from tutor.content import Course, Lesson, LessonFile
 from tutor.judge.result import ExerciseResult
+from tutor.tui import run_options
 from tutor.tui.node import NodeCommand
-from tutor.workspace import Placed, Progress, Workspace, start
+from tutor.workspace import AppState, Placed, Progress, RunOptions, StorageError, Workspace, place, start
 
 Notify = Callable[[str], None]
 
@@ -49,6 +50,26 @@ class Desk:
         """
         return start(lesson, self.workspace).files
 
+    def reset(self, file: LessonFile) -> Placed:
+        """Put the skeleton in the place of the learner's file, which is kept as a backup.
+
+        Raises WorkspaceError, StorageError.
+        """
+        try:
+            skeleton = file.skeleton.read_bytes()
+        except OSError as error:
+            raise StorageError.of(f"read {file.skeleton}", error) from error
+        return place({self.path(file): skeleton}, force=True)
+
+    def app_state(self) -> AppState:
+        """What the app remembers of this workspace."""
+        return self.workspace.app_state(self.notify).read() if self.workspace.exists else AppState()
+
+    def keep(self, state: AppState) -> None:
+        """Remember this. Raises StorageError."""
+        if self.workspace.exists:
+            self.workspace.app_state(self.notify).write(state)
+
     def progress(self) -> Progress:
         """What the learner has done so far. Raises StorageError."""
         if not self.workspace.exists:
@@ -71,16 +92,25 @@ class Desk:
         # -P: a module in the learner's folder must not take the place of one of ours.
         return (sys.executable, "-P", "-m", "tutor.engine", lesson.id, str(self.workspace.root), *more)
 
-    def node_command(self, file: LessonFile) -> NodeCommand:
-        """How to run one file in the learner's own ROS domain."""
+    def node_command(self, file: LessonFile, options: RunOptions) -> NodeCommand:
+        """How to run one file in the learner's own ROS domain. Raises CommandError where ROS has no `ros2`, OSError."""
         from tutor.ros.environment import detect, learner_env  # late: the first paint does not wait for it
+        from tutor.sandbox.ros2 import starting
 
         ros = detect()
         path = self.path(file)
+        launch = starting.is_launch_file(path)
         package = path.parent.parent if (path.parent / "__init__.py").is_file() else None
         log_dir = Path(os.environ.get("ROS_LOG_DIR") or Path(tempfile.gettempdir()) / "ros-tutor-log")
         env = learner_env(ros, domain_id=domain_id(), log_dir=log_dir, package_root=package, isolated=False)
-        return NodeCommand(file.name, (str(ros.python), str(path)), env, path.parent)
+        first = [*starting.ros2(ros, env), "launch"] if launch else [str(ros.python)]
+        given = run_options.arguments(options, launch=launch)
+        typed = self.command_line(file, options)
+        return NodeCommand(file.name, (*first, str(path), *given), env, path.parent, typed)
+
+    def command_line(self, file: LessonFile, options: RunOptions) -> str:
+        """What a ROS user would type to run this file, once the workspace is built."""
+        return run_options.command_line(self.workspace.package.name, file.name, options)
 
     def editor(self) -> str:
         """The learner's editor, as a command."""

@@ -31,8 +31,9 @@ class CheckOver(Message):
 
 @dataclass
 class NodeChanged(Message):
-    """The learner's node has said something, or its state has changed."""
+    """A node of the learner's has said something, or its state has changed. `first`: it was started just now."""
 
+    path: Path
     state: NodeState
     first: bool = False
 
@@ -46,12 +47,30 @@ class Started(Message):
 
 
 @dataclass
-class FileRead(Message):
-    """The file that is shown was read: its text, or None where it is not there; `problem` where it cannot be read."""
+class FileTouched(Message):
+    """The file that is shown appeared, changed or went away on the disk, by whomever."""
 
     path: Path
-    text: str | None
-    problem: str = ""
+
+
+@dataclass
+class FileSaved(Message):
+    """A file has new content on the disk, on purpose: saved by the learner here, or in an editor of theirs."""
+
+    path: Path
+
+
+@dataclass
+class EditorLeft(Message):
+    """The learner is done typing for now."""
+
+
+@dataclass
+class GoToLine(Message):
+    """A line of a file, from 1, is to be shown in the editor."""
+
+    path: Path
+    line: int
 
 
 @dataclass

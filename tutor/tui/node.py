@@ -21,12 +21,13 @@ INTERRUPT_S = 5.0
 
 @dataclass(frozen=True, slots=True)
 class NodeCommand:
-    """How to start one file as a node."""
+    """How to start one file as a node. `typed` is what a ROS user would type for it."""
 
     file: str
     argv: tuple[str, ...]
     env: dict[str, str]
     cwd: Path
+    typed: str = ""
 
 
 class Phase(Enum):
@@ -40,7 +41,10 @@ class Phase(Enum):
 
 @dataclass(frozen=True, slots=True)
 class NodeState:
-    """A node as it is to be shown. `note` says how it ended, or why it did not start."""
+    """A node as it is to be shown. `note` says how it ended, or why it did not start; `command` is as it is typed.
+
+    Times are seconds since the epoch.
+    """
 
     file: str
     phase: Phase
@@ -49,6 +53,8 @@ class NodeState:
     failed: bool = False
     lines: tuple[OutputLine, ...] = ()
     dropped: int = 0
+    command: str = ""
+    ended_at: float = 0.0
 
     @property
     def alive(self) -> bool:
@@ -64,10 +70,18 @@ class Node:
         self._show = show
         self._changed = asyncio.Event()
         self._stop = asyncio.Event()
-        self.state = NodeState(command.file, Phase.STARTING, time.time())
+        self.over = asyncio.Event()
+        """Set when nothing of the node is left."""
+        self.state = NodeState(command.file, Phase.STARTING, time.time(), command=command.typed)
 
     async def run(self) -> None:
         """Start the node, follow it, and return when it has ended; it is ended for certain where this is cancelled."""
+        try:
+            await self._run()
+        finally:
+            self.over.set()
+
+    async def _run(self) -> None:
         self._say(self.state)
         command = self._command
         try:
@@ -75,7 +89,7 @@ class Node:
                 list(command.argv), env=command.env, cwd=command.cwd, on_change=self._changed.set
             )
         except ProcessError as error:
-            self._say(replace(self.state, phase=Phase.ENDED, note=str(error), failed=True))
+            self._say(replace(self.state, phase=Phase.ENDED, note=str(error), failed=True, ended_at=time.time()))
             return
         async with process:
             self._say(replace(self.state, phase=Phase.RUNNING, since=process.started_at))
@@ -84,7 +98,7 @@ class Node:
                 await self._follow(process)
             finally:
                 stopping.cancel()
-        self._say(self._with_output(process, phase=Phase.ENDED))
+        self._say(replace(self._with_output(process, phase=Phase.ENDED), ended_at=time.time()))
 
     def stop(self) -> None:
         """Press Ctrl+C, and end the node where that does not."""

@@ -6,24 +6,20 @@ import re
 import shlex
 from pathlib import Path
 
+from tutor.sandbox.ros2.starting import is_launch_file
 from tutor.workspace import RunOptions
 
 _PARAMETER = re.compile(r"(?:[A-Za-z_/*][\w/*]*:)?[A-Za-z_][\w.]*:=\S.*")
 _REMAP = re.compile(
     r"(?:[A-Za-z_]\w*:)?(?:__(?:node|name|ns)|(?:~/|/)?[A-Za-z_][\w/]*):=(?:~/|/)?[A-Za-z_][\w/]*|__ns:=/"
 )
-_ARGUMENT = re.compile(r"[A-Za-z_][\w.-]*:=.*")
+_ARGUMENT = re.compile(r"[A-Za-z_][\w.-]*:=.+")
 
 
 def lines(text: str) -> tuple[str, ...]:
     """The lines that say something; a line that begins with # does not."""
     found = (line.strip() for line in text.splitlines())
     return tuple(line for line in found if line and not line.startswith("#"))
-
-
-def is_launch_file(name: str) -> bool:
-    """Whether a file's name says that it is a launch file."""
-    return name.endswith(("_launch.py", ".launch.py"))
 
 
 def problem(options: RunOptions, *, launch: bool) -> str:
@@ -50,7 +46,7 @@ def arguments(options: RunOptions, *, launch: bool) -> list[str]:
 
 def command_line(package: str, file: str, options: RunOptions) -> str:
     """What a ROS user types to run this file of a package that is built."""
-    launch = is_launch_file(file)
+    launch = is_launch_file(Path(file))
     program = file if launch else Path(file).stem
     words = ["ros2", "launch" if launch else "run", package, program, *arguments(options, launch=launch)]
     return shlex.join(words)

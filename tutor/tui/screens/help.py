@@ -2,18 +2,37 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import ClassVar
 
+from textual import events
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
-from textual.containers import VerticalScroll
+from textual.containers import Container, VerticalScroll
 from textual.content import Content
 from textual.widgets import Static
 
 from tutor.tui.commands import GROUPS, Command
 from tutor.tui.screens.dialog import Dialog
 
-_HOW = "Read the lesson, start the exercise, edit the file, run it, check it. A failure tells you the next step."
+_HOW = (
+    "Read the lesson, start the exercise, edit the file, run it, check it. A failure tells you the next step.\n"
+    "In the editor letters type: leave it with Esc, or use the F keys, which work everywhere."
+)
+
+
+_EVERYWHERE = (
+    ("Ctrl+P", "Find any action, lesson, or text"),
+    ("Tab", "Move between the panels"),
+    ("Ctrl+Z", "In the editor: undo; Ctrl+Y: redo"),
+    ("Ctrl+Q", "Leave"),
+)
+
+HALF = 3
+"""So many groups are in the left column."""
+
+TWO_COLUMNS = 116
+"""From this width on there are two."""
 
 
 class HelpScreen(Dialog[None]):
@@ -28,20 +47,22 @@ class HelpScreen(Dialog[None]):
         with VerticalScroll(classes="window") as window:
             window.border_title = "Help"
             window.border_subtitle = "Esc closes"
-            yield Static(_text(), classes="dialog-text")
+            yield Static(_HOW, classes="dialog-text")
+            with Container(id="help-columns"):
+                yield Static(_text(GROUPS[:HALF]), classes="dialog-text")
+                yield Static(_text((*GROUPS[HALF:], ("Everywhere", ()))), classes="dialog-text")
+
+    def on_resize(self, event: events.Resize) -> None:
+        """Two columns where there is room."""
+        self.set_class(event.size.width >= TWO_COLUMNS, "-two")
 
 
-def _text() -> Content:
-    parts: list[Content | str | tuple[str, str]] = [_HOW]
-    for title, group in GROUPS:
-        parts += ["\n\n", (title, "bold $primary")]
-        for key, text in _merged(group):
-            parts += ["\n  ", (f"{key:<8}", "bold $accent"), text]
-    for key, text in (
-        ("Ctrl+P", "Find any action or lesson by name"),
-        ("Tab", "Move between the panels; arrows move in them"),
-    ):
-        parts += ["\n  ", (f"{key:<8}", "bold $accent"), text]
+def _text(groups: Sequence[tuple[str, tuple[Command, ...]]]) -> Content:
+    parts: list[Content | str | tuple[str, str]] = []
+    for title, group in groups:
+        parts += ["\n\n" if parts else "\n", (title, "bold $primary")]
+        for key, text in _merged(group) if group else _EVERYWHERE:
+            parts += ["\n", (f"{key:<9} ", "bold $accent"), text]
     return Content.assemble(*parts)
 
 
@@ -49,5 +70,5 @@ def _merged(group: tuple[Command, ...]) -> list[tuple[str, str]]:
     """One line for each action; its keys together."""
     lines: dict[str, list[str]] = {}
     for command in group:
-        lines.setdefault(command.text, []).append(command.shown_key)
+        lines.setdefault(command.text, []).extend(command.shown_keys)
     return [(" ".join(keys), text) for text, keys in lines.items()]

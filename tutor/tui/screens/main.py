@@ -1,7 +1,8 @@
-"""The main screen: lessons, the text, code and log of one, and its criteria."""
+"""The main screen: lessons; the text, code, log and live data of one; and its criteria."""
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Callable
 from pathlib import Path
 from typing import ClassVar
@@ -11,193 +12,255 @@ from textual.app import ComposeResult
 from textual.binding import BindingType
 from textual.command import Provider
 from textual.containers import Container, Horizontal, Vertical
-from textual.reactive import var
-from textual.screen import Screen
-from textual.widgets import ContentSwitcher, Footer, ListView, Tab, Tabs
+from textual.widgets import ContentSwitcher, Footer, ListView, Tab, Tabs, TextArea
 
 from tutor.content import Lesson
 from tutor.tui import messages
-from tutor.tui.commands import TutorCommands, bindings
+from tutor.tui.commands import bindings
+from tutor.tui.control.checks import Checks
+from tutor.tui.control.closing import close_down
+from tutor.tui.control.files import Files
+from tutor.tui.control.logs import Logs
+from tutor.tui.control.nodes import Nodes
+from tutor.tui.control.pages import PAGES, Pages
+from tutor.tui.control.records import Records
+from tutor.tui.control.remember import Memory
+from tutor.tui.control.views import Views
 from tutor.tui.desk import Desk, domain_id
 from tutor.tui.findings import Findings
-from tutor.tui.following import follow
-from tutor.tui.screens.help import HelpScreen
-from tutor.tui.screens.layout import Criteria, Layout, layout_for
-from tutor.tui.screens.work import Work
+from tutor.tui.palette import Actions, LessonText
+from tutor.tui.screens.stage import Deed, Stage
+from tutor.tui.session import Session
 from tutor.tui.widgets.code_pane import CodePane
 from tutor.tui.widgets.criteria import CriteriaPanel
+from tutor.tui.widgets.diagnosis import Diagnosis
 from tutor.tui.widgets.lesson_list import LessonList, LessonRow
 from tutor.tui.widgets.lesson_view import LessonView
 from tutor.tui.widgets.log_pane import LogPane
 from tutor.tui.widgets.status_bar import StatusBar
-from tutor.workspace import Progress
-
-PAGES = ("lesson", "code", "log", "criteria")
+from tutor.workspace import AppState
 
 
-class MainScreen(Work, Screen[None]):
-    """What is shown, and where. What is done to the learner's node is in `Work`."""
+class MainScreen(Stage):
+    """What is shown, and where. What is done is in the controllers; messages come here and are handed on to them."""
 
     CSS_PATH = Path(__file__).with_name("main.tcss")
     BINDINGS: ClassVar[list[BindingType]] = bindings()
-    COMMANDS: ClassVar[set[type[Provider] | Callable[[], type[Provider]]]] = {TutorCommands}
+    COMMANDS: ClassVar[set[type[Provider] | Callable[[], type[Provider]]]] = {Actions, LessonText}
     AUTO_FOCUS = "#lesson"
 
-    shape: var[Layout | None] = var(None)
-
-    def __init__(self, desk: Desk) -> None:
+    def __init__(self, desk: Desk, state: AppState) -> None:
         super().__init__()
-        self.desk = desk
-        self.lesson = desk.lessons[0]
-        self.findings = {lesson.id: Findings.of(lesson) for lesson in desk.lessons}
-        self.progress = Progress()
-        self.file_index = 0
-        self._shown_file: Path | None = None
+        self.session = Session.of(desk, state)
+        code, log = CodePane(id="code"), LogPane(id="log")
+        self._code, self._log = code, log
+        self.memory = Memory(self)
+        self.pages = Pages(self, self.memory)
+        self.records = Records(self)
+        self.files = Files(self, code, self.records)
+        self.views = Views(self, code, self.files)
+        self.nodes = Nodes(self, self.files, self.memory)
+        self.checks = Checks(self, self.files, self.records, self.memory, self._show_findings)
+        logs = Logs(self, log)
+        own = {
+            "next": Deed(lambda: self._step(1)),
+            "previous": Deed(lambda: self._step(-1)),
+            "theme": Deed(self._theme),
+            "help": Deed(self._help),
+            "quit": Deed(lambda: self.app.run_action("quit")),
+            "evidence": Deed(self._evidence, lambda: self.query_one(Diagnosis).has_evidence),
+        }
+        self._deeds: dict[str, Deed] = dict(own)
+        for controller in (self.pages, self.records, self.files, self.views, self.nodes, self.checks, logs):
+            self._deeds |= controller.deeds
 
     def compose(self) -> ComposeResult:
         yield StatusBar()
         with Horizontal(id="desk"):
-            yield LessonList(self.desk.lessons, id="lessons")
+            yield LessonList(self.session.desk.lessons, id="lessons")
             with Container(id="work"):
                 with Vertical(id="centre"):
                     yield Tabs(*(Tab(name.capitalize(), id=f"tab-{name}") for name in PAGES), id="tabs")
                     with ContentSwitcher(initial="lesson", id="pages"):
                         yield LessonView(id="lesson")
-                        yield CodePane(id="code")
-                        yield LogPane(id="log")
+                        yield self._code
+                        yield self._log
+                        yield Container(id="live")
                 yield CriteriaPanel(id="criteria")
         yield Footer(compact=True, show_command_palette=False)
 
     async def on_mount(self) -> None:
         self.query_one(LessonList).border_title = "Lessons"
-        self.query_one(StatusBar).show_node(None, domain_id())
+        self.query_one(StatusBar).show_nodes((), domain_id())
         self.query_one(StatusBar).show_check(None)
-        self._arrange(self.size.width, self.size.height)
-        await self.go_to(self.lesson)
-        self.read_progress()
+        self.remembered()
+        page = self.session.state.page
+        self.pages.arrange(self.size.width, self.size.height)
+        await self.go_to(self.session.lesson, page if page in PAGES else "lesson")
+        self.records.read()
+
+    # --- commands ---
+
+    def action_do(self, name: str) -> None:
+        """Do what a command says."""
+        result = self._deeds[name].run()
+        if inspect.iscoroutine(result):
+            self.run_worker(result, group="deed")
+
+    def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
+        """Hide what makes no sense now: one key is Run or Stop, Check or Cancel."""
+        return self.can(str(parameters[0])) if action == "do" else True
+
+    def can(self, name: str) -> bool:
+        """Whether a command makes sense now."""
+        return self.is_mounted and self._deeds[name].possible()
+
+    def action_show_file(self, index: int) -> None:
+        """Show another file of the lesson."""
+        self.files.show(index)
+
+    def _theme(self) -> None:
+        self.app.theme = "ros-tutor-light" if self.app.current_theme.dark else "ros-tutor-dark"
+        self.memory.note(theme=self.app.theme)
+
+    def _help(self) -> None:
+        from tutor.tui.screens.help import HelpScreen
+
+        self.app.push_screen(HelpScreen())
+
+    def _evidence(self) -> None:
+        self.query_one(Diagnosis).fold()
 
     # --- which lesson ---
 
-    async def go_to(self, lesson: Lesson) -> None:
+    async def go_to(self, lesson: Lesson, page: str = "lesson") -> None:
         """Show a lesson."""
-        self.lesson = lesson
+        session, lessons = self.session, self.session.desk.lessons
+        session.lesson = lesson
+        self.memory.note(lesson=lesson.id)
         self.query_one(StatusBar).show_lesson(lesson)
         self.query_one(LessonList).show_lesson(lesson)
         self.remove_class("-drawer")
-        self.show_page("lesson")
-        self.action_show_file(0)
-        await self.query_one(CriteriaPanel).show_lesson(self.findings[lesson.id])
+        self.files.show(0)
+        self.show_page(page)
+        if (live := self.pages.live) is not None:
+            live.show_for(lesson)
+        place = lessons.index(lesson) + 1
+        criteria = self.query_one(CriteriaPanel)
+        await criteria.show_lesson(session.findings[lesson.id], lessons[place] if place < len(lessons) else None)
+        criteria.show_attempts(lesson, session.progress.of(lesson.id))
         await self.query_one(LessonView).show_lesson(lesson)
         self.refresh_bindings()
 
-    async def action_next_lesson(self) -> None:
-        await self._step(1)
-
-    async def action_previous_lesson(self) -> None:
-        await self._step(-1)
+    async def go_to_line(self, lesson: Lesson, line: int) -> None:
+        """Show a line of a lesson's text, counted from 0."""
+        await self.go_to(lesson)
+        view = self.query_one(LessonView)
+        view.call_after_refresh(view.go_to_line, line)
 
     async def _step(self, by: int) -> None:
-        place = self.desk.lessons.index(self.lesson) + by
-        if 0 <= place < len(self.desk.lessons):
-            await self.go_to(self.desk.lessons[place])
+        lessons = self.session.desk.lessons
+        place = lessons.index(self.session.lesson) + by
+        if 0 <= place < len(lessons):
+            await self.go_to(lessons[place])
         else:
-            self.notify("This is the last lesson." if by > 0 else "This is the first lesson.")
+            self.say("This is the last lesson." if by > 0 else "This is the first lesson.")
 
     @on(ListView.Selected, "#lessons")
     async def _lesson_chosen(self, event: ListView.Selected) -> None:
         if isinstance(event.item, LessonRow):
             await self.go_to(event.item.lesson)
-            self.query_one(LessonView).focus()
 
-    @on(messages.ProgressRead)
-    def _progress_read(self, message: messages.ProgressRead) -> None:
-        self.progress = message.progress
-        self.query_one(LessonList).show_progress(message.progress)
+    # --- pages ---
 
-    # --- which page ---
+    @property
+    def page(self) -> str:
+        return self.pages.current
 
     def show_page(self, name: str) -> None:
-        """Turn to a page; criteria have one of their own only where they are folded."""
-        if name == "criteria" and not self.has_class("-folded"):
-            self.query_one("#criteria-list").focus()
-            return
-        self.query_one(Tabs).active = f"tab-{name}"
-
-    def action_tab(self, name: str) -> None:
-        self.show_page(name)
+        self.pages.show(name)
 
     @on(Tabs.TabActivated, "#tabs")
-    def _turn(self, event: Tabs.TabActivated) -> None:
-        name = (event.tab.id or "").removeprefix("tab-")
-        self.set_class(name == "criteria", "-criteria")
-        if name != "criteria":
-            self.query_one(ContentSwitcher).current = name
-        if not isinstance(self.focused, Tabs | LessonList):
-            target = {"code": "#code-view", "log": "#log-view", "criteria": "#criteria-list"}.get(name, "#lesson")
-            self.query_one(target).focus(scroll_visible=False)
+    def _tab_chosen(self, event: Tabs.TabActivated) -> None:
+        self.pages.tab_chosen((event.tab.id or "").removeprefix("tab-"))
 
     def on_resize(self, event: events.Resize) -> None:
         """Lay the panels out for the new size."""
-        self._arrange(event.size.width, event.size.height)
+        self.pages.arrange(event.size.width, event.size.height)
 
-    def _arrange(self, width: int, height: int) -> None:
-        shape = layout_for(width, height)
-        if shape == self.shape:
-            return
-        self.shape = shape
-        for place in Criteria:
-            self.set_class(shape.criteria is place, f"-{place}", update=False)
-        self.set_class(not shape.lessons, "-no-lessons", update=False)
-        self.remove_class("-drawer", "-lessons-away", update=False)
-        self.update_node_styles()  # once for all of them: it styles the whole screen anew
-        tabs = self.query_one(Tabs)
-        if shape.criteria is Criteria.FOLDED:
-            tabs.show("tab-criteria")
-        else:
-            if tabs.active == "tab-criteria":
-                tabs.active = "tab-lesson"
-            tabs.hide("tab-criteria")
+    # --- what the workers tell ---
 
-    def action_lessons(self) -> None:
-        """Show or hide the list."""
-        listed = self.query_one(LessonList)
-        self.toggle_class("-drawer" if self.has_class("-no-lessons") else "-lessons-away")
-        shown = self.has_class("-drawer") if self.has_class("-no-lessons") else not self.has_class("-lessons-away")
-        if shown:
-            listed.focus()
-        elif self.focused in (listed, None):
-            self.query_one(LessonView).focus()
+    @on(messages.ProgressRead)
+    def _progress_read(self, message: messages.ProgressRead) -> None:
+        self.session.progress = message.progress
+        self.query_one(LessonList).show_progress(message.progress)
+        lesson = self.session.lesson
+        self.query_one(CriteriaPanel).show_attempts(lesson, message.progress.of(lesson.id))
 
-    # --- which file ---
+    @on(messages.Started)
+    def _started(self, message: messages.Started) -> None:
+        self.files.started(message)
 
-    def action_show_file(self, index: int) -> None:
-        """Show one of the lesson's files, and follow it on disk."""
-        self.file_index = index
-        paths = [self.desk.path(file) for file in self.lesson.files]
-        self.query_one(CodePane).show_names(paths, index)
-        self.run_worker(follow(paths[index], self.post_message), group="file", exclusive=True)
+    @on(messages.FileTouched)
+    def _file_touched(self, message: messages.FileTouched) -> None:
+        self.files.touched(message)
 
-    def action_next_file(self) -> None:
-        self.action_show_file((self.file_index + 1) % len(self.lesson.files))
-        self.show_page("code")
+    @on(messages.FileSaved)
+    def _file_saved(self, message: messages.FileSaved) -> None:
+        self.nodes.saved(message)
+        self.checks.saved(message)
 
-    @on(messages.FileRead)
-    def _file_read(self, message: messages.FileRead) -> None:
-        if message.path != self.desk.path(self.lesson.files[self.file_index]):
-            return
-        pane = self.query_one(CodePane)
-        if message.text is None:
-            pane.show_missing(message.path, message.problem)
-        else:
-            pane.show_source(message.text, anew=message.path != self._shown_file)
-            self._shown_file = message.path
+    @on(messages.GoToLine)
+    def _go_to_line(self, message: messages.GoToLine) -> None:
+        self.files.go_to(message)
+
+    @on(TextArea.Changed, "CodeEditor")
+    def _typed(self) -> None:
+        self.files.typed()
+
+    @on(messages.EditorLeft)
+    def _editor_left(self) -> None:
+        self._code.leave_editor()
+        self.run_worker(self.files.save_all(), group="save")
+
+    @on(messages.NodeChanged)
+    def _node_changed(self, message: messages.NodeChanged) -> None:
+        if message.first:
+            self.show_page("log")
+        if message.path == self.nodes.shown:
+            self._log.show(message.state, domain_id(), self.session.paths)
+        self.query_one(StatusBar).show_nodes([node.state for node in self.nodes.known.values()], domain_id())
         self.refresh_bindings()
 
-    # --- the rest ---
+    @on(messages.CheckEvent)
+    def _check_event(self, message: messages.CheckEvent) -> None:
+        self.checks.event(message)
 
-    def action_help(self) -> None:
-        self.app.push_screen(HelpScreen())
+    @on(messages.CheckOver)
+    def _check_over(self, message: messages.CheckOver) -> None:
+        self.checks.over(message)
 
     @on(messages.Trouble)
     def _trouble(self, message: messages.Trouble) -> None:
-        self.notify(message.text, severity="warning", timeout=8, markup=False)
+        self.say(message.text, warn=True)
+
+    def _show_findings(self, found: Findings) -> None:
+        if found.exercise == self.session.lesson.id:
+            self.query_one(CriteriaPanel).show_findings(found)
+        self.query_one(StatusBar).show_check(found)
+        self.query_one(Tabs).query_one("#tab-criteria").set_class(found.checking, "-busy")
+
+    def remembered(self) -> None:
+        state = self.session.state
+        self.query_one(StatusBar).show_toggles(check=state.check_on_save, restart=state.restart_on_save)
+
+    # --- leaving ---
+
+    @property
+    def busy(self) -> bool:
+        """Whether a check or a node runs."""
+        return self.checks.running is not None or bool(self.nodes.running)
+
+    async def close_down(self) -> None:
+        """Save, end the check and the nodes, and wait until nothing of them is left."""
+        await close_down(self, self.files, self.nodes, self.checks, self.memory, self.pages)

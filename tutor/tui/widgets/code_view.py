@@ -34,7 +34,8 @@ class CodeView(LineView):
     """One file, read-only."""
 
     COMPONENT_CLASSES: ClassVar[set[str]] = {
-        f"line--{kind}" for kind in ("gutter", "keyword", "string", "number", "comment", "name", "type")
+        f"line--{kind}"
+        for kind in ("gutter", "keyword", "string", "number", "comment", "name", "type", "gone", "come", "same")
     }
     DEFAULT_CSS = """
     CodeView {
@@ -45,6 +46,9 @@ class CodeView(LineView):
         & > .line--comment { color: $code-comment; text-style: italic; }
         & > .line--name { color: $code-name; }
         & > .line--type { color: $code-type; }
+        & > .line--gone { color: $bad; }
+        & > .line--come { color: $good; }
+        & > .line--same { color: $quiet; }
     }
     """
 

@@ -6,12 +6,15 @@ from textual import on
 from textual.app import ComposeResult
 from textual.containers import Container
 from textual.content import Content
-from textual.widgets import ListItem, ListView
+from textual.widgets import ListItem, ListView, Static
 
+from tutor.content import Lesson
 from tutor.judge.verdict import Status
 from tutor.tui import words
 from tutor.tui.findings import Finding, Findings
+from tutor.tui.widgets.attempts import history
 from tutor.tui.widgets.diagnosis import Diagnosis
+from tutor.workspace import ExerciseProgress
 
 
 class CriterionRow(ListItem):
@@ -70,6 +73,7 @@ class CriteriaPanel(Container):
         }
         & > ListView > CriterionRow { height: 1; padding: 0 1; text-wrap: nowrap; }
         & > Diagnosis { display: none; }
+        & > #attempts { display: none; }
         &.-detail > Diagnosis { display: block; }
     }
     """
@@ -77,15 +81,17 @@ class CriteriaPanel(Container):
     def compose(self) -> ComposeResult:
         yield ListView(id="criteria-list", initial_index=None)
         yield Diagnosis(id="diagnosis")
+        yield Static(id="attempts")
 
     def on_mount(self) -> None:
         self.border_title = "Criteria"
         self._findings: Findings | None = None
-        self._goal = ""
+        self._following: Lesson | None = None
 
-    async def show_lesson(self, findings: Findings) -> None:
-        """Show another lesson's criteria, and its first failure if it has one."""
+    async def show_lesson(self, findings: Findings, following: Lesson | None) -> None:
+        """Show another lesson's criteria, and its first failure if it has one; `following` is the lesson after it."""
         self._findings = None
+        self._following = following
         listed = self.query_one("#criteria-list", ListView)
         await listed.clear()
         await listed.extend(CriterionRow(finding) for finding in findings.criteria)
@@ -100,6 +106,10 @@ class CriteriaPanel(Container):
             self.remove_class("-detail")
         if before and before.checking and not findings.checking:
             self._turn_to_result()
+
+    def show_attempts(self, lesson: Lesson, progress: ExerciseProgress) -> None:
+        """Show the latest attempts, where there is room for them."""
+        self.query_one("#attempts", Static).update(history(lesson, progress, most=6))
 
     @property
     def rows(self) -> list[CriterionRow]:
@@ -123,7 +133,7 @@ class CriteriaPanel(Container):
         if found is None or not found.judged:
             return
         if found.result is not None and found.result.verdict is Status.PASSED:
-            self.query_one(Diagnosis).show_passed(found.result)
+            self.query_one(Diagnosis).show_passed(found.result, self._following)
             self.add_class("-detail")
             return
         order = (Status.FAILED, Status.ERROR, Status.SKIPPED, Status.PASSED)

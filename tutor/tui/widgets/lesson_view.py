@@ -6,6 +6,7 @@ from textual.app import ComposeResult
 from textual.containers import VerticalScroll
 from textual.content import Content
 from textual.widgets import Markdown, Static
+from textual.widgets.markdown import MarkdownBlock
 
 from tutor.content import Lesson
 from tutor.tui import words
@@ -28,6 +29,7 @@ class LessonView(VerticalScroll):
             MarkdownH3 { color: $secondary; text-style: bold; margin: 1 0 1 0; }
             MarkdownFence { background: $background; margin: 0 0 1 0; padding: 0 1; }
             MarkdownBlockQuote { background: $panel; border-left: outer $accent; margin: 0 0 1 0; padding: 0 1; }
+            MarkdownBlock.-found { background: $block-cursor-background; }
             MarkdownBullet { color: $accent; }
         }
     }
@@ -49,3 +51,13 @@ class LessonView(VerticalScroll):
         self.query_one("#lesson-head", Static).update(head)
         self.scroll_home(animate=False)
         await self.query_one(Markdown).update(lesson.body)
+
+    def go_to_line(self, line: int) -> None:
+        """Scroll to the block that holds a line of the body, counted from 0."""
+        for block in self.query(MarkdownBlock):
+            first, end = block.source_range
+            if first <= line < end and not block.query(MarkdownBlock):
+                block.scroll_visible(animate=False, top=True)
+                block.add_class("-found")
+            else:
+                block.remove_class("-found")

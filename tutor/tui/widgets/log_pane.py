@@ -1,53 +1,183 @@
-"""The log of the learner's node, or how to get one."""
+"""The log of the learner's node, what of it is shown, or how to get one."""
 
 from __future__ import annotations
 
 import time
+from collections.abc import Sequence
+from pathlib import Path
+from typing import ClassVar
 
+from textual import on
 from textual.app import ComposeResult
+from textual.binding import Binding, BindingType
 from textual.containers import Vertical
 from textual.content import Content
-from textual.widgets import Static
+from textual.widgets import Input, Static
 
+from tutor.judge.trace import Level
+from tutor.tui import loglines
 from tutor.tui.node import NodeState, Phase
 from tutor.tui.widgets.line_view import Row
 from tutor.tui.widgets.log_view import LogView
 
+LEVELS = (Level.DEBUG, Level.INFO, Level.WARN, Level.ERROR)
+
 
 class LogPane(Vertical):
-    """A line on the node, and its log below."""
+    """A line on the node, a line on what is shown, and the log below."""
 
+    BINDINGS: ClassVar[list[BindingType]] = [Binding("escape", "end_filter", "All lines", show=True, key_display="Esc")]
     DEFAULT_CSS = """
     LogPane {
         background: $surface;
-        & > #log-head { height: 1; background: $panel; padding: 0 1; text-wrap: nowrap; text-overflow: ellipsis; }
+        & > .log-line { height: 1; background: $panel; padding: 0 1; text-wrap: nowrap; text-overflow: ellipsis; }
+        & Static { link-color: $foreground; link-style: underline; link-color-hover: $background; }
+        & > #log-filter {
+            display: none;
+            height: 1;
+            border: none;
+            padding: 0 1;
+            background: $background;
+            &:focus { border: none; }
+        }
+        & > #log-tools { display: none; }
+        & > #log-empty { height: 1fr; content-align: center middle; text-align: center; color: $quiet; }
+        & > LogView { display: none; height: 1fr; }
+        &.-filled {
+            & > #log-empty { display: none; }
+            & > LogView, & > #log-tools { display: block; }
+        }
+        &.-filtering > #log-filter { display: block; }
     }
     """
 
+    def __init__(self, id: str) -> None:
+        super().__init__(id=id)
+        self.level = LEVELS[0]
+        self.text = ""
+        self.paused = False
+        self._cleared_at = 0.0
+        self._state: NodeState | None = None
+        self._lines: list[loglines.LogLine] = []
+        self._frozen: NodeState | None = None
+
     def compose(self) -> ComposeResult:
-        yield Static("no node yet", id="log-head")
+        yield Static("no node yet", id="log-head", classes="log-line")
+        yield Static(id="log-tools", classes="log-line")
+        yield Input(placeholder="only lines with this text; Enter keeps it, Esc ends it", id="log-filter")
         yield Static(
             Content.assemble(
                 ("Nothing runs yet\n\n", "bold $foreground"),
                 "Press ",
                 ("r", "bold $accent"),
-                " to run your node; what it logs and prints comes here.",
+                " to run your node; what it logs and prints comes here.\n",
+                ("o", "bold $accent"),
+                " sets parameters and remaps for it.",
             ),
             id="log-empty",
         )
         yield LogView(id="log-view")
 
-    def show(self, state: NodeState, domain: int) -> None:
-        """Show a node and its log."""
+    def show(self, state: NodeState, domain: int, own: Sequence[Path]) -> None:
+        """Show a node and its log; `own` are the files whose traceback lines can be clicked."""
         self.add_class("-filled")
-        head = Content.assemble(*_head(state), (f"   domain {domain}", "$quiet"))
+        if self._state is not None and state.since > self._state.since and state.phase is Phase.STARTING:
+            self.paused = False
+        self._state = state
+        self.query_one(LogView).own = own
+        head = Content.assemble(*_head(state), (f"   domain {domain}   ", "$quiet"), (state.command, "$quiet"))
         self.query_one("#log-head", Static).update(head)
+        if not self.paused:
+            self._show()
+
+    # --- what of it is shown ---
+
+    def next_level(self) -> None:
+        """Show from the next level on."""
+        self.level = LEVELS[(LEVELS.index(self.level) + 1) % len(LEVELS)]
+        self._show()
+
+    def pause(self) -> None:
+        """Stop or go on following."""
+        self.paused = not self.paused
+        self._show()
+        if not self.paused:
+            self.query_one(LogView).scroll_end(animate=False)
+
+    def clear(self) -> None:
+        """Hide what has come so far."""
+        self._cleared_at = time.time()
+        self._show()
+
+    def filter(self) -> None:
+        """Ask for the text that lines must hold."""
+        self.add_class("-filtering")
+        self.query_one(Input).focus()
+
+    @on(Input.Changed, "#log-filter")
+    def _filtered(self, event: Input.Changed) -> None:
+        event.stop()
+        self.text = event.value
+        self._show()
+
+    @on(Input.Submitted, "#log-filter")
+    def _keep(self, event: Input.Submitted) -> None:
+        event.stop()
+        self.query_one(LogView).focus()
+        self.set_class(bool(self.text), "-filtering")
+
+    def action_end_filter(self) -> None:
+        """Show all lines again."""
+        self.query_one(Input).value = ""
+        self.remove_class("-filtering")
+        self.query_one(LogView).focus()
+
+    def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
+        """There is only a filter to end where there is one."""
+        return self.has_class("-filtering") if action == "end_filter" else True
+
+    @property
+    def error_place(self) -> tuple[Path, int] | None:
+        """Where the last traceback points in the learner's own code."""
+        lines = [loglines.read(line) for line in self._state.lines] if self._state else []
+        return loglines.last_place(lines, self.query_one(LogView).own)
+
+    def _show(self) -> None:
+        state = self._state
+        if state is None:
+            return
+        if self.paused:
+            state = self._frozen = self._frozen or state
+        else:
+            self._frozen = None
+        every = [loglines.read(line) for line in state.lines]
+        lines = loglines.chosen(every, self.level, self.text, self._cleared_at)
+        head: Row = ()
+        if state.dropped:
+            head = ((f"({state.dropped} lines of a flood are not shown)", "quiet"),)
         tail: Row = ()
         if state.phase is Phase.ENDED:
             mark, kind = ("!", "error") if state.failed else ("■", "quiet")
-            at = time.strftime("%H:%M:%S")
+            at = time.strftime("%H:%M:%S", time.localtime(state.ended_at))
             tail = ((f" {mark}      {at}  ", kind), (f"{state.file}: {state.note}", kind))
-        self.query_one(LogView).show_log(state.lines, state.dropped, tail)
+        self.query_one(LogView).show_log(lines, head, tail)
+        self.query_one("#log-tools", Static).update(self._tools(len(lines), len(every)))
+
+    def _tools(self, shown: int, every: int) -> Content:
+        level = "all levels" if self.level is LEVELS[0] else f"{self.level.name} and above"
+        parts: list[Content | str | tuple[str, str]] = []
+        for key, name, text in (
+            ("m", "level", level),
+            ("/", "filter", f"'{self.text}'" if self.text else "filter"),
+            ("Space", "pause", "paused: go on" if self.paused else "following"),
+            ("x", "clear", "clear"),
+        ):
+            on = (name == "pause" and self.paused) or (name == "filter" and self.text)
+            link = Content.from_markup(f"[@click=screen.do('{name}')]$text[/]", text=text)
+            parts += [(key, "bold $accent"), " ", link.stylize("bold $warn") if on else link, "   "]
+        if shown != every:
+            parts.append((f"{shown} of {every} lines", "$warn"))
+        return Content.assemble(*parts)
 
 
 def _head(state: NodeState) -> list[tuple[str, str]]:

@@ -1,27 +1,29 @@
-"""The log of the running node, its levels coloured, wrapped to the width."""
+"""The log of the running node, its levels coloured, wrapped to the width; lines of tracebacks lead into the code."""
 
 from __future__ import annotations
 
-import re
 import time
 from collections.abc import Iterable, Sequence
+from pathlib import Path
 from typing import ClassVar
 
 from rich.cells import cell_len, chop_cells
 from textual import events
+from textual.binding import BindingType
 
-from tutor.judge.trace import OutputLine
+from tutor.judge.trace import Level
+from tutor.tui.commands import local
+from tutor.tui.loglines import LogLine
+from tutor.tui.messages import GoToLine
 from tutor.tui.widgets.line_view import LineView, Piece, Row
-
-_ROS_LOG = re.compile(r"\[(DEBUG|INFO|WARN|ERROR|FATAL)\] \[(\d+\.\d+)\] \[([^\]]*)\]: ?(.*)")
-_CONTROL = re.compile(r"\x1b\[[0-9;?]*[ -/]*[@-~]|[\x00-\x08\x0b-\x1f\x7f]")
 
 
 class LogView(LineView):
-    """Follows the end of the log, unless the learner has scrolled up."""
+    """Follows the end of the log, unless the learner has scrolled up or has paused it."""
 
+    BINDINGS: ClassVar[list[BindingType]] = local("run stop level filter pause clear go_to_error")
     COMPONENT_CLASSES: ClassVar[set[str]] = {
-        f"line--{kind}" for kind in ("quiet", "name", "debug", "info", "warn", "error", "fatal")
+        f"line--{kind}" for kind in ("quiet", "name", "debug", "info", "warn", "error", "fatal", "link")
     }
     DEFAULT_CSS = """
     LogView {
@@ -32,52 +34,71 @@ class LogView(LineView):
         & > .line--warn { color: $warn; }
         & > .line--error { color: $bad; }
         & > .line--fatal { color: $bad; text-style: bold reverse; }
+        & > .line--link { color: $accent; text-style: underline; }
     }
     """
 
     def __init__(self, id: str | None = None) -> None:
         super().__init__(id=id)
-        self.lines: Sequence[OutputLine] = ()
-        self.dropped = 0
-        self.tail: Row = ()
+        self.own: Sequence[Path] = ()
+        """The learner's own files: lines that name them can be clicked."""
+        self._lines: Sequence[LogLine] = ()
+        self._head: Row = ()
+        self._tail: Row = ()
+        self._places: list[tuple[Path, int] | None] = []
 
-    def show_log(self, lines: Sequence[OutputLine], dropped: int = 0, tail: Row = ()) -> None:
-        """Show these lines; `dropped` says how many in the middle were not kept, `tail` is our own last word."""
-        self.lines, self.dropped, self.tail = lines, dropped, tail
+    def show_log(self, lines: Sequence[LogLine], head: Row = (), tail: Row = ()) -> None:
+        """Show these lines; `head` and `tail` are our own words before and after them."""
+        self._lines, self._head, self._tail = lines, head, tail
         self._lay_out()
 
     def on_resize(self, event: events.Resize) -> None:
         """Wrap anew."""
         self._lay_out()
 
+    def on_click(self, event: events.Click) -> None:
+        """A line of a traceback leads to its place in the code."""
+        row = event.y + self.scroll_offset.y
+        if 0 <= row < len(self._places) and (place := self._places[row]) is not None:
+            event.stop()
+            self.post_message(GoToLine(*place))
+
     def _lay_out(self) -> None:
         at_end = self.is_vertical_scroll_end or not self.rows
         width = max(20, self.scrollable_content_region.width)
-        pieces = [_coloured(line) for line in self.lines]
-        if self.dropped:
-            pieces.insert(0, ((f"({self.dropped} lines of a flood are not shown)", "quiet"),))
-        if self.tail:
-            pieces.append(self.tail)
-        self.show_rows([row for line in pieces for row in _wrapped(line, width)])
+        rows: list[Row] = []
+        places: list[tuple[Path, int] | None] = []
+
+        def add(pieces: Row, place: tuple[Path, int] | None = None) -> None:
+            for row in _wrapped(pieces, width):
+                rows.append(row)
+                places.append(place)
+
+        if self._head:
+            add(self._head)
+        for line in self._lines:
+            place = line.place if line.place is not None and line.place[0] in self.own else None
+            add(_coloured(line, linked=place is not None), place)
+        if self._tail:
+            add(self._tail)
+        self._places = places
+        self.show_rows(rows)
         if at_end:
             self.scroll_end(animate=False, immediate=True, x_axis=False)
 
 
-def _coloured(line: OutputLine) -> Row:
-    text = _CONTROL.sub("", line.text.expandtabs(4))
-    if found := _ROS_LOG.match(text):
-        level, stamp, name, said = found.groups()
-        at = time.strftime("%H:%M:%S", time.localtime(float(stamp)))
-        kind = level.lower()
-        loud = kind if kind in ("warn", "error", "fatal") else "debug" if kind == "debug" else ""
-        return ((f" {level:<5} ", kind), (f" {at}  ", "quiet"), (f"{name}  ", "name"), (said, loud))
-    if line.stream == "stderr":
-        return ((" stderr ", "warn"), (text, "error" if _is_error(text) else ""))
-    return ((" print  ", "quiet"), (text, ""))
-
-
-def _is_error(text: str) -> bool:
-    return text.startswith("Traceback ") or bool(re.match(r"[\w.]*(Error|Exception|Interrupt)\b", text))
+def _coloured(line: LogLine, *, linked: bool) -> Row:
+    if line.level is not None:
+        at = time.strftime("%H:%M:%S", time.localtime(line.stamp))
+        kind = line.level.name.lower()
+        loud = "" if line.level is Level.INFO else kind
+        head = (f" {line.level.name:<5} ", kind)
+        return (head, (f" {at}  ", "quiet"), (f"{line.name}  ", "name"), (line.said, loud))
+    if not line.stderr:
+        return ((" print  ", "quiet"), (line.text, ""))
+    if linked:
+        return ((" stderr ", "warn"), (line.text, "link"), ("  ← g or click", "quiet"))
+    return ((" stderr ", "warn"), (line.text, "error" if line.error else ""))
 
 
 def _wrapped(pieces: Row, width: int) -> Iterable[Row]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from textual.app import ComposeResult
 from textual.containers import Horizontal
 from textual.content import Content
@@ -24,6 +26,7 @@ class StatusBar(Horizontal):
         & > Static { width: auto; padding: 0 1; text-wrap: nowrap; text-overflow: ellipsis; }
         & > #bar-name { background: $primary; color: $background; text-style: bold; }
         & > #bar-lesson { width: 1fr; }
+        & > #bar-save { color: $foreground; display: none; }
         & > #bar-check { color: $busy; }
         & > #bar-node { color: $quiet; }
     }
@@ -32,6 +35,7 @@ class StatusBar(Horizontal):
     def compose(self) -> ComposeResult:
         yield Static("ROS Tutor", id="bar-name")
         yield Static(id="bar-lesson")
+        yield Static(id="bar-save")
         yield Static(id="bar-check")
         yield Static(id="bar-node")
 
@@ -51,14 +55,24 @@ class StatusBar(Horizontal):
         place.update(text)
         place.display = bool(text)
 
-    def show_node(self, state: NodeState | None, domain: int) -> None:
-        """Say whether the node runs, and on which domain."""
-        if state is None or not state.alive:
-            text = Content.assemble(("○ ", "$quiet"), f"domain {domain}")
-        elif state.phase is Phase.RUNNING:
+    def show_nodes(self, states: Sequence[NodeState], domain: int) -> None:
+        """Say which nodes run, and on which domain."""
+        alive = [state for state in states if state.alive]
+        busy = [state for state in alive if state.phase is not Phase.RUNNING]
+        if busy:
+            text = Content.assemble(("◐ ", "$warn"), (f"{busy[0].phase.value} {busy[0].file}", "$warn"))
+        elif alive:
+            names = " and ".join(state.file for state in alive)
             text = Content.assemble(
-                ("● ", "$good"), ("running ", "$good"), (f"{state.file} · domain {domain}", "$foreground")
+                ("● ", "$good"), ("running ", "$good"), (f"{names} · domain {domain}", "$foreground")
             )
         else:
-            text = Content.assemble(("◐ ", "$warn"), (f"{state.phase.value} {state.file}", "$warn"))
+            text = Content.assemble(("○ ", "$quiet"), f"domain {domain}")
         self.query_one("#bar-node", Static).update(text)
+
+    def show_toggles(self, *, check: bool, restart: bool) -> None:
+        """Say what happens on each save."""
+        both = " and ".join(word for word, on in (("checks", check), ("restarts", restart)) if on)
+        place = self.query_one("#bar-save", Static)
+        place.update(Content.assemble(("⟳ ", "$accent"), f"a save {both}"))
+        place.display = bool(both)

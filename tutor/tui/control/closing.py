@@ -1,0 +1,32 @@
+"""The way out: everything saved, nothing running."""
+
+from __future__ import annotations
+
+import asyncio
+
+from tutor.tui.control.checks import Checks
+from tutor.tui.control.files import Files
+from tutor.tui.control.nodes import Nodes
+from tutor.tui.control.pages import Pages
+from tutor.tui.control.remember import Memory
+from tutor.tui.screens.stage import Stage
+
+SAVE_LIMIT_S = 5.0
+"""While a question on two versions of a file is open, both are on the disk, and saving waits for the answer."""
+
+
+async def close_down(stage: Stage, files: Files, nodes: Nodes, checks: Checks, memory: Memory, pages: Pages) -> None:
+    """Save, end the check and the nodes, and wait until nothing of them is left."""
+    checks.leave()
+    nodes.leave()
+    try:
+        async with asyncio.timeout(SAVE_LIMIT_S):
+            await files.save_all()
+    except TimeoutError:
+        pass
+    await memory.flush()
+    if (live := pages.live) is not None:
+        await live.close_down()
+    busy = [worker for worker in stage.workers if worker.group in ("check", "node", "progress")]
+    if busy:  # an empty list would mean all of them, and the one that follows the file never ends
+        await stage.app.workers.wait_for_complete(busy)

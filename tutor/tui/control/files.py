@@ -1,0 +1,270 @@
+"""The learner's files: shown, edited, saved, and followed on the disk, without ever losing a side."""
+
+from __future__ import annotations
+
+import asyncio
+import signal
+from pathlib import Path
+
+from textual.timer import Timer
+
+from tutor.content import Lesson
+from tutor.tui import messages, words
+from tutor.tui.control.records import Records
+from tutor.tui.following import follow
+from tutor.tui.screens.stage import Deed, Stage
+from tutor.tui.widgets.code_pane import CodePane
+from tutor.workspace import StorageError, WorkspaceError, keep_aside, read_source, save_over
+
+SAVE_AFTER_S = 0.6
+"""What is typed is on the disk after this time, in seconds, and a write."""
+
+
+class Files:
+    """What the editors hold against what is on the disk. Every look and every write is made under one lock."""
+
+    def __init__(self, stage: Stage, pane: CodePane, records: Records) -> None:
+        self._stage, self._pane, self._records = stage, pane, records
+        self._disk: dict[Path, str] = {}
+        """What is on the disk as far as the editors know, by file."""
+        self._lock = asyncio.Lock()
+        self._autosave: Timer | None = None
+        self.deeds = {
+            "start": Deed(self.start),
+            "edit": Deed(self.edit),
+            "save": Deed(self.save),
+            "own_editor": Deed(self.open_outside),
+            "next_file": Deed(self.next_file, lambda: len(stage.session.lesson.files) > 1),
+            "reset": Deed(self.reset),
+        }
+
+    # --- which file ---
+
+    def show(self, index: int) -> None:
+        """Show one of the lesson's files, and follow it on the disk."""
+        session = self._stage.session
+        session.file_index = index
+        self._pane.show_names(session.paths, index)
+        path = session.path
+        self._stage.run_worker(
+            follow(path, lambda: self._stage.post_message(messages.FileTouched(path))), group="file", exclusive=True
+        )
+
+    def next_file(self) -> None:
+        """Show the lesson's other file."""
+        session = self._stage.session
+        self.show((session.file_index + 1) % len(session.lesson.files))
+        self._stage.show_page("code")
+
+    def go_to(self, message: messages.GoToLine) -> None:
+        """Put the cursor on a line."""
+        paths = self._stage.session.paths
+        if message.path in paths:
+            self.show(paths.index(message.path))
+            self._stage.show_page("code")
+            self._stage.run_worker(self._go_to(message), group="show-line", exclusive=True)
+
+    async def _go_to(self, message: messages.GoToLine) -> None:
+        await self._look(message.path)
+        self._pane.go_to(message.path, message.line)
+
+    # --- the disk has changed ---
+
+    def touched(self, message: messages.FileTouched) -> None:
+        """Look at it anew."""
+        self._stage.run_worker(self._look(message.path), group="look")
+
+    async def _look(self, path: Path) -> None:
+        async with self._lock:
+            try:
+                text = await asyncio.to_thread(read_source, path)
+            except StorageError as error:
+                if path == self._stage.session.path:
+                    self._pane.show_missing(path, str(error))
+                return
+            await self._compare(path, text)
+
+    async def _compare(self, path: Path, text: str | None) -> None:
+        """Bring the editor and the disk together; the lock is held."""
+        known = self._disk.get(path)
+        if text is None:
+            if known is not None and self._pane.is_changed(path):
+                await self._write(path, None)  # removed while it was being edited: what is typed counts
+                return
+            self._disk.pop(path, None)
+            if path == self._stage.session.path:
+                self._pane.show_missing(path)
+            return
+        if known is not None and text != known and self._pane.is_changed(path):
+            if text != self._pane.text(path):
+                await self._conflict(path, text)
+                return
+            self._pane.mark_saved(path, text)
+        else:
+            await self._pane.show_source(path, text, visible=path == self._stage.session.path)
+        self._disk[path] = text
+        if known is not None and text != known:
+            self._stage.say(f"{path.name} was changed outside: this is the new version.")
+            self._stage.post_message(messages.FileSaved(path))
+        self._stage.refresh_bindings()
+
+    async def _conflict(self, path: Path, theirs: str) -> None:
+        """Both sides have changed: both are on the disk before anything is asked; the lock is held."""
+        from tutor.tui.screens.conflict import ConflictScreen
+
+        ours = self._pane.text(path)
+        try:
+            backup = await asyncio.to_thread(keep_aside, path, ours)
+        except StorageError as error:
+            self._stage.trouble(f"{path.name} was changed outside, and yours cannot be kept beside it: {error}")
+            return
+        mine = await self._stage.app.push_screen_wait(ConflictScreen(path.name, backup.name, ours, theirs))
+        if not mine:
+            self._disk[path] = theirs
+            await self._pane.show_source(path, theirs, visible=path == self._stage.session.path)
+            self._stage.say(f"The file's version is shown. Yours is kept as {backup.name}.")
+            return
+        try:
+            kept = await asyncio.to_thread(keep_aside, path, theirs)
+            backup.unlink(missing_ok=True)
+        except (StorageError, OSError) as error:
+            self._stage.trouble(f"Nothing was written: {error}")
+            return
+        self._disk[path] = theirs
+        await self._write(path, theirs)
+        self._stage.say(f"Your version is saved. The other one is kept as {kept.name}.")
+
+    # --- the learner has changed it ---
+
+    def typed(self) -> None:
+        """Something was typed: it is saved soon."""
+        self._pane.show_saved()
+        if self._autosave is None and self._pane.changed():
+            self._autosave = self._stage.set_timer(SAVE_AFTER_S, self._save_soon)
+
+    def _save_soon(self) -> None:
+        self._autosave = None
+        self._stage.run_worker(self.save_all(), group="save")
+
+    async def save(self) -> None:
+        """Save by hand: what happens on each save happens now."""
+        if await self.save_all():
+            path = self._stage.session.path
+            if path in self._disk:
+                self._stage.post_message(messages.FileSaved(path))
+                self._stage.say(f"{path.name} is saved.")
+
+    async def save_all(self) -> bool:
+        """Save whatever is not; whether all is saved now."""
+        async with self._lock:
+            for path in self._pane.changed():
+                await self._write(path, self._disk.get(path))
+        self._pane.show_saved()
+        return not self._pane.changed()
+
+    async def _write(self, path: Path, expected: str | None) -> None:
+        text = self._pane.text(path)
+        try:
+            saved = await asyncio.to_thread(save_over, path, text, expected)
+        except StorageError as error:
+            self._stage.trouble(f"{path.name} is not saved: {error}")
+            return
+        if not saved.done:
+            await self._compare(path, saved.found)
+            return
+        self._disk[path] = text
+        self._pane.mark_saved(path, text)
+        if saved.backup is not None:
+            self._stage.say(
+                f"{path.name} was changed outside just now: that is kept as {saved.backup.name}.", warn=True
+            )
+
+    # --- start, edit, reset ---
+
+    def needed_for(self, what: str) -> bool:
+        """Whether files are missing; then the start is offered."""
+        session = self._stage.session
+        if not (missing := session.desk.missing(session.lesson)):
+            return False
+        names = " and ".join(missing)
+        text = f"{names} is not in your workspace yet, so there is nothing to {what}.\n\nPut the skeleton there?"
+        self._stage.ask(f"Start {words.label(session.lesson)}", text, "Start", self.start)
+        return True
+
+    def start(self) -> None:
+        """Put the skeletons there."""
+        self._stage.run_worker(self._start(self._stage.session.lesson), group="start", exclusive=True)
+
+    async def _start(self, lesson: Lesson) -> None:
+        try:
+            placed = await asyncio.to_thread(self._stage.session.desk.start, lesson)
+        except (WorkspaceError, StorageError) as error:
+            self._stage.trouble(str(error))
+            return
+        self._stage.post_message(messages.Started(lesson.id, tuple(path.name for path in placed.written)))
+        self._records.read()
+
+    def started(self, message: messages.Started) -> None:
+        """The skeletons are there."""
+        if message.exercise != self._stage.session.lesson.id:
+            return
+        self.touched(messages.FileTouched(self._stage.session.path))
+        self._stage.show_page("code")
+        if message.written:
+            self._stage.say(f"{' and '.join(message.written)} is in your workspace: e to edit, then c to check.")
+        else:
+            self._stage.say("Your files are there already; nothing was changed.")
+
+    def edit(self) -> None:
+        """Put the focus into the editor."""
+        if not self.needed_for("edit"):
+            self._pane.edit()
+            self._stage.show_page("code")
+            self._pane.focus_content(typing=True)
+
+    async def open_outside(self) -> None:
+        """Hand the terminal to the learner's own editor."""
+        from tutor.tui.outside_editor import edit_outside
+
+        if self.needed_for("edit"):
+            return
+        await self.save_all()
+        session = self._stage.session
+        # Ctrl+C in the editor reaches us too; a handler that does nothing is reset to the default in the editor itself.
+        before = signal.signal(signal.SIGINT, lambda *_: None)
+        try:
+            problem = await edit_outside(self._stage.app, session.desk.editor(), session.path)
+        finally:
+            signal.signal(signal.SIGINT, before)
+        if problem:
+            self._stage.trouble(problem)
+        self._stage.show_page("code")
+        self._stage.refresh(layout=True)
+
+    def reset(self) -> None:
+        """Begin the file anew, after a question."""
+        if self.needed_for("reset"):
+            return
+        name = self._stage.session.file.name
+        text = f"{name} becomes the skeleton again.\n\nYour version is kept beside it as a backup."
+        self._stage.ask(f"Reset {name}", text, "Reset", self._reset)
+
+    def _reset(self) -> None:
+        self._stage.run_worker(self._reset_now(), group="start", exclusive=True)
+
+    async def _reset_now(self) -> None:
+        session = self._stage.session
+        file, path = session.file, session.path
+        await self.save_all()
+        try:
+            placed = await asyncio.to_thread(session.desk.reset, file)
+            text = await asyncio.to_thread(read_source, path)
+        except (WorkspaceError, StorageError) as error:
+            self._stage.trouble(str(error))
+            return
+        if text is not None:
+            async with self._lock:
+                self._disk[path] = text
+                await self._pane.show_source(path, text, visible=path == session.path)
+        where = f" Yours is kept as {words.short(placed.backups[0])}." if placed.backups else ""
+        self._stage.say(f"{file.name} is the skeleton again.{where}", warn=True)

@@ -1,0 +1,89 @@
+"""Other looks at the learner's file: the skeleton, the solution, and what differs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from enum import StrEnum
+
+from tutor.judge.verdict import Status
+from tutor.tui import words
+from tutor.tui.control.files import Files
+from tutor.tui.screens.stage import Deed, Stage
+from tutor.tui.widgets.code_pane import CodePane
+
+
+class View(StrEnum):
+    """What the code page shows."""
+
+    MINE = "mine"
+    SKELETON = "skeleton"
+    CHANGES = "changes"
+    SOLUTION = "solution"
+    AGAINST = "against"
+
+
+class Views:
+    """One view at a time; asking for it again shows the learner's own file."""
+
+    def __init__(self, stage: Stage, pane: CodePane, files: Files) -> None:
+        self._stage, self._pane, self._files = stage, pane, files
+        self._unveiled: set[str] = set()
+        """Exercises whose solution was asked for."""
+        self.deeds = {view.value: Deed(self._shower(view)) for view in View if view is not View.MINE}
+
+    def back(self) -> None:
+        """Show the learner's own file."""
+        self._pane.show_own()
+
+    def _shower(self, view: View) -> Callable[[], None]:
+        return lambda: self.show(view)
+
+    def show(self, view: View) -> None:
+        """Show it; the solution only after a pass, or a question."""
+        if self._stage.page == "code" and self._pane.view == view:
+            self.back()
+            return
+        lesson = self._stage.session.lesson
+        passed = self._stage.session.progress.of(lesson.id).best is Status.PASSED
+        if view in (View.SKELETON, View.CHANGES) or passed or lesson.id in self._unveiled:
+            self._show(view)
+            return
+
+        def unveil() -> None:
+            self._unveiled.add(lesson.id)
+            self._show(view)
+
+        text = "The exercise teaches most when you find the way yourself.\n\nShow our solution all the same?"
+        self._stage.ask(f"Solution of {words.label(lesson)}", text, "Show it", unveil)
+
+    def _show(self, view: View) -> None:
+        from tutor.tui.diffing import count, difference
+
+        file = self._stage.session.file
+        path = self._stage.session.path
+        try:
+            other = (file.skeleton if view in (View.SKELETON, View.CHANGES) else file.solution).read_text("utf-8")
+        except OSError as error:
+            self._stage.trouble(f"It cannot be read: {error.strerror}")
+            return
+        self._stage.show_page("code")
+        if view in (View.SKELETON, View.SOLUTION):
+            self._pane.show_other(
+                view, f"{'Our solution' if view is View.SOLUTION else 'The skeleton'}, to read", other
+            )
+            return
+        if not self._pane.knows(path):
+            self._stage.trouble(f"{file.name} is not in your workspace yet: there is nothing to compare.")
+            return
+        mine = self._pane.text(path)
+        against = view is View.AGAINST
+        rows, margins = difference(mine, other) if against else difference(other, mine)
+        came, went = count(rows)
+        title = (
+            f"From yours to our solution: {went} lines of yours (-), {came} of ours (+)"
+            if against
+            else f"Your changes in the skeleton: {came} lines came (+), {went} went (-)"
+        )
+        if not rows:
+            title = f"No difference: your file is {'our solution' if against else 'still the skeleton'}"
+        self._pane.show_rows(view, title, rows, margins)

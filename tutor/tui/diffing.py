@@ -1,0 +1,43 @@
+"""Two texts side by side in one: lines that went (-), lines that came (+), and what is around them. Pure."""
+
+from __future__ import annotations
+
+import difflib
+
+from tutor.tui.widgets.line_view import Piece, Row
+
+AROUND = 3
+"""So many unchanged lines are shown around a change."""
+
+
+def difference(before: str, after: str) -> tuple[list[Row], list[Piece]]:
+    """The rows and their margins (line numbers of `before` and `after`); both empty where nothing differs."""
+    old, new = before.expandtabs(4).splitlines(), after.expandtabs(4).splitlines()
+    rows: list[Row] = []
+    margins: list[Piece] = []
+
+    def add(a: int | None, b: int | None, mark: str, text: str, kind: str) -> None:
+        numbers = f" {'' if a is None else a + 1:>4} {'' if b is None else b + 1:>4}  "
+        margins.append((numbers, "gutter"))
+        rows.append(((f"{mark} {text}", kind),))
+
+    for number, group in enumerate(difflib.SequenceMatcher(None, old, new, autojunk=False).get_grouped_opcodes(AROUND)):
+        if number:
+            margins.append((" " * 12, "gutter"))
+            rows.append((("⋯", "gutter"),))
+        for tag, a, a_end, b, b_end in group:
+            if tag == "equal":
+                for step in range(a_end - a):
+                    add(a + step, b + step, " ", old[a + step], "same")
+                continue
+            for line in range(a, a_end):
+                add(line, None, "-", old[line], "gone")
+            for line in range(b, b_end):
+                add(None, line, "+", new[line], "come")
+    return rows, margins
+
+
+def count(rows: list[Row]) -> tuple[int, int]:
+    """How many lines came, and how many went."""
+    kinds = [row[0][1] for row in rows if row]
+    return kinds.count("come"), kinds.count("gone")

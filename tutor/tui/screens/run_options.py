@@ -1,0 +1,83 @@
+"""A form for parameters and remaps, with the command that it comes to."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import ClassVar
+
+from textual import on
+from textual.app import ComposeResult
+from textual.binding import Binding, BindingType
+from textual.containers import Horizontal, Vertical
+from textual.content import Content
+from textual.widgets import Button, Static, TextArea
+
+from tutor.content import LessonFile
+from tutor.sandbox.ros2.starting import is_launch_file
+from tutor.tui import run_options
+from tutor.tui.screens.dialog import Dialog
+from tutor.workspace import RunOptions
+
+
+class RunOptionsScreen(Dialog[tuple[RunOptions, bool]]):
+    """Gives the options, and whether to run now."""
+
+    BINDINGS: ClassVar[list[BindingType]] = [Binding("f5", "run", "Run"), Binding("ctrl+s", "keep", "Keep")]
+
+    def __init__(self, file: LessonFile, options: RunOptions, typed: Callable[[RunOptions], str]) -> None:
+        super().__init__()
+        self._file, self._options, self._typed = file, options, typed
+        self._launch = is_launch_file(file.skeleton)
+
+    def compose(self) -> ComposeResult:
+        with Vertical(classes="window") as window:
+            window.border_title = f"Run {self._file.name} with"
+            window.border_subtitle = "F5 runs · Ctrl+S keeps · Esc leaves it"
+            kind = "Launch arguments" if self._launch else "Parameters"
+            example = "topic:=/news" if self._launch else "publish_rate:=2.0"
+            yield Static(_label(kind, f"one a line, as in {example}"))
+            yield TextArea("\n".join(self._options.parameters), id="run-parameters", classes="dialog-lines")
+            if not self._launch:
+                yield Static(_label("Remaps", "one a line, as in chatter:=/news or __ns:=/robot1"))
+                yield TextArea("\n".join(self._options.remaps), id="run-remaps", classes="dialog-lines")
+            yield Static(id="run-typed")
+            with Horizontal(classes="dialog-buttons"):
+                yield Button("Keep", id="keep")
+                yield Button("Run", id="run")
+
+    def on_mount(self) -> None:
+        self.query_one("#run-parameters", TextArea).focus()
+        self._show()
+
+    @property
+    def options(self) -> RunOptions:
+        """What the form says."""
+        remaps = () if self._launch else run_options.lines(self.query_one("#run-remaps", TextArea).text)
+        return RunOptions(run_options.lines(self.query_one("#run-parameters", TextArea).text), remaps)
+
+    @on(TextArea.Changed)
+    def _show(self) -> None:
+        options = self.options
+        if wrong := run_options.problem(options, launch=self._launch):
+            text = Content.assemble(("! ", "bold $bad"), (wrong, "$bad"))
+        else:
+            text = Content.assemble(("As you would type it:\n", "$quiet"), (self._typed(options), "$good"))
+        self.query_one("#run-typed", Static).update(text)
+
+    @on(Button.Pressed, "#run")
+    def action_run(self) -> None:
+        """Keep the options and run."""
+        self._leave(run=True)
+
+    @on(Button.Pressed, "#keep")
+    def action_keep(self) -> None:
+        """Keep the options."""
+        self._leave(run=False)
+
+    def _leave(self, *, run: bool) -> None:
+        if not run_options.problem(self.options, launch=self._launch):
+            self.dismiss((self.options, run))
+
+
+def _label(name: str, about: str) -> Content:
+    return Content.assemble((name, "bold"), (f"   {about}", "$quiet"))

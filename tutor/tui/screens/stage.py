@@ -1,0 +1,61 @@
+"""What the controllers know of the screen that they act on."""
+
+from __future__ import annotations
+
+from collections.abc import Awaitable, Callable
+from dataclasses import dataclass
+
+from textual.screen import Screen
+
+from tutor.tui import messages
+from tutor.tui.session import Session
+
+
+def always() -> bool:
+    """For what makes sense at any time."""
+    return True
+
+
+@dataclass(frozen=True, slots=True)
+class Deed:
+    """What a command does, and whether it makes sense now."""
+
+    run: Callable[[], Awaitable[object] | object]
+    possible: Callable[[], bool] = always
+
+
+class Stage(Screen[None]):
+    """A screen with a session, and pages to turn to."""
+
+    session: Session
+
+    @property
+    def page(self) -> str:
+        """The page that is shown."""
+        raise NotImplementedError
+
+    def show_page(self, name: str) -> None:
+        """Turn to a page, and focus what is on it."""
+        raise NotImplementedError
+
+    def remembered(self) -> None:
+        """What is remembered has changed: show what of it is to be seen."""
+        raise NotImplementedError
+
+    def trouble(self, text: str) -> None:
+        """Tell that something could not be done."""
+        self.post_message(messages.Trouble(text))
+
+    def say(self, text: str, *, warn: bool = False) -> None:
+        """Tell in passing."""
+        self.notify(text, severity="warning" if warn else "information", timeout=10 if warn else 5, markup=False)
+
+    def ask(self, title: str, text: str, yes: str, do: Callable[[], object]) -> None:
+        """Ask, and do it where the answer is yes."""
+        from tutor.tui.screens.confirm import ConfirmScreen
+
+        def answered(answer: bool | None) -> None:
+            if answer:
+                do()
+
+        self.app.push_screen(ConfirmScreen(title, text, yes), answered)

@@ -1,0 +1,56 @@
+"""Attempts over time: when, what the verdict was, how much had passed."""
+
+from __future__ import annotations
+
+from datetime import datetime
+
+from textual.content import Content
+
+from tutor.content import Lesson
+from tutor.judge.verdict import Status
+from tutor.tui import words
+from tutor.workspace import Attempt, ExerciseProgress
+
+BAR = 10
+"""Cells of the bar of passed criteria."""
+
+
+def history(lesson: Lesson, progress: ExerciseProgress, *, most: int) -> Content:
+    """The latest attempts, the latest first, one in a line."""
+    if not progress.attempts:
+        return Content.styled("No attempts yet. Press c to check your node.", "$quiet")
+    required = [c.id for c in lesson.criteria if not c.bonus]
+    lines = [_line(attempt, required) for attempt in reversed(progress.attempts[-most:])]
+    count = len(progress.attempts)
+    head = f"{count} attempt{'' if count == 1 else 's'}"
+    if progress.best is Status.PASSED:
+        number = next((n for n, a in enumerate(progress.attempts, 1) if a.whole and a.verdict is Status.PASSED), 0)
+        head += f", passed at number {number}" if number else ", passed"
+    return Content("\n").join([Content.styled(head, "bold"), *lines])
+
+
+def _line(attempt: Attempt, required: list[str]) -> Content:
+    met = sum(id in attempt.passed for id in required)
+    full = round(BAR * met / max(1, len(required)))
+    passed = attempt.verdict is Status.PASSED
+    ink = words.INKS[attempt.verdict]
+    missed = [id for id in required if id not in attempt.passed]
+    about = "" if passed else f"  not yet: {', '.join(missed)}"
+    return Content.assemble(
+        (f"{when(attempt.at)}  ", "$quiet"),
+        (f"{words.MARKS[attempt.verdict]} ", f"bold {ink}"),
+        ("━" * full, ink),
+        ("━" * (BAR - full), "$line"),
+        f" {met} of {len(required)}",
+        (about, "$quiet"),
+    )
+
+
+def when(at: str) -> str:
+    """A time of the progress file, as the learner's clock shows it."""
+    try:
+        moment = datetime.fromisoformat(at).astimezone()
+    except ValueError:
+        return at
+    today = datetime.now().astimezone().date() == moment.date()
+    return f"today {moment:%H:%M}" if today else f"{moment:%Y-%m-%d %H:%M}"

@@ -1,0 +1,152 @@
+"""The editor for one Python file."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import ClassVar
+
+from rich.style import Style
+from textual import events
+from textual.binding import Binding, BindingType
+from textual.theme import Theme
+from textual.widgets import TextArea
+from textual.widgets.text_area import TextAreaTheme
+
+from tutor.tui.commands import local
+from tutor.tui.messages import EditorLeft
+from tutor.tui.themes import DARK, LIGHT
+
+INDENT = 4
+
+_INKS = {
+    "keyword": "keyword keyword.function keyword.return keyword.operator include conditional repeat exception",
+    "string": "string string.special",
+    "number": "number float boolean constant.builtin",
+    "comment": "comment",
+    "name": "function function.call method method.call attribute",
+    "type": "type type.class type.builtin constructor function.builtin",
+}
+
+
+def _look(theme: Theme) -> TextAreaTheme:
+    colours = {ink: theme.variables[f"code-{ink}"] for ink in _INKS}
+    styles = {
+        name: Style(color=colours[ink], italic=ink == "comment" or None)
+        for ink, names in _INKS.items()
+        for name in names.split()
+    }
+    return TextAreaTheme(name=theme.name, syntax_styles=styles)
+
+
+class CodeEditor(TextArea):
+    """Letters type; Esc gives the focus back to the page, so that single keys are commands again."""
+
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("escape", "leave", "Commands", show=True, key_display="Esc"),
+        *local("save run restart stop check cancel help", shown_key=1),
+    ]
+    DEFAULT_CSS = """
+    CodeEditor {
+        border: none;
+        padding: 0;
+        background: $surface;
+        color: $foreground;
+        height: 1fr;
+        scrollbar-size: 1 1;
+        &:focus { border: none; }
+        & .text-area--gutter { color: $quiet; background: $surface; }
+        & .text-area--cursor-gutter { color: $primary; background: $panel; text-style: bold; }
+        & .text-area--cursor-line { background: $panel; }
+        & .text-area--cursor { color: $background; background: $primary; }
+        & .text-area--matching-bracket { background: $line; text-style: bold; }
+        & .text-area--selection { background: $block-cursor-background; }
+    }
+    """
+
+    def __init__(self, path: Path, text: str) -> None:
+        super().__init__(
+            text,
+            language="python",
+            tab_behavior="indent",
+            soft_wrap=False,
+            show_line_numbers=True,
+        )
+        self.path = path
+        self.saved_text = self.text
+        """The editor's text when it was the same as the file."""
+
+    def on_mount(self) -> None:
+        for theme in (DARK, LIGHT):
+            self.register_theme(_look(theme))
+        self._follow_theme()
+        self.watch(self.app, "theme", self._follow_theme, init=False)
+
+    def _follow_theme(self) -> None:
+        self.theme = LIGHT.name if self.app.theme == LIGHT.name else DARK.name
+
+    @property
+    def changed(self) -> bool:
+        """Whether there is something to save."""
+        return self.text != self.saved_text
+
+    def take(self, text: str) -> None:
+        """Show another version of the file; the cursor stays, and undo brings the former one back."""
+        if text != self.text:
+            row, column = self.cursor_location
+            top = self.scroll_offset
+            self.history.checkpoint()
+            self.replace(text, (0, 0), self.document.end)
+            self.history.checkpoint()
+            row = min(row, self.document.line_count - 1)
+            self.move_cursor((row, min(column, len(self.document[row]))))
+            self.scroll_to(top.x, top.y, animate=False)
+        self.saved_text = self.text
+
+    def go_to(self, line: int) -> None:
+        """Put the cursor at the first character of a line, from 1."""
+        row = max(0, min(line, self.document.line_count) - 1)
+        text = self.document[row]
+        self.move_cursor((row, len(text) - len(text.lstrip())), center=True)
+
+    def on_key(self, event: events.Key) -> None:
+        """Indentation, as Python wants it; Esc leaves."""
+        if event.key == "escape":
+            self.action_leave()
+        elif event.key == "enter":
+            self._insert("\n" + self._indentation())
+        elif event.key == "backspace" and (width := self._indent_before()):
+            row, column = self.cursor_location
+            self.delete((row, column - width), (row, column))
+        else:
+            return
+        event.stop()
+        event.prevent_default()
+
+    def action_leave(self) -> None:
+        """Give the focus back."""
+        self.post_message(EditorLeft())
+
+    def _insert(self, text: str) -> None:
+        start, end = self.selection
+        self._replace_via_keyboard(text, start, end)
+
+    def _indentation(self) -> str:
+        """What the next line begins with."""
+        row, column = min(self.selection.start, self.selection.end)
+        before = self.document[row][:column]
+        indent = before[: len(before) - len(before.lstrip())]
+        code = before.split("#")[0].rstrip()
+        if code.endswith((":", "(", "[", "{")):
+            return indent + " " * INDENT
+        if re.match(r"\s*(return|pass|break|continue|raise)\b", code) and len(indent) >= INDENT:
+            return indent[:-INDENT]
+        return indent
+
+    def _indent_before(self) -> int:
+        """How many blanks Backspace removes at once: to the last stop, where only blanks are before the cursor."""
+        row, column = self.cursor_location
+        before = self.document[row][:column]
+        if not self.selection.is_empty or not before or before.strip(" "):
+            return 0
+        return (column - 1) % INDENT + 1
