@@ -49,9 +49,9 @@ def judge_namespace(usual: Launched, elsewhere: Launched, alone: Launched, both:
     expected = f"with {alone.typed}, both nodes and the topic are under /{NAMESPACE}"
     within = in_namespace(alone.trace.graph)
     # Nodes that share no topic without a namespace either, or do not follow the argument topic, break other criteria.
-    right = (
-        _moved(usual, alone, within) and _sent(usual, alone, within) if meet else two_in_namespace(alone.trace.graph)
-    )
+    right = two_in_namespace(alone.trace.graph)
+    if shared(usual.trace.graph):
+        right = _moved(usual, alone, within) and _sent(usual, alone, within)
     if not right:
         return failed(expected, _observed(alone), of_namespace(usual, alone), causes.last_words(alone.trace))
     topic = both.arguments["topic"]
