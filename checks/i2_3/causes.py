@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 
-from checks.i2_3.facts import SERVICE, TYPE, Lone, Quiet, Trio, right_sum
+from checks.i2_3.facts import SERVICE, TYPE, Lone, Quiet, Three, right_sum
 from checks.i2_3.ticks import HZ, Fault, Series
 from tutor.judge import causes, tracebacks
-from tutor.judge.trace import CallAnswer, Trace
+from tutor.judge.trace import CallAnswer, Service, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Cause
+from tutor.judge.wording import shape
+
+REPEATED = 4
+"""Lines of one shape that are as many as this come from a timer."""
 
 
 def of_no_service(trace: Trace) -> Cause:
@@ -25,6 +30,8 @@ def of_no_service(trace: Trace) -> Cause:
                 f"create it with AddTwoInts: self.create_service(AddTwoInts, '{SERVICE[1:]}', ...)",
             )
     same_type = [service for service in offered if service.type == TYPE]
+    if (unmatched := causes.incompatible_service(_here(trace))) is not None:
+        return unmatched
     for service in same_type or offered:
         return Cause(
             "wrong service name",
@@ -42,22 +49,20 @@ def of_no_answer(seen: Lone) -> Cause:
     """Why a call got no answer."""
     if (broken := causes.of_process(seen.trace)) is not None:
         return broken
+    if (unmatched := causes.incompatible_service(_here(seen.trace))) is not None:
+        return unmatched
+    if not seen.spins or causes.in_call(seen.stuck):
+        return causes.of_no_answer(seen.trace, seen.stuck)
     own = tracebacks.own(seen.stuck, seen.trace.folder)
-    where = f", at {own}" if own else ""
-    if _in_call(seen.stuck):
-        return Cause(
-            "deadlock by call()",
-            f"the callback waits for another service's answer{where}, which cannot come: the group or the executor is "
-            "busy with this callback",
-            "use call_async() and await it in an async callback, with the client in a callback group of its own",
-        )
-    if not seen.spins:
-        return causes.no_spin(seen.trace)
     return Cause(
         "no answer",
-        f"the callback does not come to an end{where}",
+        f"the callback does not come to an end{f', at {own}' if own else ''}",
         "let the callback wait 3 s, fill in response.sum and return the response; let nothing wait without a limit",
     )
+
+
+def _here(trace: Trace) -> list[Service]:
+    return [service for service in trace.graph.services if service.name == SERVICE]
 
 
 def of_wrong_sum(answer: CallAnswer) -> Cause:
@@ -74,11 +79,13 @@ def of_other_pace(alone: Quiet, likely: Series | None) -> Cause:
     if (broken := causes.of_process(alone.trace)) is not None:
         return broken
     if likely is None:
-        printed = _repeated([line.text for line in alone.trace.output if line.stream == "stdout"])
-        if printed:
-            return Cause(
-                "printed, not logged", f"it is only printed: {printed}", "use self.get_logger().info(...) in the timer"
-            )
+        after = alone.ending.output if alone.ending else ()
+        lines = Counter(shape(line.text) for line in (*alone.trace.output, *after))
+        printed = causes.of_printed(
+            alone.trace, lambda text: lines[shape(text)] >= REPEATED, "what comes again and again", after=after
+        )
+        if printed is not None:
+            return printed
         return Cause(
             "no timer messages",
             "no log message comes back while nobody calls (debug messages are not shown)",
@@ -95,10 +102,6 @@ def of_other_pace(alone: Quiet, likely: Series | None) -> Cause:
         f"{likely.hz:.1f} messages per second, without a number that counts the ticks",
         f"let the timer have a period of {1 / HZ:g} s; if it logs every tenth tick only, put the tick's number in",
     )
-
-
-def _repeated(printed: Sequence[str]) -> str | None:
-    return printed[-1] if len(printed) > 4 else None
 
 
 def of_disturbed_timer(seen: Lone, fault: Fault) -> Cause:
@@ -139,14 +142,14 @@ def of_disturbed_timer(seen: Lone, fault: Fault) -> Cause:
     )
 
 
-def of_lost_calls(seen: Trio, answered: Sequence[CallAnswer]) -> Cause:
+def of_lost_calls(trace: Trace, three: Three, answered: Sequence[CallAnswer]) -> Cause:
     """Why not every one of three calls at once got its own sum."""
-    if (broken := causes.of_process(seen.trace)) is not None:
+    if (broken := causes.of_process(trace)) is not None:
         return broken
-    if len(answered) < len(seen.answers):
+    if len(answered) < len(three.answers):
         return Cause(
             "no answer",
-            f"{len(seen.answers) - len(answered)} of {len(seen.answers)} calls made at once got no answer",
+            f"{len(three.answers) - len(answered)} of {len(three.answers)} calls made at once got no answer",
             "let every call wait its turn or work beside the others, and return its response; refuse none",
         )
     sums = [answer.response["sum"] for answer in answered if answer.response is not None]
@@ -161,10 +164,6 @@ def of_lost_calls(seen: Trio, answered: Sequence[CallAnswer]) -> Cause:
         f"the sums are {', '.join(map(str, sums))}",
         "answer every call with its own a + b, also while another one is being worked on",
     )
-
-
-def _in_call(stuck: Sequence[Frame]) -> bool:
-    return any(frame.function == "call" and frame.path.endswith("rclpy/client.py") for frame in stuck)
 
 
 def _in_worker(stuck: Sequence[Frame]) -> bool:

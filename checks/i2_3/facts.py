@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from checks.i2_3.ticks import Series
-from tutor.judge.trace import CallAnswer, Ending, Service, Trace
+from checks.i2_3.ticks import During, Series, during
+from tutor.judge.trace import CallAnswer, Ending, LogRecord, Service, Trace
 from tutor.judge.tracebacks import Frame
+from tutor.judge.waiting import STARVED
 
 FILE = "concurrent_service.py"
 SERVICE, TYPE = "/slow_add", "example_interfaces/srv/AddTwoInts"
@@ -15,6 +16,9 @@ SERVICE, TYPE = "/slow_add", "example_interfaces/srv/AddTwoInts"
 WORK_S = 3.0
 SHORTEST_S, LONGEST_S = 2.75, 3.4
 """What counts as 3 s: thirty waits of 0.1 s may be 2.9 s or 3.2 s; neither 2.5 s nor 3.5 s is meant."""
+
+EXCUSED_S = 0.5
+"""A busy machine may add this much to what a call takes."""
 
 ANSWER_S = 12.0
 """A service that answers after some other time than 3 s is told so, up to this one."""
@@ -39,31 +43,77 @@ class Quiet:
 
 
 @dataclass(frozen=True)
-class Lone:
-    """One call. `answer` is None where the service was not there.
+class Call:
+    """One call, made while no other was.
 
-    `until`: how long the node was watched after it (seconds since the epoch); `starved_s`: seconds of the call in which
-    the machine kept the node from running; `excused`: they were too many to say anything. `stuck`: where the node's
-    threads are during a call (innermost frames first), looked up where the call was not answered or the timer stood
-    still; `spins`: whether the node answered anything at all then.
+    `until`: how long the node was listened to after it (seconds since the epoch); `starved_s`: seconds of the call in
+    which the machine kept the node, or us who wait for its answer, from running.
+    """
+
+    answer: CallAnswer
+    until: float
+    starved_s: float = 0.0
+
+    @property
+    def excused(self) -> bool:
+        """Whether the machine was so busy meanwhile that nothing can be said of what took long."""
+        return self.starved_s >= STARVED * self.answer.took_s
+
+    @property
+    def in_time(self) -> bool:
+        """Whether it was answered, and not too late."""
+        return self.answer.response is not None and self.answer.took_s <= self.longest_s
+
+    @property
+    def longest_s(self) -> float:
+        """What it may take. No machine is so busy that 4 s become 3 s."""
+        return LONGEST_S + min(self.starved_s, EXCUSED_S)
+
+
+@dataclass(frozen=True)
+class Lone:
+    """Single calls: one, or more where the first was disturbed; none where the service was not there.
+
+    `stuck`: where the node's threads are during a call (innermost frames first), looked up where the call was not
+    answered or the timer stood still; `spins`: whether the node answered anything at all then.
     """
 
     trace: Trace
-    answer: CallAnswer | None = None
-    until: float = 0.0
-    starved_s: float = 0.0
-    excused: bool = False
+    calls: tuple[Call, ...] = ()
     stuck: tuple[Frame, ...] = ()
     spins: bool = True
+
+    @property
+    def quickest(self) -> Call | None:
+        """The answered call that took the least time: whatever the machine adds, it is the nearest to the truth."""
+        answered = [call for call in self.calls if call.answer.response is not None]
+        return min(answered, key=lambda call: call.answer.took_s, default=None)
+
+
+@dataclass(frozen=True)
+class Three:
+    """Three calls made at once, and the seconds in which the machine kept the node, or us, from running meanwhile."""
+
+    answers: tuple[CallAnswer, ...]
+    starved_s: float = 0.0
+
+    @property
+    def right(self) -> int:
+        """How many were answered with their own sum."""
+        return sum(each.response is not None and each.response["sum"] == right_sum(each) for each in self.answers)
+
+    @property
+    def took_s(self) -> float:
+        """Seconds from the first request to the last answer."""
+        return max(a.answered_at for a in self.answers) - min(a.asked_at for a in self.answers)
 
 
 @dataclass(frozen=True)
 class Trio:
-    """Three calls at once; no answers where the service was not there."""
+    """Three calls at once, made again where the machine may have held them up; not made where there was no service."""
 
     trace: Trace
-    answers: tuple[CallAnswer, ...] = ()
-    starved_s: float = 0.0
+    made: tuple[Three, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -83,3 +133,15 @@ def is_there(services: Sequence[Service]) -> bool:
 def right_sum(answer: CallAnswer) -> int:
     """What the service must answer."""
     return int(answer.request["a"]) + int(answer.request["b"])
+
+
+def stands_still(logs: Sequence[LogRecord], call: Call, series: Sequence[Series]) -> bool:
+    """Whether no way to see the timer's messages lets them go on as they should during this call."""
+    right = [each for each in series if each.is_10_hz]
+    return bool(right) and all(heard(each, logs, call).fault for each in right)
+
+
+def heard(series: Series, logs: Sequence[LogRecord], call: Call) -> During:
+    """What was heard of the timer during this call."""
+    asked, answered = call.answer.asked_at, call.answer.answered_at
+    return during(series, logs, asked, answered, until=call.until, starved_s=call.starved_s)

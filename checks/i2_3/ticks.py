@@ -30,6 +30,9 @@ EVEN = 0.5
 CLOCKS_HZ = (1e3, 1e6, 1e9)
 """A number that rises at one of these speeds is a time in ms, µs or ns, not a count of ticks."""
 
+LEAST_S = 1.0
+"""What comes again and again within less than this, and then no more, is a greeting."""
+
 MOST = 2000
 """Of a flood of messages, the latest will do."""
 
@@ -221,7 +224,7 @@ def _bursts(series: Series, stamps: Sequence[float]) -> bool:
 
 def _series(key: Key, logs: Iterable[LogRecord]) -> Series | None:
     ticks = tuple(tick for log in logs if (tick := key.of(log)))
-    return Series(key, ticks) if len(ticks) > 1 and ticks[-1].stamp > ticks[0].stamp else None
+    return Series(key, ticks) if len(ticks) > 1 and ticks[-1].stamp - ticks[0].stamp >= LEAST_S - SLACK_S / 4 else None
 
 
 def _counting(series: Series | None) -> Series | None:

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import random
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import Any
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checks.i2_3.facts import SERVICE, TYPE, Interrupted, Lone, Quiet, Trio
+from checks.i2_3.facts import SERVICE, TYPE, Call, Interrupted, Lone, Quiet, Three, Trio
 from checks.i2_3.judges import (
     judge_blocks,
     judge_concurrent,
@@ -22,7 +23,6 @@ from checks.i2_3.judges import (
 from checks.i2_3.ticks import Fault, Series, all_series, during, likely
 from tests.checks.made import (
     CRASHED,
-    FOLDER,
     KEYBOARD_INTERRUPT,
     NO_NODE,
     START,
@@ -32,6 +32,7 @@ from tests.checks.made import (
     ending,
     frame,
     graph,
+    lines,
     trace,
 )
 from tutor.judge.bench import MachineTooBusy
@@ -82,8 +83,11 @@ def answer(took_s: float = 3.01, a: int = 5, b: int = 3, sum_: int | None = 8, a
     return CallAnswer(SERVICE, {"a": a, "b": b}, response, asked_at, asked_at + took_s, 12.0)
 
 
-def lone(logs: Sequence[LogRecord] = (), called: CallAnswer | None = None, **more: Any) -> Lone:
-    return Lone(trace(graph=SERVING, logs=logs), called or answer(), START + 4.7, **more)
+def lone(
+    logs: Sequence[LogRecord] = (), *called: CallAnswer, starved_s: float = 0.0, until: float = START + 4.7, **more: Any
+) -> Lone:
+    calls = tuple(Call(each, until, starved_s) for each in called or (answer(),))
+    return Lone(trace(graph=SERVING, logs=logs), calls, **more)
 
 
 def quiet(logs: Sequence[LogRecord], **more: Any) -> Quiet:
@@ -92,30 +96,36 @@ def quiet(logs: Sequence[LogRecord], **more: Any) -> Quiet:
 
 @given(st.floats(2.8, 3.35), st.integers(-900, 900), st.integers(-900, 900))
 def test_three_seconds(took_s: float, a: int, b: int) -> None:
-    assert_passed(judge_blocks(lone(called=answer(took_s, a, b, a + b))))
+    assert_passed(judge_blocks(lone((), answer(took_s, a, b, a + b))))
 
 
 @given(st.floats(0, 2.7) | st.floats(3.5, 12))
 def test_other_times(took_s: float) -> None:
-    assert_failed(judge_blocks(lone(called=answer(took_s))), "too quick" if took_s < 3 else "too slow", "s")
+    assert_failed(judge_blocks(lone((), answer(took_s))), "too quick" if took_s < 3 else "too slow", "s")
 
 
 def test_a_busy_machine_may_take_longer_but_never_less() -> None:
-    assert_passed(judge_blocks(lone(called=answer(3.7), starved_s=0.4)))
-    assert_failed(judge_blocks(lone(called=answer(2.6), starved_s=2.0)), "too quick")
-    assert_failed(judge_blocks(lone(called=answer(4.0), starved_s=0.4)), "too slow", "4.0 s")
+    assert_passed(judge_blocks(lone((), answer(3.7), starved_s=0.4)))
+    assert_passed(judge_blocks(lone((), answer(4.2), answer(3.3))))
+    assert_failed(judge_blocks(lone((), answer(2.6), starved_s=2.0)), "too quick")
+    assert_failed(judge_blocks(lone((), answer(4.0), starved_s=0.6)), "too slow", "4.0 s")
+    assert_failed(judge_blocks(lone((), answer(4.5), answer(4.1))), "too slow", "4.1 s")
     with pytest.raises(MachineTooBusy):
-        judge_blocks(lone(called=answer(4.5), starved_s=1.0, excused=True))
+        judge_blocks(lone((), answer(4.5), starved_s=1.0))
+
+
+def test_one_wrong_sum_is_wrong() -> None:
+    assert_failed(judge_blocks(lone((), answer(3.6), answer(3.0, sum_=9))), "wrong sum", "9 instead of 8")
 
 
 @pytest.mark.parametrize(
     ("seen", "cause", "word"),
     [
-        (lone(called=answer(sum_=2)), "wrong sum", "2 instead of 8"),
-        (lone(called=answer(sum_=0)), "wrong sum", "response.sum"),
-        (lone(called=answer(sum_=None), stuck=IN_CALL), "deadlock by call()", "line 12"),
-        (lone(called=answer(sum_=None), stuck=IN_WORKER), "no answer", "line 12"),
-        (lone(called=answer(sum_=None), spins=False), "no spin", "/node"),
+        (lone((), answer(sum_=2)), "wrong sum", "2 instead of 8"),
+        (lone((), answer(sum_=0)), "wrong sum", "response.sum"),
+        (lone((), answer(sum_=None), stuck=IN_CALL), "deadlock by call()", "line 12"),
+        (lone((), answer(sum_=None), stuck=IN_WORKER), "no answer", "line 12"),
+        (lone((), answer(sum_=None), spins=False), "no spin", "/node"),
         (Lone(CRASHED), "unhandled exception", "line 12"),
         (Lone(NO_NODE), "no node", ""),
         (Lone(trace(graph=UP)), "service missing", SERVICE),
@@ -168,9 +178,9 @@ def test_a_timer_is_found_and_goes_on(text: Text, every: int) -> None:
 def test_a_timer_that_stands_still_is_found_out(text: Text, every: int) -> None:
     alone = quiet(ticking(text, until_s=8, every=every))
     blocked = ticking(text, every=every, stands_still=(0.3, 3.31), until_s=8)
-    seen = Lone(trace(graph=SERVING, logs=blocked), answer(), START + 8, stuck=IN_WORKER)
+    seen = lone(blocked, until=START + 8, stuck=IN_WORKER)
     assert_failed(judge_timer(alone, seen), "blocked executor", "line 12", "default group")
-    alone_thread = Lone(seen.trace, seen.answer, seen.until, stuck=(frame("slow_add"),))
+    alone_thread = lone(blocked, until=START + 8, stuck=(frame("slow_add"),))
     assert_failed(judge_timer(alone, alone_thread), "blocked executor", "one thread")
 
 
@@ -197,7 +207,7 @@ def test_without_a_number_one_message_per_second_is_no_timer_of_10_hz(text: Text
 
 @given(st.floats(0.2, 7.5) | st.floats(12.6, 100), st.sampled_from([1, 2, 5, 10]))
 def test_other_rates(hz: float, every: int) -> None:
-    alone = quiet(ticking(hz=hz, every=every, until_s=4.1 * every / hz))
+    alone = quiet(ticking(hz=hz, every=every, until_s=1.2 + 4.1 * every / hz))
     assert_failed(judge_timer(alone, lone()), "wrong timer period", "times per second")
 
 
@@ -212,7 +222,7 @@ def test_jitter_is_no_fault(hz: float, every: int, seed: int, jitter_s: float) -
 @given(st.floats(0.3, 1.5), st.floats(1.2, 3.0), st.sampled_from([1, 2, 5]))
 def test_a_gap_of_more_than_a_second_is_one(start: float, length: float, every: int) -> None:
     logs = ticking(every=every, stands_still=(start, start + length), until_s=6)
-    verdict = judge_timer(quiet(ticking(every=every)), Lone(trace(graph=SERVING, logs=logs), answer(), START + 6))
+    verdict = judge_timer(quiet(ticking(every=every)), lone(logs, until=START + 6))
     assert verdict.status is Status.FAILED
 
 
@@ -220,7 +230,7 @@ def test_a_gap_that_the_machine_made_is_excused() -> None:
     blocked = ticking(every=1, stands_still=(0.5, 1.6))
     assert_passed(judge_timer(quiet(ticking(every=1)), lone(blocked, starved_s=1.0)))
     with pytest.raises(MachineTooBusy):
-        judge_timer(quiet(ticking(every=1)), lone(ticking(stands_still=(0.4, 3)), excused=True))
+        judge_timer(quiet(ticking(every=1)), lone(ticking(stands_still=(0.4, 3)), starved_s=0.7))
     with pytest.raises(MachineTooBusy):
         judge_timer(quiet(ticking(hz=7), excused=True), lone())
 
@@ -247,9 +257,18 @@ def test_a_timer_that_never_comes_back() -> None:
 
 def test_only_the_service_logs() -> None:
     assert_failed(judge_timer(quiet([says("Ready", START)]), lone(ticking(every=1))), "no timer messages")
-    printing = Quiet(trace(graph=SERVING, out="\n".join(f"tick {n}" for n in range(20))))
-    assert_failed(judge_timer(printing, lone()), "printed, not logged", "tick 19")
-    assert_failed(judge_timer(Quiet(CRASHED), lone()), "unhandled exception", FOLDER.rsplit("/", 1)[-1][:0])
+    ticks = "\n".join(f"tick {n}" for n in range(20))
+    printing = Quiet(trace(graph=SERVING, out=ticks))
+    assert_failed(judge_timer(printing, lone()), "printed, not logged", "tick 0")
+    late = Quiet(trace(graph=SERVING), ending=replace(ending(), output=lines(ticks, "stdout")))
+    assert_failed(judge_timer(late, lone()), "output held back by buffering", "tick 0")
+    assert_failed(judge_timer(Quiet(CRASHED), lone()), "unhandled exception", "line 12")
+
+
+def test_a_greeting_of_many_messages_is_no_timer() -> None:
+    greeting = [says(f"loading module {n}", START + n / 1000) for n in range(300)]
+    assert all_series(greeting) == []
+    assert_passed(judge_timer(quiet([*greeting, *ticking()]), lone([*greeting, *ticking()])))
 
 
 def test_a_second_timer_is_not_taken_for_the_fast_one() -> None:
@@ -274,7 +293,7 @@ def test_numbers_that_tell_the_time_are_no_ticks() -> None:
 
 def three(*sums: int | None, took_s: Sequence[float] = (3.0, 3.0, 3.0), starved_s: float = 0.0) -> Trio:
     answers = tuple(answer(took, 1000 * n, 5, sum_) for n, (took, sum_) in enumerate(zip(took_s, sums, strict=True), 1))
-    return Trio(trace(graph=SERVING), answers, starved_s)
+    return Trio(trace(graph=SERVING), (Three(answers, starved_s),))
 
 
 def test_three_at_once() -> None:
@@ -283,7 +302,7 @@ def test_three_at_once() -> None:
     assert_failed(judge_concurrent(three(3005, 3005, 3005)), "shared state", "1 of 3")
     assert_failed(judge_concurrent(three(1005, -1, -1)), "wrong sum", "-1")
     assert_failed(judge_concurrent(three(1005, None, None)), "no answer", "2 of 3")
-    assert_failed(judge_concurrent(Trio(CRASHED, three(1005, None, None).answers)), "unhandled exception")
+    assert_failed(judge_concurrent(Trio(CRASHED, three(1005, None, None).made)), "unhandled exception")
     assert judge_concurrent(Trio(trace(graph=UP))).status is Status.SKIPPED
 
 
@@ -296,7 +315,9 @@ def test_each_its_own_sum(sums: list[int]) -> None:
 def test_parallel() -> None:
     sums = (1005, 2005, 3005)
     assert_passed(judge_parallel(lone(), three(*sums, took_s=(3.0, 3.1, 4.4))))
-    assert_passed(judge_parallel(lone(), three(*sums, took_s=(3.0, 3.1, 5.0), starved_s=0.6)))
+    assert_passed(judge_parallel(lone(), three(*sums, took_s=(3.0, 3.1, 4.9), starved_s=0.6)))
+    again = Trio(trace(graph=SERVING), (*three(*sums, took_s=(3.0, 3.1, 5.0)).made, *three(*sums).made))
+    assert_passed(judge_parallel(lone(), again))
     assert_failed(judge_parallel(lone(), three(*sums, took_s=(3.0, 3.0, 6.0))), "one call at a time", "2.0 times")
 
 
