@@ -253,13 +253,15 @@ class LivePane(Vertical):
         for name in reversed(self._preset.topics):
             topics.follow(name)
         topics.show_list()
+        self.call_later(self._choose_service)
 
     async def _choose_service(self) -> None:
         panel = self.query_one(ServicesPanel)
-        if panel.chosen is None and self._preset.service and self.state.graph:
-            for service in self.state.graph.services:
-                if service.name == self._preset.service:
-                    await panel.choose(service, focus=False)
+        if panel.chosen_by_learner or self.state.graph is None:
+            return
+        for service in self.state.graph.services:
+            if service.name == self._preset.service and service != panel.chosen:
+                await panel.choose(service, focus=False)
 
     def focus_content(self) -> None:
         """Focus what the arrow keys move in."""

@@ -44,6 +44,7 @@ class ServicesPanel(Vertical):
         super().__init__(id=id)
         self.state = state
         self.chosen: Service | None = None
+        self.chosen_by_learner = False
         self.show_all = False
         self._listed: tuple[Service, ...] = ()
 
@@ -138,6 +139,7 @@ class ServicesPanel(Vertical):
         """Open the form of the service under the cursor."""
         row = self.table.cursor_row
         if 0 <= row < len(self._listed):
+            self.chosen_by_learner = True
             await self.choose(self._listed[row])
 
     async def choose(self, service: Service, focus: bool = True) -> None:
