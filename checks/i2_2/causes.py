@@ -6,7 +6,7 @@ import re
 from collections.abc import Sequence
 
 from checks.i2_2.facts import ARGUMENTS, FILE, NAMESPACE, Launched, publishers, shared, subscriptions, used
-from checks.i2_2.processes import Gone, gone, writers, written_by
+from checks.i2_2.processes import Gone, by_stream, gone, writers, written_by
 from tutor.judge import causes, tracebacks
 from tutor.judge.trace import Endpoint, Trace
 from tutor.judge.verdict import Cause
@@ -36,7 +36,7 @@ def of_launch(trace: Trace) -> Cause | None:
             "check executable=: talker and listener in the demo packages, minimal_publisher and minimal_subscriber in "
             "my_package",
         )
-    raised = tracebacks.find(own)
+    raised = tracebacks.find(by_stream(own))
     if raised:
         return causes.of_traceback(raised[-1], trace)
     if _NO_FUNCTION.search(text):
@@ -56,7 +56,7 @@ def of_launch(trace: Trace) -> Cause | None:
     if dead := gone(trace.output):
         return _of_dead(dead[0], trace)
     for process in writers(trace.output):
-        if left := tracebacks.find(written_by(trace.output, process)):
+        if left := tracebacks.find(by_stream(written_by(trace.output, process))):
             return causes.of_traceback(left[-1], trace)
     if trace.exit is not None:
         return Cause(

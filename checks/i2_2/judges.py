@@ -20,7 +20,7 @@ from checks.i2_2.facts import (
     two_nodes,
     used,
 )
-from checks.i2_2.processes import gone, writers, written_by
+from checks.i2_2.processes import by_stream, gone, writers, written_by
 from tutor.judge import causes, ending
 from tutor.judge.trace import OutputLine
 from tutor.judge.verdict import Cause, Verdict, failed, passed
@@ -145,7 +145,7 @@ def judge_shutdown(seen: Launched) -> Verdict:
 
 
 def _of_all(output: tuple[OutputLine, ...]) -> tuple[OutputLine, ...]:
-    return tuple(line for process in (None, *writers(output)) for line in written_by(output, process))
+    return tuple(line for process in (None, *writers(output)) for line in by_stream(written_by(output, process)))
 
 
 def _moved(usual: Launched, seen: Launched, found: list[Pair]) -> bool:

@@ -27,7 +27,7 @@ class Gone:
     @property
     def traceback(self) -> Traceback | None:
         """The traceback that it ended with, if any."""
-        found = tracebacks.find(self.output)
+        found = tracebacks.find(by_stream(self.output))
         return found[-1] if found else None
 
 
@@ -44,18 +44,20 @@ def gone(output: Sequence[OutputLine]) -> list[Gone]:
 
 
 def written_by(output: Iterable[OutputLine], process: str | None) -> tuple[OutputLine, ...]:
-    """What one process wrote, without the launch's prefix; for None, what the launch itself wrote.
-
-    Tracebacks are looked for on stderr, but a launch may pass on all that it hears on its stdout.
-    """
+    """What one process wrote, without the launch's prefix; for None, what the launch itself wrote."""
     found = []
     for line in output:
         match = _PREFIX.match(_COLOUR.sub("", line.text))
         if match is None and process is None:
-            found.append(replace(line, stream="stderr"))
+            found.append(line)
         elif match is not None and match["process"] == process:
-            found.append(replace(line, stream="stderr", text=match["text"]))
+            found.append(replace(line, text=match["text"]))
     return tuple(found)
+
+
+def by_stream(output: Sequence[OutputLine]) -> tuple[OutputLine, ...]:
+    """The lines of one stream after those of the other: as they came, the two may be mixed up line by line."""
+    return tuple(replace(line, stream="stderr") for line in sorted(output, key=lambda line: line.stream == "stderr"))
 
 
 def writers(output: Sequence[OutputLine]) -> list[str]:
