@@ -159,6 +159,8 @@ def _why_rate(group: Sequence[RateProbe], wrong: RateProbe, declared: tuple[Para
         return broken
     if declared is not None and wrong.name not in {parameter.name for parameter in declared}:
         return _rate_not_declared()
+    if wrong.rate is not None and wrong.rate.in_bursts:
+        return causes.in_bursts(wrong.name)
     measured = [(probe, probe.rate) for probe in group if probe.rate is not None]
     if measured and len(swapped(group)) == len(measured):
         return causes.rate_as_period(wrong.name) if wrong.unit == "Hz" else causes.period_as_rate(wrong.name)

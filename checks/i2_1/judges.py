@@ -110,6 +110,8 @@ def judge_launch(seen: Launched) -> Verdict:
 
 
 def _why_launch_rate(rate: Rate | None) -> Cause:
+    if rate is not None and rate.in_bursts:
+        return causes.in_bursts(RATE)
     if rate is not None and rate.agrees(DEFAULT_HZ):
         return _ignored(RATE)
     if rate is None or rate.agrees(1 / LAUNCH_HZ):
@@ -265,6 +267,8 @@ def judge_timer(seen: Retimed) -> Verdict:
 def _why_timer(seen: Retimed, asked: float, rate: Rate | None) -> Cause:
     if seen.trace.exit and (cause := causes.of_process(seen.trace)):
         return cause
+    if rate is not None and rate.in_bursts:
+        return causes.in_bursts(RATE)
     before = DEFAULT_HZ if asked == UP_HZ else UP_HZ
     if rate is not None and rate.agrees(before):
         return causes.timer_not_replaced()

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.checks.made import sample, samples
-from tutor.judge.rates import TOLERANCE, Rate, describe, measure
+from tutor.judge.rates import FEW, TOLERANCE, Rate, describe, measure
 from tutor.judge.waiting import excused
 
 rates = st.floats(0.05, 1000)
@@ -54,3 +54,24 @@ def test_a_crowded_machine_excuses_too_few_messages_by_as_much_as_it_took_and_ne
     assert not excused(20, 10.0, starved_s=0.9, of_s=1.0)
     assert excused(0, 10.0, starved_s=1.0, of_s=1.0)
     assert not excused(0, 0.5, starved_s=0.1, of_s=1.0)
+
+
+@given(st.floats(0.5, 10), st.integers(2, 8), st.integers(3, 8))
+def test_bursts_are_no_rate(hz: float, size: int, bursts: int) -> None:
+    every_s = size / hz
+    times = [5.0 + burst * every_s + i * 1e-4 for burst in range(bursts) for i in range(size)]
+    rate = measure([sample("/t", 0, at) for at in times])
+    assert rate is not None
+    assert rate.in_bursts == (size > 2 or len(times) >= FEW)
+    assert not rate.in_bursts or not rate.agrees(rate.hz)
+
+
+@given(st.floats(0.5, 10), st.integers(5, 40), st.integers())
+def test_jitter_and_a_pause_are_no_bursts(hz: float, count: int, seed: int) -> None:
+    chance = random.Random(seed)
+    pause_after = chance.randrange(count)
+    times = [5.0 + (i + chance.uniform(-0.2, 0.2) + (1.0 if i > pause_after else 0.0)) / hz for i in range(count)]
+    rate = measure([sample("/t", 0, at) for at in times])
+    assert rate is not None
+    assert not rate.in_bursts
+    assert "bursts" not in str(rate)

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import statistics
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 from tutor.judge.trace import Sample
 
@@ -14,24 +16,41 @@ WINDOW_FILLED = 0.6
 """The first and the last message of a window may be up to a period away from its ends."""
 
 
+EVEN = 0.5
+"""Of messages that come one by one, half are further apart than this share of the mean period, jitter and all."""
+
+FEW = 5
+"""So few messages do not tell whether they come in bursts."""
+
+
 @dataclass(frozen=True, slots=True)
 class Rate:
-    """A measured rate: `samples` messages over `span_s` seconds, from the first one's source time to the last one's."""
+    """A measured rate: `samples` messages over `span_s` seconds, from the first one's source time to the last one's.
+
+    `median_s`: how far two messages are apart, in the middle of all; None where nothing is known of it.
+    """
 
     hz: float
     samples: int
     span_s: float
+    median_s: float | None = None
+
+    @property
+    def in_bursts(self) -> bool:
+        """Whether most messages come right after another: as many as asked for, but not at that rate."""
+        return self.samples >= FEW and self.median_s is not None and self.median_s * self.hz < EVEN
 
     def agrees(self, asked_hz: float) -> bool:
         """Whether this is the rate that was asked for, within the tolerance."""
-        return abs(self.hz - asked_hz) <= TOLERANCE * asked_hz
+        return abs(self.hz - asked_hz) <= TOLERANCE * asked_hz and not self.in_bursts
 
     def covers(self, window_s: float) -> bool:
         """Whether the messages fill most of a window that is long enough to tell this rate, not a burst in it."""
         return self.span_s >= WINDOW_FILLED * window_s
 
     def __str__(self) -> str:
-        return f"{self.hz:.2f} Hz ({self.samples} messages in {self.span_s:.2f} s)"
+        bursts = ", in bursts" if self.in_bursts else ""
+        return f"{self.hz:.2f} Hz ({self.samples} messages in {self.span_s:.2f} s{bursts})"
 
 
 def measure(samples: Sequence[Sample]) -> Rate | None:
@@ -40,7 +59,7 @@ def measure(samples: Sequence[Sample]) -> Rate | None:
     if len(times) < 2 or times[-1] <= times[0]:
         return None
     span = times[-1] - times[0]
-    return Rate((len(times) - 1) / span, len(times), span)
+    return Rate((len(times) - 1) / span, len(times), span, statistics.median(b - a for a, b in pairwise(times)))
 
 
 def describe(rate: Rate | None, samples: int) -> str:

@@ -4,6 +4,7 @@ from tutor.judge.causes.exceptions import of_traceback
 from tutor.judge.causes.output import of_printed
 from tutor.judge.causes.parameters import (
     RCLPYS_OWN,
+    in_bursts,
     not_declared,
     of_refusal,
     of_types,
@@ -25,6 +26,7 @@ from tutor.judge.causes.topics import (
 __all__ = [
     "QUICK_S",
     "RCLPYS_OWN",
+    "in_bursts",
     "in_call",
     "incompatible_qos",
     "incompatible_service",

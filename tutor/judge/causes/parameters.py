@@ -72,6 +72,15 @@ def not_declared(name: str, default: Any) -> Cause:
     )
 
 
+def in_bursts(name: str) -> Cause:
+    """As many messages as asked for, but several at once."""
+    return Cause(
+        "messages in bursts",
+        "several messages are sent at once, then none for a while: that is no rate",
+        f"publish one message in each callback, and let the timer's period be 1.0 / {name}",
+    )
+
+
 def rate_as_period(name: str) -> Cause:
     """The rate's number is taken for seconds."""
     return Cause(
