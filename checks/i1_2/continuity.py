@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from checks.i1_2.facts import OURS, Feeding
+from checks.i1_2.facts import LATE_S, OURS, Feeding
 from checks.i1_2.judges import NO_SUMMARY, counts_truly, true_total
 from checks.i1_2.reading import Line
 from checks.i1_2.reports import find
@@ -97,11 +97,12 @@ def _of_end(feeding: Feeding, what: str) -> Cause:
 
 
 def _why_unsaid(jump: Feeding, steady: Feeding) -> Cause:
-    """A kind of message that came after the jump, but not with every message, was a false alarm elsewhere."""
+    """A kind of message that came with the jump, but not with every message, was a false alarm elsewhere."""
     summaries = {line.kind for report in (*find(steady), *find(jump)) for line in report.lines}
-    since = {line.kind for line in jump.lines if line.messages > jump.breaks} - summaries
-    before = [line for line in (*steady.lines, *jump.lines) if line.messages > 1 and line.kind in since]
-    false = [line for line in before if line in steady.lines or line.messages <= jump.breaks]
+    with_it = range(jump.breaks + 1, jump.breaks + 3)
+    since = {line.kind for line in jump.lines if line.messages in with_it} - summaries
+    calm = [line for fed in (steady, jump) for line in fed.lines if _calm(line, fed)]
+    false = [line for line in calm if line.kind in since]
     if 0 < len(false) < 0.7 * (len(steady.sent) + jump.breaks - 2):
         return Cause(
             "false alarm",
@@ -126,7 +127,7 @@ def said(feeding: Feeding, *, since: float, usual: Sequence[Feeding]) -> list[Li
     A message of another kind, or a number that had been constant. The `usual` are other starts, up to their own jump;
     what comes with a first message is no alarm, and none of the usual kinds.
     """
-    before = [line for line in feeding.lines if line.at < since and line.messages > 1]
+    before = [line for line in feeding.lines if line.at < since and not _of_the_first(line, feeding)]
     elsewhere = [[line for line in other.lines if _calm(line, other)] for other in usual]
     known = {line.kind for lines in (before, *elsewhere) for line in lines}
     summaries = {line.kind for report in find(feeding) for line in report.lines}
@@ -144,7 +145,11 @@ def said(feeding: Feeding, *, since: float, usual: Sequence[Feeding]) -> list[Li
 
 
 def _calm(line: Line, feeding: Feeding) -> bool:
-    return line.messages > 1 and not (feeding.breaks and line.messages > feeding.breaks)
+    return not _of_the_first(line, feeding) and not (feeding.breaks and line.messages > feeding.breaks)
+
+
+def _of_the_first(line: Line, feeding: Feeding) -> bool:
+    return line.at < feeding.sent[0].at + LATE_S
 
 
 def _counts_up(line: Line, before: Sequence[Line], elsewhere: Iterable[Sequence[Line]], feeding: Feeding) -> bool:

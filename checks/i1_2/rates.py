@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from checks.i1_2.facts import EVERY, Feeding
 from checks.i1_2.reading import Number
-from checks.i1_2.reports import Report, slots
+from checks.i1_2.reports import Report, milestone, slots
 from tutor.judge.rates import TOLERANCE
 from tutor.judge.verdict import Cause
 
@@ -90,13 +90,11 @@ def doubtful(numbers: Sequence[Number], reports: Sequence[Report], feeding: Feed
     They may as well be the elapsed seconds, or the messages by whole seconds: at the pace that was planned, these are
     far from any true rate.
     """
-    pairs = list(zip(numbers, reports, strict=True))
-    elapsed = [max(report.at - feeding.sent[0].at, DELAY_S) for _, report in pairs]
-    whole = [report.messages / max(int(span), 1) for (_, report), span in zip(pairs, elapsed, strict=True)]
+    counts = [milestone(report.messages) or report.messages for report in reports]
+    elapsed = [max(feeding.sent[count - 1].at - feeding.sent[0].at, DELAY_S) for count in counts]
+    whole = [count / max(int(span), 1) for count, span in zip(counts, elapsed, strict=True)]
     return any(
-        all(
-            abs(number.value - other) < 0.01 + DELAY_S * other for (number, _), other in zip(pairs, others, strict=True)
-        )
+        all(abs(number.value - other) < 0.01 + DELAY_S * other for number, other in zip(numbers, others, strict=True))
         for others in (elapsed, whole)
     )
 
@@ -106,9 +104,9 @@ def why_wrong(reports: Sequence[Report], feeding: Feeding) -> Cause:
     hint = "self.total_count / (time.time() - self.start_time), where start_time is when the first message came"
     report = reports[0]
     true = true_rates(report, feeding)
-    found = [number for number in report.numbers if number.value > 0 and number.value != report.messages]
+    found = _but_the_count(report)
     for number in found:
-        if 1 / number.value in true:
+        if number.value > 0 and 1 / number.value in true:
             return Cause(
                 "period instead of a rate",
                 f"{number.text} are the seconds from one message to the next",
@@ -143,8 +141,11 @@ def why_wrong(reports: Sequence[Report], feeding: Feeding) -> Cause:
 def _waited_s(report: Report, feeding: Feeding) -> list[tuple[Number, float]]:
     """For each number, if it were a rate: how long before the first message the clock was started, in seconds."""
     elapsed = report.at - feeding.sent[0].at
-    return [
-        (number, report.messages / number.value - elapsed)
-        for number in report.numbers
-        if number.value > 0 and number.value != report.messages
-    ]
+    positive = [number for number in _but_the_count(report) if number.value > 0]
+    return [(number, report.messages / number.value - elapsed) for number in positive]
+
+
+def _but_the_count(report: Report) -> list[Number]:
+    """The numbers in the report, without the one that is its count."""
+    count = next((number for number in report.numbers if number.value == report.messages), None)
+    return [number for number in report.numbers if number is not count]

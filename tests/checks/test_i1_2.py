@@ -1,0 +1,764 @@
+"""I1.2: made statistics nodes, fed by the clock of a test, and what must be said of each."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from checks.i1_2 import continuity, judges
+from checks.i1_2.facts import JUMP_AFTER, JUMP_MESSAGES, RESTART_AFTER, RESTART_MESSAGES, Feeding, Sent
+from checks.i1_2.reading import read, values
+from checks.i1_2.reports import find
+from tests.checks.made import CRASH, NO_NODE, START, UP, assert_failed, assert_passed, ending, exited, trace
+from tutor.judge.bench import MachineTooBusy
+from tutor.judge.trace import Endpoint, LogRecord, Trace
+from tutor.judge.verdict import Status, Verdict
+
+LISTENING = replace(UP, subscriptions=(Endpoint("/chatter", "std_msgs/msg/String", "/node", "reliable", "volatile"),))
+Log = tuple[int, str]
+"""A level and a text."""
+
+
+@dataclass
+class Counter:
+    """A statistics node without ROS: what it logs of each message. Wrong ones override what they do wrong."""
+
+    every: int = 10
+    total: int = 0
+    first: str = ""
+    last: str = ""
+    begin: float = 0.0
+    number: int | None = None
+    missed: int = 0
+    times: list[float] = field(default_factory=list)
+
+    def take(self, now: float, data: str) -> Iterator[Log]:
+        yield from self.heard(data)
+        if not self.first:
+            self.first, self.begin = data, now
+        self.last = data
+        self.times.append(now)
+        self.total += 1
+        number = int(data.split(":")[1])
+        if self.number is not None and number != self.number + 1:
+            yield from self.jumped(self.number, number)
+        self.number = number
+        if self.total % self.every == 0:
+            yield from self.summary()
+
+    def heard(self, data: str) -> Iterator[Log]:
+        yield from ()
+
+    def jumped(self, last: int, number: int) -> Iterator[Log]:
+        if number > last + 1:
+            self.missed += number - last - 1
+            yield 30, f"{number - last - 1} missing"
+
+    def rate(self) -> float:
+        return self.total / max(self.times[-1] - self.begin, 1e-9)
+
+    def summary(self) -> Iterator[Log]:
+        yield 20, f"count={self.total} rate={self.rate():.2f} first={self.first} last={self.last}"
+
+
+def fed(
+    node: Counter,
+    numbers: Sequence[int],
+    hz: float,
+    *,
+    breaks: int = 0,
+    away_s: float = 0.0,
+    late_s: float = 0.0005,
+    between_s: float = 0.0002,
+    more: Sequence[LogRecord] = (),
+    **facts: object,
+) -> Feeding:
+    """What is seen when messages with these numbers are sent to the node. `late_s`: until it logs something of one."""
+    sent: list[Sent] = []
+    logs: list[LogRecord] = list(more)
+    for index, number in enumerate(numbers):
+        at = START + 1 + index / hz + (away_s if breaks and index >= breaks else 0.0)
+        sent.append(Sent(number, at))
+        for order, (level, text) in enumerate(node.take(at + 0.0004, f"Hello World: {number}")):
+            stamp = at + late_s + order * between_s
+            logs.append(LogRecord(level, "node", text, stamp, stamp))
+    gone_at = sent[breaks - 1].at + 0.2 if away_s else 0.0
+    seen = Feeding(trace(graph=LISTENING, logs=logs), tuple(sent), breaks, gone_at)
+    return replace(seen, **facts)  # type: ignore[arg-type]
+
+
+def steady(node: Counter, hz: float = 4.95, **more: object) -> Feeding:
+    return fed(node, range(20), hz, **more)  # type: ignore[arg-type]
+
+
+def jump(node: Counter, missed: int = 5, **more: object) -> Feeding:
+    first = 95
+    after = first + JUMP_AFTER + missed
+    numbers = [*range(first, first + JUMP_AFTER), *range(after, after + JUMP_MESSAGES - JUMP_AFTER)]
+    return fed(node, numbers, 8.0, breaks=JUMP_AFTER, **more)  # type: ignore[arg-type]
+
+
+def restart(node: Counter, **more: object) -> Feeding:
+    numbers = [*range(993, 993 + RESTART_AFTER), *range(RESTART_MESSAGES - RESTART_AFTER)]
+    return fed(node, numbers, 8.0, breaks=RESTART_AFTER, away_s=1.5, **more)  # type: ignore[arg-type]
+
+
+def judged(make: Callable[[], Counter], **more: object) -> dict[str, Verdict]:
+    """The verdicts on a node of which three are made."""
+    even, jumped = steady(make(), **more), jump(make(), **more)  # type: ignore[arg-type]
+    restarted = restart(make(), **more)
+    return {
+        "count": judges.judge_count(even, jumped),
+        "rate": judges.judge_rate(even, jumped),
+        "summary": judges.judge_summary(even, jumped),
+        "restart": continuity.judge_restart(restarted, even, jumped),
+        "gaps": continuity.judge_gaps(jumped, even),
+    }
+
+
+def assert_all_passed(verdicts: dict[str, Verdict]) -> None:
+    assert {name: str(v) for name, v in verdicts.items() if not v.passed} == {}
+    for verdict in verdicts.values():
+        assert_passed(verdict)
+
+
+def assert_breaks(verdicts: dict[str, Verdict], criterion: str, cause: str) -> None:
+    """It breaks this criterion for this cause, and no other."""
+    assert_failed(verdicts[criterion], cause)
+    others = {name: v for name, v in verdicts.items() if name != criterion}
+    assert {name: str(v) for name, v in others.items() if v.status not in (Status.PASSED, Status.SKIPPED)} == {}
+
+
+# Right ones, in the ways in which people write them.
+
+
+class Restarting(Counter):
+    """Starts again at zero when N falls, and says so."""
+
+    def take(self, now: float, data: str) -> Iterator[Log]:
+        number = int(data.split(":")[1])
+        if self.number is not None and number < self.number:
+            yield 30, "publisher restarted: counting from zero"
+            self.total, self.first, self.number = 0, "", None
+        yield from super().take(now, data)
+
+
+class RestartsInTheSummary(Counter):
+    """Starts again at zero, and says so in the next summary only."""
+
+    restarts = 0
+
+    def take(self, now: float, data: str) -> Iterator[Log]:
+        number = int(data.split(":")[1])
+        if self.number is not None and number < self.number:
+            self.restarts += 1
+            self.total, self.first, self.number = 0, "", None
+        yield from super().take(now, data)
+
+    def summary(self) -> Iterator[Log]:
+        yield 20, f"{self.total}; {self.rate():.1f}; {self.first}; {self.last}; restarts {self.restarts}"
+
+
+class GapCount(Counter):
+    """Tells of gaps in the summary only: how many, and how many messages."""
+
+    gaps = 0
+
+    def jumped(self, last: int, number: int) -> Iterator[Log]:
+        if number > last + 1:
+            self.gaps += 1
+            self.missed += number - last - 1
+        yield from ()
+
+    def summary(self) -> Iterator[Log]:
+        yield 20, self.line()
+
+    def line(self) -> str:
+        return f"{self.total} at {self.rate():.1f}/s, {self.gaps} gaps: {self.first} to {self.last}"
+
+
+class MissedCount(GapCount):
+    def line(self) -> str:
+        return f"[{self.total}] [{self.rate():.1f}] [{self.missed}] [{self.first}] [{self.last}]"
+
+
+class LossPercent(GapCount):
+    def line(self) -> str:
+        loss = 100 * self.missed / (self.missed + self.total)
+        return f"{self.total} {self.rate():.1f} Hz {loss:.1f} % {self.first} {self.last}"
+
+
+class LossShare(GapCount):
+    def line(self) -> str:
+        return (
+            f"{self.total} {self.rate():.1f} Hz {self.missed / (self.missed + self.total):.3f} {self.first} {self.last}"
+        )
+
+
+class LargestStep(GapCount):
+    """States the largest difference between two N, which is 1 where nothing is missing."""
+
+    largest = 1
+
+    def jumped(self, last: int, number: int) -> Iterator[Log]:
+        self.largest = max(self.largest, number - last)
+        yield from ()
+
+    def line(self) -> str:
+        return f"n={self.total} hz={self.rate():.1f} largest step={self.largest} {self.first}..{self.last}"
+
+
+class GapWords(GapCount):
+    """No gap count, but other words."""
+
+    def line(self) -> str:
+        word = "complete" if not self.missed else "some are missing"
+        return f"{self.total} messages, {word}, {self.rate():.1f}/s, {self.first} - {self.last}"
+
+
+class GapAtTheStart(Counter):
+    """Takes what it came too late for as a gap."""
+
+    def take(self, now: float, data: str) -> Iterator[Log]:
+        if self.number is None:
+            self.number = -1
+        yield from super().take(now, data)
+
+
+class Noisy(Counter):
+    """Logs each message, and its bytes, and its own count."""
+
+    def heard(self, data: str) -> Iterator[Log]:
+        yield 20, f"I heard: {data}"
+        yield 20, f"{len(data)} bytes, {self.total + 1} so far"
+
+
+class OneLineEach(Counter):
+    def summary(self) -> Iterator[Log]:
+        yield 20, "=" * 30
+        yield 20, "Statistik"
+        yield 20, "-" * 30
+        yield 20, f"Anzahl: {self.total}"
+        yield 20, f"Rate: {self.rate():.1f} Nachrichten/s".replace(".", ",")
+        yield 20, f"Erste: {self.first}"
+        yield 20, f"Letzte: {self.last}"
+        yield 20, "=" * 30
+
+
+class LevelsMixed(OneLineEach):
+    def summary(self) -> Iterator[Log]:
+        for level, (_, text) in zip((20, 30, 40, 20, 50, 20, 30, 40), super().summary(), strict=True):
+            yield level, text
+
+
+class NoisyAndLong(Noisy, OneLineEach):
+    pass
+
+
+class LastSecond(Counter):
+    def rate(self) -> float:
+        return len([at for at in self.times if at > self.times[-1] - 1.0])
+
+
+class LastTwoSeconds(Counter):
+    def rate(self) -> float:
+        return len([at for at in self.times if at > self.times[-1] - 2.0]) / min(2.0, self.times[-1] - self.begin)
+
+
+class LastTen(Counter):
+    def rate(self) -> float:
+        recent = self.times[-10:]
+        return len(recent) / (recent[-1] - recent[0])
+
+
+class LastInterval(Counter):
+    def rate(self) -> float:
+        return 1 / (self.times[-1] - self.times[-2])
+
+
+class Intervals(Counter):
+    def rate(self) -> float:
+        return (self.total - 1) / (self.times[-1] - self.begin)
+
+
+class Rounded(Counter):
+    def summary(self) -> Iterator[Log]:
+        yield 20, f"{self.total} ({round(self.rate())} Hz) {self.first} {self.last}"
+
+
+class Scientific(Counter):
+    def summary(self) -> Iterator[Log]:
+        yield 20, f"n: {self.total:e}, hz: {self.rate():e}, {self.first!r}, {self.last!r}"
+
+
+class WithClock(Counter):
+    """Puts the time of day, the elapsed time and the period into it, too."""
+
+    def summary(self) -> Iterator[Log]:
+        elapsed = self.times[-1] - self.begin
+        yield (
+            20,
+            (
+                f"\x1b[32m2026-05-05 15:05:06,450 after 0:00:0{elapsed:.6f} ({elapsed:.2f} s, "
+                f"every {1 / self.rate():.3f} s)"
+                f" {self.total} x {self.rate():.2f}\x1b[0m {self.first} {self.last}"
+            ),
+        )
+
+
+class WithThousands(Counter):
+    def summary(self) -> Iterator[Log]:
+        yield 20, f"{self.total:,.1f} {self.rate() * 60:,.0f}/min {self.rate():,.3f}/s {self.first} {self.last}"
+
+
+class Anniversary(Counter):
+    """Other messages, now and then."""
+
+    def heard(self, data: str) -> Iterator[Log]:
+        if self.total == 0:
+            yield 20, f"first message: {data}"
+        if self.total % 7 == 3:
+            yield 20, f"still alive after {self.total + 1}"
+
+
+RIGHT = (
+    Counter, Restarting, RestartsInTheSummary, GapCount, MissedCount, LossPercent, LossShare, LargestStep, GapWords,
+    GapAtTheStart, Noisy, OneLineEach, LevelsMixed, NoisyAndLong, LastSecond, LastTwoSeconds, LastTen, LastInterval,
+    Intervals, Rounded, Scientific, WithClock, WithThousands, Anniversary,
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("node", RIGHT)
+@pytest.mark.parametrize("late_s", [0.0005, 0.03, 0.15, 0.3])
+def test_right_ones(node: type[Counter], late_s: float) -> None:
+    assert_all_passed(judged(node, late_s=late_s))
+
+
+@pytest.mark.parametrize("between_s", [0.01, 0.04])
+def test_a_summary_in_several_messages_may_take_its_time(between_s: float) -> None:
+    assert_all_passed(judged(OneLineEach, between_s=between_s))
+
+
+FORMATS = st.sampled_from([
+    "{n} {r:.2f} {f} {l}", "{n} {r:.0f} {f} {l}", "{{'n': {n}, 'r': {r}, 'f': '{f}', 'l': '{l}'}}",
+    "({n},{r:.2f},{f},{l})",
+    "{f}|{l}|{n:05d}|{r:8.3f}", "n={n:.1f};r={r:.1f}/s;f={f};l={l}", "last: {l}\nfirst: {f}\nrate: {r}\ncount: {n}",
+    "{n}件 毎秒{r:.1f}件 「{f}」「{l}」", "MessageStats(total_count={n}, first_message='{f}', last_message='{l}', "
+    "start_time=1763726400.123, messages_per_second={r})", "#{n}: {r:g}Hz, «{f}» to «{l}»", "{n}/{r:.2f}/{f}/{l}",
+    "ogółem {n}, {r:.2f} na sekundę, od {f} do {l}", "count............{n}\nrate.............{r:.2f}\n{f}\n{l}",
+])  # fmt: skip
+
+
+@settings(max_examples=300, deadline=None)
+@given(
+    written=FORMATS,
+    hz=st.floats(4.9, 5.0),
+    missed=st.integers(4, 8),
+    seed=st.integers(0, 10_000),
+    noisy=st.booleans(),
+    late_s=st.floats(0.0005, 0.4),
+    comma=st.booleans(),
+)
+def test_right_ones_in_any_format(
+    written: str, hz: float, missed: int, seed: int, noisy: bool, late_s: float, comma: bool
+) -> None:
+    jitter = random.Random(seed)
+
+    class Formatted(Noisy if noisy else Counter):  # type: ignore[misc]
+        def take(self, now: float, data: str) -> Iterator[Log]:
+            yield from super().take(now + jitter.uniform(0, 0.01), data)
+
+        def summary(self) -> Iterator[Log]:
+            text = written.format(n=self.total, r=self.rate(), f="F", l="L")
+            text = text.replace(".", ",") if comma and "," not in text and "1763726400" not in text else text
+            yield 20, text.replace("F", self.first).replace("L", self.last)
+
+    even, jumped = steady(Formatted(), hz, late_s=late_s), jump(Formatted(), missed, late_s=late_s)
+    assert_passed(judges.judge_count(even, jumped))
+    assert_passed(judges.judge_rate(even, jumped))
+    assert_passed(judges.judge_summary(even, jumped))
+    assert_passed(continuity.judge_gaps(jumped, even))
+    assert_passed(continuity.judge_restart(restart(Formatted(), late_s=late_s), even, jumped))
+
+
+# Wrong ones.
+
+
+def states(count: str = "{n}", rate: str = "{r:.2f}", first: str = "{f}", last: str = "{l}") -> type[Counter]:
+    """A node that states this instead."""
+
+    class Stating(Counter):
+        def summary(self) -> Iterator[Log]:
+            n, r, f, elapsed = self.total, self.rate(), self.first, self.times[-1] - self.begin
+            number = self.number or 0
+            known = {"n": n, "r": r, "f": f, "l": self.last, "e": elapsed, "number": number}
+            known |= {
+                "more": n + 1,
+                "less": n - 1,
+                "p": 1 / r,
+                "m": 60 * r,
+                "half": r / 2,
+                "whole": n / int(elapsed + 1),
+            }
+            known |= {
+                "since": n / (elapsed + 1.2),
+                "off": 1.45 * r,
+                "cut": n / max(1, int(elapsed)),
+                "next": number + 1,
+            }
+            known |= {"received": n + self.missed, "kilo": r / 1000}
+            yield 20, " | ".join(part.format(**known) for part in (count, rate, first, last))
+
+    return Stating
+
+
+STATES_WRONG = {
+    "count: off by one": [states(count="{more}"), states(count="{less}")],
+    "count: number taken for the count": [states(count="{number}"), states(count="{next}")],
+    "count: missed messages counted": [states(count="{received}")],
+    "count: wrong count": [states(count="1"), states(count="{half}"), states(count="10")],
+    "rate: period instead of a rate": [states(rate="{p:.3f}")],
+    "rate: rate per minute": [states(rate="{m:.1f}")],
+    "rate: rate in another unit": [states(rate="{kilo:.6f}")],
+    "rate: counted from the node's start": [states(rate="{since:.2f}")],
+    "rate: wrong rate": [states(rate=each) for each in ("{half}", "{off}", "{e:.2f}", "1.0", "5.0", "0", "-{r:.2f}")],
+    "rate: seconds cut off": [states(rate="{cut}")],
+    "rate: no rate": [states(rate="?")],
+    "summary: first message missing": [states(first="-")],
+    "summary: last message missing": [states(last="-")],
+    "summary: first message overwritten": [states(first="Hello World: 3")],
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("breaks", "node"), [(breaks, node) for breaks, nodes in STATES_WRONG.items() for node in nodes]
+)
+def test_summaries_that_state_something_else(breaks: str, node: type[Counter]) -> None:
+    criterion, cause = breaks.split(": ", 1)
+    assert_breaks(judged(node), criterion, cause)
+
+
+class CountsFromOne(Counter):
+    def take(self, now: float, data: str) -> Iterator[Log]:
+        self.total = self.total or 1
+        yield from super().take(now, data)
+
+
+class Alarmed(Counter):
+    """An alarm with each message."""
+
+    def heard(self, data: str) -> Iterator[Log]:
+        missing = int(data.split(":")[1]) - (self.number if self.number is not None else -1) - 1
+        yield 30, f"{missing} missing"
+
+    def jumped(self, last: int, number: int) -> Iterator[Log]:
+        yield from ()
+
+
+class AlarmedByTens(Counter):
+    """Compares texts."""
+
+    def take(self, now: float, data: str) -> Iterator[Log]:
+        if data < self.last:
+            yield 30, "out of sequence"
+        yield from super().take(now, data)
+
+    def jumped(self, last: int, number: int) -> Iterator[Log]:
+        if number > last:
+            yield 30, "out of sequence"
+
+
+class GapBlind(Counter):
+    def jumped(self, last: int, number: int) -> Iterator[Log]:
+        yield from ()
+
+
+class GapBlindNoisy(GapBlind, NoisyAndLong):
+    pass
+
+
+class GapBlindAnniversary(GapBlind, Anniversary):
+    pass
+
+
+class GapBlindRounded(GapBlind, Rounded):
+    pass
+
+
+class GapBlindWithClock(GapBlind, WithClock):
+    pass
+
+
+class GapCountStuck(GapBlind):
+    def summary(self) -> Iterator[Log]:
+        yield 20, f"{self.total} {self.rate()} gaps=0 restarts=0 {self.first} {self.last}"
+
+
+class GapCountRising(GapBlind):
+    def summary(self) -> Iterator[Log]:
+        yield 20, f"{self.total} {self.rate()} gaps={self.total // 10} {self.first} {self.last}"
+
+
+class GapOnlyBack(Counter):
+    def jumped(self, last: int, number: int) -> Iterator[Log]:
+        if number < last:
+            yield 30, "sequence went back"
+
+
+class SilentReset(Restarting):
+    def take(self, now: float, data: str) -> Iterator[Log]:
+        yield from (log for log in super().take(now, data) if "restarted" not in log[1])
+
+
+class Stubborn(Counter):
+    """Drops what it takes for old."""
+
+    def take(self, now: float, data: str) -> Iterator[Log]:
+        if self.number is None or int(data.split(":")[1]) > self.number:
+            yield from super().take(now, data)
+
+
+class CountsUpToN(Counter):
+    """Takes N for the count after a restart."""
+
+    def jumped(self, last: int, number: int) -> Iterator[Log]:
+        if number < last:
+            self.total = 5
+        yield from super().jumped(last, number)
+
+
+class OnlyOnce(Counter):
+    def summary(self) -> Iterator[Log]:
+        if self.total == 10:
+            yield from super().summary()
+
+
+class TenLate(Counter):
+    """Holds each summary back until the next one is due."""
+
+    kept: tuple[Log, ...] = ()
+
+    def summary(self) -> Iterator[Log]:
+        yield from self.kept
+        self.kept = tuple(super().summary())
+
+
+class FirstOverwritten(Counter):
+    def take(self, now: float, data: str) -> Iterator[Log]:
+        if self.total and self.total % 10 == 0:
+            self.first = data
+        yield from super().take(now, data)
+
+
+class Behind(Counter):
+    """Quotes the message before the last one."""
+
+    def take(self, now: float, data: str) -> Iterator[Log]:
+        before = self.last
+        for level, text in super().take(now, data):
+            yield level, text.replace(f"last={data}", f"last={before}")
+
+
+class AgainAfterASecond(Counter):
+    """Writes each summary twice."""
+
+    def summary(self) -> Iterator[Log]:
+        yield from super().summary()
+
+    def heard(self, data: str) -> Iterator[Log]:
+        if self.total % 10 == 6 and self.total > 10:
+            yield from super().summary()
+
+
+@pytest.mark.parametrize(
+    ("node", "criterion", "cause"),
+    [
+        (CountsFromOne, "count", "off by one"),
+        (Alarmed, "gaps", "gap not noticed"),
+        (AlarmedByTens, "gaps", "false alarm"),
+        *((node, "gaps", "gap not noticed") for node in (
+            GapBlind, GapBlindNoisy, GapBlindAnniversary, GapBlindRounded, GapBlindWithClock, GapCountStuck,
+            GapCountRising, GapOnlyBack,
+        )),
+        (SilentReset, "restart", "starts over silently"),
+        (Stubborn, "restart", "stopped counting"),
+        (CountsUpToN, "restart", "wrong count after a restart"),
+        (OnlyOnce, "summary", "missing summary"),
+        (FirstOverwritten, "summary", "first message overwritten"),
+        (Behind, "summary", "last message missing"),
+        (AgainAfterASecond, "summary", "too many summaries"),
+        (lambda: Counter(every=5), "summary", "too many summaries"),
+        (lambda: Counter(every=3), "summary", "too many summaries"),
+        (lambda: Counter(every=2), "summary", "too many summaries"),
+        (lambda: Counter(every=1), "summary", "summary for every message"),
+        (lambda: Counter(every=9), "summary", "missing summary"),
+        (lambda: Counter(every=11), "summary", "missing summary"),
+        (lambda: Counter(every=20), "summary", "missing summary"),
+        (TenLate, "summary", "missing summary"),
+    ],
+)  # fmt: skip
+def test_wrong_ones(node: Callable[[], Counter], criterion: str, cause: str) -> None:
+    verdicts = judged(node)
+    if criterion == "summary" and cause == "missing summary":  # what comes at another time may state what it likes
+        verdicts = {name: v for name, v in verdicts.items() if name in ("summary", "gaps")}
+    if cause == "summary for every message":  # no time has passed at the first message
+        verdicts.pop("rate")
+    assert_breaks(verdicts, criterion, cause)
+
+
+@settings(max_examples=200, deadline=None)
+@given(
+    written=st.sampled_from([
+        "{n} {r:.2f} {f} {l}", "({n},{r:.1f},{f},{l})", "{f} {l}\n{r} Hz\n{n} messages"
+    ]),
+    by=st.sampled_from([-3, -2, -1, 1, 2, 3]),
+    factor=st.one_of(st.floats(0.1, 0.7), st.floats(1.4, 9.0)),
+    hz=st.floats(4.9, 5.0),
+)  # fmt: skip
+def test_a_wrong_number_is_found_in_any_format(written: str, by: int, factor: float, hz: float) -> None:
+    class Wrong(Counter):
+        def summary(self) -> Iterator[Log]:
+            yield 20, written.format(n=self.total + off, r=self.rate() * scale, f=self.first, l=self.last)
+
+    off, scale = by, 1.0
+    assert judges.judge_count(steady(Wrong(), hz), jump(Wrong())).status is Status.FAILED
+    assert judges.judge_rate(steady(Wrong(), hz), jump(Wrong())).status is Status.PASSED
+    off, scale = 0, factor
+    assert judges.judge_count(steady(Wrong(), hz), jump(Wrong())).status is Status.PASSED
+    assert judges.judge_rate(steady(Wrong(), hz), jump(Wrong())).status is Status.FAILED
+
+
+def test_a_gap_that_is_only_printed() -> None:
+    jumped = jump(GapBlind())
+    after = [line.replace("at", "at") for line in ("gap: 5 messages lost",)]
+    printed = replace(jumped.trace, output=trace(out="\n".join(after)).output)
+    printed = replace(printed, output=tuple(replace(line, at=jumped.sent[-1].at) for line in printed.output))
+    assert_failed(
+        continuity.judge_gaps(replace(jumped, trace=printed), steady(GapBlind())),
+        "printed, not logged",
+        "5 messages lost",
+    )
+
+
+# A node that is not there, or goes.
+
+
+def silent(seen: Trace, **more: object) -> Verdict:
+    even = replace(steady(Counter()), trace=seen, **more)  # type: ignore[arg-type]
+    return judges.judge_summary(even, even)
+
+
+def test_why_there_is_no_summary() -> None:
+    listening = trace(graph=LISTENING)
+    assert_failed(silent(listening), "no summary")
+    assert_failed(silent(listening, spins=False), "no spin")
+    assert_failed(silent(NO_NODE, sent=()), "no node")
+    assert_failed(silent(trace(), sent=()), "no subscription")
+    assert_failed(silent(trace(graph=LISTENING, out="10 from Hello World: 0 to Hello World: 9")), "printed, not logged")
+    assert_failed(silent(trace(graph=LISTENING, err=CRASH, exit=exited(1))), "unhandled exception", "line 12")
+    written = "[INFO] [17.1] [stats]: 10 from Hello World: 0 to Hello World: 9"
+    assert_failed(silent(trace(graph=LISTENING, err=written)), "not the node's logger")
+    elsewhere = Endpoint("/chatters", "std_msgs/msg/String", "/node", "reliable", "volatile")
+    assert_failed(silent(trace(graph=replace(UP, subscriptions=(elsewhere,))), sent=()), "wrong topic")
+
+
+def test_without_a_summary_nothing_else_is_judged() -> None:
+    nothing = replace(steady(Counter()), trace=trace(graph=LISTENING))
+    for verdict in (
+        judges.judge_count(nothing, nothing),
+        judges.judge_rate(nothing, nothing),
+        continuity.judge_restart(restart(Counter()), nothing, nothing),
+        continuity.judge_gaps(nothing, nothing),
+    ):
+        assert verdict.status is Status.SKIPPED
+
+
+def test_a_node_that_ends_when_the_publisher_goes_or_n_jumps() -> None:
+    even, jumped, restarted = steady(Counter()), jump(Counter()), restart(Counter())
+    ended = replace(restarted, trace=replace(restarted.trace, exit=exited(0, after_s=4)))
+    assert_failed(continuity.judge_restart(ended, even, jumped), "exit at once")
+    crashed = trace(graph=LISTENING, logs=jumped.trace.logs, err=CRASH, exit=exited(1))
+    assert_failed(continuity.judge_gaps(replace(jumped, trace=crashed), even), "unhandled exception")
+    deaf = replace(restarted, sent=restarted.sent[:RESTART_AFTER], trace=trace(logs=restarted.trace.logs))
+    assert_failed(continuity.judge_restart(deaf, even, jumped), "no subscription")
+
+
+def test_shutdown() -> None:
+    assert_passed(judges.judge_shutdown(replace(steady(Counter()), ending=ending())))
+    assert_failed(judges.judge_shutdown(replace(steady(Counter()), ending=ending(still_there=True))), "SIGINT ignored")
+
+
+# A busy machine.
+
+
+def test_who_took_in_the_first_message_late_measured_a_higher_rate() -> None:
+    """Half a second late, as far as the kernel says: then 10 messages came in 1.3 s."""
+
+    class Late(Counter):
+        def rate(self) -> float:
+            return self.total / (self.times[-1] - self.begin - 0.5)
+
+    even = steady(Late())
+    owed = [0.0, 0.25, *[0.5] * 18]
+    excused = tuple(replace(each, starved_s=late) for each, late in zip(even.sent, owed, strict=True))
+    assert_failed(judges.judge_rate(even, jump(Late())), "wrong rate")
+    assert_passed(judges.judge_rate(replace(even, sent=excused, starved_s=0.5), jump(Late())))
+
+
+def test_a_pace_at_which_the_seconds_seem_to_be_the_rate_is_no_pace_to_judge_by() -> None:
+    cut = states(rate="{cut}")
+    with pytest.raises(MachineTooBusy):
+        judges.judge_rate(steady(cut(), 4.4), jump(cut()))
+    assert_passed(judges.judge_rate(steady(Counter(), 4.4), jump(Counter())))
+
+
+# Reading.
+
+
+@pytest.mark.parametrize(
+    ("written", "meant"),
+    [
+        ("10", 10), ("4.93", 4.93), ("4,93", 4.93), ("4,93", 93), ("1,234.5", 1234.5), ("1.234,5", 1234.5),
+        ("1'234", 1234),
+        ("1_234", 1234), ("-4.93", -4.93), ("1e1", 10), ("4.9e+00", 4.9), ("10,4.93", 10), ("10,4.93", 4.93),
+        ("1.2.3", 2),
+        ("007", 7), ("1,234", 1.234), ("1,234", 1234),
+    ],
+)  # fmt: skip
+def test_what_a_number_may_mean(written: str, meant: float) -> None:
+    assert meant in list(values(written))
+
+
+def said(text: str) -> tuple[str, ...]:
+    return tuple(number.text for number in read(LogRecord(20, "node", text, START, START), 1).numbers)
+
+
+def test_what_is_a_number_and_what_is_not() -> None:
+    assert said("10 of “Hello World: 12” at 15:04:05 on 2026-05-05") == ("10",)
+    assert said("\x1b[31m7\x1b[0m apples, -3 pears, 2-3 plums, \uff15") == ("7", "-3", "2", "3", "5")
+    assert said("合計10件") == ("10",)
+    assert said("no number at all") == ()
+
+
+def test_messages_of_one_wording_are_of_one_kind() -> None:
+    one, other = (
+        read(LogRecord(20, "node", text, START, START), 1)
+        for text in ("got   Hello World: 9, 1 of 3 ###", "got Hello World: 10,  12.5 of -4 #####")
+    )
+    assert one.kind == other.kind
+    assert (one.quoted, other.quoted) == ((9,), (10,))
+
+
+def test_an_alarm_beside_a_summary_is_no_part_of_the_next_one() -> None:
+    class Beside(Counter):
+        def heard(self, data: str) -> Iterator[Log]:
+            if self.total == 10:
+                yield 30, "by the way: 3"
+
+    assert [report.messages for report in find(steady(Beside()))] == [10, 20]
+    assert [len(report.lines) for report in find(steady(Beside()))] == [1, 1]
