@@ -3,9 +3,15 @@
 from __future__ import annotations
 
 import os
+import time
 from dataclasses import dataclass
 
-from tutor.process.warden import processes
+from tutor.process.warden import Process, processes
+
+LOOK_EVERY_S = 0.1
+"""How old the table of processes may be. To read it takes some milliseconds of CPU, and thirty runs ask at once."""
+
+_table: tuple[float, dict[int, Process]] = (0.0, {})
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,13 +29,23 @@ class CpuTime:
 
 def cpu_time(session: int) -> CpuTime:
     """What the processes of a session had of the CPU so far; one that has ended no longer counts."""
-    each = [_of(process.pid) for process in processes().values() if process.session == session]
+    each = [_of(process.pid) for process in _processes(session).values() if process.session == session]
     return CpuTime(sum(one.ran_s for one in each), sum(one.waited_s for one in each))
 
 
 def cpu_time_here() -> CpuTime:
     """The same for our own process."""
     return _of(os.getpid())
+
+
+def _processes(leader: int) -> dict[int, Process]:
+    """The table of processes, read anew where it is old or does not have `leader`: the numbers of each are never old."""
+    global _table
+    read_at, table = _table
+    now = time.monotonic()
+    if leader not in table or now - read_at >= LOOK_EVERY_S:
+        _table = (now, processes())
+    return _table[1]
 
 
 def _of(pid: int) -> CpuTime:
