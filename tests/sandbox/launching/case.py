@@ -29,8 +29,8 @@ class Case:
     """`actions` are the launch description's; `before` is code in front of it.
 
     `says`: for each process, by its name in the messages, all that it prints. `log`: messages of the launch that come
-    in this order; others may come between. `absent`: texts that no line holds. `files`: more files beside the launch
-    file. $DIR is the folder of the launch file, $PREFIX that of the package `demo`; numbers of processes are N.
+    in this order; others may come between. `absent`: texts that none of these holds. `files`: more files beside the
+    launch file. $DIR is the folder of the launch file, $PREFIX that of the package `demo`; numbers of processes are N.
     """
 
     id: str

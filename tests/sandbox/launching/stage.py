@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import threading
+import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -46,6 +47,7 @@ PROGRAMS = {
 }
 
 LIMIT_S = 60.0
+LEFT_AFTER_S = 5.0
 
 
 @dataclass(frozen=True)
@@ -54,6 +56,8 @@ class Ran:
 
     code: int
     lines: tuple[str, ...]
+    left: bool
+    """Whether a process that it started was still there a while after its end."""
 
     @property
     def says(self) -> dict[str, tuple[str, ...]]:
@@ -111,8 +115,14 @@ class Stage:
         environment: Mapping[str, str] | None = None,
         interrupt_at: str = "",
         signals: Sequence[int] = (signal.SIGINT,),
+        to_all: bool = False,
+        ignoring_sigint: bool = False,
     ) -> Ran:
-        """Run a launch file. At the first line that holds `interrupt_at`, the signals are sent to the launch alone."""
+        """Run a launch file.
+
+        At the first line that holds `interrupt_at`, the signals are sent: to the launch alone, or `to_all` of its
+        process group, as a terminal does. `ignoring_sigint`: started as a shell starts what is in the background.
+        """
         environ = {
             **{name: value for name, value in os.environ.items() if not name.startswith(("ROS_", "OVERRIDE_LAUNCH"))},
             "AMENT_PREFIX_PATH": os.pathsep.join(
@@ -131,6 +141,7 @@ class Stage:
             stderr=subprocess.STDOUT,
             text=True,
             start_new_session=True,
+            preexec_fn=(lambda: signal.signal(signal.SIGINT, signal.SIG_IGN)) if ignoring_sigint else None,
         )
         give_up = threading.Timer(LIMIT_S, os.killpg, (process.pid, signal.SIGKILL))
         give_up.start()
@@ -142,10 +153,10 @@ class Stage:
                 if interrupt_at and interrupt_at in line:
                     interrupt_at = ""
                     for number in signals:
-                        process.send_signal(number)
+                        (os.killpg if to_all else os.kill)(process.pid, number)
         code = process.wait()
         give_up.cancel()
-        return Ran(code, tuple(self._plain(line) for line in lines))
+        return Ran(code, tuple(self._plain(line) for line in lines), is_left(process.pid))
 
     def _plain(self, line: str) -> str:
         for folder, sign in ((self.prefix, "$PREFIX"), (self.folder, "$DIR")):
@@ -155,9 +166,13 @@ class Stage:
 
 
 def is_left(group: int) -> bool:
-    """Whether a process of this group is still there."""
-    try:
-        os.killpg(group, 0)
-    except ProcessLookupError:
-        return False
+    """Whether a process of this group is still there, a while after the end of the first."""
+    deadline = time.monotonic() + LEFT_AFTER_S
+    while time.monotonic() < deadline:
+        try:
+            os.killpg(group, 0)
+        except ProcessLookupError:
+            return False
+        time.sleep(0.01)
+    os.killpg(group, signal.SIGKILL)
     return True

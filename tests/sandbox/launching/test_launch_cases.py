@@ -39,11 +39,13 @@ def judge(case: Case, stage: Stage, *, python_path: str) -> None:
     ran = stage.run_case(case, python_path)
     shown = "\n".join(ran.lines)
     assert missing(case.log, ran.log) is None, f"not in this order: {missing(case.log, ran.log)}\n{shown}"
+    said = [line for lines in ran.says.values() for line in lines]
     for text in case.absent:
-        assert text not in shown
+        assert not any(text in line for line in (*ran.log, *said)), shown
     if case.says or "output" in case.id:
         assert ran.says == dict(case.says), shown
     assert ran.code == case.code, shown
+    assert not ran.left, shown
 
 
 def missing(expected: Sequence[str], lines: Sequence[str]) -> str | None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
+from . import _tracebacks
 from .launch_description_entity import LaunchDescriptionEntity
 
 if TYPE_CHECKING:
@@ -17,6 +18,7 @@ class Action(LaunchDescriptionEntity):
 
     def __init__(self, *, condition: Condition | None = None) -> None:
         self._condition = condition
+        self._place = _tracebacks.place_of_caller()
 
     @property
     def condition(self) -> Condition | None:
@@ -38,12 +40,16 @@ class Action(LaunchDescriptionEntity):
         return [(f"Conditionally included by {self.describe()}", self.get_sub_entities())]
 
     def visit(self, context: LaunchContext) -> Sequence[LaunchDescriptionEntity] | None:
-        if self._condition is not None and not self._condition.evaluate(context):
-            return None
         try:
-            return self.execute(context)
-        finally:
-            self._report_completion(context)
+            if self._condition is not None and not self._condition.evaluate(context):
+                return None
+            try:
+                return self.execute(context)
+            finally:
+                self._report_completion(context)
+        except Exception as error:
+            _tracebacks.note_place(error, self._place)
+            raise
 
     def execute(self, context: LaunchContext) -> Sequence[LaunchDescriptionEntity] | None:
         """Do it; the entities returned are visited next."""

@@ -22,6 +22,8 @@ from .logging import get_logger, launch_config, log_launch_config
 from .utilities.class_tools_impl import is_a_subclass
 from .utilities.visit_all_entities_and_collect_futures_impl import visit_all_entities_and_collect_futures
 
+SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGQUIT)
+
 KILL_AFTER_S = 2.0
 """How long processes have to end after SIGTERM, when the launch itself was told to terminate."""
 
@@ -38,6 +40,8 @@ class LaunchService:
         self._shutting_down = False
         self._interrupted = False
         self._terminated = False
+        self._handling = False
+        self._unanswered = False
         self._return_code = 0
         self._task: asyncio.Task[int] | None = None
         self._going_on: list[asyncio.Future[Any]] = []
@@ -77,8 +81,7 @@ class LaunchService:
         self._task = asyncio.current_task()
         self._context._set_asyncio_loop(loop)
         loop.set_exception_handler(self._on_stray_error)
-        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGQUIT):
-            loop.add_signal_handler(number, self._on_sigint if number == signal.SIGINT else self._on_sigterm, number)
+        before = {number: signal.signal(number, self._on_signal) for number in SIGNALS}
         log_launch_config(logger=self._logger)
         try:
             await self._handle_events(shutdown_when_idle)
@@ -87,8 +90,8 @@ class LaunchService:
             self._return_code = 1
         finally:
             await self._end_processes()
-            for number in (signal.SIGINT, signal.SIGTERM, signal.SIGQUIT):
-                loop.remove_signal_handler(number)
+            for number, handler in before.items():
+                signal.signal(number, handler)
             self._context._set_asyncio_loop(None)
             self._task = None
         return self._return_code
@@ -108,6 +111,8 @@ class LaunchService:
                     self._shut_down("idle")
                 else:
                     await self._wait(queue, [])
+            except KeyboardInterrupt:
+                continue  # what the launch file did was broken off; the signal itself is dealt with next
             except Exception as error:
                 self._report(error)
 
@@ -135,6 +140,13 @@ class LaunchService:
 
     def _handle(self, event: Event) -> None:
         """Have each handler that matches handle it, those registered last first, and visit what that leads to."""
+        self._handling = True
+        try:
+            self._have_handled(event)
+        finally:
+            self._handling = False
+
+    def _have_handled(self, event: Event) -> None:
         context = self._context
         for handler in tuple(context._event_handlers):
             if not handler.matches(event):
@@ -174,7 +186,18 @@ class LaunchService:
         self._shutting_down = True
         context._set_is_shutdown(True)
 
+    def _on_signal(self, number: int, frame: object) -> None:
+        """Deal with a signal between two events. Code of the launch file that does not come to an end is broken off."""
+        received = signal.Signals(number)
+        is_first = received == signal.SIGINT and not self._unanswered
+        self._unanswered = True
+        react = self._on_sigint if received == signal.SIGINT else self._on_sigterm
+        self._context.asyncio_loop.call_soon_threadsafe(react, received)
+        if self._handling and not is_first:
+            raise KeyboardInterrupt
+
     def _on_sigint(self, number: signal.Signals) -> None:
+        self._unanswered = False
         message = "user interrupted with ctrl-c (SIGINT)"
         if self._interrupted:
             self._logger.warning(f"{message} again, ignoring...")

@@ -82,6 +82,7 @@ class ExecuteLocal(Action):
         self._respawn_max_retries = respawn_max_retries
         self._respawns = 0
         self._executed = False
+        self._starting = False
         self._details: dict[str, Any] | None = None
         self._process: _subprocess.Process | None = None
         self._last_returncode: int | None = None
@@ -174,6 +175,7 @@ class ExecuteLocal(Action):
         self._asked_to_end = context.asyncio_loop.create_future()
         # An error in what is visited next must not make the launch forget this process.
         context.add_completion_future(self._completed)
+        self._starting = True
         self._task = context.asyncio_loop.create_task(self._run(context, self._asked_to_end))
         return None
 
@@ -187,6 +189,7 @@ class ExecuteLocal(Action):
                     await asyncio.wait([asked_to_end], timeout=self._respawn_delay)
                 if asked_to_end.done():
                     break
+                self._starting = True
         finally:
             if self._escalation is not None:
                 self._escalation.cancel()
@@ -217,6 +220,7 @@ class ExecuteLocal(Action):
                 on_stderr=lambda data: context.emit_event_sync(ProcessStderr(text=data, **details)),
             )
         except (OSError, ValueError) as error:
+            self._starting = False
             why = "".join(traceback.format_exception_only(error)).rstrip()
             self._logger.error(f"exception occurred while executing process:\n{why}")
             return False
@@ -234,6 +238,7 @@ class ExecuteLocal(Action):
     def _on_start(self, context: LaunchContext, process: _subprocess.Process) -> None:
         assert self._details is not None
         self._process = process
+        self._starting = False
         context._processes.add(process)
         self._logger.info(f"process started with pid [{process.pid}]")
         self._details["pid"] = process.pid
@@ -265,9 +270,8 @@ class ExecuteLocal(Action):
         """Ask the process to end: SIGINT, then SIGTERM, then SIGKILL."""
         if self._asked_to_end is None or self._asked_to_end.done():
             return None
-        assert self._completed is not None
-        if self._process is None and not self._completed.done() and self._respawns == 0:
-            # It is about to start, and did not get what the terminal sent.
+        if self._starting:
+            # It does not run yet, and did not get what the terminal sent.
             context.register_event_handler(
                 OnProcessStart(
                     target_action=lambda action: action is self,
@@ -277,7 +281,7 @@ class ExecuteLocal(Action):
             )
             return None
         self._asked_to_end.set_result(None)
-        if self._completed.done() or self._process is None:
+        if self._process is None:
             return None
         self._escalation = _ending.Escalation(self, self._logger, self._sigterm_timeout, self._sigkill_timeout)
         return self._escalation.actions(send_sigint=send_sigint)

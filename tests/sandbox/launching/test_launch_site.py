@@ -1,0 +1,268 @@
+"""The substitutes: where they can be imported, what they refuse, and what they tell of a fault in a launch file."""
+
+from __future__ import annotations
+
+import importlib.util
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.sandbox.launching.case import launch_file
+from tests.sandbox.launching.stage import Stage
+
+REFUSED = "is not supported by the launch files that run without an installed ROS 2"
+
+EMPTY = "from launch import LaunchDescription\ndef generate_launch_description():\n    return LaunchDescription([])\n"
+
+
+@pytest.fixture
+def stage(tmp_path: Path) -> Stage:
+    return Stage(tmp_path)
+
+
+def write(stage: Stage, text: str, name: str = "main.launch.py") -> Path:
+    path = stage.folder / name
+    path.write_text(text)
+    return path
+
+
+# --- where they can be imported
+
+
+def test_nothing_of_them_can_be_imported_elsewhere() -> None:
+    code = "import importlib.util, tutor.sandbox.launching as l; l.runner; print(importlib.util.find_spec('launch'))"
+    ran = subprocess.run(
+        [sys.executable, "-P", "-c", code], env={"PATH": ""}, capture_output=True, text=True, timeout=60, check=True
+    )
+    assert ran.stdout.strip() == "None"
+
+
+def test_nothing_of_ours_is_imported_by_them(stage: Stage) -> None:
+    site = Path(importlib.util.find_spec("tutor.sandbox.launching").origin).parent / "site"  # type: ignore[union-attr, arg-type]
+    code = "import sys, launch, launch_ros; print({'tutor', 'rclpy'} & {name.split('.')[0] for name in sys.modules})"
+    ran = subprocess.run(
+        [sys.executable, "-P", "-c", code],
+        env={"PYTHONPATH": str(site)},
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=True,
+    )
+    assert ran.stdout.strip() == "set()"
+
+
+def test_a_real_launch_goes_first(stage: Stage) -> None:
+    real = stage.folder / "real"
+    for name, text in {
+        "__init__.py": "print('the real one')\nclass LaunchDescription:\n    def __init__(self, entities): ...\n"
+        "class LaunchService:\n    def __init__(self, **kwargs): ...\n"
+        "    def include_launch_description(self, description): ...\n    def run(self): return 5\n",
+        "actions.py": "class IncludeLaunchDescription:\n    def __init__(self, source, launch_arguments): "
+        "print(launch_arguments)\n",
+        "launch_description_sources.py": "class AnyLaunchDescriptionSource:\n    def __init__(self, path): "
+        "print(path)\n",
+    }.items():
+        path = real / "launch" / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+    ran = stage.run(write(stage, EMPTY), ["x:=1"], python_path=str(real))
+    assert ran.code == 5
+    assert ran.lines == ("the real one", "$DIR/main.launch.py", "[('x', '1')]")
+
+
+def test_a_folder_named_launch_is_no_real_launch(stage: Stage) -> None:
+    # A package's own launch/ is often in a folder that is on the path.
+    (stage.folder / "package" / "launch").mkdir(parents=True)
+    assert stage.run(write(stage, EMPTY), python_path=str(stage.folder / "package")).code == 0
+
+
+# --- what they refuse
+
+
+@pytest.mark.parametrize(
+    ("statement", "named"),
+    [
+        ("from launch.actions import OpaqueCoroutine", "launch.actions.OpaqueCoroutine"),
+        ("import launch.actions; launch.actions.ForLoop", "launch.actions.ForLoop"),
+        ("import launch; launch.LaunchIntrospector", "launch.LaunchIntrospector"),
+        ("from launch.substitutions import AnonName", "launch.substitutions.AnonName"),
+        ("from launch.substitutions import LaunchLogDir", "launch.substitutions.LaunchLogDir"),
+        ("from launch.frontend import Parser", "launch.frontend"),
+        (
+            "from launch.launch_description_sources import FrontendLaunchDescriptionSource",
+            "launch.launch_description_sources.FrontendLaunchDescriptionSource",
+        ),
+        ("from launch_xml.launch_description_sources import XMLLaunchDescriptionSource", "launch_xml"),
+        ("import launch_yaml", "launch_yaml"),
+        ("import launch_testing", "launch_testing"),
+        ("from launch_ros.actions import LifecycleNode", "launch_ros.actions.LifecycleNode"),
+        ("from launch_ros.actions import ComposableNodeContainer", "launch_ros.actions.ComposableNodeContainer"),
+        ("from launch_ros.actions import SetUseSimTime", "launch_ros.actions.SetUseSimTime"),
+        (
+            "from launch_ros.actions.composable_node_container import ComposableNodeContainer",
+            "launch_ros.actions.composable_node_container",
+        ),
+        ("from launch_ros.descriptions import ComposableNode", "launch_ros.descriptions.ComposableNode"),
+        ("from launch_ros.event_handlers import OnStateTransition", "launch_ros.event_handlers"),
+        ("from launch_ros.events.lifecycle import ChangeState", "launch_ros.events"),
+        ("from launch_ros.substitutions import Parameter", "launch_ros.substitutions.Parameter"),
+    ],
+)
+def test_what_only_the_real_one_has_is_named(stage: Stage, statement: str, named: str) -> None:
+    ran = stage.run(write(stage, f"{statement}\n{EMPTY}"))
+    errors = [line for line in ran.log if line.startswith("[ERROR]")]
+    assert errors == [
+        f"[ERROR] [launch]: Caught exception in launch (see debug for traceback): {named} {REFUSED}; "
+        "it works where ROS 2 is installed and sourced"
+    ]
+    assert '  File "$DIR/main.launch.py", line 1, in <module>' in ran.lines
+    assert ran.code == 1
+
+
+@pytest.mark.parametrize(("name", "kind"), [("main.launch.xml", "XML"), ("main.launch.yaml", "YAML")])
+@pytest.mark.parametrize("included", [False, True])
+def test_other_kinds_of_launch_files_are_named(stage: Stage, name: str, kind: str, included: bool) -> None:
+    path = write(stage, "<launch/>", name)
+    if included:
+        path = write(stage, launch_file(f"IncludeLaunchDescription('{path}')"))
+    ran = stage.run(path)
+    errors = [line for line in ran.log if line.startswith("[ERROR]")]
+    assert len(errors) == 1
+    assert f"the {kind} launch file '$DIR/{name}' {REFUSED}" in errors[0]
+    assert ran.code == 1
+
+
+def test_a_name_that_the_real_one_has_not_either_is_no_matter_of_support(stage: Stage) -> None:
+    ran = stage.run(write(stage, f"from launch_ros.actions import Nood\n{EMPTY}"))
+    shown = "\n".join(ran.lines)
+    assert "cannot import name 'Nood' from 'launch_ros.actions'" in shown
+    assert REFUSED not in shown
+    assert ran.code == 1
+
+
+# --- what they tell of a fault
+
+
+FAULTS = {
+    "in the file": ("value = missing\n" + EMPTY, 1, "NameError: name 'missing' is not defined"),
+    "in the function": (
+        "def generate_launch_description():\n    return undefined()\n",
+        2,
+        "NameError: name 'undefined' is not defined",
+    ),
+    "of syntax": ("def generate_launch_description(:\n    pass\n", 1, "SyntaxError: invalid syntax"),
+    "in a call of launch": (
+        "from launch_ros.actions import Node\n\n\ndef generate_launch_description():\n    return "
+        "Node(package='demo')\n",
+        5,
+        "TypeError: Node.__init__() missing 1 required keyword-only argument: 'executable'",
+    ),
+    "in an opaque function": (
+        "from launch import LaunchDescription\nfrom launch.actions import OpaqueFunction\n\n\ndef setup(context):\n"
+        "    return context.launch_configurations['topic']\n\n\ndef generate_launch_description():\n"
+        "    return LaunchDescription([OpaqueFunction(function=setup)])\n",
+        6,
+        "KeyError: 'topic'",
+    ),
+    "in a substitution": (
+        "from launch import LaunchDescription\nfrom launch.actions import LogInfo\n"
+        "from launch.substitutions import LaunchConfiguration\n\n\ndef generate_launch_description():\n"
+        "    return LaunchDescription([\n        LogInfo(msg=LaunchConfiguration('topic')),\n    ])\n",
+        8,
+        "launch.substitutions.substitution_failure.SubstitutionFailure: launch configuration 'topic' does not exist",
+    ),
+    "in a package's name": (
+        "from launch import LaunchDescription\nfrom launch_ros.actions import Node\n\n\ndef "
+        "generate_launch_description():\n"
+        "    node = Node(\n        package='demos',\n        executable='talker',\n    )\n    return "
+        "LaunchDescription([node])\n",
+        6,
+        "launch.substitutions.substitution_failure.SubstitutionFailure: package 'demos' not found; packages "
+        "with programs "
+        "are: demo",
+    ),
+}
+
+SEEN_ONLY_WHEN_IT_RUNS = ("in an opaque function", "in a substitution", "in a package's name")
+
+
+@pytest.mark.parametrize("fault", FAULTS)
+@pytest.mark.parametrize("options", ["", "show"])
+def test_a_fault_is_shown_with_the_learners_own_line(stage: Stage, fault: str, options: str) -> None:
+    text, line, error = FAULTS[fault]
+    ran = stage.run(write(stage, text), options=options)
+    if options == "show" and fault in SEEN_ONLY_WHEN_IT_RUNS:
+        assert ran.code == 0
+        return
+    shown = "\n".join(ran.lines)
+    assert f'  File "$DIR/main.launch.py", line {line}' in shown
+    assert error in ran.lines, shown
+    assert "launching/site" not in shown
+    assert ran.code == 1
+
+
+def test_a_file_without_the_function_is_told(stage: Stage) -> None:
+    ran = stage.run(write(stage, "x = 1\n"))
+    assert any(
+        line.endswith("does not contain the required function 'generate_launch_description()'") for line in ran.lines
+    )
+    assert ran.code == 1
+
+
+def test_a_missing_file_is_told(stage: Stage) -> None:
+    ran = stage.run("nowhere.launch.py")
+    assert any("No such file or directory: 'nowhere.launch.py'" in line for line in ran.lines)
+    assert ran.code == 1
+
+
+@pytest.mark.parametrize("argument", ["x=1", ":=1", "x:=", "x"])
+def test_a_malformed_argument_is_told(stage: Stage, argument: str) -> None:
+    ran = stage.run(write(stage, EMPTY), [argument])
+    assert ran.lines == (f"malformed launch argument '{argument}', expected format '<name>:=<value>'",)
+    assert ran.code == 1
+
+
+# --- --show-args
+
+
+def test_show_args_lists_the_arguments(stage: Stage) -> None:
+    write(stage, launch_file("DeclareLaunchArgument('inner', default_value='i')"), "inner.launch.py")
+    actions = (
+        "DeclareLaunchArgument('topic', default_value=['chat', LaunchConfiguration('x')], description='The topic'), "
+        "DeclareLaunchArgument('mode', choices=['a', 'b'], description='How'), DeclareLaunchArgument('one', "
+        "choices=['1']), "
+        "GroupAction([DeclareLaunchArgument('deep')], condition=IfCondition('true')), DeclareLaunchArgument('topic'), "
+        f"IncludeLaunchDescription(PythonLaunchDescriptionSource('{stage.folder}/inner.launch.py')), "
+        f"LogInfo(msg='never')"
+    )
+    ran = stage.run(write(stage, launch_file(actions)), options="show")
+    assert ran.lines == (
+        "Arguments (pass arguments as '<name>:=<value>'):",
+        "",
+        "    'topic':",
+        "        The topic",
+        "        (default: 'chat' + LaunchConfig('x'))",
+        "",
+        "    'mode':",
+        "        How. Valid choices are: ['a', 'b']",
+        "",
+        "    'one':",
+        "        One of: ['1']",
+        "",
+        "    'deep':*",
+        "        no description given",
+        "",
+        "    'inner':",
+        "        no description given",
+        "        (default: 'i')",
+        "",
+        "* argument(s) which are only used if specific conditions occur",
+    )
+    assert ran.code == 0
+
+
+def test_show_args_without_any(stage: Stage) -> None:
+    ran = stage.run(write(stage, EMPTY), options="show")
+    assert ran.lines == ("Arguments (pass arguments as '<name>:=<value>'):", "", "  No arguments.")
