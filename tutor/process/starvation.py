@@ -39,7 +39,7 @@ def cpu_time_here() -> CpuTime:
 
 
 def _processes(leader: int) -> dict[int, Process]:
-    """The table of processes, read anew where it is old or does not have `leader`: the numbers of each are never old."""
+    """The table of processes, read anew where it is old or lacks `leader`; the numbers of each are never old."""
     global _table
     read_at, table = _table
     now = time.monotonic()
