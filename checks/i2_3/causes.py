@@ -6,7 +6,8 @@ from collections import Counter
 from collections.abc import Sequence
 
 from checks.i2_3.facts import SERVICE, TYPE, Lone, Quiet, Three, right_sum
-from checks.i2_3.ticks import HZ, Fault, Series
+from checks.i2_3.pace import Fault
+from checks.i2_3.ticks import HZ, Series
 from tutor.judge import causes, tracebacks
 from tutor.judge.trace import CallAnswer, Service, Trace
 from tutor.judge.tracebacks import Frame

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from checks.i2_3.ticks import During, Series, during
+from checks.i2_3.pace import During, during
+from checks.i2_3.ticks import Series
 from tutor.judge.trace import CallAnswer, Ending, LogRecord, Service, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.waiting import STARVED
@@ -55,19 +56,20 @@ class Call:
     starved_s: float = 0.0
 
     @property
-    def excused(self) -> bool:
-        """Whether the machine was so busy meanwhile that nothing can be said of what took long."""
-        return self.starved_s >= STARVED * self.answer.took_s
-
-    @property
     def in_time(self) -> bool:
-        """Whether it was answered, and not too late."""
-        return self.answer.response is not None and self.answer.took_s <= self.longest_s
+        """Whether it was answered, and not too late. No machine is so busy that 4 s become 3 s."""
+        limit_s = LONGEST_S + min(self.starved_s, EXCUSED_S)
+        return self.answer.response is not None and self.answer.took_s <= limit_s
 
     @property
-    def longest_s(self) -> float:
-        """What it may take. No machine is so busy that 4 s become 3 s."""
-        return LONGEST_S + min(self.starved_s, EXCUSED_S)
+    def near(self) -> bool:
+        """Whether it was answered almost in time, so that a busy machine may be what made it late."""
+        return self.answer.response is not None and self.answer.took_s <= LONGEST_S + 2 * EXCUSED_S
+
+    @property
+    def busy(self) -> bool:
+        """Whether the machine was so busy meanwhile that what was late may have been on time."""
+        return self.starved_s >= STARVED * self.answer.took_s
 
 
 @dataclass(frozen=True)
@@ -135,10 +137,15 @@ def right_sum(answer: CallAnswer) -> int:
     return int(answer.request["a"]) + int(answer.request["b"])
 
 
-def stands_still(logs: Sequence[LogRecord], call: Call, series: Sequence[Series]) -> bool:
+def disturbed(logs: Sequence[LogRecord], call: Call, series: Sequence[Series]) -> bool:
     """Whether no way to see the timer's messages lets them go on as they should during this call."""
     right = [each for each in series if each.is_10_hz]
     return bool(right) and all(heard(each, logs, call).fault for each in right)
+
+
+def excused(logs: Sequence[LogRecord], call: Call, series: Sequence[Series]) -> bool:
+    """Whether a busy machine may be what disturbed the timer: had it lost twice the time, all would be well."""
+    return call.busy and not disturbed(logs, replace(call, starved_s=2 * call.starved_s), series)
 
 
 def heard(series: Series, logs: Sequence[LogRecord], call: Call) -> During:

@@ -17,11 +17,13 @@ from checks.i2_3.facts import (
     Lone,
     Quiet,
     Trio,
+    excused,
     heard,
     is_there,
     right_sum,
 )
-from checks.i2_3.ticks import HZ, During, Fault, Series, best
+from checks.i2_3.pace import During, Fault
+from checks.i2_3.ticks import HZ, Series, best
 from tutor.judge import causes, ending
 from tutor.judge.bench import MachineTooBusy
 from tutor.judge.rates import TOLERANCE
@@ -48,8 +50,8 @@ def judge_blocks(seen: Lone) -> Verdict:
     told, took = _told(best.answer), f"the work takes {best.answer.took_s:.1f} s"
     if best.answer.took_s < SHORTEST_S:
         return failed(expected, told, Cause("too quick", took, "let the callback wait: time.sleep(3.0), then answer"))
-    if not any(call.in_time for call in seen.calls):
-        if best.excused:
+    if not best.in_time:
+        if best.busy and best.near:
             raise MachineTooBusy("this machine is too busy to time the service")
         return failed(expected, told, Cause("too slow", took, "let the callback wait 3 s once, then answer"))
     return passed(expected, told)
@@ -86,7 +88,7 @@ def judge_timer(alone: Quiet, seen: Lone) -> Verdict:
     observed = f"outside: {series}; {_heard(call, series)}"
     if call.fault is None:
         return passed(expected, observed, texts[:6])
-    if any(each.excused for each in seen.calls):
+    if excused(seen.trace.logs, seen.calls[-1], right):
         raise MachineTooBusy("this machine is too busy to listen to the timer")
     return failed(expected, observed, why.of_disturbed_timer(seen, call.fault), texts[-6:])
 

@@ -21,8 +21,9 @@ from checks.i2_3.facts import (
     Quiet,
     Three,
     Trio,
+    disturbed,
+    excused,
     is_there,
-    stands_still,
 )
 from checks.i2_3.listening import listen, may_be_10_hz, next_tick
 from checks.i2_3.ticks import all_series, likely
@@ -54,8 +55,8 @@ async def quiet(bench: Bench) -> Quiet:
         trace = run.trace()
         bench.doing(0.8, "pressing Ctrl+C")
         ended = await run.interrupt() if run.exit is None else None
-    excused = share >= STARVED and any(may_be_10_hz(each, share) for each in series if not each.is_10_hz)
-    return Quiet(trace, series, excused, ended)
+    busy = share >= STARVED and any(may_be_10_hz(each, share) for each in series if not each.is_10_hz)
+    return Quiet(trace, series, busy, ended)
 
 
 async def lone(bench: Bench) -> Lone:
@@ -74,11 +75,12 @@ async def lone(bench: Bench) -> Lone:
             bench.doing(0.8, "listening to the timer after the call")
             await next_tick(run, series, answer)
             calls.append(Call(answer, run.now(), lost_s))
-            still = stands_still(run.logs, calls[-1], series)
-            if answer.response is None or run.exit is not None or not _again(calls[-1], still, tried):
+            still = disturbed(run.logs, calls[-1], series)
+            may_be_ours = still and excused(run.logs, calls[-1], series)
+            if answer.response is None or run.exit is not None or not _again(calls[-1], still, may_be_ours, tried):
                 break
         seen = Lone(run.trace(), tuple(calls))
-    if seen.trace.exit is None and not calls[-1].excused and (answer.response is None or still):
+    if seen.trace.exit is None and (answer.response is None or (still and not may_be_ours)):
         stuck, spins = await _stuck(bench, answer)
         return Lone(seen.trace, seen.calls, stuck, spins)
     return seen
@@ -88,13 +90,12 @@ def _lost_s(run: Run) -> float:
     return run.starved_s() + run.late_s()
 
 
-def _again(call: Call, still: bool, tried: int) -> bool:
+def _again(call: Call, still: bool, may_be_ours: bool, tried: int) -> bool:
     """Whether another call is to tell what the machine, or the first connection, has done from what the node does."""
-    late = not call.in_time
+    late = call.answer.took_s > LONGEST_S
     if tried == 1:
         return still or late
-    near = call.answer.took_s < LONGEST_S + 1
-    return (still and call.excused) or (late and near and call.starved_s > BUSY_S)
+    return may_be_ours or (late and call.near and call.starved_s > BUSY_S)
 
 
 async def _stuck(bench: Bench, before: CallAnswer) -> tuple[tuple[Frame, ...], bool]:

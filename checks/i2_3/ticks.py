@@ -1,4 +1,4 @@
-"""I2.3: which log messages are the timer's, how fast they say it ticks, and whether a call disturbs them.
+"""I2.3: which log messages are the timer's, and how fast they say it ticks.
 
 A learner logs every tick or every tenth, with its number or without, in any words and beside any other messages. So
 the timer's messages are found by what they must be: alike, repeated while nobody calls, and ten ticks a second.
@@ -10,7 +10,6 @@ import re
 from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from enum import Enum
 from functools import lru_cache
 from itertools import pairwise
 from statistics import median
@@ -21,16 +20,13 @@ from tutor.judge.wording import shape
 
 HZ = 10.0
 
-SLACK_S = 0.4
-"""A gap is told from jitter when it is longer than the usual interval by this much, and by a tolerance."""
-
 EVEN = 0.5
 """Messages of different wording are one series if most intervals are within this share of their median."""
 
 CLOCKS_HZ = (1e3, 1e6, 1e9)
 """A number that rises at one of these speeds is a time in ms, µs or ns, not a count of ticks."""
 
-LEAST_S = 1.0
+LEAST_S = 0.9
 """What comes again and again within less than this, and then no more, is a greeting."""
 
 MOST = 2000
@@ -38,6 +34,8 @@ MOST = 2000
 
 _NUMBER = re.compile(r"\d+(?:\.\d+)?")
 _WORD_BEFORE = re.compile(r"\w*\W*$")
+_WORD_AFTER = re.compile(r"\W*[^\W\d]+")
+_FIRST_WORD = re.compile(r"\W*[^\W\d]{3,}")
 _TRUTH = re.compile(r"\b(true|false|yes|no|on|off|idle|busy)\b", re.IGNORECASE)
 
 
@@ -69,6 +67,8 @@ class Key:
             found = next((each for each in _numbers(log.text) if each[0] == self.text), None)
             return _tick(log, found[1]) if found else None
         if self.kind == "any" and _shape(log.text) in self.shapes:
+            return _tick(log, None)
+        if self.kind == "begin" and _first_word(log.text) == self.text:
             return _tick(log, None)
         if self.kind == "shape" and _shape(log.text) == self.text:
             return _tick(log, None if self.column is None else _numbers(log.text)[self.column][1])
@@ -105,7 +105,7 @@ class Series:
     @property
     def hz(self) -> float:
         """Ticks in a second: by the tick's number, or where there is none, by the messages."""
-        return _hz(self.ticks)
+        return hz_of(self.ticks)
 
     @property
     def is_10_hz(self) -> bool:
@@ -115,30 +115,6 @@ class Series:
     def __str__(self) -> str:
         by = "by the number in them" if self.numbered else "by their count"
         return f"{self.hz:.1f} ticks/s {by}, {len(self.ticks)} messages in {self.span_s:.1f} s"
-
-
-class Fault(Enum):
-    """How the timer's messages differ during a call."""
-
-    GAP = "gap"
-    SLOW = "slow"
-    FAST = "fast"
-
-
-@dataclass(frozen=True, slots=True)
-class During:
-    """The timer's messages around one call: `count` of them during its `for_s` seconds, the longest gap touching it.
-
-    `hz`: the ticks in a second, as the series tells them; None where too few messages tell it.
-    """
-
-    count: int
-    expected: float
-    for_s: float
-    longest_s: float
-    allowed_s: float
-    hz: float | None
-    fault: Fault | None
 
 
 def likely(found: Sequence[Series]) -> tuple[Series, ...]:
@@ -166,7 +142,7 @@ def all_series(logs: Iterable[LogRecord]) -> list[Series]:
     words: dict[str, list[LogRecord]] = defaultdict(list)
     for log in ordered:
         shapes[_shape(log.text)].append(log)
-        for word in {before for before, _ in _numbers(log.text) if any(map(str.isalpha, before))}:
+        for word in {label for label, _ in _numbers(log.text) if _has_word(label)}:
             words[word].append(log)
     found: list[Series] = []
     for text, alike in shapes.items():
@@ -178,53 +154,14 @@ def all_series(logs: Iterable[LogRecord]) -> list[Series]:
     plain = frozenset(series.key.text for series in found if series.key.kind == "shape" and not series.numbered)
     if len(plain) > 1:
         found += _some(_even(_series(Key("any", shapes=plain), ordered)))
+    for word in {_first_word(text) for text in plain} - {""}:
+        found += _some(_even(_series(Key("begin", word), ordered)))
     return found
-
-
-def during(
-    series: Series, logs: Iterable[LogRecord], asked_at: float, answered_at: float, *, until: float, starved_s: float
-) -> During:
-    """How the series went on while a call was made. `until`: how long the node was watched (seconds since the epoch).
-
-    A node that the machine kept from running for `starved_s` may pause that much longer, and tick that much less.
-    """
-    ticks = [tick for log in sorted(logs, key=lambda log: log.stamp) if (tick := series.key.of(log))]
-    before = [tick for tick in ticks if tick.stamp < asked_at][-1:]
-    after = [tick for tick in ticks if tick.stamp > answered_at][:1]
-    within = [tick for tick in ticks if asked_at <= tick.stamp <= answered_at]
-    around = [*before, *within, *after]
-    edges = [
-        *([] if before else [asked_at]),
-        *(tick.stamp for tick in around),
-        *([] if after else [max(until, answered_at)]),
-    ]
-    longest = max(b - a for a, b in pairwise(edges))
-    allowed = (1 + TOLERANCE) * min(series.longest_s, 2 * series.interval_s) + SLACK_S + starved_s
-    for_s = answered_at - asked_at
-    expected = for_s / series.interval_s
-    least = (1 - TOLERANCE) * max(0.0, for_s - starved_s) / series.interval_s - 1
-    most = (1 + TOLERANCE) * expected + 1
-    told = len(around) > 1 and around[-1].stamp - around[0].stamp >= 0.5 * for_s > 0.5
-    hz = _hz(around) if told else None
-    fault = None
-    if longest > allowed:
-        fault = Fault.GAP
-    elif len(within) < least or (hz and hz < (1 - TOLERANCE) * series.hz * max(0.1, 1 - starved_s / max(for_s, 0.1))):
-        fault = Fault.SLOW
-    elif len(within) > most or _bursts(series, edges) or (hz and hz > (1 + TOLERANCE) * series.hz):
-        fault = Fault.FAST
-    return During(len(within), expected, for_s, longest, allowed, hz, fault)
-
-
-def _bursts(series: Series, stamps: Sequence[float]) -> bool:
-    """Whether half a second of it holds far more messages than it should."""
-    most = 1.5 * 0.5 / series.interval_s + 3
-    return any(sum(start <= stamp < start + 0.5 for stamp in stamps) > most for start in stamps)
 
 
 def _series(key: Key, logs: Iterable[LogRecord]) -> Series | None:
     ticks = tuple(tick for log in logs if (tick := key.of(log)))
-    return Series(key, ticks) if len(ticks) > 1 and ticks[-1].stamp - ticks[0].stamp >= LEAST_S - SLACK_S / 4 else None
+    return Series(key, ticks) if len(ticks) > 1 and ticks[-1].stamp - ticks[0].stamp >= LEAST_S else None
 
 
 def _counting(series: Series | None) -> Series | None:
@@ -259,7 +196,8 @@ def _some(series: Series | None) -> list[Series]:
     return [] if series is None else [series]
 
 
-def _hz(ticks: Sequence[Tick]) -> float:
+def hz_of(ticks: Sequence[Tick]) -> float:
+    """Ticks in a second, from the first message to the last: by the numbers in them, or by their count."""
     first, last = ticks[0], ticks[-1]
     span = last.stamp - first.stamp
     if span <= 0:
@@ -282,11 +220,24 @@ def _tick(log: LogRecord, written: str | None) -> Tick:
 
 @lru_cache(4 * MOST)
 def _numbers(text: str) -> tuple[tuple[str, str], ...]:
-    """The numbers in a text, each with the word and the signs right before it."""
+    """The numbers in a text, each with its label: the word right before it, or where there is none, the one after."""
     found: list[tuple[str, str]] = []
     end = 0
     for match in _NUMBER.finditer(text):
         before = _WORD_BEFORE.search(text[end : match.start()])
-        found.append((before.group() if before else "", match.group()))
+        label = before.group() if before else ""
+        if not _has_word(label):
+            after = _WORD_AFTER.match(text[match.end() :])
+            label += "0" + after.group() if after else ""
+        found.append((label, match.group()))
         end = match.end()
     return tuple(found)
+
+
+def _has_word(label: str) -> bool:
+    return any(map(str.isalpha, label))
+
+
+def _first_word(text: str) -> str:
+    words = _FIRST_WORD.match(text)
+    return words.group().casefold() if words else ""

@@ -20,7 +20,8 @@ from checks.i2_3.judges import (
     judge_shutdown_busy,
     judge_timer,
 )
-from checks.i2_3.ticks import Fault, Series, all_series, during, likely
+from checks.i2_3.pace import Fault, during
+from checks.i2_3.ticks import Series, all_series, likely
 from tests.checks.made import (
     CRASHED,
     KEYBOARD_INTERRUPT,
@@ -109,9 +110,10 @@ def test_a_busy_machine_may_take_longer_but_never_less() -> None:
     assert_passed(judge_blocks(lone((), answer(4.2), answer(3.3))))
     assert_failed(judge_blocks(lone((), answer(2.6), starved_s=2.0)), "too quick")
     assert_failed(judge_blocks(lone((), answer(4.0), starved_s=0.6)), "too slow", "4.0 s")
+    assert_failed(judge_blocks(lone((), answer(4.5), starved_s=1.0)), "too slow", "4.5 s")
     assert_failed(judge_blocks(lone((), answer(4.5), answer(4.1))), "too slow", "4.1 s")
     with pytest.raises(MachineTooBusy):
-        judge_blocks(lone((), answer(4.5), starved_s=1.0))
+        judge_blocks(lone((), answer(4.2), starved_s=1.0))
 
 
 def test_one_wrong_sum_is_wrong() -> None:
@@ -156,6 +158,7 @@ TEXTS: list[Text] = [
     lambda n: f"elapsed {n / 10:.1f} s, tick {n}",
     lambda n: f"ticks left: {1000 - n}",
     lambda n: f"tick {n} ({'BUSY' if 3 < n < 33 else 'idle'})",
+    lambda n: f"#{n} last result: {'none yet' if n < 33 else '5 + 3 = 8'}",
     lambda n: f"tick {n}: {random.Random(n).choice(['still here', 'alive', 'going strong'])}",
 ]
 
@@ -189,6 +192,7 @@ UNNUMBERED: list[Text] = [
     lambda n: f"alive at {START + n / 10:.3f}",
     lambda n: f"up for {n * 100} ms",
     lambda n: "tick" if n % 2 else "tock",
+    lambda n: f"tick ({'adding 5 and 3' if 3 < n < 33 else 'nothing to do'})",
     lambda n: "|/-\\"[n % 4],
 ]
 
@@ -230,7 +234,9 @@ def test_a_gap_that_the_machine_made_is_excused() -> None:
     blocked = ticking(every=1, stands_still=(0.5, 1.6))
     assert_passed(judge_timer(quiet(ticking(every=1)), lone(blocked, starved_s=1.0)))
     with pytest.raises(MachineTooBusy):
-        judge_timer(quiet(ticking(every=1)), lone(ticking(stands_still=(0.4, 3)), starved_s=0.7))
+        judge_timer(quiet(ticking(every=1)), lone(ticking(every=1, stands_still=(0.5, 2)), starved_s=0.7))
+    long = lone(ticking(every=1, stands_still=(0.3, 3.3)), starved_s=0.7)
+    assert_failed(judge_timer(quiet(ticking(every=1)), long), "blocked executor")
     with pytest.raises(MachineTooBusy):
         judge_timer(quiet(ticking(hz=7), excused=True), lone())
 

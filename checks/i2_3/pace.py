@@ -1,0 +1,80 @@
+"""I2.3: whether the timer's messages go on during a call as they do outside one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from enum import Enum
+from itertools import pairwise
+
+from checks.i2_3.ticks import Series, hz_of
+from tutor.judge.rates import TOLERANCE
+from tutor.judge.trace import LogRecord
+
+SLACK_S = 0.4
+"""A gap is told from jitter when it is longer than the usual interval by this much, and by a tolerance."""
+
+
+class Fault(Enum):
+    """How the timer's messages differ during a call."""
+
+    GAP = "gap"
+    SLOW = "slow"
+    FAST = "fast"
+
+
+@dataclass(frozen=True, slots=True)
+class During:
+    """The timer's messages around one call: `count` of them during its `for_s` seconds, the longest gap touching it.
+
+    `hz`: the ticks in a second, as the series tells them; None where too few messages tell it.
+    """
+
+    count: int
+    expected: float
+    for_s: float
+    longest_s: float
+    allowed_s: float
+    hz: float | None
+    fault: Fault | None
+
+
+def during(
+    series: Series, logs: Iterable[LogRecord], asked_at: float, answered_at: float, *, until: float, starved_s: float
+) -> During:
+    """How the series went on while a call was made. `until`: how long the node was watched (seconds since the epoch).
+
+    A node that the machine kept from running for `starved_s` may pause that much longer, and tick that much less.
+    """
+    ticks = [tick for log in sorted(logs, key=lambda log: log.stamp) if (tick := series.key.of(log))]
+    before = [tick for tick in ticks if tick.stamp < asked_at][-1:]
+    after = [tick for tick in ticks if tick.stamp > answered_at][:1]
+    within = [tick for tick in ticks if asked_at <= tick.stamp <= answered_at]
+    around = [*before, *within, *after]
+    edges = [
+        *([] if before else [asked_at]),
+        *(tick.stamp for tick in around),
+        *([] if after else [max(until, answered_at)]),
+    ]
+    longest = max(b - a for a, b in pairwise(edges))
+    allowed = (1 + TOLERANCE) * min(series.longest_s, 2 * series.interval_s) + SLACK_S + starved_s
+    for_s = answered_at - asked_at
+    expected = for_s / series.interval_s
+    least = (1 - TOLERANCE) * max(0.0, for_s - starved_s) / series.interval_s - 1
+    most = (1 + TOLERANCE) * expected + 1
+    told = len(around) > 1 and around[-1].stamp - around[0].stamp >= 0.5 * for_s > 0.5
+    hz = hz_of(around) if told else None
+    fault = None
+    if longest > allowed:
+        fault = Fault.GAP
+    elif len(within) < least or (hz and hz < (1 - TOLERANCE) * series.hz * max(0.1, 1 - starved_s / max(for_s, 0.1))):
+        fault = Fault.SLOW
+    elif len(within) > most or _bursts(series, edges) or (hz and hz > (1 + TOLERANCE) * series.hz):
+        fault = Fault.FAST
+    return During(len(within), expected, for_s, longest, allowed, hz, fault)
+
+
+def _bursts(series: Series, stamps: Sequence[float]) -> bool:
+    """Whether half a second of it holds far more messages than it should."""
+    most = 1.5 * 0.5 / series.interval_s + 3
+    return any(sum(start <= stamp < start + 0.5 for stamp in stamps) > most for start in stamps)
