@@ -18,11 +18,11 @@ class ConcurrentService(Node):
 
         # TODO 3: create a timer of 10 Hz that calls self.tick.
 
-        # TODO 6: put both into callback groups, so that the timer need not wait for the service.
+        # TODO 4: put both into callback groups, so that the timer need not wait for the service.
 
         self.get_logger().info("Concurrent service is up")
 
-    # TODO 4: write the service's callback. It is given a request (a and b) and an empty response: wait for three
+    # TODO 5: write the service's callback. It is given a request (a and b) and an empty response: wait for three
     #         seconds, fill in response.sum, and return the response.
 
     def tick(self) -> None:
@@ -36,7 +36,7 @@ def main() -> None:
     """Run the node until Ctrl+C."""
     rclpy.init()
     node = ConcurrentService()
-    # TODO 5: this executor has one thread only. Use one that has several.
+    # TODO 6: this executor has one thread only. Use one that has several.
     executor = SingleThreadedExecutor()
     executor.add_node(node)
     try:
