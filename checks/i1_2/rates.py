@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from checks.i1_2.facts import EVERY, Feeding
 from checks.i1_2.reading import Number
-from checks.i1_2.reports import Report, milestone, slots
+from checks.i1_2.reports import Report, find, milestone, slots
 from tutor.judge.rates import TOLERANCE
 from tutor.judge.verdict import Cause
 
@@ -62,22 +62,23 @@ def true_rates(report: Report, feeding: Feeding) -> Range:
     return Range((1 - TOLERANCE) * min(least), (1 + TOLERANCE) * max(most))
 
 
-def stated(reports: Sequence[Report], allowed: Sequence[Range], elsewhere: Sequence[Report]) -> list[Number] | None:
+def stated(reports: Sequence[Report], allowed: Sequence[Range], jump: Feeding) -> list[Number] | None:
     """The true rate as each report states it, in the same place of each; None where one of them does not.
 
-    `elsewhere`: reports of another rate. A number that is the same there is no rate.
+    `jump` was fed at another rate: a number that is the same there, and not true there, is no rate.
     """
-    constant = {number.text for number in elsewhere[0].numbers} if elsewhere else set()
+    elsewhere = find(jump)[:1]
+    constant = {n.text for report in elsewhere for n in report.numbers if not true_rates(report, jump).holds(n)}
     if (places := slots(reports)) is not None:
-        others = slots([reports[0], elsewhere[0]]) if elsewhere else None
-        for index, place in enumerate(places):
-            same = others is not None and others[index][0].text == others[index][1].text
+        others = slots([reports[0], *elsewhere]) or places
+        for place, other in zip(places, others, strict=True):
+            same = len({number.text for number in other}) == 1 and other[0].text in constant
             if not same and all(one.holds(number) for one, number in zip(allowed, place, strict=True)):
                 return list(place)
         return None
     found = []
     for report, one in zip(reports, allowed, strict=True):
-        numbers = [n for n in report.numbers if one.holds(n) and (n.text not in constant or "." in n.text)]
+        numbers = [number for number in report.numbers if one.holds(number) and number.text not in constant]
         if not numbers:
             return None
         found.append(numbers[0])

@@ -18,6 +18,7 @@ _CONTENT = re.compile(r"Hello World:\s*(\d+)", re.IGNORECASE)
 _CLOCK = re.compile(r"\d{4}-\d\d-\d\d(?:[T ]\d\d:\d\d(?::\d\d(?:[.,]\d+)?)?)?|\d+:\d\d:\d\d(?:[.,]\d+)?")
 _NUMBER = re.compile(r"(?:(?<![\w.,)\]])[-\u2212])?\d+(?:[.,'\u2019_\u00a0\u202f]\d+)*(?:[eE][-+]?\d+)?")
 _THOUSANDS = re.compile(r"['\u2019_\u00a0\u202f](?=\d{3})")
+_DIGITS = re.compile(r"[0-9A-Za-z#]*#[0-9A-Za-z#]*")  # of an identifier, such as 0x5f3a
 _REPEATED = re.compile(r"(.)\1+")
 
 
@@ -66,7 +67,7 @@ def read(log: LogRecord, messages: int) -> Line:
     quoted = tuple(int(found[1]) for found in _CONTENT.finditer(text))
     plain = _CLOCK.sub("@", _CONTENT.sub("“”", text))
     numbers = tuple(Number(found[0], tuple(values(found[0]))) for found in _NUMBER.finditer(plain))
-    shape = _REPEATED.sub(r"\1", re.sub(r"\s+", " ", _NUMBER.sub("#", plain))).strip()
+    shape = _REPEATED.sub(r"\1", re.sub(r"\s+", " ", _DIGITS.sub("#", _NUMBER.sub("#", plain)))).strip()
     return Line(log.level, shape, text, log.stamp, messages, quoted, numbers)
 
 
