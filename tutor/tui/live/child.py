@@ -12,7 +12,7 @@ from pathlib import Path
 from tutor.live.protocol import Command, News, decode_news, encode
 from tutor.tui.live.command import LiveCommand
 
-END_S = 2.0
+END_S = 1.5
 """How long it may take to end once its input is closed; then it is killed."""
 
 _LONGEST_LINE = 1 << 24

@@ -75,6 +75,8 @@ class LivePane(Vertical):
         self._broken = ""
         self._preset = Preset()
         self._seen = False
+        self._composed = False
+        self._wants_focus = False
 
     def compose(self) -> ComposeResult:
         with Horizontal(id="live-head"):
@@ -89,7 +91,11 @@ class LivePane(Vertical):
             yield GraphPanel(self.state, id="graph")
 
     def on_mount(self) -> None:
+        self._composed = True
         self._show_standing()
+        self._choose()
+        if self._wants_focus:
+            self.focus_content()
 
     # --- the watching process ---
 
@@ -103,7 +109,8 @@ class LivePane(Vertical):
         if self._worker is None:
             self._command, self._broken = command, ""
             self._worker = self.run_worker(self._watch(command), group="live", exit_on_error=False)
-            self._show_standing()
+            if self._composed:
+                self._show_standing()
 
     def stop_watching(self) -> None:
         """End the child process."""
@@ -115,6 +122,10 @@ class LivePane(Vertical):
         if (child := self._child) is not None:
             self.stop_watching()
             await child.stop()
+
+    async def on_unmount(self) -> None:
+        """End it with the pane."""
+        await self.close_down()
 
     async def _watch(self, command: Callable[[], LiveCommand]) -> None:
         child: LiveChild | None = None
@@ -217,7 +228,10 @@ class LivePane(Vertical):
         self.query_one("#live-standing", Static).update(word)
         came = any(view.news is not None and view.news.count for view in state.topics.values())
         text = self._nothing(short=came)
+        was_empty = self.has_class("-empty")
         self.set_class(bool(text) and not came, "-empty")
+        if was_empty and not self.has_class("-empty") and self.query_one(TabStrip).has_focus:
+            self.focus_content()  # which could only focus the tabs before
         self.set_class(bool(text) and came, "-note")
         self.query_one("#live-empty" if not came else "#live-note", Static).update(text)
 
@@ -243,13 +257,17 @@ class LivePane(Vertical):
 
     def show_for(self, lesson: Lesson) -> None:
         """Choose what this lesson is about, once it appears."""
-        topics = self.query_one(TopicsPanel)
         for name in self._preset.topics:
             view = self.state.topics.get(name)
             if view is not None and (view.news is None or not view.news.count):
                 del self.state.topics[name]
                 self._send(Unfollow(name))
         self._preset = PRESETS.get(lesson.id, Preset())
+        if self._composed:
+            self._choose()
+
+    def _choose(self) -> None:
+        topics = self.query_one(TopicsPanel)
         for name in reversed(self._preset.topics):
             topics.follow(name)
         topics.show_list()
@@ -264,7 +282,13 @@ class LivePane(Vertical):
                 await panel.choose(service, focus=False)
 
     def focus_content(self) -> None:
-        """Focus what the arrow keys move in."""
+        """Focus what the arrow keys move in; where there is nothing yet, as soon as there is."""
+        if not self._composed:
+            self._wants_focus = True
+            return
+        if self.has_class("-empty"):
+            self.query_one(TabStrip).focus()
+            return
         target = {"topics": "#topics-table", "parameters": "#parameters-table", "services": "#services-table"}
         self.query_one(target.get(self.query_one(TabStrip).active, "#graph-view")).focus()
 

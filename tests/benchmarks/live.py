@@ -1,0 +1,217 @@
+"""The live page with a fast topic in view: from a key to the screen, counts against what was sent, CPU and memory.
+
+    uv run python -m tests.benchmarks.live [--rates 1000 10000] [--seconds 20]
+
+The app runs in a terminal of its own (a pty); a key is written to it, and the clock stops when the bytes that show its
+effect have come out. Three keys take turns: pause, zoom, turn a tab. The machine's load is printed beside: on a busy
+one the figures are those of a busy one. Where `ros2` is installed, `ros2 topic hz` is run on the same topic.
+"""
+
+from __future__ import annotations
+
+import argparse
+import fcntl
+import json
+import os
+import pty
+import random
+import re
+import select
+import shutil
+import signal
+import statistics
+import struct
+import subprocess
+import sys
+import tempfile
+import termios
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+from tests.live.world import LiveApp, World, world
+from tutor.tui.live.state import LiveState
+from tutor.tui.live.topics_panel import TopicsPanel
+
+METRONOME = Path(__file__).parent.parent / "live" / "metronome.py"
+SIZE = (36, 120)
+LIMIT_S = 30.0
+TARGETS_MS = {1000: 50.0, 10000: 100.0}
+
+_ESCAPES = re.compile(rb"\x1b\[[0-9;?<>=]*[ -/]*[@-~]|\x1b[@-_]|\x1b\][^\x07]*\x07")
+_TICK = os.sysconf("SC_CLK_TCK")
+
+KEYS = (
+    (b" ", b"Go on"),
+    (b" ", b"Pause"),
+    (b"+", b"30 s ago"),
+    (b"-", b"10 s ago"),
+    (b"]", b"Allowed"),
+    (b"[", b"Unfollow"),
+)
+"""A key, and what is drawn only then."""
+
+
+class Terminal:
+    """An app in a pty."""
+
+    def __init__(self, argv: list[str], env: dict[str, str]) -> None:
+        self.pid, self._fd = pty.fork()
+        if self.pid == 0:
+            os.execve(argv[0], argv, {**env, "TERM": "xterm-256color", "COLUMNS": "120", "LINES": "36"})
+        fcntl.ioctl(self._fd, termios.TIOCSWINSZ, struct.pack("HHHH", *SIZE, 0, 0))
+        self._seen = b""
+
+    def press(self, key: bytes) -> None:
+        self._seen = b""
+        os.write(self._fd, key)
+
+    def until(self, text: bytes, limit_s: float = LIMIT_S) -> float:
+        """Read until this text has come out; the time then (`perf_counter`)."""
+        deadline = time.perf_counter() + limit_s
+        while text not in _ESCAPES.sub(b"", self._seen):
+            left = deadline - time.perf_counter()
+            if left <= 0:
+                raise TimeoutError(f"{text!r} is not drawn: {_ESCAPES.sub(b'', self._seen)[-3000:]!r}")
+            self.read(left)
+        return time.perf_counter()
+
+    def read(self, for_s: float) -> None:
+        """Take what comes within that time, at most once."""
+        if select.select([self._fd], [], [], for_s)[0]:
+            self._seen += os.read(self._fd, 1 << 16)
+
+    def drain(self, for_s: float) -> None:
+        """Let it draw."""
+        deadline = time.perf_counter() + for_s
+        while (left := deadline - time.perf_counter()) > 0:
+            self.read(left)
+            self._seen = b""
+
+    def close(self) -> None:
+        """Quit, and wait for it."""
+        self.press(b"\x11")
+        while True:
+            try:
+                self.read(1.0)
+            except OSError:  # the other end is closed
+                break
+        os.waitpid(self.pid, 0)
+        os.close(self._fd)
+
+
+@dataclass(frozen=True, slots=True)
+class Use:
+    """What a process has used so far: CPU seconds, and memory in MB."""
+
+    cpu_s: float
+    memory_mb: float
+
+
+def use_of(pid: int) -> Use:
+    fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
+    pages = int(Path(f"/proc/{pid}/statm").read_text().split()[1])
+    return Use((int(fields[11]) + int(fields[12])) / _TICK, pages * os.sysconf("SC_PAGE_SIZE") / 1e6)
+
+
+def child_of(pid: int) -> int:
+    """The watching process of the app."""
+    return int(Path(f"/proc/{pid}/task/{pid}/children").read_text().split()[0])
+
+
+def measure(around: World, rate: int, seconds: float) -> bool:
+    """One rate; whether the target was met and every message was counted."""
+    report = Path(tempfile.mkstemp(suffix=".json")[1])
+    env = {**around.environ, "ROS_TUTOR_BENCHMARK": str(around.domain)}
+    app = Terminal([sys.executable, "-m", "tests.benchmarks.live", "--app", str(report)], env)
+    app.until(b"No node runs")
+    publisher = around.run(METRONOME, str(rate), str(int(rate * (seconds + 5))))
+    app.until(b"jitter")
+    app.drain(1.0)
+    pids = app.pid, child_of(app.pid)
+    before, began = [use_of(pid) for pid in pids], time.perf_counter()
+    took: list[float] = []
+    while time.perf_counter() - began < seconds:
+        for key, effect in KEYS:
+            app.drain(random.uniform(0.1, 0.3))
+            pressed = time.perf_counter()
+            app.press(key)
+            took.append((app.until(effect) - pressed) * 1000)
+    lasted = time.perf_counter() - began
+    after = [use_of(pid) for pid in pids]
+    hz = topic_hz(around)
+    sent, _, needed = around.said(publisher).partition(" ")
+    app.drain(1.5)
+    app.close()
+    found = json.loads(report.read_text())
+    report.unlink()
+    around.end(publisher)
+    p95 = statistics.quantiles(took, n=20)[-1]
+    print(
+        f"{rate:>6} Hz  key to screen p50 {statistics.median(took):5.1f} ms, p95 {p95:5.1f} ms, "
+        f"worst {max(took):5.1f} ms ({len(took)} keys; p95 under {TARGETS_MS.get(rate, 100.0):.0f} ms is wanted)\n"
+        f"           sent {int(sent):,} in {float(needed):.2f} s, counted {found['count']:,}, "
+        f"said to be lost {found['lost']}"
+    )
+    for name, a, b in zip(("app", "watching child"), before, after, strict=True):
+        print(f"           {name}: {(b.cpu_s - a.cpu_s) / lasted:6.1%} CPU, {b.memory_mb:.0f} MB")
+    print(
+        f"           {hz}\n           load of the machine: {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores",
+        flush=True,
+    )
+    return p95 < TARGETS_MS.get(rate, 100.0) and found["count"] == int(sent)
+
+
+def topic_hz(around: World) -> str:
+    """What `ros2 topic hz` says and uses meanwhile, where it is installed."""
+    if (ros2 := shutil.which("ros2")) is None:
+        return "ros2 topic hz: not installed here"
+    process = subprocess.Popen(
+        [ros2, "topic", "hz", "/ticks"],
+        env=around.environ,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        text=True,
+    )
+    assert process.stdout is not None
+    said = next((line.strip() for line in process.stdout if "average rate" in line), "nothing")
+    used = use_of(process.pid)
+    process.send_signal(signal.SIGINT)
+    process.communicate()
+    return f"ros2 topic hz: {said}, {used.cpu_s:.1f} s CPU until then, {used.memory_mb:.0f} MB"
+
+
+def run_app(report: Path) -> None:
+    """The app that is measured: the live page, with the topic followed."""
+    app = LiveApp(World(int(os.environ["ROS_TUTOR_BENCHMARK"])))
+
+    def follow() -> None:
+        app.pane.query_one(TopicsPanel).follow("/ticks")
+
+        known.append(app.pane.state)
+
+    known: list[LiveState] = []
+    app.call_later(follow)
+    app.run()
+    news = known[0].topics["/ticks"].news
+    assert news is not None
+    report.write_text(json.dumps({"count": news.count, "lost": news.lost}))
+
+
+def main() -> int:
+    """Print the figures of each rate. Exit code 1 where a target was missed."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--rates", type=int, nargs="+", default=[1000, 10000])
+    parser.add_argument("--seconds", type=float, default=20.0)
+    parser.add_argument("--app", type=Path, help=argparse.SUPPRESS)
+    arguments = parser.parse_args()
+    if arguments.app is not None:
+        run_app(arguments.app)
+        return 0
+    with world() as around:
+        met = [measure(around, rate, arguments.seconds) for rate in arguments.rates]
+    return 0 if all(met) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
