@@ -9,6 +9,7 @@ from contextlib import asynccontextmanager
 from pathlib import Path
 
 import pytest
+from textual.keys import _character_to_key
 from textual.pilot import Pilot
 from textual.screen import Screen
 from textual.widget import Widget
@@ -59,6 +60,9 @@ class Learner:
     async def press(self, *keys: str) -> None:
         await self.pilot.press(*keys)
 
+    async def types(self, text: str) -> None:
+        await self.pilot.press(*("enter" if c == "\n" else _character_to_key(c) for c in text))
+
     async def sees(self, *texts: str) -> None:
         """Wait until every text is on the screen, in one line each."""
         await self.until(lambda: all(text in self.screen() for text in texts), texts)
@@ -76,6 +80,8 @@ class Learner:
         width, height = self.app.size
         screen: Screen[object] = self.app.screen
         lines = screen._compositor.render_strips()
+        if not lines:  # a screen that has just been opened
+            return ""
         assert len(lines) == height
         assert all(line.cell_length <= width for line in lines)
         return "\n".join(line.text for line in lines)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -10,6 +11,7 @@ from tutor.content import Checklist, Course, CriterionText, Difficulty, Lesson, 
 from tutor.judge.events import CheckFinished, CheckStarted, CriterionJudged, Event, ExerciseJudged, Progress, encode
 from tutor.judge.result import CriterionResult, Environment, ExerciseResult, Report
 from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped
+from tutor.tui import run_options
 from tutor.tui.desk import Desk
 from tutor.tui.node import NodeCommand
 from tutor.workspace import RunOptions, Workspace
@@ -110,6 +112,7 @@ class MadeDesk(Desk):
 
     def node_command(self, file: LessonFile, options: RunOptions) -> NodeCommand:
         path = self.path(file)
+        given = run_options.arguments(options, launch=False)
         return NodeCommand(
             file.name,
             (sys.executable, "-I", str(path)),
@@ -155,6 +158,7 @@ class FakeEngine:
         script.write_text(ENGINE)
         self.command = (sys.executable, "-I", str(script), str(folder))
         self._script: object = None
+        self._former: list[object] = []
 
     def say(self, *lines: Event | str) -> None:
         """Have the child print these events; "crash" and "fault" make it end early."""
@@ -166,9 +170,17 @@ class FakeEngine:
 
     def close(self) -> None:
         """The end of the script: the child ends."""
+        for script in self._former:
+            with contextlib.suppress(BrokenPipeError):
+                script.close()  # type: ignore[attr-defined]
         if self._script is not None:
             self._script.close()  # type: ignore[attr-defined]
             self._script = None
+
+    def close_quietly(self) -> None:
+        """The child ends by itself otherwise; the next one is given a script of its own."""
+        self._former.append(self._script)
+        self._script = None
 
     @property
     def cleaned_up(self) -> bool:

@@ -145,3 +145,32 @@ async def test_quitting_ends_the_check(learner: Any) -> None:
         assert me.desk.engine.cleaned_up
         with pytest.raises(ProcessLookupError):
             os.kill(pid, 0)
+
+
+async def test_a_save_checks_anew_and_the_running_check_gives_way(learner: Any) -> None:
+    async with learner() as me:
+        await me.press("w")
+        await me.sees("a save checks")
+        await begin(me)
+        await me.told(made.doing("rate", 0.3, "listening"))
+        await me.sees("listening")
+        first = me.desk.engine.pid
+        me.desk.engine.close_quietly()
+        await me.press("e", "#", "ctrl+s")
+        await me.until(lambda: me.main.checks.running is not None and me.desk.engine.pid != first, "checked anew")
+        with pytest.raises(ProcessLookupError):
+            os.kill(first, 0)
+        await me.told(*made.started(), *made.ending(made.GOOD))
+        me.desk.engine.close()
+        await me.until(lambda: me.main.session.progress.of("i1.1").best is not None)
+
+
+async def test_attempts_are_kept_and_shown_over_time(learner: Any) -> None:
+    async with learner((180, 50)) as me:
+        await begin(me)
+        await me.told(*made.ending(made.BAD))
+        me.desk.engine.close()
+        await me.sees("1 attempt", "2 of 3", "not yet: rate")
+        await me.until(lambda: me.main.checks.running is None)
+        await me.press("a")
+        await me.sees("I1.1: your attempts", "today")

@@ -82,3 +82,85 @@ async def test_quitting_ends_the_node(learner: Any) -> None:
         await me.press("q")
         await me.until(lambda: me.app.return_code == 0)
         assert not alive(pid)
+
+
+ECHO = "import os, sys\nprint('given', *sys.argv[1:], flush=True)\nprint('pid', os.getpid(), flush=True)\n"
+
+
+async def test_a_node_is_run_with_the_parameters_and_remaps_of_the_learners_choice(learner: Any) -> None:
+    async with learner() as me:
+        me.file.write_text(ECHO + made.NODE)
+        await me.press("o")
+        await me.press(*"rate 5")
+        await me.sees("'rate 5' sets no parameter: write name:=value", "F5 runs")
+        await me.press("f5")
+        await me.sees("sets no parameter")
+        me.app.screen.query_one("#run-parameters").text = "rate:=5.0"
+        me.app.screen.query_one("#run-remaps").text = "chatter:=/news"
+        await me.sees("ros2 run my_package thermometer --ros-args -p rate:=5.0 -r", "chatter:=/news")
+        await me.press("f5")
+        await me.sees("given --ros-args -p rate:=5.0 -r chatter:=/news", "$       ros2 run my_package thermometer")
+        await me.until(lambda: me.desk.app_state().run_of("i1.1").parameters == ("rate:=5.0",), "remembered")
+
+
+async def test_a_save_restarts_the_node_where_that_is_wanted(learner: Any) -> None:
+    async with learner() as me:
+        me.file.write_text(ECHO + made.NODE)
+        await me.press("W")
+        await me.sees("a save restarts")
+        await me.press("r")
+        await me.sees("the sensor is warm")
+        before = me.node
+        await me.press("e", "end", "#", "ctrl+s")
+        await me.until(lambda: me.node is not before and me.node.state.phase is Phase.RUNNING, "run anew")
+        assert before.over.is_set()
+        await me.until(lambda: "the sensor is warm" in me.screen())
+
+
+async def test_the_log_is_filtered_paused_and_cleared(learner: Any) -> None:
+    async with learner() as me:
+        await me.press("r")
+        await me.sees("the sensor is warm", "a printed line", "a long line")
+        await me.press("m", "m")
+        await me.sees("WARN and above", "1 of 4 lines", "the sensor is warm")
+        assert "a printed line" not in me.screen()
+        await me.press("m", "m", "slash", *"print", "enter")
+        await me.sees("a printed line", "'print'", "1 of 4 lines")
+        assert "sensor is warm" not in me.screen()
+        await me.press("escape")
+        await me.sees("the sensor is warm")
+        await me.press("space", "r")
+        await me.sees("paused: go on", "ended")
+        assert "bye" not in me.text("#log-view")
+        await me.press("space")
+        await me.until(lambda: "bye" in me.text("#log-view"))
+        await me.press("x")
+        await me.sees("0 of 5 lines")
+
+
+async def test_a_traceback_leads_to_its_line_in_the_editor(learner: Any) -> None:
+    async with learner() as me:
+        me.file.write_text("def tick():\n    raise ValueError('no')\n\ntick()\n")
+        await me.press("r")
+        await me.sees("ValueError: no", "← g or click")
+        await me.press("g")
+        await me.until(lambda: me.main.page == "code" and me.editor.cursor_location == (1, 4), "the raise")
+        await me.press("escape", "3")
+        row = next(n for n, line in enumerate(me.text("#log-view").split("\n")) if "line 4" in line)
+        await me.pilot.click("#log-view", offset=(20, row))
+        await me.until(lambda: me.main.page == "code" and me.editor.cursor_location == (3, 0), "the call")
+        assert me.app.focused is me.editor
+
+
+async def test_a_server_and_its_client_run_side_by_side(learner: Any) -> None:
+    async with learner() as me:
+        await me.press("n", "s")
+        await me.sees("server.py and client.py")
+        await me.press("r")
+        await me.sees("● running  server.py", "the sensor is warm")
+        await me.press("f")
+        await me.sees("client.py")
+        await me.press("r")
+        await me.sees("● running  client.py", "running server.py and client.py")
+        await me.press("r")
+        await me.sees("■ ended  client.py", "running server.py")

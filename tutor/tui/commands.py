@@ -73,7 +73,7 @@ GROUPS: tuple[tuple[str, tuple[Command, ...]], ...] = (
         "Your code",
         (
             Command("start", ("s",), "Start", "Put the skeleton into your workspace"),
-            Command("edit", ("e",), "Edit", "Edit your file here; Esc leaves the editor", footer=True),
+            Command("edit", ("e",), "Edit", "Edit your file here, until Esc", footer=True),
             Command("save", ("ctrl+s",), "Save", "Save (it is also saved as you go)"),
             Command("own_editor", ("E",), "$EDITOR", "Open it in your editor ($EDITOR)"),
             Command("next_file", ("f",), "File", "Show the exercise's other file"),
@@ -81,7 +81,7 @@ GROUPS: tuple[tuple[str, tuple[Command, ...]], ...] = (
             Command("changes", ("d",), "Changes", "Show what you changed in the skeleton"),
             Command("solution", ("v",), "Solution", "Show our solution (asks first)"),
             Command("against", ("V",), "Compare", "Compare your file with our solution"),
-            Command("reset", ("Z",), "Reset", "Begin anew with the skeleton (keeps a backup)"),
+            Command("reset", ("Z",), "Reset", "Begin anew (keeps a backup)"),
         ),
     ),
     (
@@ -106,7 +106,7 @@ GROUPS: tuple[tuple[str, tuple[Command, ...]], ...] = (
             Command("page_log", ("3", "f4"), "Log", "Show the log of your node"),
             Command("page_live", ("4", "f7"), "Live", "Show topics, parameters, services, live"),
             Command("page_criteria", ("5", "f8"), "Criteria", "Show the criteria"),
-            Command("theme", ("t",), "Theme", "Switch between the dark and the light theme"),
+            Command("theme", ("t",), "Theme", "Dark or light theme"),
             Command("help", ("question_mark", "f1"), "Help", "Show all keys", footer=True),
             Command("quit", ("q",), "Quit", "Stop everything and leave", footer=True),
         ),

@@ -65,16 +65,17 @@ class Files:
             self._stage.run_worker(self._go_to(message), group="show-line", exclusive=True)
 
     async def _go_to(self, message: messages.GoToLine) -> None:
-        await self._look(message.path)
+        await self.look(message.path)
         self._pane.go_to(message.path, message.line)
 
     # --- the disk has changed ---
 
     def touched(self, message: messages.FileTouched) -> None:
         """Look at it anew."""
-        self._stage.run_worker(self._look(message.path), group="look")
+        self._stage.run_worker(self.look(message.path), group="look")
 
-    async def _look(self, path: Path) -> None:
+    async def look(self, path: Path) -> None:
+        """Bring the editor and the disk together now."""
         async with self._lock:
             try:
                 text = await asyncio.to_thread(read_source, path)
@@ -95,7 +96,10 @@ class Files:
             if path == self._stage.session.path:
                 self._pane.show_missing(path)
             return
-        if known is not None and text != known and self._pane.is_changed(path):
+        if text == known and self._pane.knows(path):
+            self._pane.show_found(path)  # our own save, most often: what was typed since is newer than the disk
+            return
+        if known is not None and self._pane.is_changed(path):
             if text != self._pane.text(path):
                 await self._conflict(path, text)
                 return
@@ -103,7 +107,7 @@ class Files:
         else:
             await self._pane.show_source(path, text, visible=path == self._stage.session.path)
         self._disk[path] = text
-        if known is not None and text != known:
+        if known is not None:
             self._stage.say(f"{path.name} was changed outside: this is the new version.")
             self._stage.post_message(messages.FileSaved(path))
         self._stage.refresh_bindings()

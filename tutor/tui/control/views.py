@@ -57,6 +57,9 @@ class Views:
         self._stage.ask(f"Solution of {words.label(lesson)}", text, "Show it", unveil)
 
     def _show(self, view: View) -> None:
+        self._stage.run_worker(self._show_now(view), group="view", exclusive=True)
+
+    async def _show_now(self, view: View) -> None:
         from tutor.tui.diffing import count, difference
 
         file = self._stage.session.file
@@ -66,6 +69,7 @@ class Views:
         except OSError as error:
             self._stage.trouble(f"It cannot be read: {error.strerror}")
             return
+        await self._files.look(path)
         self._stage.show_page("code")
         if view in (View.SKELETON, View.SOLUTION):
             self._pane.show_other(

@@ -16,8 +16,8 @@ from tutor.tui.commands import GROUPS, Command
 from tutor.tui.screens.dialog import Dialog
 
 _HOW = (
-    "Read the lesson, start the exercise, edit the file, run it, check it. A failure tells you the next step.\n"
-    "In the editor letters type: leave it with Esc, or use the F keys, which work everywhere."
+    "Read the lesson, start, edit, run, check. A failure tells you the next step.\n"
+    "In the editor letters type: leave it with Esc. The F keys work everywhere."
 )
 
 
@@ -60,7 +60,7 @@ class HelpScreen(Dialog[None]):
 def _text(groups: Sequence[tuple[str, tuple[Command, ...]]]) -> Content:
     parts: list[Content | str | tuple[str, str]] = []
     for title, group in groups:
-        parts += ["\n\n" if parts else "\n", (title, "bold $primary")]
+        parts += ["\n\n" if parts else "", (title, "bold $primary")]
         for key, text in _merged(group) if group else _EVERYWHERE:
             parts += ["\n", (f"{key:<9} ", "bold $accent"), text]
     return Content.assemble(*parts)

@@ -158,6 +158,11 @@ class CodePane(Vertical):
             editor.display = visible
             await self.query_one("#code-body").mount(editor)
         if visible:
+            self.show_found(path)
+
+    def show_found(self, path: Path) -> None:
+        """A known file is there."""
+        if self._paths and path == self._paths[self._chosen]:
             self.remove_class("-missing")
             self._editors[path].display = True
         self.show_saved()

@@ -85,7 +85,7 @@ class LogPane(Vertical):
             self.paused = False
         self._state = state
         self.query_one(LogView).own = own
-        head = Content.assemble(*_head(state), (f"   domain {domain}   ", "$quiet"), (state.command, "$quiet"))
+        head = Content.assemble(*_head(state), (f"   domain {domain}", "$quiet"))
         self.query_one("#log-head", Static).update(head)
         if not self.paused:
             self._show()
@@ -152,9 +152,11 @@ class LogPane(Vertical):
             self._frozen = None
         every = [loglines.read(line) for line in state.lines]
         lines = loglines.chosen(every, self.level, self.text, self._cleared_at)
-        head: Row = ()
+        head: list[Row] = []
+        if state.command:
+            head.append(((" $       ", "quiet"), (state.command, "name")))
         if state.dropped:
-            head = ((f"({state.dropped} lines of a flood are not shown)", "quiet"),)
+            head.append(((f"({state.dropped} lines of a flood are not shown)", "quiet"),))
         tail: Row = ()
         if state.phase is Phase.ENDED:
             mark, kind = ("!", "error") if state.failed else ("■", "quiet")

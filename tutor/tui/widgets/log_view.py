@@ -21,7 +21,7 @@ from tutor.tui.widgets.line_view import LineView, Piece, Row
 class LogView(LineView):
     """Follows the end of the log, unless the learner has scrolled up or has paused it."""
 
-    BINDINGS: ClassVar[list[BindingType]] = local("run stop level filter pause clear go_to_error")
+    BINDINGS: ClassVar[list[BindingType]] = local("run stop")
     COMPONENT_CLASSES: ClassVar[set[str]] = {
         f"line--{kind}" for kind in ("quiet", "name", "debug", "info", "warn", "error", "fatal", "link")
     }
@@ -43,11 +43,11 @@ class LogView(LineView):
         self.own: Sequence[Path] = ()
         """The learner's own files: lines that name them can be clicked."""
         self._lines: Sequence[LogLine] = ()
-        self._head: Row = ()
+        self._head: Sequence[Row] = ()
         self._tail: Row = ()
         self._places: list[tuple[Path, int] | None] = []
 
-    def show_log(self, lines: Sequence[LogLine], head: Row = (), tail: Row = ()) -> None:
+    def show_log(self, lines: Sequence[LogLine], head: Sequence[Row] = (), tail: Row = ()) -> None:
         """Show these lines; `head` and `tail` are our own words before and after them."""
         self._lines, self._head, self._tail = lines, head, tail
         self._lay_out()
@@ -70,12 +70,12 @@ class LogView(LineView):
         places: list[tuple[Path, int] | None] = []
 
         def add(pieces: Row, place: tuple[Path, int] | None = None) -> None:
-            for row in _wrapped(pieces, width):
-                rows.append(row)
+            for folded in _wrapped(pieces, width):
+                rows.append(folded)
                 places.append(place)
 
-        if self._head:
-            add(self._head)
+        for row in self._head:
+            add(row)
         for line in self._lines:
             place = line.place if line.place is not None and line.place[0] in self.own else None
             add(_coloured(line, linked=place is not None), place)

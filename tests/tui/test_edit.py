@@ -1,0 +1,125 @@
+"""Editing in the app, and what happens when the file is changed outside at the same time."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from tests.tui import made
+from tutor.tui.widgets.editor import CodeEditor
+
+
+def backups(path: Path) -> list[str]:
+    return sorted(other.read_text() for other in path.parent.glob(f"{path.name}.~*~"))
+
+
+async def typing(me: Any) -> CodeEditor:
+    """Open the editor, with the cursor at the very beginning."""
+    await me.press("e")
+    await me.until(lambda: isinstance(me.app.focused, CodeEditor), "the editor has the focus")
+    editor: CodeEditor = me.editor
+    return editor
+
+
+async def test_letters_type_and_are_saved_by_themselves_and_the_keys_of_commands_work_after_esc(learner: Any) -> None:
+    async with learner() as me:
+        editor = await typing(me)
+        await me.sees("Esc Commands", "Ctrl+S Save", "F5 Run", "F9 Check")
+        await me.press(*"rcq", "enter")
+        await me.until(lambda: me.file.read_text() == "rcq\n" + made.NODE, "saved without asking")
+        await me.sees("✓ saved")
+        await me.press("ctrl+z", "ctrl+z")
+        await me.until(lambda: me.file.read_text() == made.NODE, "undone, and saved")
+        await me.press("escape", "1")
+        await me.sees("Objective")
+        assert editor.text == made.NODE
+
+
+async def test_the_editor_indents_as_python_wants_it(learner: Any) -> None:
+    async with learner() as me:
+        me.file.write_text("")
+        editor = await typing(me)
+        await me.until(lambda: editor.text == "")
+        await me.types("def f(x):\nif x:\nreturn 1\nreturn 2\ny = 3")
+        assert editor.text == "def f(x):\n    if x:\n        return 1\n    return 2\ny = 3"
+        await me.types("\nif y:\n")
+        await me.press("backspace")
+        assert editor.text.endswith("\nif y:\n")
+
+
+async def test_a_change_outside_is_taken_over_with_the_cursor_where_it_was_and_can_be_undone(learner: Any) -> None:
+    async with learner() as me:
+        editor = await typing(me)
+        await me.press("down", "down", "right")
+        me.file.write_text("# theirs\n" + made.NODE)
+        await me.sees("was changed outside", "# theirs")
+        assert editor.cursor_location == (2, 1)
+        await me.press("ctrl+z")
+        await me.until(lambda: me.file.read_text() == made.NODE)
+
+
+async def conflict(me: Any) -> None:
+    """Type, and have somebody else write the file before it is saved."""
+    await typing(me)
+    await me.press("m")
+    me.file.write_text("theirs = 1\n")
+    await me.sees("was changed outside", "Keep mine", "Take the file's")
+
+
+async def test_changed_on_both_sides_the_learner_keeps_theirs_and_the_other_one_is_a_backup(learner: Any) -> None:
+    async with learner() as me:
+        await conflict(me)
+        assert backups(me.file) == ["m" + made.NODE]
+        await me.press("d")
+        await me.sees("- theirs = 1", "+ mimport signal")
+        await me.press("enter")
+        await me.sees("The other one is kept as thermometer.py.~")
+        assert me.file.read_text() == "m" + made.NODE
+        assert backups(me.file) == ["theirs = 1\n"]
+
+
+async def test_changed_on_both_sides_the_learner_takes_the_files_and_theirs_is_a_backup(learner: Any) -> None:
+    async with learner((80, 24)) as me:
+        await conflict(me)
+        await me.press("escape")
+        await me.sees("Yours is kept as thermometer.py.~1~", "theirs = 1")
+        assert me.file.read_text() == "theirs = 1\n"
+        assert backups(me.file) == ["m" + made.NODE]
+        await me.press("x")
+        await me.until(lambda: me.file.read_text() == "xtheirs = 1\n", "and typing goes on")
+
+
+async def test_the_looks_at_the_code_and_a_reset_that_keeps_a_backup(learner: Any) -> None:
+    async with learner() as me:
+        me.file.write_text(made.NODE.replace("the sensor is warm", "hot"))
+        await me.press("d")
+        await me.sees("Your changes in the skeleton: 1 lines came (+), 1 went (-)")
+        await me.sees('- log("WARN", "the sensor is warm")', '+ log("WARN", "hot")')
+        await me.press("d")
+        await me.until(lambda: "+ log" not in me.screen())
+        await me.press("k")
+        await me.sees("The skeleton, to read", "the sensor is warm")
+        await me.press("escape", "V", "enter")
+        await me.sees("From yours to our solution", "+ # the solution")
+        await me.press("escape", "Z")
+        await me.sees("becomes the skeleton again")
+        await me.press("enter")
+        await me.sees("is the skeleton again. Yours is kept as", "the sensor is warm")
+        assert me.file.read_text() == made.NODE
+        assert len(backups(me.file)) == 1
+
+
+async def test_what_is_typed_is_saved_before_leaving(learner: Any) -> None:
+    async with learner() as me:
+        await typing(me)
+        await me.press("x", "ctrl+q")
+        await me.until(lambda: me.app.return_code == 0)
+        assert me.file.read_text() == "x" + made.NODE
+
+
+async def test_a_file_that_is_no_text_is_left_alone(learner: Any) -> None:
+    async with learner() as me:
+        me.file.write_bytes(b"\xff\xfe")
+        await me.press("2")
+        await me.sees("cannot be shown", "is not UTF-8")
+        assert me.file.read_bytes() == b"\xff\xfe"
