@@ -112,7 +112,6 @@ class MadeDesk(Desk):
 
     def node_command(self, file: LessonFile, options: RunOptions) -> NodeCommand:
         path = self.path(file)
-        given = run_options.arguments(options, launch=False)
         return NodeCommand(
             file.name,
             (sys.executable, "-I", str(path)),

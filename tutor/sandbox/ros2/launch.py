@@ -43,7 +43,7 @@ def main(arguments: argparse.Namespace) -> int:
         path,
         given,
         show_args=arguments.show_args,
-        noninteractive=arguments.noninteractive,
+        noninteractive=arguments.noninteractive or None,
         debug=arguments.debug,
         resolver=packages,
     )
