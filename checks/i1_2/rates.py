@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from checks.i1_2.facts import EVERY, Feeding
+from checks.i1_2.facts import EVERY, STALL_S, Feeding
 from checks.i1_2.reading import Number
 from checks.i1_2.reports import Report, find, milestone, slots
 from tutor.judge.rates import TOLERANCE
@@ -13,6 +13,10 @@ from tutor.judge.verdict import Cause
 
 DELAY_S = 0.01
 """A message takes up to this long from our clock to the node's."""
+
+CLOSE = 0.05
+SLOWEST_S = 1.97
+"""The first ten messages are sent within this time, or the pace was not the one that was planned."""
 
 FEW = 5
 """The shortest window, in messages, over which a rate is taken."""
@@ -86,18 +90,40 @@ def stated(reports: Sequence[Report], allowed: Sequence[Range], jump: Feeding) -
 
 
 def doubtful(numbers: Sequence[Number], reports: Sequence[Report], feeding: Feeding) -> bool:
-    """Whether these only seem to be the rate, because a busy machine sent the messages at another pace than planned.
+    """Whether these may only seem to be the rate, because a busy machine did not let us send at the pace planned.
 
-    They may as well be the elapsed seconds, or the messages by whole seconds: at the pace that was planned, these are
-    far from any true rate.
+    At that pace, what is not the rate is far from it: the elapsed seconds, the messages by whole seconds, or by the
+    seconds since the node was started.
     """
-    counts = [milestone(report.messages) or report.messages for report in reports]
-    elapsed = [max(feeding.sent[count - 1].at - feeding.sent[0].at, DELAY_S) for count in counts]
-    whole = [count / max(int(span), 1) for count, span in zip(counts, elapsed, strict=True)]
-    return any(
+    if _elapsed(reports[0], feeding) <= SLOWEST_S and feeding.delay_s(0) <= STALL_S:
+        return False
+    elapsed = [_elapsed(report, feeding) for report in reports]
+    whole = [report.messages / max(int(span), 1) for report, span in zip(reports, elapsed, strict=True)]
+    seeming = any(
         all(abs(number.value - other) < 0.01 + DELAY_S * other for number, other in zip(numbers, others, strict=True))
         for others in (elapsed, whole)
     )
+    return seeming or not all(
+        any(close.holds(number) for close in _close(report, feeding))
+        for number, report in zip(numbers, reports, strict=True)
+    )
+
+
+def _elapsed(report: Report, feeding: Feeding) -> float:
+    """Seconds from the first message to the one that the report is due for."""
+    count = milestone(report.messages) or report.messages
+    return max(feeding.sent[count - 1].at - feeding.sent[0].at, DELAY_S)
+
+
+def _close(report: Report, feeding: Feeding) -> Iterator[Range]:
+    """What a node that measures well comes to: since the first message, or since the last but nine."""
+    for first in {0, max(0, (milestone(report.messages) or report.messages) - EVERY)}:
+        since = feeding.sent[first].at
+        soonest = feeding.sent[max(first, (milestone(report.messages) or report.messages) - 1)].at - since
+        delay = min(feeding.delay_s(first), 0.7 * soonest)
+        low = (report.messages - first - 1) / max(report.at - since, DELAY_S)
+        high = (report.messages - first) / max(soonest - delay, DELAY_S)
+        yield Range((1 - CLOSE) * low, (1 + CLOSE) * high)
 
 
 def why_wrong(reports: Sequence[Report], feeding: Feeding) -> Cause:

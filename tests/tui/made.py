@@ -11,7 +11,6 @@ from tutor.content import Checklist, Course, CriterionText, Difficulty, Lesson, 
 from tutor.judge.events import CheckFinished, CheckStarted, CriterionJudged, Event, ExerciseJudged, Progress, encode
 from tutor.judge.result import CriterionResult, Environment, ExerciseResult, Report
 from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped
-from tutor.tui import run_options
 from tutor.tui.desk import Desk
 from tutor.tui.node import NodeCommand
 from tutor.workspace import RunOptions, Workspace
@@ -114,7 +113,7 @@ class MadeDesk(Desk):
         path = self.path(file)
         return NodeCommand(
             file.name,
-            (sys.executable, "-I", str(path)),
+            (sys.executable, "-I", str(path), *given),
             {"PYTHONUNBUFFERED": "1"},
             path.parent,
             self.command_line(file, options),

@@ -37,6 +37,9 @@ _Command = Callable[[dict[str, str], Path], list[str]]
 UP_S = 1.5
 """A process that has no node after this long (and what the machine kept it from running) need not be waited for."""
 
+LAUNCH_S = 3.0
+"""A launch starts and ends three processes, so it has this much longer a way to go than one node."""
+
 
 @dataclass(frozen=True, slots=True)
 class LiveBench:
@@ -80,14 +83,16 @@ class LiveBench:
                 overlay.make(log_dir / "overlay", path, env, python=str(self.ros.python))
             return [*ros2(self.ros, env), "launch", str(path), *given]
 
-        async with self._start(path, command, {}, {}, {}, nodes=2) as run:
+        async with self._start(path, command, {}, {}, {}, nodes=2, longer_s=LAUNCH_S) as run:
             yield run
 
     @asynccontextmanager
-    async def _start(self, path: Path, command: _Command, *given: Any, nodes: int = 1) -> AsyncIterator[Run]:
+    async def _start(
+        self, path: Path, command: _Command, *given: Any, nodes: int = 1, longer_s: float = 0.0
+    ) -> AsyncIterator[Run]:
         """Run a command as `_run` does, when it is its turn: others may start when it has so many nodes."""
         async with (
-            self.admission.start(self.asks_s) as up,
+            self.admission.start(self.asks_s + longer_s) as up,
             self._run(path, command, *given) as run,
             _told_when_up(run, nodes, up),
         ):

@@ -37,6 +37,15 @@ def difference(before: str, after: str) -> tuple[list[Row], list[Piece]]:
     return rows, margins
 
 
+def same_line(before: str, after: str, row: int) -> int:
+    """Where the line number `row` (from 0) of `before` is in `after`; where it is gone, the place it was at."""
+    matcher = difflib.SequenceMatcher(None, before.splitlines(), after.splitlines(), autojunk=False)
+    for tag, a, a_end, b, b_end in matcher.get_opcodes():
+        if a <= row < a_end:
+            return b + row - a if tag == "equal" else min(b + row - a, max(b, b_end - 1))
+    return row
+
+
 def count(rows: list[Row]) -> tuple[int, int]:
     """How many lines came, and how many went."""
     kinds = [row[0][1] for row in rows if row]

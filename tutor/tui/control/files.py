@@ -126,7 +126,7 @@ class Files:
         if not mine:
             self._disk[path] = theirs
             await self._pane.show_source(path, theirs, visible=path == self._stage.session.path)
-            self._stage.say(f"The file's version is shown. Yours is kept as {backup.name}.")
+            self._stage.say(f"The file's version is shown. Yours is kept as {backup.name}.", warn=True)
             return
         try:
             kept = await asyncio.to_thread(keep_aside, path, theirs)
@@ -136,7 +136,7 @@ class Files:
             return
         self._disk[path] = theirs
         await self._write(path, theirs)
-        self._stage.say(f"Your version is saved. The other one is kept as {kept.name}.")
+        self._stage.say(f"Your version is saved. The other one is kept as {kept.name}.", warn=True)
 
     # --- the learner has changed it ---
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import bisect
 import itertools
 import math
 import statistics
@@ -12,8 +13,11 @@ Point = tuple[float, float]
 """Time in seconds, and a value."""
 
 _BRAILLE = 0x2800
-_DOTS = ((0x01, 0x02, 0x04, 0x40), (0x08, 0x10, 0x20, 0x80))
-"""The bits of the dots of one character: two columns of four."""
+_DOTS = ((0x40, 0x04, 0x02, 0x01), (0x80, 0x20, 0x10, 0x08))
+"""The bits of the dots of one character: two columns of four, from below."""
+
+_STROKES = [[[sum(dots[low : high + 1]) for high in range(4)] for low in range(4)] for dots in _DOTS]
+"""The bits from a lowest to a highest dot of a column."""
 
 _HOLE = 4.0
 """A silence of so many usual periods is left open."""
@@ -29,20 +33,22 @@ class Plot:
 
 def draw(points: Sequence[Point], width: int, height: int, now: float, span_s: float, end: str = "now") -> Plot:
     """Draw the points of the `span_s` seconds before `now` into so many cells, labels included; `end` names `now`."""
-    seen = [point for point in points if now - span_s <= point[0] <= now]
+    first, end_of = (
+        bisect.bisect_left(points, t, key=lambda point: point[0]) for t in (now - span_s, math.nextafter(now, math.inf))
+    )
+    seen = points[first:end_of]
     low, high, step = _scale(value for _, value in seen)
     labels = _labels(low, high, step, max(1, height - 1))
     margin = max(len(label) for label in labels)
     cells = max(1, width - margin - 1)
     grid = _Grid(cells, max(1, height - 1))
     usual = statistics.median([b[0] - a[0] for a, b in itertools.pairwise(seen)]) if len(seen) > 1 else 0.0
-    before: tuple[int, int] | None = None
-    last_t = 0.0
+    across, up = grid.width / span_s, (grid.height - 1) / (high - low)
+    begin, before, last_t = now - span_s, None, 0.0
     for t, value in seen:
-        x = min(grid.width - 1, int((t - (now - span_s)) / span_s * grid.width))
-        y = round((value - low) / (high - low) * (grid.height - 1))
+        x, y = min(grid.width - 1, int((t - begin) * across)), int((value - low) * up + 0.5)
         hole = before is not None and t - last_t > _HOLE * usual and x - before[0] > 2
-        grid.line((x, y) if before is None or hole else before, (x, y))
+        grid.join((x, y) if before is None or hole else before, (x, y))
         before, last_t = (x, y), t
     edge = [f"{label:>{margin}}" + ("┤" if label else "│") for label in labels]
     return Plot(tuple(zip(edge, grid.rows(), strict=True)), _below(margin, cells, span_s, end))
@@ -100,22 +106,42 @@ def _below(margin: int, cells: int, span_s: float, right: str) -> str:
 
 
 class _Grid:
-    """Dots, four rows and two columns of them to a cell; y goes up."""
+    """Dots, four rows and two columns of them to a cell; y goes up. Each column is one stroke from its lowest to its
+    highest dot, so that a thousand points cost little more than the columns do.
+    """
 
     def __init__(self, cells: int, rows: int) -> None:
         self.width, self.height = cells * 2, rows * 4
-        self._bits = [[0] * cells for _ in range(rows)]
+        self._low = [self.height] * self.width
+        self._high = [-1] * self.width
 
-    def line(self, start: tuple[int, int], end: tuple[int, int]) -> None:
+    def join(self, start: tuple[int, int], end: tuple[int, int]) -> None:
+        """Draw a line; `end` is not to the left of `start`."""
         (x0, y0), (x1, y1) = start, end
-        steps = max(abs(x1 - x0), abs(y1 - y0), 1)
-        for step in range(steps + 1):
-            self._dot(round(x0 + (x1 - x0) * step / steps), round(y0 + (y1 - y0) * step / steps))
+        if x1 - x0 <= 1:
+            self._stroke(x1, y0, y1)
+            return
+        before = y0
+        for x in range(x0 + 1, x1 + 1):
+            y = round(y0 + (y1 - y0) * (x - x0) / (x1 - x0))
+            self._stroke(x, before + (y > before) - (y < before), y)
+            before = y
 
     def rows(self) -> list[str]:
-        return ["".join(chr(_BRAILLE | bits) if bits else " " for bits in row) for row in self._bits]
+        """The characters, the top row first."""
+        drawn = []
+        for base in range(self.height - 4, -1, -4):
+            bits = [0] * (self.width // 2)
+            for x, (low, high) in enumerate(zip(self._low, self._high, strict=True)):
+                if low < base + 4 and high >= base:
+                    lowest, highest = max(low - base, 0), min(high - base, 3)
+                    bits[x // 2] |= _STROKES[x % 2][lowest][highest]
+            drawn.append("".join(chr(_BRAILLE | one) if one else " " for one in bits))
+        return drawn
 
-    def _dot(self, x: int, y: int) -> None:
-        down = self.height - 1 - y
-        if 0 <= x < self.width and 0 <= down < self.height:
-            self._bits[down // 4][x // 2] |= _DOTS[x % 2][down % 4]
+    def _stroke(self, x: int, y0: int, y1: int) -> None:
+        low, high = (y0, y1) if y0 < y1 else (y1, y0)
+        if low < self._low[x]:
+            self._low[x] = low
+        if high > self._high[x]:
+            self._high[x] = high

@@ -113,7 +113,7 @@ class TopicsPanel(Vertical):
         now = time.time()
         self.set_class(view is None or not view.fields, "-no-numbers")
         self.query_one("#topic-actions", ActionBar).actions = self._actions(view)
-        self.query_one("#topic-head", Static).update(self._head(view, now))
+        self.query_one("#topic-head", Static).update(self._head(view, now), layout=False)
         if view is None:
             self.query_one("#topic-echo", LineView).show_rows([])
             return
@@ -131,7 +131,7 @@ class TopicsPanel(Vertical):
         value = f" = {view.points[-1][1]:g}" if view.points and view.held is None else ""
         more = f"  {place} of {len(view.fields)}" if len(view.fields) > 1 else ""
         self.query_one("#plot-head", Static).update(
-            Content.assemble((view.path, "bold $primary"), value, (more, "$quiet"))
+            Content.assemble((view.path, "bold $primary"), value, (more, "$quiet")), layout=False
         )
 
     def _head(self, view: TopicView | None, now: float) -> Content:
@@ -198,8 +198,9 @@ class TopicsPanel(Vertical):
             return
         for name, cell in zip(_COLUMNS, self._cells(topic), strict=True):
             key = name or "mark"
-            if table.get_cell(topic.name, key) != cell:
-                table.update_cell(topic.name, key, cell, update_width=True)
+            if (old := table.get_cell(topic.name, key)) != cell:
+                # A new width lays the whole page out anew: only where it must.
+                table.update_cell(topic.name, key, cell, update_width=cell.cell_len > old.cell_len)
 
     def _tick(self) -> None:
         if self.display and self.view is not None:

@@ -14,6 +14,7 @@ from textual.widgets import TextArea
 from textual.widgets.text_area import TextAreaTheme
 
 from tutor.tui.commands import local
+from tutor.tui.diffing import same_line
 from tutor.tui.messages import EditorLeft
 from tutor.tui.themes import DARK, LIGHT
 
@@ -94,7 +95,7 @@ class CodeEditor(TextArea):
         """Show another version of the file; the cursor stays, and undo brings the former one back."""
         if text != self.text:
             row, column = self.cursor_location
-            top = self.scroll_offset
+            row, top = same_line(self.text, text, row), self.scroll_offset
             self.history.checkpoint()
             self.replace(text, (0, 0), self.document.end)
             self.history.checkpoint()
