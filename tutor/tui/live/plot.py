@@ -106,8 +106,9 @@ def _below(margin: int, cells: int, span_s: float, right: str) -> str:
 
 
 class _Grid:
-    """Dots, four rows and two columns of them to a cell; y goes up. Each column is one stroke from its lowest to its
-    highest dot, so that a thousand points cost little more than the columns do.
+    """Dots, four rows and two columns of them to a cell; y goes up.
+
+    Each column is one stroke from its lowest to its highest dot: a thousand points cost little more than the columns.
     """
 
     def __init__(self, cells: int, rows: int) -> None:
