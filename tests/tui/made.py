@@ -11,6 +11,7 @@ from tutor.content import Checklist, Course, CriterionText, Difficulty, Lesson, 
 from tutor.judge.events import CheckFinished, CheckStarted, CriterionJudged, Event, ExerciseJudged, Progress, encode
 from tutor.judge.result import CriterionResult, Environment, ExerciseResult, Report
 from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped
+from tutor.tui import run_options
 from tutor.tui.desk import Desk
 from tutor.tui.node import NodeCommand
 from tutor.workspace import RunOptions, Workspace
@@ -111,6 +112,7 @@ class MadeDesk(Desk):
 
     def node_command(self, file: LessonFile, options: RunOptions) -> NodeCommand:
         path = self.path(file)
+        given = run_options.arguments(options, launch=False)
         return NodeCommand(
             file.name,
             (sys.executable, "-I", str(path), *given),

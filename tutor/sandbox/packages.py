@@ -5,6 +5,7 @@ Packages that are not built into a prefix are found all the same where `tutor.sa
 
 from __future__ import annotations
 
+import difflib
 import os
 import sys
 from collections.abc import Iterator
@@ -18,7 +19,8 @@ class PackageNotFound(LookupError):
 
     def __init__(self, package: str) -> None:
         self.package = package
-        super().__init__(f"package '{package}' not found; packages with programs are: {_listed(with_programs())}")
+        near = difflib.get_close_matches(package, with_programs())
+        super().__init__(f"package '{package}' not found" + (f"; is it {' or '.join(near)}?" if near else ""))
 
 
 class ExecutableNotFound(LookupError):

@@ -179,9 +179,7 @@ FAULTS = {
         "    node = Node(\n        package='demos',\n        executable='talker',\n    )\n    return "
         "LaunchDescription([node])\n",
         6,
-        "launch.substitutions.substitution_failure.SubstitutionFailure: package 'demos' not found; packages "
-        "with programs "
-        "are: demo",
+        "launch.substitutions.substitution_failure.SubstitutionFailure: package 'demos' not found; is it demo?",
     ),
 }
 
