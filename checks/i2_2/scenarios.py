@@ -28,9 +28,6 @@ from tutor.judge.waiting import RARE_S, START_S
 DELAYED_S = 12.0
 """A node may be started this much later than the first one, by a timer say."""
 
-SOON_S = 5.0
-"""The same, where nothing in the submission speaks of a delay."""
-
 MORE_S = 6.0
 """Where two nodes are there, but share no topic, what joins them may come this much later."""
 
@@ -49,7 +46,7 @@ async def plain(bench: Bench) -> Launched:
     async with bench.launch(FILE) as run:
         bench.doing(0.1, "launching without arguments")
         if await run.until(lambda: bool(run.graph.nodes), START_S) and await run.until(
-            lambda: two_nodes(run.graph) is not None, _patience(bench)
+            lambda: two_nodes(run.graph) is not None, DELAYED_S
         ):
             await run.until(lambda: bool(pairs(run.graph)), MORE_S)
         bench.doing(0.4, "listening to the nodes")
@@ -117,11 +114,6 @@ def _listen(run: Run, topics: Iterable[str]) -> frozenset[str]:
     """Collect the messages of these topics; gives those whose type this ROS does not have."""
     types = {each.topic: each.type for each in run.graph.publishers}
     return frozenset(topic for topic in topics if not run.watch(topic, types[topic]))
-
-
-def _patience(bench: Bench) -> float:
-    """How much later than the first one the last node may come up, in seconds."""
-    return DELAYED_S if bench.mentions("TimerAction", "RegisterEventHandler", "sleep") else SOON_S
 
 
 def _heard_out(run: Run, hidden: frozenset[str]) -> bool:

@@ -15,7 +15,6 @@ from typing import Any, TypeVar
 from tutor.engine.admission import Admission
 from tutor.engine.errors import EngineError
 from tutor.engine.run import Facts, LiveRun
-from tutor.engine.source import mentions
 from tutor.judge.bench import Handler, Run, Scenario
 from tutor.judge.submission import Submission
 from tutor.judge.trace import Served
@@ -28,9 +27,6 @@ from tutor.sandbox.ros2.errors import CommandError
 from tutor.sandbox.ros2.starting import ros2
 
 T = TypeVar("T")
-
-MOST_FILES = 100
-"""Of a folder full of files, no more are looked into."""
 
 _Command = Callable[[dict[str, str], Path], list[str]]
 
@@ -136,10 +132,6 @@ class LiveBench:
 
     def has(self, file: str) -> bool:
         return file in self.submission.files
-
-    def mentions(self, *words: str) -> bool:
-        folders = {path.resolve().parent for path in self.submission.files.values()}
-        return any(mentions(path, words) for folder in folders for path in sorted(folder.glob("*.py"))[:MOST_FILES])
 
     async def facts(self, scenario: Scenario[T]) -> T:
         found: T = await self.share(scenario)

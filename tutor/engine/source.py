@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterable
 from pathlib import Path
 
 
@@ -26,15 +25,6 @@ def launch_arguments(path: Path) -> tuple[str, ...]:
             given = [*call.args[:1], *(keyword.value for keyword in call.keywords if keyword.arg == "name")]
             names += [each.value for each in given if isinstance(each, ast.Constant) and isinstance(each.value, str)]
     return tuple(names)
-
-
-def mentions(path: Path, words: Iterable[str]) -> bool:
-    """Whether one of the words is anywhere in the file. False where it cannot be read."""
-    try:
-        text = path.read_text(encoding="utf-8", errors="replace")
-    except OSError:
-        return False
-    return any(word in text for word in words)
 
 
 def _parsed(path: Path) -> ast.Module:

@@ -162,12 +162,6 @@ class Bench(Protocol):
     def has(self, file: str) -> bool:
         """Whether the submission has this (optional) file."""
 
-    def mentions(self, *words: str) -> bool:
-        """Whether a Python file of the submission, or one beside it, has one of these words in it.
-
-        For how long to be patient, never for a verdict.
-        """
-
     async def facts(self, scenario: Scenario[T]) -> T:
         """The facts of another scenario of this check; it is run once, however many ask."""
 
