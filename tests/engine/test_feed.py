@@ -66,5 +66,6 @@ node.create_subscription(String, "chatter", print, QoSProfile(depth=1, reliabili
         assert await run.until(lambda: len(run.graph.subscriptions) == 2, UP_S)
         assert feed.subscribers == 1
         assert run.graph.publishers == ()
+        assert await run.until(lambda: bool(run.graph.nodes), UP_S)  # DDS tells of a node's endpoints before it
         assert run.graph.nodes == ("/learner",)
         assert (feed.endpoint.reliability, feed.endpoint.durability) == ("reliable", "volatile")

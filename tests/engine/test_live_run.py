@@ -50,6 +50,27 @@ node.add_on_set_parameters_callback(judge)
 """
 
 
+# Tells of each Ctrl+C, and ends at the first one a moment later: a second one would be told, too.
+COUNTS = """
+import signal, sys, threading
+def count(*_):
+    print("interrupted", flush=True)
+    threading.Timer(0.5, over.set).start()
+over = threading.Event()
+signal.signal(signal.SIGINT, count)
+print("up", flush=True)
+while not over.wait(0.05):
+    pass
+"""
+LAUNCHES = """
+import sys
+from launch import LaunchDescription
+from launch.actions import ExecuteProcess
+def generate_launch_description():
+    return LaunchDescription([ExecuteProcess(cmd=[sys.executable, "counts.py"], output="screen")])
+"""
+
+
 async def publishing(run: Run, topic: str = "/chatter") -> None:
     assert await run.until(lambda: bool(run.on(topic)), UP_S), run.trace()
 
@@ -265,3 +286,12 @@ async def test_a_flood_neither_hangs_nor_grows_without_bound(scene: Scene, monke
     assert len(trace.on("/chatter")) == most
     assert len(trace.logs) == most
     assert len(trace.output) <= 2002
+
+
+async def test_ctrl_c_reaches_what_a_launch_started_once(scene: Scene) -> None:
+    (scene.folder / "counts.py").write_text(COUNTS)
+    async with scene.bench(LAUNCHES).launch(FILE) as run:
+        assert await run.until(lambda: any("up" in line.text for line in run.output), UP_S), run.output
+        ending = await run.interrupt()
+        assert ending.exit is not None, run.output
+        assert sum(line.text.endswith("] interrupted") for line in run.output) == 1, run.output

@@ -48,9 +48,13 @@ class Bench:
         file.write_text(_PRELUDE + source)
         return [sys.executable, *flags, str(file)]
 
-    async def start(self, source: str, *, on_change: Callable[[], None] | None = None) -> LearnerProcess:
+    async def start(
+        self, source: str, *, terminal: bool = False, on_change: Callable[[], None] | None = None
+    ) -> LearnerProcess:
         """Start `source` as a learner's process."""
-        learner = await LearnerProcess.start(self.script(source), env=self.env, cwd=self.folder, on_change=on_change)
+        learner = await LearnerProcess.start(
+            self.script(source), env=self.env, cwd=self.folder, terminal=terminal, on_change=on_change
+        )
         self.started.append(learner)
         return learner
 

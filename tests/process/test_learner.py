@@ -325,3 +325,11 @@ async def test_wait_without_a_limit_and_with_a_short_one(bench: Any) -> None:
     waiting = asyncio.ensure_future(learner.wait(None))
     os.kill(await bench.noted_pid("main"), signal.SIGTERM)
     assert str(await waiting) == "signal 15"
+
+
+async def test_a_terminal_where_nobody_types(bench: Any) -> None:
+    script = "os.isatty(0) and print('terminal', flush=True); sys.stdin.readline(); forever()"
+    learner = await bench.start(script, terminal=True)
+    await bench.until(lambda: texts(learner) == ["terminal"], "the terminal to be seen")
+    learner.interrupt()
+    assert (await ended(learner)).signal == signal.SIGINT

@@ -79,17 +79,23 @@ class LiveBench:
                 overlay.make(log_dir / "overlay", path, env, python=str(self.ros.python))
             return [*ros2(self.ros, env), "launch", str(path), *given]
 
-        async with self._start(path, command, {}, {}, {}, nodes=2, longer_s=LAUNCH_S) as run:
+        async with self._start(path, command, {}, {}, {}, terminal=True, nodes=2, longer_s=LAUNCH_S) as run:
             yield run
 
     @asynccontextmanager
     async def _start(
-        self, path: Path, command: _Command, *given: Any, nodes: int = 1, longer_s: float = 0.0
+        self,
+        path: Path,
+        command: _Command,
+        *given: Any,
+        terminal: bool = False,
+        nodes: int = 1,
+        longer_s: float = 0.0,
     ) -> AsyncIterator[Run]:
         """Run a command as `_run` does, when it is its turn: others may start when it has so many nodes."""
         async with (
             self.admission.start(self.asks_s + longer_s) as up,
-            self._run(path, command, *given) as run,
+            self._run(path, command, *given, terminal=terminal) as run,
             _told_when_up(run, nodes, up),
         ):
             yield run
@@ -102,6 +108,8 @@ class LiveBench:
         parameters: Mapping[str, Any],
         watch: Mapping[str, str],
         serve: Mapping[str, tuple[str, Handler]],
+        *,
+        terminal: bool,
     ) -> AsyncIterator[Run]:
         """Run a command, made from its environment and a folder for its logs, on a domain of its own."""
         facts = Facts()
@@ -124,7 +132,7 @@ class LiveBench:
                 env["PYTHONFAULTHANDLER"] = "1"  # see LiveRun.stuck_at
                 argv = command(env, Path(log_dir))
                 async with await LearnerProcess.start(
-                    argv, env=env, cwd=path.parent, on_change=facts.change
+                    argv, env=env, cwd=path.parent, terminal=terminal, on_change=facts.change
                 ) as process:
                     yield LiveRun(path, parameters, domain_id, process, observer, facts)
             finally:

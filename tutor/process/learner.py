@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import os
 import signal
 import time
@@ -19,6 +20,7 @@ from tutor.process.errors import EndError, StartError
 from tutor.process.link import WardenLink
 from tutor.process.output import Output
 from tutor.process.pipe import PipeReader
+from tutor.process.stdin import Stdin
 from tutor.process.warden import pack_request
 
 _START_LIMIT_S = 20.0
@@ -38,7 +40,7 @@ class LearnerProcess:
     An asynchronous context manager: leaving it calls `end`.
     """
 
-    def __init__(self, on_change: Callable[[], None] | None) -> None:
+    def __init__(self, on_change: Callable[[], None] | None, terminal: bool) -> None:
         """Not for callers: use `start`."""
         self._loop = asyncio.get_running_loop()
         self._on_change = on_change
@@ -47,12 +49,13 @@ class LearnerProcess:
         self._exit: Exit | None = None
         self._exited: asyncio.Future[None] = self._loop.create_future()
         self._run = uuid.uuid4().hex
-        stdout = PipeReader(lambda data: self._take("stdout", data))
-        try:
+        with contextlib.ExitStack() as made:
+            self._stdin = Stdin(terminal=terminal)
+            made.callback(self._stdin.close)
+            stdout = PipeReader(lambda data: self._take("stdout", data))
+            made.callback(stdout.close)
             stderr = PipeReader(lambda data: self._take("stderr", data))
-        except OSError:
-            stdout.close()
-            raise
+            made.pop_all()
         self._stdout, self._stderr = stdout, stderr
         self._link = WardenLink(self._run, frozenset((stdout.inode, stderr.inode)), self._set_exit)
         self._link.gone.add_done_callback(lambda _: self._finish())
@@ -64,16 +67,19 @@ class LearnerProcess:
         *,
         env: Mapping[str, str],
         cwd: Path,
+        terminal: bool = False,
         on_change: Callable[[], None] | None = None,
     ) -> Self:
         """Start `argv` with exactly the environment `env` (and a mark of ours) in the folder `cwd`.
 
         It gets a session and process group of its own, default signal handling, no input, and pipes for its output.
+        `terminal`: its input is a terminal where nobody types. `ros2 launch` looks there whether Ctrl+C reaches the
+        nodes without its help; where it does not, each node would get two.
         `on_change` is called on the event loop after new output and after the exit.
         Raises StartError if it cannot be started; then nothing is left of the attempt.
         """
         try:
-            learner = cls(on_change)
+            learner = cls(on_change, terminal)
         except OSError as error:
             raise StartError(f"The program cannot be started: {error}.") from error
         try:
@@ -165,10 +171,11 @@ class LearnerProcess:
             os.fsencode(os.path.abspath(cwd)),
         )
         try:
-            await self._link.start(request, self._stdout.writer, self._stderr.writer)
+            await self._link.start(request, self._stdin.reader, self._stdout.writer, self._stderr.writer)
         except OSError as error:
             raise StartError(f"The program cannot be started: {error}.") from error
         finally:
+            self._stdin.close_reader()
             self._stdout.close_writer()
             self._stderr.close_writer()
         ready = self._link.ready
@@ -209,5 +216,6 @@ class LearnerProcess:
         self._drain()
         if self._exit is None and self.pid:  # the warden was killed and took it along
             self._set_exit(Exit(None, int(signal.SIGKILL), max(0.0, time.time() - self.started_at)))
+        self._stdin.close()
         self._stdout.close()
         self._stderr.close()

@@ -47,8 +47,8 @@ class WardenLink(asyncio.Protocol):
         self._ending = False
         self._step_in: asyncio.TimerHandle | None = None
 
-    async def start(self, request: bytes, stdout: int, stderr: int) -> None:
-        """Start the warden, with these descriptors for the output of its charges and its own, and hand it a request.
+    async def start(self, request: bytes, stdin: int, stdout: int, stderr: int) -> None:
+        """Start the warden, with these descriptors for its charges and for itself, and hand it a request.
 
         Raises OSError if there can be no warden.
         """
@@ -57,7 +57,7 @@ class WardenLink(asyncio.Protocol):
             try:
                 self._warden = subprocess.Popen(
                     [sys.executable, "-I", "-S", str(_WARDEN), str(theirs.fileno()), str(os.getpid())],
-                    stdin=subprocess.DEVNULL,
+                    stdin=stdin,
                     stdout=stdout,
                     stderr=stderr,
                     pass_fds=(theirs.fileno(),),

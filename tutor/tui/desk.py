@@ -106,7 +106,7 @@ class Desk:
         first = [*starting.ros2(ros, env), "launch"] if launch else [str(ros.python)]
         given = run_options.arguments(options, launch=launch)
         typed = self.command_line(file, options)
-        return NodeCommand(file.name, (*first, str(path), *given), env, path.parent, typed)
+        return NodeCommand(file.name, (*first, str(path), *given), env, path.parent, typed, terminal=launch)
 
     def command_line(self, file: LessonFile, options: RunOptions) -> str:
         """What a ROS user would type to run this file, once the workspace is built."""

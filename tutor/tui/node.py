@@ -21,13 +21,17 @@ INTERRUPT_S = 5.0
 
 @dataclass(frozen=True, slots=True)
 class NodeCommand:
-    """How to start one file as a node. `typed` is what a ROS user would type for it."""
+    """How to start one file as a node. `typed` is what a ROS user would type for it.
+
+    `terminal`: whether it is to find a terminal at its standard input, as `ros2 launch` needs for Ctrl+C.
+    """
 
     file: str
     argv: tuple[str, ...]
     env: dict[str, str]
     cwd: Path
     typed: str = ""
+    terminal: bool = False
 
 
 class Phase(Enum):
@@ -86,7 +90,11 @@ class Node:
         command = self._command
         try:
             process = await LearnerProcess.start(
-                list(command.argv), env=command.env, cwd=command.cwd, on_change=self._changed.set
+                list(command.argv),
+                env=command.env,
+                cwd=command.cwd,
+                terminal=command.terminal,
+                on_change=self._changed.set,
             )
         except ProcessError as error:
             self._say(replace(self.state, phase=Phase.ENDED, note=str(error), failed=True, ended_at=time.time()))
