@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Container, Iterable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -90,12 +90,12 @@ def find(feeding: Feeding) -> tuple[Report, ...]:
     usual = {kind for kind, count in times.items() if count >= max(3, ORDINARY * len(feeding.sent))}
     special = _together([line for line in feeding.lines if line.kind not in usual], feeding)
     if complete := [report for report in special if _complete(report, feeding)]:
-        return _like(complete, special)
+        return _alone(_like(complete, special), special, feeding)
     everything = _together(feeding.lines, feeding)
     complete = [report for report in everything if report.messages > 1 and _complete(report, feeding)]
     if len(complete) > len(feeding.sent) / 4:
-        return _like(complete, everything)
-    return _likeliest(special, feeding)
+        return _alone(_like(complete, everything), everything, feeding)
+    return _alone(_likeliest(special, feeding), special, feeding)
 
 
 def _complete(report: Report, feeding: Feeding) -> bool:
@@ -117,6 +117,22 @@ def _like(complete: Sequence[Report], candidates: Iterable[Report]) -> tuple[Rep
         for each in candidates
         if each in complete or any(2 * len(each.kinds & one.kinds) > len(one.kinds) for one in complete)
     )
+
+
+def _alone(reports: Sequence[Report], candidates: Iterable[Report], feeding: Feeding) -> tuple[Report, ...]:
+    """The summaries without what only happened to be logged together with one.
+
+    That is what comes by itself, too, and not when a summary is due: then it may be the rest of a torn one.
+    """
+    apart = [each for each in candidates if each not in reports and not in_time(each, feeding)]
+    elsewhere = {line.kind for each in apart for line in each.lines}
+    return tuple(_without(report, elsewhere, feeding) for report in reports)
+
+
+def _without(report: Report, kinds: Container[tuple[int, str]], feeding: Feeding) -> Report:
+    """The summary without lines of these kinds, where it says as much without them."""
+    rest = Report(tuple(line for line in report.lines if line.kind not in kinds))
+    return rest if rest.lines and _complete(rest, feeding) >= _complete(report, feeding) else report
 
 
 def _likeliest(candidates: Sequence[Report], feeding: Feeding) -> tuple[Report, ...]:

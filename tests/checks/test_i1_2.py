@@ -96,8 +96,7 @@ def steady(node: Counter, hz: float = 4.95, **more: object) -> Feeding:
     return fed(node, range(20), hz, **more)  # type: ignore[arg-type]
 
 
-def jump(node: Counter, missed: int = 5, **more: object) -> Feeding:
-    first = 95
+def jump(node: Counter, missed: int = 5, *, first: int = 95, **more: object) -> Feeding:
     after = first + JUMP_AFTER + missed
     numbers = [*range(first, first + JUMP_AFTER), *range(after, after + JUMP_MESSAGES - JUMP_AFTER)]
     return fed(node, numbers, 8.0, breaks=JUMP_AFTER, **more)  # type: ignore[arg-type]
@@ -614,6 +613,18 @@ def test_wrong_ones(node: Callable[[], Counter], criterion: str, cause: str) -> 
     if cause == "summary for every message":  # no time has passed at the first message
         verdicts.pop("rate")
     assert_breaks(verdicts, criterion, cause)
+
+
+@pytest.mark.parametrize(("first", "late_s"), [(91, 0.0005), (92, 0.0005), (92, 0.124), (90, 0.0005)])
+def test_an_alarm_beside_a_summary_is_none_of_its_lines(first: int, late_s: float) -> None:
+    jumped, even = jump(AlarmedByTens(), first=first), steady(AlarmedByTens())
+    alarm = next(log for log in jumped.trace.logs if log.text == "out of sequence")
+    stamp = alarm.stamp + late_s
+    logs = [replace(log, stamp=stamp, received_at=stamp) if log is alarm else log for log in jumped.trace.logs]
+    jumped = replace(jumped, trace=replace(jumped.trace, logs=tuple(logs)))
+    assert_passed(judges.judge_summary(even, jumped))
+    assert_passed(judges.judge_count(even, jumped))
+    assert_failed(continuity.judge_gaps(jumped, even), "false alarm")
 
 
 @settings(max_examples=50, deadline=None)
