@@ -92,3 +92,9 @@ def test_the_checklist_has_the_four_groups_of_the_course() -> None:
 @pytest.mark.parametrize("lesson", lessons(), ids=lambda lesson: lesson.id)
 def test_a_lesson_can_be_read_in_one_go(lesson: Lesson) -> None:
     assert len(lesson.body.splitlines()) <= 150
+
+
+def test_every_item_of_a_lesson_is_shown_by_one_of_its_criteria() -> None:
+    for lesson in lessons():
+        assert set(lesson.checklist) == {item for criterion in lesson.criteria for item in criterion.shows}, lesson.id
+    assert load_course().checklist.ready_title == "Ready for Advanced?"

@@ -34,6 +34,11 @@ def test_a_right_course_has_no_problems(lesson_folder: Path) -> None:
         ),
         ("checklist: [move]", "checklist: [fly]", "the checklist has no item 'fly'"),
         ("checklist: [move]", "checklist: [move, move]", "the checklist item move is named twice"),
+        (
+            "text: It moves\n",
+            "text: It moves\n    shows: [move, fly]\n",
+            "the criterion moves shows 'fly', which is not in the lesson's checklist",
+        ),
         ("- name: mover.py\n", "- name: mover.py\n    required: false\n", "it requires no file"),
         ("- name: mover.py\n", "- name: mover.py\n  - name: mover.py\n", "the file mover.py is named twice"),
         ("Make it move.", "Make\tit move.", "there is a tab in 'Make\\tit move.'"),

@@ -78,6 +78,10 @@ def _front_matter(lesson: Lesson, course: Course) -> Iterator[str]:
             yield f"the checklist has no item {item!r}"
     for item in _doubles(lesson.checklist):
         yield f"the checklist item {item} is named twice"
+    for criterion in lesson.criteria:
+        for item in criterion.shows:
+            if item not in lesson.checklist:
+                yield f"the criterion {criterion.id} shows {item!r}, which is not in the lesson's checklist"
 
 
 def _criteria(criteria: Sequence[CriterionText]) -> Iterator[str]:

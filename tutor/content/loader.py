@@ -12,6 +12,7 @@ A course is a folder with
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from pathlib import Path
 
 from tutor.content.errors import ContentError
@@ -50,7 +51,7 @@ def load_course(extra: Path | None = None) -> Course:
             raise ContentError(lesson.folder / "lesson.md", f"there is an exercise {lesson.id} already", field="id")
     return Course(
         lessons=course.lessons + more.lessons,
-        checklist=Checklist(course.checklist.groups + more.checklist.groups),
+        checklist=replace(course.checklist, groups=course.checklist.groups + more.checklist.groups),
     )
 
 
@@ -142,6 +143,7 @@ def _criterion(fields: Fields) -> CriterionText:
         bonus=fields.flag("bonus", False),
         open=fields.flag("open", True),
         hint=fields.text("hint"),
+        shows=fields.texts("shows", optional=True),
     )
     fields.done()
     return criterion
@@ -149,9 +151,13 @@ def _criterion(fields: Fields) -> CriterionText:
 
 def _checklist(file: Path) -> Checklist:
     fields = Document(file, _text(file)).read()
-    groups = tuple(_group(group) for group in fields.mappings("groups"))
+    checklist = Checklist(
+        groups=tuple(_group(group) for group in fields.mappings("groups")),
+        ready_title=fields.text("ready_title", optional=True),
+        ready_text=fields.text("ready_text", optional=True),
+    )
     fields.done()
-    return Checklist(groups)
+    return checklist
 
 
 def _group(fields: Fields) -> ChecklistGroup:

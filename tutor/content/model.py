@@ -34,7 +34,8 @@ class LessonFile:
 class CriterionText:
     """One criterion in words.
 
-    `open`: the untouched skeleton does not pass it. `bonus`: it is shown, but never changes the verdict.
+    `open`: the untouched skeleton does not pass it. `bonus`: it is shown, but never changes the verdict. `shows` holds
+    the ids of the checklist items that passing it gives evidence for.
     """
 
     id: str
@@ -42,14 +43,16 @@ class CriterionText:
     bonus: bool
     open: bool
     hint: str
+    shows: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
 class Lesson:
     """One exercise: its text, the files it asks for, and what will be judged.
 
-    `hints` go from gentle to plain. `checklist` holds the ids of the checklist items that passing gives evidence for.
-    `body` is Markdown, without a title. `folder` is where all of it lies.
+    `hints` go from gentle to plain. `checklist` holds the ids of the checklist items that passing gives evidence for:
+    by the criteria that show an item, or by the exercise as a whole where none of them does. `body` is Markdown,
+    without a title. `folder` is where all of it lies.
     """
 
     id: str
@@ -91,9 +94,11 @@ class ChecklistGroup:
 
 @dataclass(frozen=True, slots=True)
 class Checklist:
-    """The self-assessment checklist."""
+    """The self-assessment checklist. `ready_title` and `ready_text` are for who has ticked every item."""
 
     groups: tuple[ChecklistGroup, ...] = ()
+    ready_title: str = ""
+    ready_text: str = ""
 
     @property
     def items(self) -> tuple[ChecklistItem, ...]:
