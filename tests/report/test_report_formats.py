@@ -11,11 +11,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.report.shape import assert_junit, assert_report_shape
-from tutor.content import Checklist, ChecklistGroup, ChecklistItem
 from tutor.judge.result import CriterionResult, Environment, ExerciseResult, Report
 from tutor.judge.verdict import Cause, Status, Verdict, failed, fault, passed, skipped
 from tutor.report import FORMATS, render
-from tutor.report.checklist import render_checklist
 
 ENVIRONMENT = Environment(ros_distro="jazzy", ros="bundled", rmw="rmw_fastrtps_cpp", ros_tutor="0.1.0")
 
@@ -233,30 +231,3 @@ def test_no_text_from_a_learner_breaks_a_format(text: str, line: str, status: St
         assert not re.search("[\x00-\x08\x0b-\x1f\x7f-\x9f]", rendered)
     assert_report_shape(json.loads(render(it, "json")))
     assert_junit(ElementTree.fromstring(render(it, "junit")))
-
-
-CHECKLIST = Checklist((ChecklistGroup("g", "Group <1>", (ChecklistItem("a", "Do a & b"), ChecklistItem("c", "Do c"))),))
-TICKS = {"a": "2026-01-02T03:04:05Z"}
-EVIDENCE = {"c": ["i1.1", "i2.1"]}
-
-
-def test_the_checklist_in_markdown() -> None:
-    text = render_checklist(CHECKLIST, TICKS, EVIDENCE, "markdown")
-    assert "## Group \\<1\\>" in text
-    assert "- [x] Do a & b\n- [ ] Do c (passed i1.1, i2.1)\n" in text
-
-
-def test_the_checklist_in_json() -> None:
-    document = json.loads(render_checklist(CHECKLIST, TICKS, EVIDENCE, "json"))
-    assert document["schema"] == "ros-tutor/checklist/1"
-    first, second = document["groups"][0]["items"]
-    assert (first["ticked"], first["ticked_at"], first["passed"]) == (True, "2026-01-02T03:04:05Z", [])
-    assert (second["ticked"], second["ticked_at"], second["passed"]) == (False, None, ["i1.1", "i2.1"])
-
-
-def test_the_checklist_in_html() -> None:
-    text = render_checklist(CHECKLIST, TICKS, EVIDENCE, "html")
-    assert "<h2>Group &lt;1&gt;</h2>" in text
-    assert '<input type="checkbox" disabled checked> Do a &amp; b' in text
-    assert '<input type="checkbox" disabled> Do c' in text
-    assert "passed i1.1, i2.1" in text

@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
 _ACTIONS = ("show", "tick", "untick", "export")
 _FORMATS = ("markdown", "json", "html")
+_MOST_EVIDENCE = 2
+"""So many exercises are named as evidence for an item; a line is only so long."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -24,7 +26,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     actions = f"{', '.join(_ACTIONS[:-1])} or {_ACTIONS[-1]}"
     parser.add_argument("action", metavar="ACTION", nargs="?", choices=_ACTIONS, default="show", help=actions)
     parser.add_argument("items", metavar="ITEM", nargs="*", help="for tick and untick: what `show` calls it")
-    parser.add_argument("--format", choices=_FORMATS, help="for export (markdown)")
+    parser.add_argument("--format", choices=_FORMATS, help="for export (what FILE's suffix says, else markdown)")
     parser.add_argument("--output", metavar="FILE", type=Path, help="for export: write there instead of to stdout")
 
 
@@ -43,7 +45,7 @@ def run(arguments: argparse.Namespace) -> int:
     else:
         progress = context.read_progress(workspace)
     if arguments.action == "export":
-        _export(course, progress, arguments.format or "markdown", arguments.output)
+        _export(course, progress, arguments.format, arguments.output)
     else:
         terminal.out(_show(course, progress))
     return PASSED
@@ -74,39 +76,39 @@ def _with_ticks(progress: Progress, items: list[str], ticked: bool) -> Progress:
     return progress
 
 
-def _evidence(course: Course, progress: Progress) -> dict[str, list[str]]:
-    """For each checklist item, the passed exercises that show it."""
-    evidence: dict[str, list[str]] = {}
-    for lesson in course.lessons:
-        best = progress.of(lesson.id).best
-        if best is not None and best.value == "passed":
-            for item in lesson.checklist:
-                evidence.setdefault(item, []).append(lesson.id)
-    return evidence
-
-
 def _show(course: Course, progress: Progress) -> str:
-    evidence = _evidence(course, progress)
-    items = course.checklist.items
+    from tutor.report.assessment import assess
+    from tutor.report.saying import near_day, say_evidence
+
+    assessment = assess(course, progress)
+    items = assessment.items
     width = max((len(item.id) for item in items), default=0)
     lines = []
-    for group in course.checklist.groups:
-        lines += [terminal.style(group.title, "1", sys.stdout)]
+    for group in assessment.groups:
+        lines += [f"{terminal.style(group.title, '1', sys.stdout)}  {group.ticked} of {len(group.items)}"]
         for item in group.items:
-            box = terminal.style("[x]", "32", sys.stdout) if item.id in progress.ticks else "[ ]"
-            passed = f"  (passed {', '.join(evidence[item.id])})" if item.id in evidence else ""
-            lines += [f"  {box} {item.id:{width}}  {item.text}{passed}"]
+            box = terminal.style("[x]", "32", sys.stdout) if item.ticked else "[ ]"
+            shown = "; ".join(say_evidence(item.evidence, near_day, most=_MOST_EVIDENCE))
+            lines += [f"  {box} {item.id:{width}}  {item.text}{f'  ({shown})' if shown else ''}"]
         lines += [""]
-    ticked = sum(item.id in progress.ticks for item in items)
-    lines += [f"{ticked} of {len(items)} ticked. To tick one: ros-tutor checklist tick ITEM"]
+    if assessment.ready:
+        lines += [terminal.style(assessment.ready_title, "1", sys.stdout), *_wrapped(assessment.ready_text), ""]
+    lines += [f"{assessment.ticked} of {len(items)} ticked. To tick one: ros-tutor checklist tick ITEM"]
     return "\n".join(lines) + "\n"
 
 
-def _export(course: Course, progress: Progress, format: str, output: Path | None) -> None:
-    from tutor.report.checklist import render_checklist
-    from tutor.workspace import write_atomically
+def _wrapped(text: str) -> list[str]:
+    return terminal.wrap(text, terminal.width(sys.stdout)).splitlines()
 
-    text = render_checklist(course.checklist, progress.ticks, _evidence(course, progress), format)
+
+def _export(course: Course, progress: Progress, format: str | None, output: Path | None) -> None:
+    from tutor.report.assessment import assess
+    from tutor.report.checklist import format_of, render_checklist
+    from tutor.workspace import write_atomically
+    from tutor.workspace.progress import now
+
+    meant = format or (output and format_of(output)) or "markdown"
+    text = render_checklist(assess(course, progress), meant, at=now())
     if output is None:
         terminal.out(text)
     else:

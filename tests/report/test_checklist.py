@@ -1,0 +1,289 @@
+"""The checklist: what is evidence for an item, and the documents made of it."""
+
+from __future__ import annotations
+
+import json
+import re
+from datetime import date
+from html.parser import HTMLParser
+from pathlib import Path
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from tutor.content import Checklist, ChecklistGroup, ChecklistItem, Course, CriterionText, Difficulty, Lesson
+from tutor.judge.verdict import Status
+from tutor.report.assessment import Evidence, Source, assess
+from tutor.report.checklist import FORMATS, format_of, render_checklist
+from tutor.report.saying import calendar_day, near_day, say_evidence, say_sources
+from tutor.workspace import Attempt, ExerciseProgress, Progress
+
+NOON = "2026-01-02T12:00:00Z"
+LATER = "2026-01-03T12:00:00Z"
+
+CRITERIA = (
+    CriterionText("defaults", "It starts.", False, True, "Start it.", ("declare",)),
+    CriterionText("validation", "It refuses.", False, True, "Refuse it.", ("declare", "validate")),
+    CriterionText("shutdown", "It ends.", True, False, "End it.", ("end",)),
+)
+LESSONS = tuple(
+    Lesson(id, title, Difficulty.EASY, "I2", "Do it.", (), criteria, (), items, "", Path("lessons"))
+    for id, title, criteria, items in (
+        ("i2.1", "Parameters <b>", CRITERIA, ("declare", "validate", "end")),
+        ("i2.2", "Launch | go", CRITERIA[:2], ("launch", "declare")),
+    )
+)
+CHECKLIST = Checklist(
+    (
+        ChecklistGroup(
+            "one",
+            "Group <1> @all",
+            (
+                ChecklistItem("declare", "Declare a & b"),
+                ChecklistItem("validate", "Refuse *bad* values"),
+                ChecklistItem("end", "End cleanly"),
+            ),
+        ),
+        ChecklistGroup("two", "Two", (ChecklistItem("launch", "Launch"), ChecklistItem("judge", "Judge"))),
+    ),
+    "Ready?",
+    "Yes, go <on>.",
+)
+COURSE = Course(LESSONS, CHECKLIST)
+
+
+def exercise(*attempts: Attempt, best: Status | None = None) -> ExerciseProgress:
+    return ExerciseProgress(NOON, attempts, best)
+
+
+def failed(*passed: str, at: str = NOON) -> Attempt:
+    return Attempt(at, Status.FAILED, passed)
+
+
+def passed(*ids: str, at: str = LATER) -> Attempt:
+    return Attempt(at, Status.PASSED, ids)
+
+
+def progress(ticks: str = "", **exercises: ExerciseProgress) -> Progress:
+    return Progress(
+        {key.replace("_", "."): value for key, value in exercises.items()}, dict.fromkeys(ticks.split(), NOON)
+    )
+
+
+def evidence(course: Course, done: Progress, item: str) -> tuple[Evidence, ...]:
+    return next(each.evidence for each in assess(course, done).items if each.id == item)
+
+
+def test_a_criterion_that_passed_is_evidence_even_if_the_exercise_did_not() -> None:
+    done = progress(i2_1=exercise(failed("validation"), failed("validation", "defaults", at=LATER), failed(at=LATER)))
+    assert evidence(COURSE, done, "validate") == (Evidence("i2.1", "validation", LATER),)
+    assert evidence(COURSE, done, "launch") == ()
+
+
+def test_what_the_skeleton_passes_is_evidence_only_when_the_exercise_has_passed() -> None:
+    early = failed("shutdown")
+    assert evidence(COURSE, progress(i2_1=exercise(early)), "end") == ()
+    done = progress(i2_1=exercise(early, passed("defaults", "validation", "shutdown"), best=Status.PASSED))
+    assert evidence(COURSE, done, "end") == (Evidence("i2.1", "shutdown", LATER),)
+
+
+def test_where_no_criterion_shows_an_item_the_whole_exercise_does() -> None:
+    done = progress(i2_2=exercise(passed("defaults", "validation"), best=Status.PASSED))
+    assert evidence(COURSE, done, "launch") == (Evidence("i2.2", "", LATER),)
+    assert evidence(COURSE, progress(i2_2=exercise(failed("defaults"))), "launch") == ()
+
+
+def test_the_latest_comes_first_and_a_pass_long_ago_still_counts() -> None:
+    done = progress(
+        i2_1=exercise(failed("defaults")),
+        i2_2=exercise(failed("defaults", at=LATER), best=Status.PASSED),  # its attempt is not kept any more
+    )
+    assert [each.exercise for each in evidence(COURSE, done, "declare")] == ["i2.2", "i2.1", "i2.2"]
+    assert evidence(COURSE, done, "declare")[-1] == Evidence("i2.2", "validation", "")
+
+
+def test_what_could_show_an_item_is_known() -> None:
+    sources = {each.id: each.sources for each in assess(COURSE, Progress()).items}
+    assert sources["declare"] == (
+        Source("i2.1", ("defaults", "validation")),
+        Source("i2.2", ("defaults", "validation")),
+    )
+    assert sources["launch"] == (Source("i2.2", ()),)
+    assert sources["judge"] == ()
+    assert say_sources(sources["declare"]) == ["i2.1 defaults and validation", "i2.2 defaults and validation"]
+    assert say_sources(sources["launch"]) == ["i2.2"]
+
+
+def test_days_are_said_as_people_say_them() -> None:
+    today = date.fromisoformat(calendar_day(NOON))
+    assert near_day(NOON, today) == "today"
+    assert near_day(NOON, date.fromordinal(today.toordinal() + 1)) == "yesterday"
+    assert near_day(NOON, date.fromordinal(today.toordinal() + 2)) == "2026-01-02"
+    assert near_day("long ago", today) == calendar_day("long ago") == "long ago"
+
+
+def test_evidence_is_said_in_one_phrase_for_each_exercise_and_day() -> None:
+    found = [
+        Evidence("i2.1", "defaults", LATER),
+        Evidence("i2.1", "timer", LATER),
+        Evidence("i2.1", "validation", LATER),
+        Evidence("i2.1", "shutdown", NOON),
+        Evidence("i2.2", "", ""),
+    ]
+    assert say_evidence(found, calendar_day) == [
+        "i2.1 defaults, timer and validation passed, 2026-01-03",
+        "i2.1 shutdown passed, 2026-01-02",
+        "i2.2 passed",
+    ]
+    assert say_evidence(found, calendar_day, most=1) == [
+        "i2.1 defaults, timer and validation passed, 2026-01-03",
+        "2 more",
+    ]
+
+
+PASSED = exercise(failed("validation"), passed("defaults", "validation"), best=Status.PASSED)
+HALF = progress("declare gone", i2_1=PASSED)
+ALL = progress("declare validate end launch judge", i2_1=PASSED)
+
+
+def test_ready_is_who_has_ticked_everything() -> None:
+    assert not assess(COURSE, HALF).ready
+    assert assess(COURSE, HALF).ticked == 1  # a tick for an item that the course does not have is no tick
+    assert assess(COURSE, ALL).ready
+    assert not assess(Course(LESSONS, Checklist()), ALL).ready
+
+
+def test_markdown_is_a_task_list_for_github_with_a_table_of_the_exercises() -> None:
+    text = render_checklist(assess(COURSE, HALF), "markdown", at=NOON)
+    assert text.startswith("# Self-assessment checklist\n\n1 of 5 ticked, 1 of 2 exercises passed (2026-01-02).\n")
+    assert (
+        "## Group \\<1\\> @<!-- -->all\n\n- [x] Declare a & b (i2.1 defaults and validation passed, 2026-01-03)\n"
+        in text
+    )
+    assert "- [ ] Refuse \\*bad\\* values (i2.1 validation passed, 2026-01-03)\n- [ ] End cleanly\n" in text
+    assert "| i2.1 Parameters \\<b\\> | easy | passed, 2026-01-03 | 2 of 2 | 0 of 1 | 2 |\n" in text
+    assert "| i2.2 Launch \\| go | easy | not started | 0 of 2 |  | 0 |\n" in text
+    assert "Ready?" not in text
+    assert "## Ready?\n\nYes, go \\<on\\>.\n" in render_checklist(assess(COURSE, ALL), "markdown", at=NOON)
+
+
+def test_json_has_a_schema_and_everything() -> None:
+    document = json.loads(render_checklist(assess(COURSE, HALF), "json", at=NOON))
+    assert list(document) == ["schema", "exported_at", "ticked", "total", "ready", "groups", "exercises"]
+    assert (document["schema"], document["exported_at"]) == ("ros-tutor/checklist/1", NOON)
+    assert (document["ticked"], document["total"], document["ready"]) == (1, 5, False)
+    one = document["groups"][0]
+    assert (one["id"], one["title"], one["ticked"], one["total"]) == ("one", "Group <1> @all", 1, 3)
+    first, second, _ = one["items"]
+    assert (first["ticked"], first["ticked_at"]) == (True, NOON)
+    assert (second["id"], second["text"]) == ("validate", "Refuse *bad* values")
+    assert (second["ticked"], second["ticked_at"]) == (False, None)
+    assert second["evidence"] == [{"exercise": "i2.1", "criterion": "validation", "passed_at": LATER}]
+    assert document["exercises"][0] == {
+        "id": "i2.1",
+        "title": "Parameters <b>",
+        "difficulty": "easy",
+        "standing": "passed",
+        "passed": True,
+        "passed_at": LATER,
+        "criteria": {"passed": 2, "total": 2},
+        "bonus": {"passed": 0, "total": 1},
+        "attempts": 2,
+        "last_attempt_at": LATER,
+    }
+    assert document["exercises"][1]["standing"] == "not started"
+    assert json.loads(render_checklist(assess(COURSE, ALL), "json", at=NOON))["ready"] is True
+
+
+class Page(HTMLParser):
+    """The elements of a page. Fails where an element is closed that is not open."""
+
+    VOID = frozenset({"meta", "input"})
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.open: list[str] = []
+        self.elements: list[tuple[str, dict[str, str | None]]] = []
+        self.words: list[tuple[str, str]] = []
+        self.feed(text)
+        self.close()
+        assert self.open == []
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.elements.append((tag, dict(attrs)))
+        if tag not in self.VOID:
+            self.open.append(tag)
+
+    def handle_endtag(self, tag: str) -> None:
+        assert self.open.pop() == tag
+
+    def handle_data(self, data: str) -> None:
+        if data.strip():
+            self.words.append((self.open[-1] if self.open else "", data.strip()))
+
+    def said(self, tag: str) -> list[str]:
+        return [words for where, words in self.words if where == tag]
+
+
+def test_html_is_one_page_that_loads_nothing() -> None:
+    text = render_checklist(assess(COURSE, ALL), "html", at=NOON)
+    page = Page(text)
+    assert not {tag for tag, _ in page.elements} & {"script", "link", "img", "iframe", "object", "a"}
+    for _, attributes in page.elements:
+        assert not {"src", "href", "style", "onclick"} & attributes.keys()
+    (style,) = page.said("style")
+    assert "url(" not in style
+    assert "@import" not in style
+    assert "prefers-color-scheme: dark" in style
+    assert "@media print" in style
+
+
+def test_html_can_be_heard() -> None:
+    page = Page(render_checklist(assess(COURSE, ALL), "html", at=NOON))
+    assert page.said("h1") == page.said("title") == ["Self-assessment checklist"]
+    assert page.said("h2") == ["Ready?", "Group <1> @all", "Two", "Exercises"]
+    assert "Yes, go <on>." in page.said("p")
+    assert page.said("small") == ["3 of 3", "2 of 2", "1 of 2 passed"]
+    ids = {attributes["id"] for _, attributes in page.elements if "id" in attributes}
+    assert {a["aria-labelledby"] for tag, a in page.elements if tag == "section"} == ids
+    boxes = [attributes for tag, attributes in page.elements if tag == "input"]
+    assert len(boxes) == 5
+    assert all("checked" in box for box in boxes)
+    assert "Refuse *bad* values" in page.said("label")
+    assert "i2.1 validation passed, 2026-01-03" in page.said("span")
+    assert ("html", {"lang": "en"}) in page.elements
+    headers = [attributes["scope"] for tag, attributes in page.elements if tag == "th"]
+    assert headers == ["col"] * 6 + ["row"] * 2
+
+
+def test_html_says_nothing_of_ready_before_everything_is_ticked() -> None:
+    page = Page(render_checklist(assess(COURSE, HALF), "html", at=NOON))
+    assert "Ready?" not in page.said("h2")
+    assert ["checked" in attributes for tag, attributes in page.elements if tag == "input"] == [True] + [False] * 4
+
+
+@settings(max_examples=30, deadline=None)
+@given(st.text(alphabet=st.sampled_from("<>&\"'`|*_[]@#\\\n\r\t\x00\x1b\ud800a é中"), min_size=1, max_size=12))
+def test_no_text_breaks_a_document(text: str) -> None:
+    checklist = Checklist((ChecklistGroup("g", text, (ChecklistItem("i", text),)),), text, text)
+    lesson = Lesson("x1.1", text, Difficulty.EASY, text, text, (), (), (), ("i",), "", Path("lessons"))
+    done = Progress({"x1.1": exercise(passed(at=text), best=Status.PASSED)}, {"i": text})
+    for format in FORMATS:
+        rendered = render_checklist(assess(Course((lesson,), checklist), done), format, at=text)
+        assert rendered.endswith("\n")
+        assert not re.search("[\x00-\x08\x0b-\x1f\x7f-\x9f]", rendered)
+        if format == "json":
+            assert json.loads(rendered)["groups"][0]["title"] == text
+        else:
+            rendered.encode("utf-8")
+        if format == "html":
+            Page(rendered)
+
+
+@pytest.mark.parametrize(
+    ("name", "format"),
+    [("a.md", "markdown"), ("a.HTML", "html"), ("a.htm", "html"), ("b.json", "json"), ("c.txt", None), ("md", None)],
+)
+def test_a_suffix_says_the_format(name: str, format: str | None) -> None:
+    assert format_of(Path(name)) == format

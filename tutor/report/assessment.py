@@ -1,0 +1,188 @@
+"""Where a learner stands: the checklist with its ticks and what the checks have shown, and each exercise's progress."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from tutor.content import ChecklistItem, Course, CriterionText, Lesson
+from tutor.judge.verdict import Status
+from tutor.workspace import Attempt, ExerciseProgress, Progress
+
+
+@dataclass(frozen=True, slots=True)
+class Evidence:
+    """A criterion that passed; `criterion` is empty where the exercise as a whole is meant.
+
+    `at` is the last time that it passed (UTC, ISO 8601), empty where that is no longer known.
+    """
+
+    exercise: str
+    criterion: str
+    at: str
+
+
+@dataclass(frozen=True, slots=True)
+class Source:
+    """What could give evidence: criteria of an exercise, or the whole of it where there are none."""
+
+    exercise: str
+    criteria: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class ItemStanding:
+    """One item: when it was ticked (None where it is not), what shows it, the latest first, and what could."""
+
+    id: str
+    text: str
+    ticked_at: str | None
+    evidence: tuple[Evidence, ...]
+    sources: tuple[Source, ...]
+
+    @property
+    def ticked(self) -> bool:
+        """Whether the learner has ticked it."""
+        return self.ticked_at is not None
+
+
+@dataclass(frozen=True, slots=True)
+class GroupStanding:
+    """The items of one subject."""
+
+    id: str
+    title: str
+    items: tuple[ItemStanding, ...]
+
+    @property
+    def ticked(self) -> int:
+        """How many are ticked."""
+        return sum(item.ticked for item in self.items)
+
+
+@dataclass(frozen=True, slots=True)
+class ExerciseStanding:
+    """One exercise. `met` and `bonus_met` count the criteria that passed in the latest check (of those that passed).
+
+    `passed_at` and `last_at` are UTC times in ISO 8601, None where there is none (or it is no longer known).
+    """
+
+    id: str
+    title: str
+    difficulty: str
+    passed: bool
+    started: bool
+    met: int
+    required: int
+    bonus_met: int
+    bonus: int
+    attempts: int
+    passed_at: str | None
+    last_at: str | None
+
+    @property
+    def standing(self) -> str:
+        """How it stands, in words."""
+        if self.passed:
+            return "passed"
+        if self.attempts:
+            return "not passed yet"
+        return "started" if self.started else "not started"
+
+
+@dataclass(frozen=True, slots=True)
+class Assessment:
+    """All of it. `ready_title` and `ready_text` are for who has ticked every item."""
+
+    groups: tuple[GroupStanding, ...]
+    exercises: tuple[ExerciseStanding, ...]
+    ready_title: str = ""
+    ready_text: str = ""
+
+    @property
+    def items(self) -> tuple[ItemStanding, ...]:
+        """Every item, in the order of the groups."""
+        return tuple(item for group in self.groups for item in group.items)
+
+    @property
+    def ticked(self) -> int:
+        """How many items are ticked."""
+        return sum(group.ticked for group in self.groups)
+
+    @property
+    def ready(self) -> bool:
+        """Whether there is something to tick, and all of it is ticked."""
+        return self.ticked == len(self.items) > 0
+
+    @property
+    def passed(self) -> int:
+        """How many exercises are passed."""
+        return sum(exercise.passed for exercise in self.exercises)
+
+
+def assess(course: Course, progress: Progress) -> Assessment:
+    """Bring together what the course asks and what the learner has done."""
+    checklist = course.checklist
+    return Assessment(
+        groups=tuple(
+            GroupStanding(group.id, group.title, tuple(_item(item, course, progress) for item in group.items))
+            for group in checklist.groups
+        ),
+        exercises=tuple(_exercise(lesson, progress.of(lesson.id)) for lesson in course.lessons),
+        ready_title=checklist.ready_title,
+        ready_text=checklist.ready_text,
+    )
+
+
+def _item(item: ChecklistItem, course: Course, progress: Progress) -> ItemStanding:
+    found: list[Evidence] = []
+    sources: list[Source] = []
+    for lesson in course.lessons:
+        if item.id not in lesson.checklist:
+            continue
+        criteria = [criterion for criterion in lesson.criteria if item.id in criterion.shows]
+        sources.append(Source(lesson.id, tuple(criterion.id for criterion in criteria)))
+        found += _found(lesson, criteria, progress.of(lesson.id))
+    found.sort(key=lambda each: each.at, reverse=True)  # stable: those of one moment stay in the lesson's order
+    return ItemStanding(item.id, item.text, progress.ticks.get(item.id), tuple(found), tuple(sources))
+
+
+def _found(lesson: Lesson, criteria: list[CriterionText], progress: ExerciseProgress) -> Iterator[Evidence]:
+    if not criteria and progress.best is Status.PASSED:
+        passes = [attempt.at for attempt in progress.attempts if _is_pass(attempt)]
+        yield Evidence(lesson.id, "", passes[-1] if passes else "")
+    for criterion in criteria:
+        # What the skeleton passes untouched shows nothing before the rest does its work as well.
+        counted = [attempt for attempt in progress.attempts if criterion.open or _is_pass(attempt)]
+        at = [attempt.at for attempt in counted if criterion.id in attempt.passed]
+        if at:
+            yield Evidence(lesson.id, criterion.id, at[-1])
+        elif progress.best is Status.PASSED and not criterion.bonus:
+            yield Evidence(lesson.id, criterion.id, "")  # so long ago that the attempt is not kept any more
+
+
+def _is_pass(attempt: Attempt) -> bool:
+    return attempt.whole and attempt.verdict is Status.PASSED
+
+
+def _exercise(lesson: Lesson, progress: ExerciseProgress) -> ExerciseStanding:
+    required = {criterion.id for criterion in lesson.criteria if not criterion.bonus}
+    bonus = {criterion.id for criterion in lesson.criteria if criterion.bonus}
+    passed = progress.best is Status.PASSED
+    whole = [attempt for attempt in progress.attempts if attempt.whole]
+    passes = [attempt for attempt in whole if _is_pass(attempt)]
+    met = set((passes or whole)[-1].passed) if passes or whole else set()
+    return ExerciseStanding(
+        id=lesson.id,
+        title=lesson.title,
+        difficulty=lesson.difficulty.value,
+        passed=passed,
+        started=progress.started_at is not None,
+        met=len(required) if passed else len(required & met),
+        required=len(required),
+        bonus_met=len(bonus & met),
+        bonus=len(bonus),
+        attempts=len(progress.attempts),
+        passed_at=passes[0].at if passes else None,
+        last_at=progress.last.at if progress.last else None,
+    )

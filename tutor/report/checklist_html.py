@@ -1,0 +1,138 @@
+"""The checklist as one HTML page that needs nothing else: for the screen in light and dark, for print, to be heard."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from html import escape as escape_html
+
+from tutor.report.assessment import Assessment, ExerciseStanding, GroupStanding, ItemStanding
+from tutor.report.checklist import TITLE
+from tutor.report.plain import printable
+from tutor.report.saying import calendar_day, say_evidence
+
+# Text colours have a contrast of at least 4.5 to 1 on their ground, in light, dark and print.
+_STYLE = """\
+:root { color-scheme: light dark; --ground: #fbfcfe; --ink: #1b2536; --quiet: #55627a; --line: #c3cddd;
+  --good: #1d6f3a; --lead: #1f5fb8; }
+@media (prefers-color-scheme: dark) {
+  :root { --ground: #0e1420; --ink: #dbe4f3; --quiet: #8b9bb8; --line: #2c3a54; --good: #7fd99a; --lead: #7cb7ff; }
+}
+body { max-width: 50rem; margin: 0 auto; padding: 1.5rem 1rem; background: var(--ground); color: var(--ink);
+  font: 1rem/1.5 system-ui, sans-serif; }
+h1, h2 { line-height: 1.25; }
+h2 { margin: 2rem 0 .5rem; padding-bottom: .25rem; border-bottom: 1px solid var(--line); font-size: 1.2rem; }
+h2 small, .evidence { color: var(--quiet); font-size: .875rem; font-weight: normal; }
+ul { margin: 0; padding: 0; list-style: none; }
+li { margin: .5rem 0; padding-left: 1.75rem; break-inside: avoid; }
+input { float: left; margin: .3rem 0 0 -1.75rem; width: 1rem; height: 1rem; accent-color: var(--good); }
+.evidence { display: block; }
+progress { width: 100%; height: .75rem; accent-color: var(--good); }
+.ready { margin-top: 2rem; padding: 0 1rem; border: 2px solid var(--good); border-radius: .5rem; }
+.ready h2 { margin-top: .75rem; border: 0; color: var(--good); }
+.scroll { overflow-x: auto; }
+table { width: 100%; border-collapse: collapse; }
+th, td { padding: .35rem .75rem .35rem 0; border-bottom: 1px solid var(--line); text-align: left; vertical-align: top;
+  font-weight: normal; }
+thead th { color: var(--quiet); font-size: .875rem; }
+td.number, th.number { text-align: right; white-space: nowrap; }
+.passed { color: var(--good); }
+@media print {
+  :root { color-scheme: light; --ground: #fff; --ink: #000; --quiet: #444; --line: #999; --good: #14532d; }
+  body { max-width: none; padding: 0; font-size: 10.5pt; }
+  h2 { break-after: avoid; }
+  section, tr { break-inside: avoid; }
+}"""
+
+
+def render(assessment: Assessment, *, at: str) -> str:
+    """Write the page. It loads nothing, and says so to the browser."""
+    return "\n".join(_lines(assessment, at)) + "\n"
+
+
+def _lines(assessment: Assessment, at: str) -> Iterator[str]:
+    total = len(assessment.items)
+    yield "<!DOCTYPE html>"
+    yield '<html lang="en">'
+    yield "<head>"
+    yield '<meta charset="utf-8">'
+    yield '<meta name="viewport" content="width=device-width, initial-scale=1">'
+    yield """<meta http-equiv="Content-Security-Policy" content="default-src 'none'; style-src 'unsafe-inline'">"""
+    yield f"<title>{TITLE}</title>"
+    yield f"<style>\n{_STYLE}\n</style>"
+    yield "</head>"
+    yield "<body>"
+    yield "<main>"
+    yield f"<h1>{TITLE}</h1>"
+    yield f"<p>{assessment.ticked} of {total} ticked, as of {_time(at)}.</p>"
+    if total:
+        # The line above says the same: nobody needs to hear it twice.
+        yield f'<progress aria-hidden="true" value="{assessment.ticked}" max="{total}"></progress>'
+    if assessment.ready:
+        yield '<section class="ready" aria-labelledby="ready">'
+        yield f'<h2 id="ready">{_text(assessment.ready_title)}</h2>'
+        yield f"<p>{_text(assessment.ready_text)}</p>"
+        yield "</section>"
+    for number, group in enumerate(assessment.groups, start=1):
+        yield from _group(group, number)
+    if assessment.exercises:
+        yield from _exercises(assessment)
+    yield "</main>"
+    yield "</body>"
+    yield "</html>"
+
+
+def _group(group: GroupStanding, number: int) -> Iterator[str]:
+    yield f'<section aria-labelledby="group-{number}">'
+    count = f"<small>{group.ticked} of {len(group.items)}</small>"
+    yield f'<h2 id="group-{number}">{_text(group.title)} {count}</h2>'
+    yield '<ul role="list">'  # without markers, some browsers take the list's role away
+    yield from (_item(item) for item in group.items)
+    yield "</ul>"
+    yield "</section>"
+
+
+def _item(item: ItemStanding) -> str:
+    box = f'<input type="checkbox" disabled{" checked" if item.ticked else ""}>'
+    said = "; ".join(say_evidence(item.evidence, calendar_day))
+    shown = f' <span class="evidence">{_text(said)}</span>' if said else ""
+    return f"<li><label>{box} {_text(item.text)}</label>{shown}</li>"
+
+
+def _exercises(assessment: Assessment) -> Iterator[str]:
+    yield '<section aria-labelledby="exercises">'
+    count = f"<small>{assessment.passed} of {len(assessment.exercises)} passed</small>"
+    yield f'<h2 id="exercises">Exercises {count}</h2>'
+    yield '<div class="scroll">'
+    yield "<table>"
+    yield "<thead><tr>"
+    yield '<th scope="col">Exercise</th><th scope="col">Difficulty</th><th scope="col">Standing</th>'
+    yield '<th scope="col" class="number">Criteria</th><th scope="col" class="number">Bonus</th>'
+    yield '<th scope="col" class="number">Attempts</th>'
+    yield "</tr></thead>"
+    yield "<tbody>"
+    yield from (_row(exercise) for exercise in assessment.exercises)
+    yield "</tbody>"
+    yield "</table>"
+    yield "</div>"
+    yield "</section>"
+
+
+def _row(exercise: ExerciseStanding) -> str:
+    mark = '<span aria-hidden="true">✓</span> ' if exercise.passed else ""
+    when = f", {_time(exercise.passed_at)}" if exercise.passed_at else ""
+    kind = ' class="passed"' if exercise.passed else ""
+    bonus = f"{exercise.bonus_met} of {exercise.bonus}" if exercise.bonus else "none"
+    return (
+        f'<tr><th scope="row">{_text(exercise.id)} {_text(exercise.title)}</th><td>{_text(exercise.difficulty)}</td>'
+        f"<td{kind}>{mark}{exercise.standing}{when}</td>"
+        f'<td class="number">{exercise.met} of {exercise.required}</td><td class="number">{bonus}</td>'
+        f'<td class="number">{exercise.attempts}</td></tr>'
+    )
+
+
+def _time(at: str) -> str:
+    return f'<time datetime="{_text(at)}">{_text(calendar_day(at))}</time>'
+
+
+def _text(text: str) -> str:
+    return escape_html(printable(text))

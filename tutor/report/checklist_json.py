@@ -1,0 +1,62 @@
+"""The checklist as one JSON document, for programs. All times are UTC in ISO 8601."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+from tutor.report.assessment import Assessment, ExerciseStanding, GroupStanding, ItemStanding
+
+SCHEMA = "ros-tutor/checklist/1"
+
+
+def render(assessment: Assessment, *, at: str) -> str:
+    """Write the document."""
+    document = {
+        "schema": SCHEMA,
+        "exported_at": at,
+        "ticked": assessment.ticked,
+        "total": len(assessment.items),
+        "ready": assessment.ready,
+        "groups": [_group(group) for group in assessment.groups],
+        "exercises": [_exercise(exercise) for exercise in assessment.exercises],
+    }
+    return json.dumps(document, ensure_ascii=False, indent=2, allow_nan=False) + "\n"
+
+
+def _group(group: GroupStanding) -> dict[str, Any]:
+    return {
+        "id": group.id,
+        "title": group.title,
+        "ticked": group.ticked,
+        "total": len(group.items),
+        "items": [_item(item) for item in group.items],
+    }
+
+
+def _item(item: ItemStanding) -> dict[str, Any]:
+    return {
+        "id": item.id,
+        "text": item.text,
+        "ticked": item.ticked,
+        "ticked_at": item.ticked_at,
+        "evidence": [
+            {"exercise": each.exercise, "criterion": each.criterion or None, "passed_at": each.at or None}
+            for each in item.evidence
+        ],
+    }
+
+
+def _exercise(exercise: ExerciseStanding) -> dict[str, Any]:
+    return {
+        "id": exercise.id,
+        "title": exercise.title,
+        "difficulty": exercise.difficulty,
+        "standing": exercise.standing,
+        "passed": exercise.passed,
+        "passed_at": exercise.passed_at,
+        "criteria": {"passed": exercise.met, "total": exercise.required},
+        "bonus": {"passed": exercise.bonus_met, "total": exercise.bonus},
+        "attempts": exercise.attempts,
+        "last_attempt_at": exercise.last_at,
+    }

@@ -1,0 +1,57 @@
+"""The checklist in Markdown: a task list as GitHub shows it, and a table of the exercises."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from tutor.report.assessment import Assessment, ExerciseStanding, ItemStanding
+from tutor.report.checklist import TITLE
+from tutor.report.markdown import escape
+from tutor.report.saying import calendar_day, say_evidence
+
+
+def render(assessment: Assessment, *, at: str) -> str:
+    """Write the document."""
+    return "\n".join(_lines(assessment, at)) + "\n"
+
+
+def _lines(assessment: Assessment, at: str) -> Iterator[str]:
+    yield f"# {TITLE}"
+    yield ""
+    count = f"{assessment.ticked} of {len(assessment.items)} ticked"
+    yield f"{count}, {assessment.passed} of {len(assessment.exercises)} exercises passed ({escape(calendar_day(at))})."
+    for group in assessment.groups:
+        yield ""
+        yield f"## {escape(group.title)}"
+        yield ""
+        yield from (_task(item) for item in group.items)
+    if assessment.ready:
+        yield ""
+        yield f"## {escape(assessment.ready_title)}"
+        yield ""
+        yield escape(assessment.ready_text)
+    if assessment.exercises:
+        yield ""
+        yield "## Exercises"
+        yield ""
+        yield "| exercise | difficulty | standing | criteria | bonus | attempts |"
+        yield "|---|---|---|--:|--:|--:|"
+        yield from (_row(exercise) for exercise in assessment.exercises)
+
+
+def _task(item: ItemStanding) -> str:
+    shown = escape("; ".join(say_evidence(item.evidence, calendar_day)))
+    return f"- [{'x' if item.ticked else ' '}] {escape(item.text)}{f' ({shown})' if shown else ''}"
+
+
+def _row(exercise: ExerciseStanding) -> str:
+    when = f", {calendar_day(exercise.passed_at)}" if exercise.passed_at else ""
+    cells = (
+        escape(f"{exercise.id} {exercise.title}"),
+        escape(exercise.difficulty),
+        escape(f"{exercise.standing}{when}"),
+        f"{exercise.met} of {exercise.required}",
+        f"{exercise.bonus_met} of {exercise.bonus}" if exercise.bonus else "",
+        str(exercise.attempts),
+    )
+    return f"| {' | '.join(cells)} |"
