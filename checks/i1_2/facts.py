@@ -66,7 +66,7 @@ class Feeding:
     """A start of the node, and what it was fed.
 
     `breaks`: how many messages were sent before N jumped or another publisher took over; 0 where neither happened.
-    `gone_at`: when the first publisher was away. `starved_s`: what the machine kept the node, or us, from running
+    `gone_at`: when the first publisher went away. `starved_s`: what the machine kept the node, or us, from running
     until everything was heard. `spins`: whether the node answered a request; if not, `stuck` says where it was.
     """
 

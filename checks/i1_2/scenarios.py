@@ -113,7 +113,7 @@ async def restart(bench: Bench) -> Feeding:
                 first = random.randint(991, 996)
                 await _send(bench, run, feed, sent, range(first, first + RESTART_AFTER), SOONER_HZ)
                 await _pause(run, LATE_S / 2)
-            gone_at = run.now()
+                gone_at = run.now()  # before it goes: the node may tell of that at once
             await _pause(run, AWAY_S)
             async with run.publisher(TOPIC, TYPE) as feed:
                 await run.until(lambda: feed.subscribers > 0, SPIN_S)

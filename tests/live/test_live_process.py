@@ -100,7 +100,9 @@ def test_where_nobody_looks_it_counts_on_in_silence(around: World) -> None:
         assert around.said(node).startswith("500 ")
         watching.tell(Attend(True))
         counts = (news.count for news in watching.news() if isinstance(news, TopicNews))
-        assert next(count for count in counts if count) == 500
+        first = next(count for count in counts if count)
+        assert first > 450  # not told before; the last few may still be on their way
+        assert first == 500 or next(count for count in counts if count >= 500) == 500
     finally:
         watching.close()
 
