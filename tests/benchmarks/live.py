@@ -10,36 +10,25 @@ one the figures are those of a busy one. Where `ros2` is installed, `ros2 topic 
 from __future__ import annotations
 
 import argparse
-import fcntl
 import json
 import os
-import pty
 import random
-import re
-import select
 import shutil
 import signal
 import statistics
-import struct
 import subprocess
 import sys
 import tempfile
-import termios
 import time
-from dataclasses import dataclass
 from pathlib import Path
 
+from tests.benchmarks.terminal import Terminal, child_of, use_of
 from tests.live.world import LiveApp, World, world
 from tutor.tui.live.state import LiveState
 from tutor.tui.live.topics_panel import TopicsPanel
 
 METRONOME = Path(__file__).parent.parent / "live" / "metronome.py"
-SIZE = (36, 120)
-LIMIT_S = 30.0
 TARGETS_MS = {1000: 50.0, 10000: 100.0}
-
-_ESCAPES = re.compile(rb"\x1b\[[0-9;?<>=]*[ -/]*[@-~]|\x1b[@-_]|\x1b\][^\x07]*\x07")
-_TICK = os.sysconf("SC_CLK_TCK")
 
 KEYS = (
     (b" ", b"Go on"),
@@ -50,73 +39,6 @@ KEYS = (
     (b"[", b"Unfollow"),
 )
 """A key, and what is drawn only then."""
-
-
-class Terminal:
-    """An app in a pty."""
-
-    def __init__(self, argv: list[str], env: dict[str, str]) -> None:
-        self.pid, self._fd = pty.fork()
-        if self.pid == 0:
-            os.execve(argv[0], argv, {**env, "TERM": "xterm-256color", "COLUMNS": "120", "LINES": "36"})
-        fcntl.ioctl(self._fd, termios.TIOCSWINSZ, struct.pack("HHHH", *SIZE, 0, 0))
-        self._seen = b""
-
-    def press(self, key: bytes) -> None:
-        self._seen = b""
-        os.write(self._fd, key)
-
-    def until(self, text: bytes, limit_s: float = LIMIT_S) -> float:
-        """Read until this text has come out; the time then (`perf_counter`)."""
-        deadline = time.perf_counter() + limit_s
-        while text not in _ESCAPES.sub(b"", self._seen):
-            left = deadline - time.perf_counter()
-            if left <= 0:
-                raise TimeoutError(f"{text!r} is not drawn: {_ESCAPES.sub(b'', self._seen)[-3000:]!r}")
-            self.read(left)
-        return time.perf_counter()
-
-    def read(self, for_s: float) -> None:
-        """Take what comes within that time, at most once."""
-        if select.select([self._fd], [], [], for_s)[0]:
-            self._seen += os.read(self._fd, 1 << 16)
-
-    def drain(self, for_s: float) -> None:
-        """Let it draw."""
-        deadline = time.perf_counter() + for_s
-        while (left := deadline - time.perf_counter()) > 0:
-            self.read(left)
-            self._seen = b""
-
-    def close(self) -> None:
-        """Quit, and wait for it."""
-        self.press(b"\x11")
-        while True:
-            try:
-                self.read(1.0)
-            except OSError:  # the other end is closed
-                break
-        os.waitpid(self.pid, 0)
-        os.close(self._fd)
-
-
-@dataclass(frozen=True, slots=True)
-class Use:
-    """What a process has used so far: CPU seconds, and memory in MB."""
-
-    cpu_s: float
-    memory_mb: float
-
-
-def use_of(pid: int) -> Use:
-    fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
-    pages = int(Path(f"/proc/{pid}/statm").read_text().split()[1])
-    return Use((int(fields[11]) + int(fields[12])) / _TICK, pages * os.sysconf("SC_PAGE_SIZE") / 1e6)
-
-
-def child_of(pid: int) -> int:
-    """The watching process of the app."""
-    return int(Path(f"/proc/{pid}/task/{pid}/children").read_text().split()[0])
 
 
 def measure(around: World, rate: int, seconds: float) -> bool:

@@ -5,16 +5,18 @@ from __future__ import annotations
 import asyncio
 import signal
 from collections.abc import Iterable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from textual.app import App, SystemCommand
 from textual.screen import Screen
 
 from tutor.tui.desk import Desk
-from tutor.tui.screens.main import MainScreen
-from tutor.tui.screens.welcome import WelcomeScreen
+from tutor.tui.screens.opening import OpeningScreen
 from tutor.tui.themes import DARK, LIGHT
 from tutor.workspace import StorageError, WorkspaceError
+
+if TYPE_CHECKING:
+    from tutor.tui.screens.main import MainScreen
 
 
 class TutorApp(App[int]):
@@ -32,22 +34,36 @@ class TutorApp(App[int]):
         self.desk = desk
         self.main: MainScreen | None = None
         self._leaving = False
+        self._notes: list[str] = []
+        desk.notify = self._notes.append
+        self._state = desk.app_state()
         self.register_theme(DARK)
         self.register_theme(LIGHT)
-        self.theme = DARK.name
+        self.theme = self._state.theme if self._state.theme in (DARK.name, LIGHT.name) else DARK.name
 
     def get_default_screen(self) -> Screen[Any]:
-        return Screen()
+        """What is painted first."""
+        known = {lesson.id: lesson for lesson in self.desk.lessons}
+        first = known.get(self._state.lesson, self.desk.lessons[0])
+        return OpeningScreen(first if self.desk.workspace.exists else None)
 
     async def on_mount(self) -> None:
+        for text in self._notes:
+            self._tell(text)
         self.desk.notify = self._tell
         loop = asyncio.get_running_loop()
         for number in (signal.SIGTERM, signal.SIGHUP):
             loop.add_signal_handler(number, self.leave)
+        self.screen.call_after_refresh(self._open)
+
+    def _open(self) -> None:
+        """The first paint is out: now for what takes longer."""
         if self.desk.workspace.exists:
             self._begin()
-        else:
-            self.push_screen(WelcomeScreen(self.desk.course, self.desk.workspace.root), self._create)
+            return
+        from tutor.tui.screens.welcome import WelcomeScreen
+
+        self.push_screen(WelcomeScreen(self.desk.course, self.desk.workspace.root), self._create)
 
     def _tell(self, text: str) -> None:
         # Told from worker threads: a message queue is the way to the app's own thread.
@@ -66,10 +82,9 @@ class TutorApp(App[int]):
         self._begin()
 
     def _begin(self) -> None:
-        state = self.desk.app_state()
-        if state.theme in (DARK.name, LIGHT.name):
-            self.theme = state.theme
-        self.main = MainScreen(self.desk, state)
+        from tutor.tui.screens.main import MainScreen  # late: half of all that is imported is imported here
+
+        self.main = MainScreen(self.desk, self._state)
         self.push_screen(self.main)
 
     def action_switch_theme(self) -> None:
