@@ -1,6 +1,6 @@
 """Submissions under tests/submissions are judged as their expect.yaml says: a sample, so that the tests end in minutes.
 
-All the right ones and enough wrong ones (see `tests.sampling`); `python -m tests.soundness` judges all.
+Which ones, `tests.sampling` says; `python -m tests.soundness` judges all.
 """
 
 from __future__ import annotations
@@ -108,7 +108,7 @@ def test_a_false_pass_and_a_false_failure_are_told() -> None:
     assert compare(_case(not_passed=("a",)), _result(a=Status.PASSED)).false_pass
 
 
-def test_the_sample_has_all_right_ones_and_each_criterion_and_cause() -> None:
+def test_the_sample_has_right_ones_and_each_criterion_and_cause() -> None:
     cases = [
         _case("r1", "right"),
         _case("r2", "right"),
@@ -119,14 +119,15 @@ def test_the_sample_has_all_right_ones_and_each_criterion_and_cause() -> None:
         _case("five", fails=("a",), exercise="x1.2"),
         _case("six", fails=("a",), exercise="x1.2"),
     ]
-    assert [case.folder.name for case in sample(cases)] == ["r1", "r2", "two", "three", "four", "five"]
+    assert [case.folder.name for case in sample(cases)] == ["r1", "two", "three", "four", "five"]
     assert sample(cases[::-1]) == sample(cases)[::-1]
 
 
 def test_the_real_sample_leaves_nothing_out() -> None:
     chosen = sample(EVERY)
     assert set().union(*map(shows, chosen)) == set().union(*map(shows, EVERY))
-    assert {case for case in map(str, EVERY) if "/right/" in case} <= set(map(str, chosen))
+    right = [[case.exercise for case in cases if case.kind == "right"] for cases in (chosen, EVERY)]
+    assert all(2 * right[0].count(each) >= right[1].count(each) - 1 for each in set(right[1]))
 
 
 def _outcome(name: str, verdict: str, took_s: float, *wrong: str) -> Outcome:
