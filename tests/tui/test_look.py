@@ -27,6 +27,26 @@ async def test_a_new_learner_is_told_where_the_work_will_be_and_begins_with_ente
         assert me.desk.path(me.desk.lessons[0].files[0]).exists()
 
 
+async def test_the_workspace_can_be_elsewhere_and_is_found_the_next_time(learner: Any, tmp_path: Path) -> None:
+    async with learner((80, 24), started=False) as me:
+        usual, other = me.desk.workspace.root, tmp_path / "elsewhere"
+        (tmp_path / "file").touch()
+        await me.sees("Your work will be in")
+        await me.press("f", "ctrl+u")
+        await me.sees("Name a folder")
+        await me.types(str(tmp_path / "file"))
+        await me.sees("is a file, not a folder")
+        await me.press("enter")
+        assert not me.desk.workspace.exists
+        await me.press("ctrl+u")
+        await me.types(str(other))
+        await me.sees("will lead to it")
+        await me.press("enter")
+        await me.sees("I1.1  Sensor Publisher", "Objective")
+        assert me.file.is_relative_to(other)
+        assert usual.resolve() == other
+
+
 async def test_who_leaves_the_welcome_screen_has_no_workspace(learner: Any) -> None:
     async with learner(started=False) as me:
         await me.sees("Your work will be in")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import signal
 from collections.abc import Iterable
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from textual.app import App, SystemCommand
@@ -13,7 +14,6 @@ from textual.screen import Screen
 from tutor.tui.desk import Desk
 from tutor.tui.screens.opening import OpeningScreen
 from tutor.tui.themes import DARK, LIGHT
-from tutor.workspace import StorageError, WorkspaceError
 
 if TYPE_CHECKING:
     from tutor.tui.screens.main import MainScreen
@@ -63,7 +63,7 @@ class TutorApp(App[int]):
             return
         from tutor.tui.screens.welcome import WelcomeScreen
 
-        self.push_screen(WelcomeScreen(self.desk.course, self.desk.workspace.root), self._create)
+        self.push_screen(WelcomeScreen(self.desk), self._welcomed)
 
     def _tell(self, text: str) -> None:
         # Told from worker threads: a message queue is the way to the app's own thread.
@@ -73,12 +73,10 @@ class TutorApp(App[int]):
         """None of Textual's own: ours are in the palette already."""
         return ()
 
-    async def _create(self, wanted: bool | None) -> None:
-        """Create the workspace, with the first exercise in it."""
-        try:
-            await asyncio.to_thread(self.desk.start, self.desk.lessons[0])
-        except (WorkspaceError, StorageError) as error:
-            self.notify(str(error), title="No workspace yet", severity="error", timeout=12, markup=False)
+    def _welcomed(self, begun: bool | None) -> None:
+        """The workspace is there: a new one, or one from before."""
+        found = self.desk.app_state()
+        self._state = replace(found, theme=self.theme)
         self._begin()
 
     def _begin(self) -> None:

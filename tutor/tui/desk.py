@@ -15,7 +15,18 @@ from tutor.content import Course, Lesson, LessonFile
 from tutor.judge.result import ExerciseResult
 from tutor.tui import run_options
 from tutor.tui.node import NodeCommand
-from tutor.workspace import AppState, Placed, Progress, RunOptions, StorageError, Workspace, place, start
+from tutor.workspace import (
+    AppState,
+    Placed,
+    Progress,
+    RunOptions,
+    StorageError,
+    Workspace,
+    place,
+    start,
+    write_atomically,
+)
+from tutor.workspace.progress import now
 
 Notify = Callable[[str], None]
 
@@ -49,6 +60,23 @@ class Desk:
         Raises WorkspaceError, StorageError.
         """
         return start(lesson, self.workspace).files
+
+    def begin_in(self, root: Path) -> None:
+        """Create the workspace at `root`, with the first exercise in it; one that is there already is kept.
+
+        Where it was looked for is a link to it from now on, so that it is found the next time. Raises WorkspaceError,
+        StorageError.
+        """
+        looked_for, found = self.workspace.root, Workspace(root)
+        if not found.exists:
+            start(self.lessons[0], found)
+        self.workspace = found
+        if root != looked_for and not os.path.lexists(looked_for):
+            try:
+                looked_for.parent.mkdir(parents=True, exist_ok=True)
+                looked_for.symlink_to(root, target_is_directory=True)
+            except OSError as error:
+                self.notify(f"Start with --workspace {root} the next time: {looked_for} is no link ({error.strerror}).")
 
     def reset(self, file: LessonFile) -> Placed:
         """Put the skeleton in the place of the learner's file, which is kept as a backup.
@@ -85,6 +113,23 @@ class Desk:
         file = self.workspace.progress(self.notify)
         file.next_hint(lesson.id, of=len(lesson.hints))
         return file.read()
+
+    def tick(self, item: str, ticked: bool) -> Progress:
+        """Tick an item of the checklist, or take the tick away. Raises StorageError."""
+        return self.workspace.progress(self.notify).change(lambda progress: progress.with_tick(item, ticked))
+
+    def export(self, format: str, path: Path, replace: bool) -> bool:
+        """Write the checklist; False, and nothing is done, where there is a file and it is not to be replaced.
+
+        Raises StorageError.
+        """
+        from tutor.report.assessment import assess
+        from tutor.report.checklist import render_checklist
+
+        if path.exists() and not replace:
+            return False
+        write_atomically(path, render_checklist(assess(self.course, self.progress()), format, at=now()))
+        return True
 
     def check_command(self, lesson: Lesson) -> Sequence[str]:
         """The command that checks the workspace's own files and prints events, to be run in the workspace."""
