@@ -119,7 +119,7 @@ def learner(tmp_path: Path) -> Callable[..., object]:
         async with app.run_test(size=size, notifications=True) as pilot:
             try:
                 if desk.workspace.exists:
-                    await pilot.pause()
+                    await made.opened(app, pilot)
                 yield Learner(app, pilot, desk)
             finally:
                 desk.engine.close()

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import asyncio
 import contextlib
 import sys
 from collections.abc import Sequence
 from pathlib import Path
+
+from textual.pilot import Pilot
 
 from tutor.content import Checklist, Course, CriterionText, Difficulty, Lesson, LessonFile
 from tutor.judge.events import CheckFinished, CheckStarted, CriterionJudged, Event, ExerciseJudged, Progress, encode
 from tutor.judge.result import CriterionResult, Environment, ExerciseResult, Report
 from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped
 from tutor.tui import run_options
+from tutor.tui.app import TutorApp
 from tutor.tui.desk import Desk
 from tutor.tui.node import NodeCommand
 from tutor.workspace import RunOptions, Workspace
@@ -240,3 +244,11 @@ def whole(lesson: Lesson, middle: Verdict) -> list[Event]:
     done = ExerciseResult(lesson.id, lesson.title, (lesson.files[0].name,), judged, 4.2)
     report = Report(Environment("jazzy", "bundled", "rmw_fastrtps_cpp", "0.1.0"), (done,), 4.2)
     return [*(CriterionJudged(lesson.id, c) for c in judged), ExerciseJudged(done), CheckFinished(report)]
+
+
+async def opened(app: TutorApp, pilot: Pilot[int], limit_s: float = 30.0) -> None:
+    """Wait until the main screen is there, with its lesson and the progress: the app paints before that."""
+    async with asyncio.timeout(limit_s):
+        while app.main is None or not app.main.session.progress.exercises:
+            await pilot.pause(0.02)
+    await pilot.pause()

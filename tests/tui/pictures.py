@@ -20,6 +20,7 @@ from tutor.judge.events import CheckStarted, CriterionJudged, Event
 from tutor.judge.verdict import Status
 from tutor.tui.app import TutorApp
 from tutor.tui.screens.main import MainScreen
+from tutor.tui.screens.welcome import WelcomeScreen
 from tutor.tui.themes import DARK, LIGHT
 from tutor.tui.widgets.code_pane import CodePane
 
@@ -48,7 +49,10 @@ class Album:
             app = TutorApp(desk)
             async with app.run_test(size=self.size) as pilot:
                 app.theme = self.theme
-                await pilot.pause()
+                if started:
+                    await made.opened(app, pilot)
+                else:
+                    await until(pilot, lambda: isinstance(app.screen, WelcomeScreen))
                 yield pilot, desk
                 desk.engine.close()
                 if app.main is not None:

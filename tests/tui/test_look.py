@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from textual.events import Paste
 from textual.color import Color
 
 from tests.tui import made
@@ -34,12 +35,12 @@ async def test_the_workspace_can_be_elsewhere_and_is_found_the_next_time(learner
         await me.sees("Your work will be in")
         await me.press("f", "ctrl+u")
         await me.sees("Name a folder")
-        await me.types(str(tmp_path / "file"))
+        me.app.post_message(Paste(str(tmp_path / "file")))
         await me.sees("is a file, not a folder")
         await me.press("enter")
         assert not me.desk.workspace.exists
         await me.press("ctrl+u")
-        await me.types(str(other))
+        me.app.post_message(Paste(str(other)))
         await me.sees("will lead to it")
         await me.press("enter")
         await me.sees("I1.1  Sensor Publisher", "Objective")

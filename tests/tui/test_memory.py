@@ -12,7 +12,7 @@ async def again(me: Any) -> Any:
     """The same workspace, opened once more; gives the state that the app begins with."""
     app = TutorApp(me.desk)
     async with app.run_test(size=(120, 36)) as pilot:
-        await pilot.pause()
+        await made.opened(app, pilot)
         assert app.main is not None
         found = (app.main.session.lesson.id, app.main.page, app.theme, app.main.session.state)
         await app.main.close_down()
