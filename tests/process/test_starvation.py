@@ -35,5 +35,23 @@ def test_two_on_one_cpu_wait_for_each_other() -> None:
             each.wait()
 
 
+def test_a_main_thread_that_sleeps_is_not_kept_waiting() -> None:
+    cpu = min(os.sched_getaffinity(0))
+    pinned = f"import os, threading, time; os.sched_setaffinity(0, {{{cpu}}})\n"
+    rest = f"threading.Thread(target=exec, args=({BUSY!r},), daemon=True).start()\ntime.sleep(1000)"
+    both = [subprocess.Popen([sys.executable, "-c", pinned + code], start_new_session=True) for code in (BUSY, rest)]
+    try:
+        deadline = time.monotonic() + 30
+        while cpu_time(both[1].pid).waited_s < 0.5 and time.monotonic() < deadline:
+            time.sleep(0.01)
+        had = cpu_time(both[1].pid)
+        assert had.waited_s >= 0.5
+        assert had.main_waited_s < had.waited_s / 2
+    finally:
+        for each in both:
+            each.kill()
+            each.wait()
+
+
 def test_our_own_process_has_run() -> None:
     assert cpu_time_here().ran_s > 0.0

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import time
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 
 from tutor.process.warden import Process, processes
 
@@ -20,17 +20,18 @@ class CpuTime:
 
     `ran_s`: how long they ran; `waited_s`: how long they were able to run, but were not let. Of each process the thread
     with the most of it counts, since threads wait at the same time (`/proc/PID/task/TID/schedstat`). 0.0 where the
-    kernel does not tell.
+    kernel does not tell. `main_waited_s`: the same of their main threads only, which do not wait while they sleep.
     """
 
     ran_s: float = 0.0
     waited_s: float = 0.0
+    main_waited_s: float = 0.0
 
 
 def cpu_time(session: int) -> CpuTime:
     """What the processes of a session had of the CPU so far; one that has ended no longer counts."""
     each = [_of(process.pid) for process in _processes(session).values() if process.session == session]
-    return CpuTime(sum(one.ran_s for one in each), sum(one.waited_s for one in each))
+    return CpuTime(*(sum(values) for values in zip(*map(astuple, each), strict=True)))
 
 
 def cpu_time_here() -> CpuTime:
@@ -49,12 +50,14 @@ def _processes(leader: int) -> dict[int, Process]:
 
 
 def _of(pid: int) -> CpuTime:
-    ran = waited = 0
+    ran = waited = main = 0
     try:
         for thread in os.listdir(f"/proc/{pid}/task"):
             with open(f"/proc/{pid}/task/{thread}/schedstat", "rb") as file:
                 fields = file.read().split()
             ran, waited = max(ran, int(fields[0])), max(waited, int(fields[1]))
+            if thread == str(pid):
+                main = int(fields[1])
     except (OSError, IndexError, ValueError):  # it ended while it was read, or this kernel has no such file
         pass
-    return CpuTime(ran * 1e-9, waited * 1e-9)
+    return CpuTime(ran * 1e-9, waited * 1e-9, main * 1e-9)
