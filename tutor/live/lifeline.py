@@ -15,11 +15,11 @@ CLEAN_UP_S = 1.0
 _PR_SET_PDEATHSIG = 1
 
 
-def die_with_parent() -> None:
-    """Be killed when the parent dies: its pipes may be held open by others. Linux only; elsewhere the pipe must do."""
+def die_with_parent(number: signal.Signals = signal.SIGKILL) -> None:
+    """Get this signal when the parent dies: its pipes may be held open by others. Linux only; else the pipe must do."""
     parent = os.getppid()
     try:
-        ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
+        ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, number)
     except (OSError, AttributeError):
         return
     if os.getppid() != parent:

@@ -1,0 +1,64 @@
+"""`ros-tutor serve`: the app in a browser."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+
+from tutor.cli import context, terminal
+from tutor.cli.errors import INTERRUPTED, UsageError
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """[--port N] [--host ADDRESS]."""
+    parser.add_argument("--port", metavar="N", type=_port, help="the port (8000, or a free one where that is taken)")
+    parser.add_argument(
+        "--host", metavar="ADDRESS", default="127.0.0.1", help="where to listen (127.0.0.1: this machine only)"
+    )
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Serve until Ctrl+C; each page that is open has an app of its own."""
+    import asyncio
+
+    from tutor.serve import NoAddress, ServeError, address, is_loopback, listen
+
+    try:
+        from tutor.serve.server import AppServer
+    except ImportError as error:
+        raise ServeError(f"the app cannot be served: {error.name} is not installed", _MEND) from error
+
+    context.load_course(arguments)  # a course that is broken is told here, not in the browser
+    lessons = getattr(arguments, "lessons", None)
+    more = [] if lessons is None else [str(lessons.absolute())]
+    # -P: a module in the current folder must not take the place of one of ours.
+    argv = [sys.executable, "-P", "-m", "tutor.serve", str(context.place(arguments).root.absolute()), *more]
+    try:
+        listener = listen(arguments.host, arguments.port)
+    except NoAddress as error:
+        raise UsageError(f"{error}; {error.mend}") from error
+
+    def ready() -> None:
+        terminal.out(f"ros-tutor is at {address(listener)}\n")
+        if not is_loopback(listener):
+            terminal.say(
+                f"warning: {arguments.host} can be reached from other machines, and whoever opens the page can run "
+                "programs as you; use it only in a network that you trust"
+            )
+        terminal.say("Ctrl+C ends it")
+
+    def stopping() -> None:
+        terminal.say("ending the app, and what was started in it")
+
+    with listener:
+        asyncio.run(AppServer(argv, listener).run(ready, stopping))
+    return INTERRUPTED
+
+
+_MEND = "install textual-serve (in a clone: ./.ci/uv sync)"
+
+
+def _port(text: str) -> int:
+    if text.isdecimal() and int(text) <= 65535:
+        return int(text)
+    raise argparse.ArgumentTypeError(f"{text!r} is no port: a number from 0 (any that is free) to 65535")

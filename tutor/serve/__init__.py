@@ -1,0 +1,8 @@
+"""The app in a browser: a small web server of this machine that starts one app for each page that is open."""
+
+from __future__ import annotations
+
+from tutor.serve.errors import NoAddress, ServeError
+from tutor.serve.listening import address, is_loopback, listen
+
+__all__ = ["NoAddress", "ServeError", "address", "is_loopback", "listen"]

@@ -1,0 +1,78 @@
+"""The web server: the page, what it is made of, and the apps behind the pages that are open."""
+
+from __future__ import annotations
+
+import asyncio
+import shlex
+import signal
+import socket
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from aiohttp import web
+from textual_serve.server import Server, to_int
+
+from tutor.serve import guard
+from tutor.serve.listening import is_loopback
+from tutor.serve.session import Session
+
+PAGE = Path(__file__).parent / "page"
+
+_STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+_GOODBYE_S = 2.0
+
+
+class AppServer(Server):
+    """Serves the app that `argv` starts."""
+
+    def __init__(self, argv: Sequence[str], listener: socket.socket) -> None:
+        host, port = listener.getsockname()[:2]
+        super().__init__(shlex.join(argv), host=host, port=port, title="ROS Tutor", templates_path=PAGE)
+        self._argv = argv
+        self._listener = listener
+        self._sessions: set[Session] = set()
+
+    async def run(self, on_ready: Callable[[], None], on_stop: Callable[[], None]) -> None:
+        """Serve until a signal asks to stop. `on_ready`: pages can be opened; `on_stop`: the apps are being ended."""
+        stopped = asyncio.Event()
+        loop = asyncio.get_running_loop()
+        for number in _STOP_SIGNALS:
+            loop.add_signal_handler(number, stopped.set)
+        # Requests are not logged: what a learner types is nobody's business.
+        runner = web.AppRunner(await self._make_app(), access_log=None, shutdown_timeout=_GOODBYE_S)
+        await runner.setup()
+        try:
+            site = web.SockSite(runner, self._listener)
+            await site.start()
+            on_ready()
+            await stopped.wait()
+            on_stop()
+            await site.stop()  # no new page while the old ones are ended
+        finally:
+            await asyncio.gather(*(session.stop() for session in self._sessions))
+            await runner.cleanup()
+
+    async def _make_app(self) -> web.Application:
+        app = await super()._make_app()
+        app.router.add_static("/page", PAGE)
+        app.middlewares.append(guard.only_own_pages(loopback=is_loopback(self._listener)))
+        app.on_response_prepare.append(guard.add_headers)
+        return app
+
+    async def on_startup(self, app: web.Application) -> None:
+        """Say nothing: whoever starts the server does."""
+
+    async def handle_websocket(self, request: web.Request) -> web.WebSocketResponse:
+        """A page has been opened: start an app for it, and end that when the page is closed."""
+        page = web.WebSocketResponse(heartbeat=15, timeout=_GOODBYE_S)
+        await page.prepare(request)
+        width, height = (to_int(request.query.get(name, ""), usual) for name, usual in (("width", 80), ("height", 24)))
+        session = Session(self._argv, page, self.download_manager)
+        self._sessions.add(session)
+        try:
+            await session.start(width, height)
+            await self._process_messages(page, session)
+        finally:
+            await session.stop()
+            self._sessions.discard(session)
+        return page
