@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 from checks.i1_3.facts import (
@@ -36,10 +37,13 @@ async def survey(bench: Bench) -> Calls:
         bench.doing(0.1, "waiting for the four services")
         await appears(run, lambda: not missing_of(run.graph.services))
         spins = await run.parameters(2.0) is not None
-        there = [name for name in SIGNS if name not in missing_of(run.graph.services)]
+        met = run.graph
+        there = [name for name in SIGNS if name not in missing_of(met.services)]
         bench.doing(0.4, "calling each service")
         answers = await _ask(run, [(name, *EASY) for name in there])
         trace = run.trace()
+        if trace.exit is not None:  # one that a call has killed takes its services along, one by one
+            trace = replace(trace, graph=met)
         bench.doing(0.8, "pressing Ctrl+C")
         ended = await run.interrupt() if run.exit is None else None
     unanswered = next((answer for answer in answers if answer.response is None), None)
