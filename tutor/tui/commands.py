@@ -106,6 +106,8 @@ GROUPS: tuple[tuple[str, tuple[Command, ...]], ...] = (
             Command("page_log", ("3", "f4"), "Log", "Show the log of your node"),
             Command("page_live", ("4", "f7"), "Live", "Show topics, parameters, services, live"),
             Command("page_criteria", ("5", "f8"), "Criteria", "Show the criteria"),
+            Command("checklist", ("6", "f12"), "Checklist", "Tick what you can do by now", footer=True),
+            Command("export", ("X",), "Export", "Export the checklist and your progress"),
             Command("theme", ("t",), "Theme", "Dark or light theme"),
             Command("help", ("question_mark", "f1"), "Help", "Show all keys", footer=True),
             Command("quit", ("q",), "Quit", "Stop everything and leave", footer=True),

@@ -18,6 +18,7 @@ class Records:
 
     def __init__(self, stage: Stage) -> None:
         self._stage = stage
+        self._lane = asyncio.Lock()
         self.deeds = {"hint": Deed(self.hint), "attempts": Deed(self.attempts)}
 
     def read(self) -> None:
@@ -53,10 +54,17 @@ class Records:
         self._stage.app.push_screen(AttemptsScreen(session.lesson, session.progress.of(session.lesson.id)))
 
     def _work(self, change: Callable[..., Progress], *given: Any) -> None:
-        self._stage.run_worker(self._change(change, *given), group="progress")
+        self._stage.run_worker(self.change(change, *given), group="progress")
 
-    async def _change(self, change: Callable[..., Progress], *given: Any) -> None:
+    async def change(self, change: Callable[..., Progress], *given: Any) -> None:
+        """Change the progress on the disk, and tell what it is then; where that fails, what it was."""
         try:
-            self._stage.post_message(messages.ProgressRead(await asyncio.to_thread(change, *given)))
+            self._stage.post_message(messages.ProgressRead(await self.in_turn(change, *given)))
         except StorageError as error:
             self._stage.trouble(f"Your progress is not kept: {error}")
+            self._stage.post_message(messages.ProgressRead(self._stage.session.progress))
+
+    async def in_turn[T](self, work: Callable[..., T], *given: Any) -> T:
+        """Do this in a thread, after what was asked for before it: the last that is told is then the latest."""
+        async with self._lane:
+            return await asyncio.to_thread(work, *given)

@@ -17,6 +17,7 @@ from textual.widgets import ContentSwitcher, Footer, ListView, Tab, Tabs, TextAr
 from tutor.content import Lesson
 from tutor.tui import messages
 from tutor.tui.commands import bindings
+from tutor.tui.control.checklist import ChecklistDesk
 from tutor.tui.control.checks import Checks
 from tutor.tui.control.closing import close_down
 from tutor.tui.control.files import Files
@@ -61,6 +62,7 @@ class MainScreen(Stage):
         self.views = Views(self, code, self.files)
         self.nodes = Nodes(self, self.files, self.memory)
         self.checks = Checks(self, self.files, self.records, self.memory, self._show_findings)
+        self.checklist = ChecklistDesk(self, self.records)
         logs = Logs(self, log)
         own = {
             "next": Deed(lambda: self._step(1)),
@@ -71,7 +73,8 @@ class MainScreen(Stage):
             "evidence": Deed(self._evidence, lambda: self.query_one(Diagnosis).has_evidence),
         }
         self._deeds: dict[str, Deed] = dict(own)
-        for controller in (self.pages, self.records, self.files, self.views, self.nodes, self.checks, logs):
+        controllers = (self.pages, self.records, self.files, self.views, self.nodes, self.checks, self.checklist, logs)
+        for controller in controllers:
             self._deeds |= controller.deeds
 
     def compose(self) -> ComposeResult:
@@ -194,6 +197,7 @@ class MainScreen(Stage):
     def _progress_read(self, message: messages.ProgressRead) -> None:
         self.session.progress = message.progress
         self.query_one(LessonList).show_progress(message.progress)
+        self.checklist.show(message.progress)
         lesson = self.session.lesson
         self.query_one(CriteriaPanel).show_attempts(lesson, message.progress.of(lesson.id))
 

@@ -1,0 +1,123 @@
+"""Where the checklist is written to, and in which format."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import ClassVar
+
+from textual import on
+from textual.app import ComposeResult
+from textual.binding import Binding, BindingType
+from textual.containers import Horizontal, Vertical
+from textual.content import Content
+from textual.widgets import Button, Input, Static
+
+from tutor.report.checklist import FORMATS, SUFFIXES, format_of
+from tutor.tui import words
+from tutor.tui.screens.dialog import Dialog
+
+NAMES = {"markdown": "Markdown", "json": "JSON", "html": "HTML page"}
+
+_ABOUT = {
+    "markdown": "A task list as GitHub shows it, and a table of your exercises.",
+    "json": "For programs: every item, its evidence, and each exercise's progress.",
+    "html": "One page for any browser, to read, to print, to hand in.",
+}
+
+
+class ExportScreen(Dialog[tuple[str, Path]]):
+    """Gives the format and the file; the file may exist: whoever writes it asks."""
+
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("up", "format(-1)", show=False),
+        Binding("down", "format(1)", show=False),
+    ]
+
+    def __init__(self, folder: Path, format: str = FORMATS[0], file: Path | None = None) -> None:
+        super().__init__()
+        self._folder, self._format = folder, format
+        name = file or folder / f"checklist{SUFFIXES[format]}"
+        self._name_text = str(name.relative_to(folder)) if name.is_relative_to(folder) else words.short(name)
+
+    def compose(self) -> ComposeResult:
+        with Vertical(classes="window") as window:
+            window.border_title = "Export the checklist"
+            window.border_subtitle = "↑ ↓ format · Enter exports · Esc closes"
+            with Horizontal(id="export-formats"):
+                for format in FORMATS:
+                    yield Button(NAMES[format], id=f"format-{format}")
+            yield Static(id="export-about")
+            yield Input(self._name_text, id="export-file")
+            yield Static(id="export-place")
+            with Horizontal(classes="dialog-buttons"):
+                yield Button("Not now", id="no")
+                yield Button("Export", id="yes")
+
+    def on_mount(self) -> None:
+        field = self.query_one(Input)
+        field.focus()
+        self._show()
+
+    @property
+    def path(self) -> Path:
+        """What the field says; a relative path is in the workspace."""
+        text = self.query_one(Input).value.strip()
+        try:
+            return self._folder / Path(text).expanduser()
+        except RuntimeError:  # "~somebody" who is not there
+            return self._folder / text
+
+    def action_format(self, by: int) -> None:
+        """The next format, or the one before."""
+        self._choose(FORMATS[(FORMATS.index(self._format) + by) % len(FORMATS)])
+
+    @on(Button.Pressed, "#export-formats Button")
+    def _format_pressed(self, event: Button.Pressed) -> None:
+        self._choose((event.button.id or "").removeprefix("format-"))
+
+    def _choose(self, format: str) -> None:
+        self._format = format
+        field = self.query_one(Input)
+        path = Path(field.value.strip())
+        if format_of(path) not in (format, None):
+            field.value = str(path.with_suffix(SUFFIXES[format]))
+        self._show()
+
+    @on(Input.Changed)
+    def _typed(self, event: Input.Changed) -> None:
+        self._format = format_of(Path(event.value.strip())) or self._format
+        self._show()
+
+    def _show(self) -> None:
+        for format in FORMATS:
+            button, chosen = self.query_one(f"#format-{format}", Button), format == self._format
+            button.label = f"({'•' if chosen else ' '}) {NAMES[format]}"
+            button.set_class(chosen, "-chosen")
+        self.query_one("#export-about", Static).update(_ABOUT[self._format])
+        place = words.short(self.path.parent)
+        if problem := self._problem():
+            text = Content.assemble(("! ", "bold $warn"), (problem, "$warn"))
+        elif self.path.exists():
+            text = Content.styled(f"There already, in {place}: you will be asked before it is replaced.", "$warn")
+        else:
+            text = Content.styled(f"A new file in {place}", "$quiet")
+        self.query_one("#export-place", Static).update(text)
+
+    def _problem(self) -> str:
+        """What is wrong with the file, or nothing."""
+        path = self.path
+        if not self.query_one(Input).value.strip() or path.is_dir():
+            return "Give the name of a file."
+        if not path.parent.is_dir():
+            return f"There is no folder {words.short(path.parent)}."
+        return ""
+
+    @on(Button.Pressed, "#yes")
+    @on(Input.Submitted)
+    def _export(self) -> None:
+        if not self._problem():
+            self.dismiss((self._format, self.path))
+
+    @on(Button.Pressed, "#no")
+    def _leave(self) -> None:
+        self.dismiss(None)
