@@ -1,11 +1,17 @@
-"""Takes pictures of the app in its states: `python tests/tui/pictures.py DIR` writes one SVG for each.
+"""Takes pictures of the app in its states: `python -m tests.tui.pictures DIR [ONLY]` writes one SVG for each.
 
-For looking at, not for comparing. Real lessons, made verdicts, a node without ROS.
+For looking at, not for comparing: DIR is not to be committed, but for the few that README shows. Real lessons, made
+verdicts, a node without ROS; the live page watches a real node. ONLY is part of a size or of a state's name. Each state
+is taken dark and light; `--png` lets Chromium turn all into PNG as well, where it is installed.
 """
 
 from __future__ import annotations
 
 import asyncio
+import os
+import re
+import shutil
+import subprocess
 import sys
 import tempfile
 from collections.abc import AsyncIterator, Callable
@@ -14,17 +20,24 @@ from pathlib import Path
 
 from textual.pilot import Pilot
 
+from tests.live.world import world
 from tests.tui import made
 from tutor.content import load_course
 from tutor.judge.events import CheckStarted, CriterionJudged, Event
 from tutor.judge.verdict import Status
 from tutor.tui.app import TutorApp
+from tutor.tui.desk import Desk
+from tutor.tui.live.topics_panel import TopicsPanel
 from tutor.tui.screens.main import MainScreen
 from tutor.tui.screens.welcome import WelcomeScreen
 from tutor.tui.themes import DARK, LIGHT
 from tutor.tui.widgets.code_pane import CodePane
+from tutor.workspace import Workspace
 
-LIMIT_S = 10.0
+LIMIT_S = 60.0
+SIZES = ((120, 36), (80, 24), (180, 48))
+_FONT_FACE = re.compile(r"\s*@font-face \{.*?\}", re.DOTALL)
+_FONTS = '"Fira Code", "DejaVu Sans Mono", Menlo, Consolas, monospace'
 
 
 async def until(pilot: Pilot[int], seen: Callable[[], bool]) -> None:
@@ -35,10 +48,10 @@ async def until(pilot: Pilot[int], seen: Callable[[], bool]) -> None:
 
 
 class Album:
-    """One size and theme."""
+    """One size, dark and light."""
 
-    def __init__(self, folder: Path, size: tuple[int, int], theme: str) -> None:
-        self.folder, self.size, self.theme = folder, size, theme
+    def __init__(self, folder: Path, size: tuple[int, int]) -> None:
+        self.folder, self.size = folder, size
 
     @asynccontextmanager
     async def opened(self, *, started: bool = True) -> AsyncIterator[tuple[Pilot[int], made.MadeDesk]]:
@@ -46,62 +59,104 @@ class Album:
             desk = made.MadeDesk(Path(scratch) / "learner", started=started, lessons=load_course())
             if started:
                 desk.path(desk.lessons[0].files[0]).write_text(made.NODE)
-            app = TutorApp(desk)
-            async with app.run_test(size=self.size) as pilot:
-                app.theme = self.theme
-                if started:
-                    await made.opened(app, pilot)
-                else:
-                    await until(pilot, lambda: isinstance(app.screen, WelcomeScreen))
+            async with self.app(desk) as pilot:
                 yield pilot, desk
                 desk.engine.close()
-                if app.main is not None:
-                    await app.main.close_down()
 
-    def take(self, pilot: Pilot[int], name: str) -> None:
-        place = self.folder / f"{name}-{self.size[0]}x{self.size[1]}-{self.theme.rsplit('-', 1)[1]}.svg"
-        place.write_text(pilot.app.export_screenshot(title="ros-tutor"))
+    @asynccontextmanager
+    async def app(self, desk: Desk) -> AsyncIterator[Pilot[int]]:
+        app = TutorApp(desk)
+        app.animation_level = "none"
+        async with app.run_test(size=self.size) as pilot:
+            if desk.workspace.exists:
+                await made.opened(app, pilot)
+            else:
+                await until(pilot, lambda: isinstance(app.screen, WelcomeScreen))
+            yield pilot
+            if app.main is not None:
+                await app.main.close_down()
+
+    async def take(self, pilot: Pilot[int], name: str) -> None:
+        for theme in (LIGHT, DARK):
+            pilot.app.theme = theme.name
+            await pilot.pause()
+            picture = pilot.app.export_screenshot(title="ros-tutor")
+            picture = _FONT_FACE.sub("", picture).replace("Fira Code, monospace", _FONTS)  # nothing from a network
+            shade = theme.name.rsplit("-", 1)[1]
+            (self.folder / f"{name}-{self.size[0]}x{self.size[1]}-{shade}.svg").write_text(picture)
+
+    async def welcome(self) -> None:
+        async with self.opened(started=False) as (pilot, _):
+            await self.take(pilot, "welcome")
+            await pilot.press("f")
+            await self.take(pilot, "welcome-folder")
 
     async def rest(self) -> None:
-        async with self.opened(started=False) as (pilot, _):
-            self.take(pilot, "welcome")
         async with self.opened() as (pilot, _):
             main = screen(pilot)
-            await until(pilot, lambda: bool(main.session.progress.exercises))
-            self.take(pilot, "lesson")
+            await self.take(pilot, "lesson")
             await pilot.press("2")
             await until(pilot, lambda: main.query_one(CodePane).editor is not None)
-            self.take(pilot, "code")
+            await self.take(pilot, "code")
+            await pilot.press("3")
+            await self.take(pilot, "log-empty")
             await pilot.press("n", "2")
-            await pilot.pause(0.1)
-            self.take(pilot, "missing")
+            await pilot.pause(0.2)
+            await self.take(pilot, "missing")
             for key, name in (
                 ("question_mark", "help"),
                 ("h", "hint"),
                 ("ctrl+p", "palette"),
                 ("l", "lessons"),
                 ("c", "ask"),
+                ("o", "options"),
             ):
                 await pilot.press(key)
                 if key == "h":
                     await pilot.press("h")
-                await pilot.pause(0.3 if key == "ctrl+p" else 0.05)
-                self.take(pilot, name)
+                await pilot.pause(0.5 if key == "ctrl+p" else 0.1)
+                await self.take(pilot, name)
                 await pilot.press("escape" if key != "l" else "l")
                 await pilot.pause()
             await pilot.press("v", "enter")
-            await pilot.pause(0.1)
-            self.take(pilot, "solution")
+            await pilot.pause(0.2)
+            await self.take(pilot, "solution")
 
     async def busy(self) -> None:
         async with self.opened() as (pilot, _):
             main = screen(pilot)
             await pilot.press("r")
             await until(pilot, lambda: any(len(each.state.lines) >= 4 for each in main.nodes.running))
-            self.take(pilot, "running")
+            await self.take(pilot, "running")
             await pilot.press("r")
             await until(pilot, lambda: not main.nodes.running)
-            self.take(pilot, "stopped")
+            await self.take(pilot, "stopped")
+
+    async def live(self) -> None:
+        """The solution of the first lesson, running on a domain of its own, watched."""
+        with world() as around, tempfile.TemporaryDirectory() as scratch:
+            for name in ("ROS_DOMAIN_ID", "ROS_AUTOMATIC_DISCOVERY_RANGE"):
+                os.environ[name] = around.environ[name]
+            desk = Desk(load_course(), Workspace(Path(scratch) / "ros_tutor_ws"))
+            lesson = desk.lessons[0]
+            desk.start(lesson)
+            desk.path(lesson.files[0]).write_bytes(lesson.files[0].solution.read_bytes())
+            async with self.app(desk) as pilot:
+                main = screen(pilot)
+                await pilot.press("4")
+                await until(pilot, lambda: (live := main.pages.live) is not None and live.state.ready)
+                await pilot.pause(0.5)
+                await self.take(pilot, "live-nothing")
+                await pilot.press("r")
+                await until(pilot, lambda: bool(main.nodes.running))
+                await pilot.press("4")
+                topics = main.query_one(TopicsPanel)
+                await until(pilot, lambda: topics.view is not None and len(topics.view.points) > 20)
+                await self.take(pilot, "live")
+                for name in ("parameters", "services", "graph"):
+                    await pilot.press("right_square_bracket")
+                    await pilot.pause(0.7)
+                    await self.take(pilot, f"live-{name}")
 
     async def check(self, passing: bool) -> None:
         async with self.opened() as (pilot, desk):
@@ -115,7 +170,7 @@ class Album:
             await asyncio.to_thread(desk.engine.say, *say)
             await until(pilot, lambda: main.session.findings[lesson.id].criteria[0].verdict is not None)
             if not passing:
-                self.take(pilot, "checking")
+                await self.take(pilot, "checking")
             await asyncio.to_thread(desk.engine.say, *made.whole(lesson, made.GOOD if passing else made.BAD))
             desk.engine.close()
             await until(pilot, lambda: main.checks.running is None)
@@ -123,14 +178,24 @@ class Album:
             found = main.session.findings[lesson.id].result
             assert found is not None
             assert (found.verdict is Status.PASSED) == passing
-            self.take(pilot, "passed" if passing else "failed")
+            await self.take(pilot, "passed" if passing else "failed")
+            await pilot.press("6")
+            await pilot.pause(0.3)
+            await self.take(pilot, "checklist" if passing else "checklist-begun")
+            await pilot.press("escape", "a")
+            await pilot.pause(0.2)
+            await self.take(pilot, "attempts")
+
+    async def checked(self) -> None:
+        await self.check(passing=False)
+        await self.check(passing=True)
 
     async def crash(self) -> None:
         async with self.opened() as (pilot, desk):
             await pilot.press("c")
             await asyncio.to_thread(desk.engine.say, "crash")
             await until(pilot, lambda: screen(pilot).checks.running is None)
-            self.take(pilot, "crashed")
+            await self.take(pilot, "crashed")
 
 
 STEPS = (
@@ -147,20 +212,37 @@ def screen(pilot: Pilot[int]) -> MainScreen:
     return pilot.app.main
 
 
+def as_png(picture: Path) -> None:
+    """Beside it, as Chromium shows it."""
+    chromium = shutil.which("chromium") or shutil.which("google-chrome")
+    assert chromium is not None, "Chromium is not installed"
+    with tempfile.TemporaryDirectory() as profile:
+        subprocess.run(
+            [
+                chromium,
+                *("--headless", "--no-sandbox", "--disable-gpu", "--disable-background-networking", "--no-first-run"),
+                *("--hide-scrollbars", "--window-size=1500,1000", f"--user-data-dir={profile}"),
+                f"--screenshot={picture.with_suffix('.png')}",
+                picture.resolve().as_uri(),
+            ],
+            check=True,
+            stderr=subprocess.DEVNULL,
+        )
+
+
 async def main(folder: Path, only: str = "") -> None:
     folder.mkdir(parents=True, exist_ok=True)
-    for size in ((120, 36), (80, 24), (180, 48)):
-        for theme in (DARK.name, LIGHT.name):
-            if only not in f"{size[0]}{theme}":
-                continue
-            album = Album(folder, size, theme)
-            await album.rest()
-            await album.busy()
-            await album.check(passing=False)
-            await album.check(passing=True)
-            await album.crash()
+    for size in SIZES:
+        album = Album(folder, size)
+        for group in (album.welcome, album.rest, album.busy, album.live, album.checked, album.crash):
+            if only in f"{size[0]}x{size[1]} {group.__name__}":
+                await group()
     print(f"{len(list(folder.glob('*.svg')))} pictures in {folder}")
 
 
 if __name__ == "__main__":
-    asyncio.run(main(Path(sys.argv[1]), *sys.argv[2:3]))
+    given = [each for each in sys.argv[1:] if each != "--png"]
+    asyncio.run(main(Path(given[0]), *given[1:2]))
+    if "--png" in sys.argv:
+        for each in sorted(Path(given[0]).glob("*.svg")):
+            as_png(each)

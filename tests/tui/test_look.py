@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from textual.events import Paste
 from textual.color import Color
+from textual.events import Paste
 
 from tests.tui import made
 from tutor.tui.screens.layout import Criteria, Layout, layout_for
