@@ -7,8 +7,9 @@ from collections.abc import Iterable, Sequence
 from checks.i1_2.facts import LATE_S, OURS, Feeding
 from checks.i1_2.judges import NO_SUMMARY, counts_truly, true_total
 from checks.i1_2.reading import Line
-from checks.i1_2.reports import find
+from checks.i1_2.reports import Report, find, milestone
 from tutor.judge import causes
+from tutor.judge.trace import Level
 from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped
 
 Kind = tuple[int, str]
@@ -130,16 +131,14 @@ def said(feeding: Feeding, *, since: float, usual: Sequence[Feeding]) -> list[Li
     before = [line for line in feeding.lines if line.at < since and not _of_the_first(line, feeding)]
     elsewhere = [[line for line in other.lines if _calm(line, other)] for other in usual]
     known = {line.kind for lines in (before, *elsewhere) for line in lines}
-    summaries = {line.kind for report in find(feeding) for line in report.lines}
+    summaries = {line: report for report in find(feeding) for line in report.lines}
     told = []
     for line in feeding.lines:
         if line.at < since:
             continue
         mine = [other for other in before if other.kind == line.kind]
         others = [[other for other in lines if other.kind == line.kind] for lines in elsewhere]
-        # In what is logged with every message, a number is no message of its own.
-        summed_up = line.kind in summaries and _counts_up(line, mine, others, feeding)
-        if line.kind not in known or summed_up:
+        if line.kind not in known or _counts_up(line, summaries.get(line), mine, others, feeding):
             told.append(line)
     return told
 
@@ -152,35 +151,67 @@ def _of_the_first(line: Line, feeding: Feeding) -> bool:
     return line.at < feeding.sent[0].at + LATE_S
 
 
-def _counts_up(line: Line, before: Sequence[Line], elsewhere: Iterable[Sequence[Line]], feeding: Feeding) -> bool:
-    """Whether a number in the line has been constant, and now tells of the jump: how many gaps, or missed messages."""
-    if not before:
+def _counts_up(
+    line: Line, report: Report | None, before: Sequence[Line], elsewhere: Sequence[Sequence[Line]], feeding: Feeding
+) -> bool:
+    """Whether a number in the line tells of the jump: how many gaps, missed messages, or messages there should be.
+
+    `report`: the summary that the line is of, if any.
+    """
+    others = [other for lines in (before, *elsewhere) for other in lines]
+    if not before or any(len(other.numbers) != len(line.numbers) for other in others):
         return False
     for place, number in enumerate(line.numbers):
         was = {other.numbers[place].value for other in before}
         usually = [{other.numbers[place].value for other in lines} for lines in elsewhere]
+        if report is not None and _should_be(place, line, report, others, feeding):
+            return True
         if len(was) > 1 or any(len(each) > 1 for each in usually):
             continue
         base = was.pop()
         grown = number.value - base
-        if any(each == {0.0} for each in usually) and _tells_of(grown, feeding, from_zero=True):
-            return True
-        if all(each == {base} for each in usually) and _tells_of(grown, feeding, from_zero=False):
+        from_zero = any(each == {0.0} for each in usually)
+        if report is None:
+            # In what is logged with every message, a number speaks for itself if it was 0 until then, and no warning.
+            told = base == 0 and from_zero and line.level < Level.WARN and _counts(grown, feeding)
+        else:
+            told = from_zero and (_counts(grown, feeding) or _is_share(grown, feeding))
+            told = told or (all(each == {base} for each in usually) and _tells_of(grown, base, feeding))
+        if told:
             return True
     return False
 
 
-def _tells_of(grown: float, feeding: Feeding, *, from_zero: bool) -> bool:
-    missed = abs(feeding.missed)
-    if grown in (missed, missed + 1):
+def _should_be(place: int, line: Line, report: Report, calm: Iterable[Line], feeding: Feeding) -> bool:
+    """Whether a number that was the count until then is greater by what was missed, while the count itself is there."""
+    due = milestone(line.messages)
+    followed = all(other.numbers[place].value == milestone(other.messages) > 0 for other in calm)
+    greater = feeding.missed > 0 and line.numbers[place].value == due + feeding.missed
+    return followed and greater and report.states(due)
+
+
+def _counts(grown: float, feeding: Feeding) -> bool:
+    """Whether it is how many jumps there were, or how many messages each left out."""
+    return grown in (1, abs(feeding.missed), abs(feeding.missed) + 1)
+
+
+def _tells_of(grown: float, base: float, feeding: Feeding) -> bool:
+    """Whether what was not 0 has changed as it should: the number of a run, what was missed, or the share that came."""
+    if feeding.missed < 0 and grown == 1:
         return True
-    if not from_zero:
+    delivered = base in (1, 100) and _is_share(-grown, feeding, scales=(base,))
+    return grown in (abs(feeding.missed), abs(feeding.missed) + 1) or delivered
+
+
+def _is_share(grown: float, feeding: Feeding, *, scales: Sequence[float] = (1, 100)) -> bool:
+    """Whether it is a share of lost messages, or of jumps, of 1 or in percent, to two digits at least."""
+    missed, seen = feeding.missed, feeding.breaks + 1
+    if missed < 0 or grown <= 0:
         return False
-    seen = feeding.breaks + 1
     shares = [
         lost / (whole + more)
         for lost in (1, missed)
         for whole in range(seen, len(feeding.sent) + 1)
         for more in (0, missed, -1)
     ]
-    return grown == 1 or any(abs(grown - scale * share) <= 0.051 * scale / 10 for share in shares for scale in (1, 100))
+    return any(abs(grown - scale * share) <= 0.0051 * scale for share in shares for scale in scales)

@@ -32,7 +32,9 @@ MEET_S = 0.4
 
 SOONER_HZ = 8.0
 """The rate where none is judged."""
-JUMP_AFTER, JUMP_MESSAGES = 14, 20
+JUMP_AFTER, JUMP_MESSAGES = 14, 26
+"""Who begins to count again with the jump has counted ten more, in time to be seen."""
+
 RESTART_AFTER, RESTART_MESSAGES = 13, 25
 AWAY_S = 0.7
 """Nobody restarts a talker in less time."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from math import inf
 
 from checks.i1_2.facts import EVERY, STALL_S, Feeding
 from checks.i1_2.reading import Number
@@ -46,10 +47,11 @@ def sent_hz(feeding: Feeding) -> float:
     return (len(feeding.sent) - 1) / (feeding.sent[-1].at - feeding.sent[0].at)
 
 
-def true_rates(report: Report, feeding: Feeding) -> Range:
+def true_rates(report: Report, feeding: Feeding, *, excused_s: float = inf) -> Range:
     """What may be stated: N or N-1 messages by the time since the first of them, or since a recent one.
 
-    Where the machine let the node take in that first one late, the time seemed shorter to it by as much.
+    Where the machine let the node take in that first one late, the time seemed shorter to it by as much, or by
+    `excused_s` at most.
     """
     least, most = [], []
     for until in range(report.messages, report.until + 1):
@@ -57,7 +59,7 @@ def true_rates(report: Report, feeding: Feeding) -> Range:
         for first in range(max(1, until - FEW + 1)):
             count, since = until - first, feeding.sent[first].at
             span = max(last_at - since, DELAY_S)
-            delay = min(DELAY_S + feeding.delay_s(first), 0.7 * span)
+            delay = min(DELAY_S + min(feeding.delay_s(first), excused_s), 0.7 * span)
             if count >= EVERY or first == 0:  # since the first of them, until it is logged
                 least.append((count - 1) / (max(report.at - since, span) + DELAY_S))
                 most.append(count / (span - delay))
@@ -69,10 +71,12 @@ def true_rates(report: Report, feeding: Feeding) -> Range:
 def stated(reports: Sequence[Report], allowed: Sequence[Range], jump: Feeding) -> list[Number] | None:
     """The true rate as each report states it, in the same place of each; None where one of them does not.
 
-    `jump` was fed at another rate: a number that is the same there, and not true there, is no rate.
+    `jump` was fed at another rate: a number that is the same there each time, and not true there, is no rate. Once is
+    not enough: a rate that was taken a while ago, when the first messages had just come, may happen to be the same.
     """
-    elsewhere = find(jump)[:1]
-    constant = {n.text for report in elsewhere for n in report.numbers if not true_rates(report, jump).holds(n)}
+    elsewhere = find(jump)
+    untrue = [{n.text for n in each.numbers if not true_rates(each, jump).holds(n)} for each in elsewhere]
+    constant = set.intersection(*untrue) if untrue else set()
     if (places := slots(reports)) is not None:
         others = slots([reports[0], *elsewhere]) or places
         for place, other in zip(places, others, strict=True):
@@ -95,7 +99,9 @@ def doubtful(numbers: Sequence[Number], reports: Sequence[Report], feeding: Feed
     At that pace, what is not the rate is far from it: the elapsed seconds, the messages by whole seconds, or by the
     seconds since the node was started.
     """
-    if _elapsed(reports[0], feeding) <= SLOWEST_S and feeding.delay_s(0) <= STALL_S:
+    sure = [true_rates(report, feeding, excused_s=STALL_S) for report in reports]
+    true = all(one.holds(number) for one, number in zip(sure, numbers, strict=True))
+    if true and _elapsed(reports[0], feeding) <= SLOWEST_S and feeding.delay_s(0) <= STALL_S:
         return False
     elapsed = [_elapsed(report, feeding) for report in reports]
     whole = [report.messages / max(int(span), 1) for report, span in zip(reports, elapsed, strict=True)]

@@ -51,6 +51,20 @@ class Report:
     def kinds(self) -> frozenset[tuple[int, str]]:
         return frozenset(line.kind for line in self.lines if line.tells)
 
+    @property
+    def twice(self) -> bool:
+        """Whether it is one summary, logged twice: the same lines, with the same quotations and the same numbers."""
+        half, odd = divmod(len(self.lines), 2)
+        tells = any(line.quoted for line in self.lines) and any(line.numbers for line in self.lines)
+        return (
+            tells
+            and not odd
+            and all(
+                (one.quoted, one.numbers, one.kind) == (other.quoted, other.numbers, other.kind)
+                for one, other in zip(self.lines[:half], self.lines[half:], strict=True)
+            )
+        )
+
     def states(self, value: float) -> bool:
         """Whether this number is in it, in whichever writing."""
         return any(value in number.values for number in self.numbers)

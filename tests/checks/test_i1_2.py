@@ -103,7 +103,7 @@ def jump(node: Counter, missed: int = 5, *, first: int = 95, **more: object) -> 
 
 
 def restart(node: Counter, **more: object) -> Feeding:
-    numbers = [*range(993, 993 + RESTART_AFTER), *range(RESTART_MESSAGES - RESTART_AFTER)]
+    numbers = [*range(4, 4 + RESTART_AFTER), *range(RESTART_MESSAGES - RESTART_AFTER)]
     return fed(node, numbers, 8.0, breaks=RESTART_AFTER, away_s=1.5, **more)  # type: ignore[arg-type]
 
 
@@ -325,10 +325,59 @@ class Anniversary(Counter):
             yield 20, f"still alive after {self.total + 1}"
 
 
+class Delivered(Counter):
+    """No word of gaps: the share of what was sent that came."""
+
+    def jumped(self, last: int, number: int) -> Iterator[Log]:
+        self.missed += max(0, number - last - 1)
+        yield from ()
+
+    def summary(self) -> Iterator[Log]:
+        for level, text in super().summary():
+            yield level, f"{text} delivered={100 * self.total / (self.total + self.missed):.1f}%"
+
+
+class OfExpected(Delivered):
+    """How many messages there should have been, beside how many came."""
+
+    def summary(self) -> Iterator[Log]:
+        for level, text in Counter.summary(self):
+            yield level, f"{text} ({self.total} of {self.total + self.missed})"
+
+
+class LostSoFar(Delivered):
+    """What is lost is told with each message, and nowhere else."""
+
+    def take(self, now: float, data: str) -> Iterator[Log]:
+        said = list(super().take(now, data))
+        yield 20, f"[{self.total}] {data}, lost so far: {self.missed}"
+        yield from said
+
+    def summary(self) -> Iterator[Log]:
+        yield from Counter.summary(self)
+
+
+class NumbersItsRuns(Restarting):
+    """The summary says which run it is of; nothing else tells of a restart."""
+
+    run: int = 1
+
+    def jumped(self, last: int, number: int) -> Iterator[Log]:
+        self.run += number < last
+        for level, text in super().jumped(last, number):
+            if number > last:
+                yield level, text
+
+    def summary(self) -> Iterator[Log]:
+        for level, text in super().summary():
+            yield level, f"run {self.run}: {text}"
+
+
 RIGHT = (
-    Counter, Restarting, RestartsInTheSummary, GapCount, MissedCount, LossPercent, LossShare, LargestStep, GapWords,
-    GapAtTheStart, Noisy, OneLineEach, LevelsMixed, NoisyAndLong, LastSecond, LastTwoSeconds, LastTen, LastInterval,
-    Intervals, Rounded, Scientific, WithClock, WithThousands, Anniversary,
+    Delivered, OfExpected, LostSoFar, NumbersItsRuns, Counter, Restarting, RestartsInTheSummary, GapCount,
+    MissedCount, LossPercent, LossShare, LargestStep, GapWords, GapAtTheStart, Noisy, OneLineEach, LevelsMixed,
+    NoisyAndLong, LastSecond, LastTwoSeconds, LastTen, LastInterval, Intervals, Rounded, Scientific, WithClock,
+    WithThousands, Anniversary,
 )  # fmt: skip
 
 
@@ -519,6 +568,58 @@ class SilentReset(Restarting):
         yield from (log for log in super().take(now, data) if "restarted" not in log[1])
 
 
+class SilentResetWithGapCount(SilentReset):
+    """The gap count stays what it is, and is no word of a restart."""
+
+    def summary(self) -> Iterator[Log]:
+        for level, text in super().summary():
+            yield level, f"{text} gaps=0"
+
+
+class TakesForRepeated(Counter):
+    """Drops what has come before, as it thinks."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.seen: set[str] = set()
+
+    def take(self, now: float, data: str) -> Iterator[Log]:
+        if data not in self.seen:
+            self.seen.add(data)
+            yield from super().take(now, data)
+
+
+class ResetsAtAGap(Counter):
+    """A jump is no restart: the total is no total any more."""
+
+    def jumped(self, last: int, number: int) -> Iterator[Log]:
+        yield from super().jumped(last, number)
+        if number > last:
+            self.total = 1
+
+
+class StopsAtAGap(Counter):
+    """Says so, and sums up nothing more when numbers are missing."""
+
+    stopped: bool = False
+
+    def jumped(self, last: int, number: int) -> Iterator[Log]:
+        yield from super().jumped(last, number)
+        self.stopped = number > last
+
+    def summary(self) -> Iterator[Log]:
+        if not self.stopped:
+            yield from super().summary()
+
+
+class Twice(Counter):
+    """Each summary comes twice."""
+
+    def summary(self) -> Iterator[Log]:
+        yield from super().summary()
+        yield from super().summary()
+
+
 class Stubborn(Counter):
     """Drops what it takes for old."""
 
@@ -590,7 +691,12 @@ class AgainAfterASecond(Counter):
             GapCountStuck, GapCountRising, GapOnlyBack,
         )),
         (SilentReset, "restart", "starts over silently"),
+        (SilentResetWithGapCount, "restart", "starts over silently"),
+        (TakesForRepeated, "restart", "stopped counting"),
         (Stubborn, "restart", "stopped counting"),
+        (ResetsAtAGap, "count", "wrong count"),
+        (StopsAtAGap, "summary", "missing summary"),
+        (Twice, "summary", "too many summaries"),
         (CountsUpToN, "restart", "wrong count after a restart"),
         (OnlyOnce, "summary", "missing summary"),
         (FirstOverwritten, "summary", "first message overwritten"),
