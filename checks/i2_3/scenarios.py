@@ -11,6 +11,7 @@ from checks.i2_3.facts import (
     ANSWER_S,
     CALLS,
     FILE,
+    IN_TURN,
     LONGEST_S,
     SERVICE,
     TYPE,
@@ -34,6 +35,9 @@ from tutor.judge.waiting import STARVED, appears
 
 INTO_CALL_S = 1.5
 """A call that was made this long ago is being worked on."""
+
+SPINS_S = 2.5
+"""A node whose service is there spins at the latest twice this later, or never."""
 
 TRIES = 4
 """What only a busy machine can explain is looked at again, at most this often."""
@@ -64,7 +68,7 @@ async def lone(bench: Bench) -> Lone:
     calls: list[Call] = []
     async with bench.start(FILE) as run:
         bench.doing(0.1, f"waiting for {SERVICE}")
-        if not await appears(run, lambda: is_there(run.graph.services)):
+        if not await _serves(run):
             return Lone(run.trace())
         for tried in range(1, TRIES + 1):
             bench.doing(0.3, f"calling {SERVICE}")
@@ -84,6 +88,14 @@ async def lone(bench: Bench) -> Lone:
         stuck, spins = await _stuck(bench, answer)
         return Lone(seen.trace, seen.calls, stuck, spins)
     return seen
+
+
+async def _serves(run: Run) -> bool:
+    """Wait for the service, and for the node to answer anything: it may be in the graph long before it spins."""
+    there = await appears(run, lambda: is_there(run.graph.services))
+    if there:
+        await run.parameters(SPINS_S)
+    return there
 
 
 def _lost_s(run: Run) -> float:
@@ -114,7 +126,7 @@ async def trio(bench: Bench) -> Trio:
     """Three calls at once, each with its own sum."""
     async with bench.start(FILE) as run:
         bench.doing(0.1, f"waiting for {SERVICE}")
-        if not await appears(run, lambda: is_there(run.graph.services)):
+        if not await _serves(run):
             return Trio(run.trace())
         bench.doing(0.3, f"calling {SERVICE} three times at once")
         made: list[Three] = []
@@ -128,7 +140,7 @@ async def trio(bench: Bench) -> Trio:
 
 def _held_up(three: Three) -> bool:
     """Whether they took longer than calls that run in parallel do, and less than calls one after another."""
-    return 1.4 < three.took_s / min(answer.took_s for answer in three.answers) < 2.6
+    return 1.4 < three.took_s / min(answer.took_s for answer in three.answers) < IN_TURN
 
 
 async def _ask_at_once(run: Run, requests: Sequence[Mapping[str, int]]) -> tuple[CallAnswer, ...]:
@@ -157,7 +169,7 @@ async def interrupted(bench: Bench) -> Interrupted:
     """Press Ctrl+C during a call."""
     async with bench.start(FILE) as run:
         bench.doing(0.1, f"waiting for {SERVICE}")
-        called = await appears(run, lambda: is_there(run.graph.services))
+        called = await _serves(run)
         call = asyncio.create_task(run.call(SERVICE, TYPE, _operands(), limit_s=ANSWER_S))
         try:
             if called:

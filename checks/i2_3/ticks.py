@@ -6,17 +6,15 @@ the timer's messages are found by what they must be: alike, repeated while nobod
 
 from __future__ import annotations
 
-import re
 from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 from itertools import pairwise
 from statistics import median
 
+from checks.i2_3.messages import Key, Tick, first_word, has_word, numbers, shape_of
 from tutor.judge.rates import TOLERANCE
 from tutor.judge.trace import LogRecord
-from tutor.judge.wording import shape
 
 HZ = 10.0
 
@@ -32,47 +30,11 @@ LEAST_S = 0.9
 MOST = 2000
 """Of a flood of messages, the latest will do."""
 
-_NUMBER = re.compile(r"\d+(?:\.\d+)?")
-_WORD_BEFORE = re.compile(r"\w*\W*$")
-_WORD_AFTER = re.compile(r"\W*[^\W\d]+")
-_FIRST_WORD = re.compile(r"\W*[^\W\d]{3,}")
-_TRUTH = re.compile(r"\b(true|false|yes|no|on|off|idle|busy)\b", re.IGNORECASE)
+STARTS_OVER = 2
+"""A number that falls back by more than this starts over; by less, callbacks that overlap were logged out of turn."""
 
-
-@dataclass(frozen=True, slots=True)
-class Tick:
-    """One log message of a series: when it was logged (seconds since the epoch), and the tick number in it, if any.
-
-    `whole`: the number is written without decimals.
-    """
-
-    stamp: float
-    number: float | None
-    text: str
-    whole: bool = True
-
-
-@dataclass(frozen=True, slots=True)
-class Key:
-    """What the messages of a series have in common; `of` reads a message, and gives None for one of another series."""
-
-    kind: str
-    text: str = ""
-    column: int | None = None
-    shapes: frozenset[str] = frozenset()
-
-    def of(self, log: LogRecord) -> Tick | None:
-        """The tick that this message tells of, where it belongs to the series."""
-        if self.kind == "word":
-            found = next((each for each in _numbers(log.text) if each[0] == self.text), None)
-            return _tick(log, found[1]) if found else None
-        if self.kind == "any" and _shape(log.text) in self.shapes:
-            return _tick(log, None)
-        if self.kind == "begin" and _first_word(log.text) == self.text:
-            return _tick(log, None)
-        if self.kind == "shape" and _shape(log.text) == self.text:
-            return _tick(log, None if self.column is None else _numbers(log.text)[self.column][1])
-        return None
+NEARLY_ALL = 0.8
+"""This share of a function's messages tells how fast it counts."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -138,25 +100,52 @@ def best(found: Iterable[Series]) -> Series | None:
 def all_series(logs: Iterable[LogRecord]) -> list[Series]:
     """Every way to see repeated messages in these logs."""
     ordered = sorted(logs, key=lambda log: log.stamp)[-MOST:]
+    found = _alike(ordered)
+    names = {log.name for log in ordered}
+    if len(names) > 1:  # two nodes may use the same words
+        for name in names:
+            found += _alike([log for log in ordered if log.name == name], name)
+    places: dict[tuple[str, str], list[LogRecord]] = defaultdict(list)
+    for log in ordered:
+        places[log.name, log.function].append(log)
+    for (name, function), theirs in places.items():
+        if function:
+            found += _of_function(name, function, theirs, found)
+    return found
+
+
+def _alike(ordered: Sequence[LogRecord], name: str | None = None) -> list[Series]:
+    """The series of messages with words in common, of one logger or all."""
     shapes: dict[str, list[LogRecord]] = defaultdict(list)
     words: dict[str, list[LogRecord]] = defaultdict(list)
     for log in ordered:
-        shapes[_shape(log.text)].append(log)
-        for word in {label for label, _ in _numbers(log.text) if _has_word(label)}:
+        shapes[shape_of(log.text)].append(log)
+        for word in {label for label, _ in numbers(log.text) if has_word(label)}:
             words[word].append(log)
     found: list[Series] = []
     for text, alike in shapes.items():
-        columns = range(min(len(_numbers(log.text)) for log in alike))
-        numbered = [s for c in columns if (s := _counting(_series(Key("shape", text, c), alike)))]
-        found += numbered or _some(_uncounted(_series(Key("shape", text), alike)))
+        columns = range(min(len(numbers(log.text)) for log in alike))
+        numbered = [s for c in columns if (s := _counting(_series(Key("shape", text, c, name=name), alike)))]
+        found += numbered or _some(_uncounted(_series(Key("shape", text, name=name), alike)))
     for word, alike in words.items():
-        found += _some(_counting(_series(Key("word", word), alike)))
+        found += _some(_counting(_series(Key("word", word, name=name), alike)))
     plain = frozenset(series.key.text for series in found if series.key.kind == "shape" and not series.numbered)
     if len(plain) > 1:
-        found += _some(_even(_series(Key("any", shapes=plain), ordered)))
-    for word in {_first_word(text) for text in plain} - {""}:
-        found += _some(_even(_series(Key("begin", word), ordered)))
+        found += _some(_even(_series(Key("any", shapes=plain, name=name), ordered)))
+    for word in {first_word(text) for text in plain} - {""}:
+        found += _some(_even(_series(Key("begin", word, name=name), ordered)))
     return found
+
+
+def _of_function(name: str, function: str, theirs: Sequence[LogRecord], found: Sequence[Series]) -> list[Series]:
+    """What one function logs, in whatever words: by a number that counts on through all of them, or else as a beat."""
+    keys = (Key("function", function, column, name=name) for column in (0, -1))
+    if counted := [series for key in keys if (series := _counting(_series(key, theirs)))]:
+        return counted
+    stamps = {log.stamp for log in theirs}
+    if any(s.numbered and sum(t.stamp in stamps for t in s.ticks) >= NEARLY_ALL * len(theirs) for s in found):
+        return []
+    return _some(_even(_series(Key("function", function, name=name), theirs)))
 
 
 def _series(key: Key, logs: Iterable[LogRecord]) -> Series | None:
@@ -197,47 +186,18 @@ def _some(series: Series | None) -> list[Series]:
 
 
 def hz_of(ticks: Sequence[Tick]) -> float:
-    """Ticks in a second, from the first message to the last: by the numbers in them, or by their count."""
-    first, last = ticks[0], ticks[-1]
-    span = last.stamp - first.stamp
-    if span <= 0:
-        return 0.0
-    if first.number is None or last.number is None:
-        return (len(ticks) - 1) / span
-    return abs(last.number - first.number) / span
+    """Ticks in a second, from the first message to the last: by the numbers in them, or by their count.
+
+    Where the number starts over, nobody knows how many ticks there were, and that interval is left out.
+    """
+    if any(tick.number is None for tick in ticks):
+        return _per_second([(b.stamp - a.stamp, 1.0) for a, b in pairwise(ticks)])
+    steps = [(b.stamp - a.stamp, (b.number or 0.0) - (a.number or 0.0)) for a, b in pairwise(ticks)]
+    down = sum(step < 0 for _, step in steps) > len(steps) / 2
+    steps = [(for_s, -step if down else step) for for_s, step in steps]
+    return abs(_per_second([(for_s, step) for for_s, step in steps if step >= -STARTS_OVER]))
 
 
-@lru_cache(4 * MOST)
-def _shape(text: str) -> str:
-    return _TRUTH.sub("?", shape(text))
-
-
-def _tick(log: LogRecord, written: str | None) -> Tick:
-    if written is None:
-        return Tick(log.stamp, None, log.text)
-    return Tick(log.stamp, float(written), log.text, "." not in written)
-
-
-@lru_cache(4 * MOST)
-def _numbers(text: str) -> tuple[tuple[str, str], ...]:
-    """The numbers in a text, each with its label: the word right before it, or where there is none, the one after."""
-    found: list[tuple[str, str]] = []
-    end = 0
-    for match in _NUMBER.finditer(text):
-        before = _WORD_BEFORE.search(text[end : match.start()])
-        label = before.group() if before else ""
-        if not _has_word(label):
-            after = _WORD_AFTER.match(text[match.end() :])
-            label += "0" + after.group() if after else ""
-        found.append((label, match.group()))
-        end = match.end()
-    return tuple(found)
-
-
-def _has_word(label: str) -> bool:
-    return any(map(str.isalpha, label))
-
-
-def _first_word(text: str) -> str:
-    words = _FIRST_WORD.match(text)
-    return words.group().casefold() if words else ""
+def _per_second(steps: Sequence[tuple[float, float]]) -> float:
+    span = sum(for_s for for_s, _ in steps)
+    return sum(step for _, step in steps) / span if span > 0 else 0.0

@@ -48,8 +48,12 @@ IN_CALL = (frame("call", "/venv/rclpy/client.py"), frame("slow_add"))
 Text = Callable[[int], str]
 
 
-def says(text: str, at: float, level: int = 20) -> LogRecord:
-    return LogRecord(level, "node", text, at, at)
+def says(text: str, at: float, level: int = 20, *, node: str = "node", function: str = "") -> LogRecord:
+    return LogRecord(level, node, text, at, at, function)
+
+
+def logged_by(function: str, logs: Sequence[LogRecord]) -> list[LogRecord]:
+    return [replace(log, function=function) for log in logs]
 
 
 def ticking(
@@ -237,6 +241,8 @@ def test_a_gap_that_the_machine_made_is_excused() -> None:
         judge_timer(quiet(ticking(every=1)), lone(ticking(every=1, stands_still=(0.5, 2)), starved_s=0.7))
     long = lone(ticking(every=1, stands_still=(0.3, 3.3)), starved_s=0.7)
     assert_failed(judge_timer(quiet(ticking(every=1)), long), "blocked executor")
+    with pytest.raises(MachineTooBusy):  # all of the call stands still: no machine is so busy that this passes
+        judge_timer(quiet(ticking()), lone(ticking(stands_still=(0.3, 3.3)), starved_s=2.5))
     with pytest.raises(MachineTooBusy):
         judge_timer(quiet(ticking(hz=7), excused=True), lone())
 
@@ -286,6 +292,58 @@ def test_a_second_timer_is_not_taken_for_the_fast_one() -> None:
     assert_failed(judge_timer(quiet(slow), lone(slow)), "wrong timer period", "1.0 times")
 
 
+def roman(number: int) -> str:
+    text = ""
+    for value, sign in ((50, "L"), (40, "XL"), (10, "X"), (9, "IX"), (5, "V"), (4, "IV"), (1, "I")):
+        text += sign * (number // value)
+        number %= value
+    return text
+
+
+IN_A_CALL = range(4, 33)
+OTHER_WORDS: list[tuple[Text, int]] = [
+    (lambda n: f"Service works, timer runs all the same: {n}" if n in IN_A_CALL else f"Idle, tick {n}", 10),
+    (lambda n: f"still ticking ({n}) during the call" if n in IN_A_CALL else f"Tick {n}", 1),
+    (lambda n: "still ticking during the call" if n in IN_A_CALL else "tick", 1),
+    (lambda n: f"Tick {roman(n)}", 1),
+    (lambda n: f"tick {n:#06x}", 1),
+]
+
+
+@pytest.mark.parametrize(("text", "every"), OTHER_WORDS)
+def test_what_one_function_logs_is_one_timer_whatever_its_words(text: Text, every: int) -> None:
+    def logs(**more: Any) -> list[LogRecord]:
+        return logged_by("on_timer", ticking(text, every=every, **more))
+
+    service = logged_by("slow_add", [says(f"working, step {n} of 30", ASKED + n / 10) for n in range(30)])
+    assert_passed(judge_timer(quiet(logs(until_s=2.1)), lone([*logs(), *service])))
+    blocked = lone([*logs(stands_still=(0.4, 3.3)), *service])
+    assert_failed(judge_timer(quiet(logs(until_s=2.1)), blocked), "blocked executor")
+
+
+def test_a_function_that_counts_to_another_speed_is_no_timer_of_10_hz() -> None:
+    fast = logged_by("on_timer", ticking(lambda n: f"tick {n} of {n % 7}, {n % 3} calls", hz=100, every=10))
+    assert_failed(judge_timer(quiet(fast), lone(fast)), "wrong timer period", "100.0 times")
+
+
+def test_two_nodes_may_use_the_same_words() -> None:
+    slow = [says(f"{n}", START + n / 2 + 0.01, node="monitor") for n in range(1, 10)]
+    assert_passed(judge_timer(quiet([*ticking("{}".format), *slow]), lone([*ticking("{}".format), *slow])))
+    blocked = ticking("{}".format, stands_still=(0.4, 3.3))
+    assert_failed(judge_timer(quiet([*ticking("{}".format), *slow]), lone([*blocked, *slow])), "blocked executor")
+
+
+@pytest.mark.parametrize("every", [1, 5, 10])
+@pytest.mark.parametrize("size", [20, 30, 40])
+def test_a_counter_may_start_over(size: int, every: int) -> None:
+    def logs(**more: Any) -> list[LogRecord]:
+        return [replace(log, text=f"tick {int(log.text) % size}") for log in ticking("{}".format, every=every, **more)]
+
+    alone = quiet(ticking("tick {}".format, every=every, until_s=2.1))
+    assert_passed(judge_timer(alone, lone(logs())))
+    assert_failed(judge_timer(alone, lone(logs(stands_still=(0.4, 3.3)))), "blocked executor")
+
+
 def test_a_timer_without_a_call_is_not_judged() -> None:
     assert judge_timer(quiet(ticking()), Lone(trace(graph=UP))).status is Status.SKIPPED
     assert_failed(judge_timer(quiet(ticking(hz=5)), Lone(trace(graph=UP))), "wrong timer period")
@@ -325,6 +383,9 @@ def test_parallel() -> None:
     again = Trio(trace(graph=SERVING), (*three(*sums, took_s=(3.0, 3.1, 5.0)).made, *three(*sums).made))
     assert_passed(judge_parallel(lone(), again))
     assert_failed(judge_parallel(lone(), three(*sums, took_s=(3.0, 3.0, 6.0))), "one call at a time", "2.0 times")
+    with pytest.raises(MachineTooBusy):
+        judge_parallel(lone(), three(*sums, took_s=(3.0, 3.0, 6.0), starved_s=2.0))
+    assert_failed(judge_parallel(lone(), three(*sums, took_s=(3.0, 6.0, 9.0), starved_s=5.0)), "one call at a time")
 
 
 def test_shutdown() -> None:

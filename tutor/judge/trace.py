@@ -34,13 +34,14 @@ class Sample:
 
 @dataclass(frozen=True, slots=True)
 class LogRecord:
-    """One message on `/rosout`. `level` is a severity number (see `Level`)."""
+    """One message on `/rosout`. `level` is a severity number (see `Level`); `function`: who logged it, if told."""
 
     level: int
     name: str
     text: str
     stamp: float
     received_at: float
+    function: str = ""
 
     def __str__(self) -> str:
         label = Level(self.level).name if self.level in set(Level) else str(self.level)

@@ -79,7 +79,8 @@ class Observer:
         def take(message: Any) -> None:
             stamp = message.stamp.sec + message.stamp.nanosec * 1e-9
             level = message.level if isinstance(message.level, int) else message.level[0]
-            self._hand_over(self._log, LogRecord(level, message.name, message.msg, stamp, time.time()))
+            record = LogRecord(level, message.name, message.msg, stamp, time.time(), message.function)
+            self._hand_over(self._log, record)
 
         self.node.create_subscription(interface("rcl_interfaces/msg/Log"), "/rosout", take, qos)
 
