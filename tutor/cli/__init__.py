@@ -28,10 +28,13 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def _run(argv: Sequence[str] | None) -> int:
     from tutor.cli import app
+    from tutor.cli.errors import UsageError
     from tutor.cli.parser import parse
 
     arguments = parse(argv)
     if arguments.command is None:
         return app.run(arguments)
+    if arguments.plain:
+        raise UsageError(f"--plain goes without a command: {arguments.command} writes lines of text as it is")
     code: int = arguments.run(arguments)
     return code

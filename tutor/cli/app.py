@@ -1,4 +1,4 @@
-"""`ros-tutor`: the terminal app."""
+"""`ros-tutor`: the terminal app, and `ros-tutor --plain`: the same course in plain lines."""
 
 from __future__ import annotations
 
@@ -10,9 +10,16 @@ from tutor.cli.errors import UsageError
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Open the app; it needs a terminal."""
+    """Open the app, which needs a terminal, or talk in plain lines, which need none."""
+    root, lessons = context.place(arguments).root, getattr(arguments, "lessons", None)
+    if arguments.plain:
+        from tutor.plain import run as talk
+
+        return talk(root, terminal.out, lessons)
     if not (terminal.is_terminal(sys.stdin) and terminal.is_terminal(sys.stdout)):
-        raise UsageError("the app needs a terminal; without one, use a command (`ros-tutor --help` names them)")
+        raise UsageError(
+            "the app needs a terminal; without one, use a command (`ros-tutor --help` names them) or --plain"
+        )
     from tutor.tui import run
 
-    return run(context.place(arguments).root, getattr(arguments, "lessons", None))
+    return run(root, lessons)

@@ -62,6 +62,9 @@ def _build() -> _Parser:
         parents=[everywhere],
     )
     parser.set_defaults(command=None)
+    parser.add_argument(
+        "--plain", action="store_true", help="plain lines of text instead of the app, for screen readers"
+    )
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", parser_class=_Command)
 
     def add(name: str, run: Run, arguments: Callable[[argparse.ArgumentParser], None], help: str) -> None:

@@ -1,0 +1,207 @@
+"""A learner who hears the course: lines in by a pipe, lines out."""
+
+from __future__ import annotations
+
+import os
+import pty
+import re
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tutor.cli import main
+from tutor.content import load_course
+from tutor.workspace import Workspace
+
+LIMIT_S = 60.0
+
+PROGRAM = "import sys; from tutor.cli import main; sys.exit(main(sys.argv[1:]))"
+
+WITH_FAKE_ENGINE = """
+import asyncio, sys
+import tutor.engine
+from tutor.cli import main
+from tests.cli.fake_engine import FAILURE, FakeEngine
+
+class Slow(FakeEngine):
+    async def __call__(self, submissions, course, *, only, on_event):
+        if "--slow" in sys.argv:
+            try:
+                print("begun", flush=True)
+                await asyncio.sleep(60)
+            finally:
+                print("cleaned up", flush=True)
+        return await super().__call__(submissions, course, only=only, on_event=on_event)
+
+tutor.engine.check = Slow({"rate": FAILURE})
+sys.exit(main([argument for argument in sys.argv[1:] if argument != "--slow"]))
+"""
+
+
+@pytest.fixture
+def env(tmp_path: Path) -> dict[str, str]:
+    left_out = ("ROS_TUTOR_WORKSPACE", "NO_COLOR")
+    kept = {name: value for name, value in os.environ.items() if name not in left_out}
+    return {
+        **kept,
+        "HOME": str(tmp_path),
+        "TERM": "xterm-256color",
+        "ROS_DOMAIN_ID": "92",
+        "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
+    }
+
+
+def says(*lines: str) -> str:
+    return "".join(f"{line}\n" for line in lines)
+
+
+def test_lesson_check_hints_and_checklist_by_a_pipe(tmp_path: Path, env: dict[str, str]) -> None:
+    typed = says(
+        *("lessons", "read 1", "tick 1", "log", "stop", "start", "start", "criteria", "hint", "check", "why rate"),
+        *("solution", "no", "2", "next", "i1.1", "chek", "9", "checklist", "tick 1 timers", "untick 2", "tick 99"),
+        *("export html", "export pdf", "", "help"),
+    )
+    ran = subprocess.run(
+        [sys.executable, "-c", WITH_FAKE_ENGINE, "--plain"],
+        input=typed,
+        capture_output=True,
+        text=True,
+        timeout=LIMIT_S,
+        check=False,
+        env=env,
+    )
+    said = ran.stdout
+    assert (ran.returncode, ran.stderr) == (0, "")
+    assert "\x1b" not in said
+    assert not re.search("[\u2500-\u25ff\r\t]", said)  # no boxes, no blocks
+    for line in (
+        "Your workspace will be ~/ros_tutor_ws: start creates it.",
+        "1: i1.1 Sensor Publisher, easy, not started. You are here.",
+        "Section 1 of 6: Objective.",
+        "Ticks are kept in your workspace, and there is none yet: say start.",
+        "No node has been run yet: say run.",
+        "No node is running.",
+        "To edit: ~/ros_tutor_ws/src/my_package/my_package/temperature_publisher.py",
+        "Already there, and not changed: ~/ros_tutor_ws/src/my_package/my_package/temperature_publisher.py",
+        "shutdown (bonus): Ctrl+C ends the node cleanly.",
+        "rate: waiting for the first message",
+        "publishes: passed.",
+        "rate: failed.",
+        "i1.1 Sensor Publisher: not passed yet. 5 of 6 passed, bonus 1 of 1, after 1.0 s.",
+        "Cause: no spin: no callback ran",
+        "Next step: call rclpy.spin(node)",
+        "a line",  # the evidence
+        "Command: solution",
+        "You have not passed this lesson yet. Type yes to read our solution: no",
+        "You are at i1.2 Message Counter and Statistics, medium, not started.",
+        "You are at i1.3 Calculator Service, medium, not started.",
+        "You are at i1.1 Sensor Publisher, easy, not passed yet, 5 of 6 criteria passed in the last check.",
+        "There is no command chek. Did you mean check? help lists them all.",
+        "There is no lesson 9: they go from 1 to 6.",
+        "1 of 15 ticked.",
+        "There is no item 99: they go from 1 to 15. checklist lists them.",
+        "Written: ~/ros_tutor_ws/checklist.html",
+        "There is no format pdf: it is markdown, json or html.",
+        "tick NUMBER: tick an item of the checklist.",
+    ):
+        assert f"{line}\n" in said, line
+    assert re.search(r"^1: not ticked: .* Evidence: i1\.1 .*passed, today\.$", said, re.MULTILINE)
+    assert re.search(r"^Hint 1 of 3: \w", said, re.MULTILINE)
+    assert said.endswith("Command: \nThe input has ended.\nGoodbye. Your progress is kept.\n")
+    progress = Workspace(tmp_path / "ros_tutor_ws").progress().read()
+    assert len(progress.ticks) == 1
+    assert progress.of("i1.1").hints == 1
+    assert len(progress.of("i1.1").attempts) == 1
+    assert "<html" in (tmp_path / "ros_tutor_ws" / "checklist.html").read_text()
+
+
+def test_a_solved_lesson_is_run_and_really_checked(tmp_path: Path, env: dict[str, str]) -> None:
+    lesson = load_course().find("i1.1")
+    node = Workspace(tmp_path / "ws").path_of("temperature_publisher.py")
+    with subprocess.Popen(
+        [sys.executable, "-c", PROGRAM, "--plain", "--workspace", str(tmp_path / "ws")],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+        env=env,
+    ) as talk:
+        assert talk.stdin is not None
+        assert talk.stdout is not None
+        talk.stdin.write(says("start"))
+        talk.stdin.flush()
+        while "Edit it in your editor" not in talk.stdout.readline():
+            assert talk.poll() is None
+        node.write_text(lesson.files[0].solution.read_text())
+        talk.stdin.write(says("run", "log", "check", "stop", "lessons", "quit", "never read"))
+        talk.stdin.close()
+        said = talk.stdout.read()
+        assert talk.wait(LIMIT_S) == 0
+    assert "Running in ROS domain 92: ros2 run my_package temperature_publisher\n" in said
+    assert re.search(r"\[INFO\].*\[temperature_publisher\]", said)
+    assert re.search(r"^i1\.1 Sensor Publisher: passed\. 6 of 6 passed, bonus 1 of 1, after \d", said, re.MULTILINE)
+    assert "Well done. next goes to the next lesson" in said
+    assert "Your node temperature_publisher.py has ended: stopped.\n" in said
+    assert "1: i1.1 Sensor Publisher, easy, passed. You are here.\n" in said
+    assert said.endswith("Command: quit\nGoodbye. Your progress is kept.\n")
+
+
+def test_ctrl_c_is_130_at_the_prompt_and_during_a_check(tmp_path: Path, env: dict[str, str]) -> None:
+    def stopped(typed: str, until: str, *arguments: str) -> str:
+        with subprocess.Popen(
+            [sys.executable, "-c", WITH_FAKE_ENGINE, "--plain", *arguments],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            text=True,
+            env=env,
+        ) as talk:
+            assert talk.stdin is not None
+            assert talk.stdout is not None
+            talk.stdin.write(typed)
+            talk.stdin.flush()
+            while until not in talk.stdout.readline():
+                assert talk.poll() is None
+            talk.send_signal(signal.SIGINT)
+            said = talk.stdout.read()
+            assert talk.wait(LIMIT_S) == 130
+        return said
+
+    assert stopped("", "help says what else").endswith("Stopped; nothing that was started is left.\n")
+    said = stopped(says("start", "check"), "begun", "--slow")
+    assert said == "cleaned up\n\nStopped; nothing that was started is left.\n"
+
+
+def test_a_terminal_shows_what_is_typed_only_once(env: dict[str, str]) -> None:
+    ours, theirs = pty.openpty()
+    with subprocess.Popen(
+        [sys.executable, "-c", PROGRAM, "--plain"], stdin=theirs, stdout=subprocess.PIPE, text=True, env=env
+    ) as talk:
+        os.write(ours, b"next\n\x04")
+        assert talk.stdout is not None
+        said = talk.stdout.read()
+        assert talk.wait(LIMIT_S) == 0
+    os.close(ours)
+    os.close(theirs)
+    assert "Command: You are at i1.2" in said
+    assert said.endswith("Goodbye.\n")
+
+
+def test_a_closed_input_is_one_that_has_ended(env: dict[str, str]) -> None:
+    ran = subprocess.run(
+        ["sh", "-c", f'exec "$0" -c "{PROGRAM}" --plain <&-', sys.executable],
+        capture_output=True,
+        text=True,
+        timeout=LIMIT_S,
+        check=False,
+        env=env,
+    )
+    assert (ran.returncode, ran.stderr) == (0, "")
+    assert ran.stdout.endswith("The input has ended.\nGoodbye.\n")
+
+
+def test_it_goes_without_a_command(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["--plain", "list"]) == 2
+    told = "ros-tutor: --plain goes without a command: list writes lines of text as it is\n"
+    assert capsys.readouterr() == ("", told)

@@ -1,0 +1,137 @@
+"""The talk itself: a question, a command, its answer, and so on until the learner leaves."""
+
+from __future__ import annotations
+
+import asyncio
+import signal
+import sys
+from collections.abc import Callable
+from difflib import get_close_matches
+
+from tutor.judge.verdict import Status
+from tutor.plain.assessing import Assessing
+from tutor.plain.checks import Checks
+from tutor.plain.here import Command, Here, Refused, short
+from tutor.plain.lessons import Lessons
+from tutor.plain.lines import Lines
+from tutor.plain.nodes import Nodes
+from tutor.plain.speech import counted
+from tutor.report.plain import printable
+from tutor.tui.desk import Desk
+from tutor.workspace import StorageError, WorkspaceError
+
+INTERRUPTED = 130
+
+_PROMPT = "Command: "
+_STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+
+
+def talk(desk: Desk, out: Callable[[str], None]) -> int:
+    """Talk until the learner leaves, or their input ends: 0. Ctrl+C: 130. Nothing that was started is left."""
+    return asyncio.run(_until_stopped(desk, out))
+
+
+async def _until_stopped(desk: Desk, out: Callable[[str], None]) -> int:
+    dialog = Dialog(desk, Lines.of_stdin(), out)
+    talking = asyncio.ensure_future(dialog.run())
+    stopped = False
+
+    def stop() -> None:
+        nonlocal stopped
+        if not stopped:  # an impatient second Ctrl+C must not break off the clean-up
+            stopped = True
+            talking.cancel()
+
+    loop = asyncio.get_running_loop()
+    for number in _STOP_SIGNALS:
+        loop.add_signal_handler(number, stop)
+    try:
+        await talking
+    except asyncio.CancelledError:
+        out("\nStopped; nothing that was started is left.\n")
+        return INTERRUPTED
+    return 0
+
+
+class Dialog:
+    """The commands, and who asks for them."""
+
+    def __init__(self, desk: Desk, lines: Lines, out: Callable[[str], None]) -> None:
+        self._desk, self._lines, self._out = desk, lines, out
+        self._echo = sys.stdin is None or not sys.stdin.isatty()
+        self._over = False
+        self._here = Here(desk, self._say, self._ask)
+        self._nodes = Nodes(self._here)
+        self._commands = (
+            *Lessons(self._here).commands,
+            *self._nodes.commands,
+            *Checks(self._here).commands,
+            *Assessing(self._here).commands,
+            Command("help", "say what you can do", self._help, others=("?",)),
+            Command("quit", "stop everything and leave", self._quit, others=("exit", "bye")),
+        )
+
+    async def run(self) -> None:
+        """Greet, then do what is asked for, until the learner leaves."""
+        self._greet()
+        try:
+            while not self._over:
+                self._nodes.tell_news()
+                line = await self._ask(_PROMPT)
+                if line is None:
+                    self._say("The input has ended.")
+                    await self._quit([])
+                elif words := line.split():
+                    await self._do(words)
+        finally:
+            await self._nodes.leave()
+
+    def _greet(self) -> None:
+        lessons, progress = self._desk.lessons, self._desk.progress()
+        passed = sum(progress.of(lesson.id).best is Status.PASSED for lesson in lessons)
+        root = short(self._desk.workspace.root)
+        self._say(f"ROS Tutor in plain lines. {counted(len(lessons), 'lesson')}, {passed} passed.")
+        if self._desk.workspace.exists:
+            self._say(f"Your workspace is {root}")
+        else:
+            self._say(f"Your workspace will be {root}: start creates it.")
+        self._say(f"You are at {self._here.about(self._here.lesson, progress)}")
+        self._say("read reads the lesson, start puts in the skeleton, check judges it; help says what else you can do.")
+
+    async def _do(self, words: list[str]) -> None:
+        try:
+            name, *rest = words
+            if name.isdecimal() or (len(name) > 1 and name[0] in "iI" and name[1].isdecimal()):
+                self._here.go_to(self._here.find(name))
+            else:
+                await self._find(name.lower()).do(rest)
+        except (Refused, WorkspaceError, StorageError) as error:
+            self._say(str(error))
+
+    def _find(self, name: str) -> Command:
+        known = {each: command for command in self._commands for each in (command.name, *command.others)}
+        if name in known:
+            return known[name]
+        near = get_close_matches(name, known, n=1)
+        guess = f" Did you mean {near[0]}?" if near else ""
+        raise Refused(f"There is no command {name}.{guess} help lists them all.")
+
+    async def _help(self, words: list[str]) -> None:
+        for command in self._commands:
+            self._say(f"{' '.join(part for part in (command.name, command.follows) if part)}: {command.text}.")
+
+    async def _quit(self, words: list[str]) -> None:
+        self._over = True
+        await self._nodes.leave()
+        self._nodes.tell_news()
+        self._say("Goodbye. Your progress is kept." if self._desk.workspace.exists else "Goodbye.")
+
+    async def _ask(self, question: str) -> str | None:
+        self._out(question)
+        line = await self._lines.next()
+        if self._echo or line is None:  # a terminal has shown what was typed, and gone to the next line
+            self._out(f"{printable(line or '')}\n")
+        return line
+
+    def _say(self, line: str) -> None:
+        self._out(f"{printable(line)}\n")

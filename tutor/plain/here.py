@@ -1,0 +1,90 @@
+"""Where the learner is in the course, and the two ways to talk with them."""
+
+from __future__ import annotations
+
+from collections.abc import Awaitable, Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from tutor.content import Lesson, UnknownExercise
+from tutor.judge.verdict import Status
+from tutor.tui.desk import Desk
+from tutor.workspace import Progress, StorageError
+
+
+class Refused(Exception):
+    """What was asked for cannot be done; the message says why, and what can."""
+
+
+@dataclass(frozen=True, slots=True)
+class Command:
+    """A thing to do: its name (and others that are understood), what may follow it, and what it does, in words."""
+
+    name: str
+    text: str
+    do: Callable[[list[str]], Awaitable[None]]
+    follows: str = ""
+    others: tuple[str, ...] = ()
+
+
+class Here:
+    """The lesson that the learner is at; `say` tells a line, `ask` a question, whose answer is None at the end."""
+
+    def __init__(self, desk: Desk, say: Callable[[str], None], ask: Callable[[str], Awaitable[str | None]]) -> None:
+        self.desk, self.say, self.ask = desk, say, ask
+        desk.notify = say
+        self.lesson = self._first()
+
+    def _first(self) -> Lesson:
+        """Where the learner was last; else the first lesson that is not passed."""
+        lessons = self.desk.lessons
+        remembered = {lesson.id: lesson for lesson in lessons}.get(self.desk.app_state().lesson)
+        if remembered is not None:
+            return remembered
+        progress = self.desk.progress()
+        left = [lesson for lesson in lessons if progress.of(lesson.id).best is not Status.PASSED]
+        return (left or [*lessons])[0]
+
+    def go_to(self, lesson: Lesson) -> None:
+        """Be at this lesson, and say so. The app, too, opens there the next time."""
+        self.lesson = lesson
+        self.say(f"You are at {self.about(lesson, self.desk.progress())}")
+        try:
+            self.desk.keep(replace(self.desk.app_state(), lesson=lesson.id))
+        except StorageError as error:
+            self.say(f"This place is not remembered: {error}")
+
+    def about(self, lesson: Lesson, progress: Progress) -> str:
+        """A lesson in a line: its id, title and difficulty, and how it stands."""
+        return f"{lesson.id} {lesson.title}, {lesson.difficulty.value}, {self.standing(lesson, progress)}."
+
+    def standing(self, lesson: Lesson, progress: Progress) -> str:
+        """How far the learner is with a lesson."""
+        known = progress.of(lesson.id)
+        if known.best is Status.PASSED:
+            return "passed"
+        if known.last is not None:
+            required = [criterion.id for criterion in lesson.criteria if not criterion.bonus]
+            met = sum(id in known.last.passed for id in required)
+            return f"not passed yet, {met} of {len(required)} criteria passed in the last check"
+        return "started" if known.started_at else "not started"
+
+    def find(self, text: str) -> Lesson:
+        """A lesson by its number in the list, or by its id. Raises Refused."""
+        lessons = self.desk.lessons
+        if text.isdecimal():
+            if 1 <= int(text) <= len(lessons):
+                return lessons[int(text) - 1]
+            raise Refused(f"There is no lesson {text}: they go from 1 to {len(lessons)}.")
+        try:
+            return self.desk.course.find(text)
+        except UnknownExercise as error:
+            raise Refused(str(error)) from error
+
+
+def short(path: Path) -> str:
+    """A path as people say it."""
+    try:
+        return f"~/{path.relative_to(Path.home())}"
+    except (ValueError, RuntimeError):
+        return str(path)
