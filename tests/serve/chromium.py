@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import asyncio
 import base64
+import itertools
 import json
 import os
+import re
 import shutil
 import signal
 from collections.abc import AsyncIterator, Callable
@@ -16,7 +18,7 @@ from typing import Any
 import aiohttp
 
 PROGRAM = shutil.which("chromium")
-LIMIT_S = 20.0
+LIMIT_S = 60.0
 
 _QUIET = (
     "--headless",
@@ -39,17 +41,25 @@ _QUIET = (
     "--remote-debugging-port=0",
 )
 
+_STEERING = re.compile(r"\x1b\[[0-9;?<>=$]*[ -/]*[@-~]|\x1b\][^\x07\x1b]*(?:\x07|\x1b\\\\)|\x1b.")
+
 _KEYS = {"Enter": 13, "Escape": 27, "Tab": 9, "ArrowDown": 40, "ArrowUp": 38}
 
 
 class Page:
-    """The page that is open. `requested` holds every address that it asked for."""
+    """The page that is open.
+
+    `requested` holds every address that it asked for, `complaints` what the browser complained of, and `drawn` what the
+    terminal in it was given to draw, without colours and cursor movements.
+    """
 
     def __init__(self, socket: aiohttp.ClientWebSocketResponse) -> None:
         self._socket = socket
+        self._numbers = itertools.count(1)
         self._answers: dict[int, asyncio.Future[dict[str, Any]]] = {}
         self.requested: list[str] = []
         self.complaints: list[str] = []
+        self.drawn = ""
 
     async def listen(self) -> None:
         """Take in what the browser says, until it is closed."""
@@ -59,13 +69,18 @@ class Page:
                 self._answers.pop(said["id"]).set_result(said)
             elif said["method"] in ("Network.requestWillBeSent", "Network.webSocketCreated"):
                 self.requested.append(said["params"].get("url") or said["params"]["request"]["url"])
+            elif said["method"] == "Network.webSocketFrameReceived":
+                frame = said["params"]["response"]
+                if frame["opcode"] == 2:
+                    text = base64.b64decode(frame["payloadData"]).decode("utf-8", "replace")
+                    self.drawn += _STEERING.sub("", text)
             elif said["method"] == "Log.entryAdded":
                 self.complaints.append(said["params"]["entry"]["text"])
             elif said["method"] == "Runtime.exceptionThrown":
                 self.complaints.append(json.dumps(said["params"]["exceptionDetails"]))
 
     async def do(self, method: str, **parameters: Any) -> dict[str, Any]:
-        number = len(self._answers) + 1 if not self._answers else max(self._answers) + 1
+        number = next(self._numbers)
         answer = self._answers[number] = asyncio.get_running_loop().create_future()
         await self._socket.send_json({"id": number, "method": method, "params": parameters})
         async with asyncio.timeout(LIMIT_S):
@@ -89,18 +104,28 @@ class Page:
             await self.do("Input.dispatchKeyEvent", type="keyDown", text=text, **given)
             await self.do("Input.dispatchKeyEvent", type="keyUp", **given)
 
-    async def until(self, expression: str, limit_s: float = LIMIT_S) -> None:
-        """Wait until JavaScript says that something is so."""
-        await until_async(lambda: self.evaluate(expression), f"{expression}: {self.complaints}", limit_s)
+    async def press_for(self, text: str, *keys: str) -> None:
+        """Press keys, and wait until `text` is drawn anew."""
+        self.drawn = ""
+        await self.press(*keys)
+        await self.sees(text)
+
+    async def sees(self, text: str) -> None:
+        """Wait until `text` has been drawn."""
+        try:
+            await until(lambda: text in self.drawn, text)
+        except AssertionError as error:
+            raise AssertionError(f"{error}\n{self.drawn[-6000:]}\n{self.complaints}\n{self.requested}") from None
 
     async def picture(self, file: Path) -> None:
         file.write_bytes(base64.b64decode((await self.do("Page.captureScreenshot"))["data"]))
 
 
-async def until_async(seen: Callable[[], Any], what: str, limit_s: float = LIMIT_S) -> None:
+async def until(seen: Callable[[], object], what: str, limit_s: float = LIMIT_S) -> None:
+    """Wait for evidence."""
     try:
         async with asyncio.timeout(limit_s):
-            while not await seen():
+            while not seen():
                 await asyncio.sleep(0.05)
     except TimeoutError:
         raise AssertionError(f"not seen within {limit_s:.0f} s: {what}") from None
@@ -144,8 +169,5 @@ async def browser(folder: Path) -> AsyncIterator[Page]:
 
 
 async def _port(file: Path) -> int:
-    async def written() -> bool:
-        return file.is_file() and len(file.read_text().splitlines()) == 2
-
-    await until_async(written, "the browser's port")
+    await until(lambda: file.is_file() and len(file.read_text().splitlines()) == 2, "the browser's port")
     return int(file.read_text().splitlines()[0])

@@ -1,0 +1,90 @@
+"""One lesson in a real browser, by its keys: run, check, tick, export. What counts is what is then on the disk."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import signal
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.serve.chromium import LIMIT_S, PROGRAM, browser, until
+from tutor.content import load_course
+from tutor.judge.verdict import Status
+from tutor.workspace import Workspace
+
+SERVE = "import sys; from tutor.cli import main; sys.exit(main(['serve', '--port', '0', '--workspace', sys.argv[1]]))"
+
+
+def runs(file: Path) -> bool:
+    """Whether a process has been started with this file."""
+    for folder in Path("/proc").glob("[0-9]*"):
+        try:
+            if str(file).encode() in (folder / "cmdline").read_bytes().split(b"\0"):
+                return True
+        except OSError:
+            continue
+    return False
+
+
+@pytest.mark.skipif(PROGRAM is None, reason="there is no chromium on this machine")
+@pytest.mark.timeout(300)
+async def test_one_lesson_in_a_browser(tmp_path: Path) -> None:
+    workspace = Workspace(tmp_path / "ws")
+    lesson = load_course().find("i1.1")
+    node = workspace.path_of("temperature_publisher.py")
+    server = await asyncio.create_subprocess_exec(
+        *(sys.executable, "-c", SERVE, str(workspace.root)),
+        stdout=asyncio.subprocess.PIPE,
+        stderr=asyncio.subprocess.PIPE,
+        env={
+            **os.environ,
+            "HOME": str(tmp_path),
+            "ROS_DOMAIN_ID": "93",
+            "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
+        },
+    )
+    assert server.stdout is not None
+    try:
+        address = (await server.stdout.readline()).decode().split()[-1]
+        async with browser(tmp_path) as page:
+            await page.do("Page.navigate", url=address)
+            await page.sees("Press Enter")
+            await page.press_for("publishes", "Enter")  # the workspace is there, and the criteria are shown
+            assert workspace.progress().read().of("i1.1").started_at
+
+            node.write_text(lesson.files[0].solution.read_text())
+            await page.press("r")
+            await until(lambda: runs(node), "the node runs")
+            await page.press("r")
+            await until(lambda: not runs(node), "the node is stopped")
+
+            await page.press("c")
+            await until(lambda: workspace.progress().read().of("i1.1").attempts, "the check is over")
+            assert workspace.progress().read().of("i1.1").best is Status.PASSED
+
+            await page.press_for("Self-assessment", "6")
+            await page.press(" ")
+            await until(lambda: workspace.progress().read().ticks, "an item is ticked")
+            await page.press_for("Export the checklist", "x")
+            await page.press("Enter")
+            exported = workspace.root / "checklist.md"
+            await until(exported.is_file, "the checklist is exported")
+            text = exported.read_text()
+            assert text.count("- [x] ") == 1
+            assert "i1.1" in text
+            assert "passed" in text
+
+            elsewhere = [url for url in page.requested if not url.startswith((address, address.replace("http", "ws")))]
+            assert elsewhere == []
+            assert not [said for said in page.complaints if "WebGL" not in said]
+        server.send_signal(signal.SIGINT)
+        async with asyncio.timeout(LIMIT_S):
+            await server.communicate()
+        assert server.returncode == 130
+    finally:
+        if server.returncode is None:
+            server.kill()
+            await server.communicate()
