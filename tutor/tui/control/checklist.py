@@ -48,7 +48,7 @@ class ChecklistDesk:
         """The progress has changed."""
         from tutor.report.assessment import assess
 
-        if self._screen is not None and self._screen.is_mounted and not self._keeping:
+        if self._screen is not None and not self._keeping:
             self._screen.show(assess(self._stage.session.desk.course, progress))
 
     def _theme(self) -> None:

@@ -58,7 +58,7 @@ class ChecklistScreen(Screen[None]):
         yield Footer(compact=True, show_command_palette=False)
 
     def on_mount(self) -> None:
-        self._count()
+        self._show()
 
     def on_resize(self, event: events.Resize) -> None:
         """Two columns where there is room."""
@@ -79,7 +79,11 @@ class ChecklistScreen(Screen[None]):
     def show(self, assessment: Assessment) -> None:
         """Show how it stands now: a check has passed, or another window has ticked something."""
         self._assessment = assessment
-        for card, group in zip(self.cards, assessment.groups, strict=True):
+        if self.is_mounted:  # else it is shown when it is
+            self._show()
+
+    def _show(self) -> None:
+        for card, group in zip(self.cards, self._assessment.groups, strict=True):
             card.show(group)
         self._count()
 
@@ -91,7 +95,7 @@ class ChecklistScreen(Screen[None]):
         self._tick(event.item, event.ticked)
 
     def _count(self) -> None:
-        found, rows = self._assessment, self.rows
+        rows = self.rows
         ticked, total = sum(row.ticked for row in rows), len(rows)
         shown = sum(bool(row.item.evidence) for row in rows)
         self.query_one("#checklist-head", Static).update(
@@ -100,13 +104,20 @@ class ChecklistScreen(Screen[None]):
                 bar(ticked, total),
                 (f"  {ticked} of {total} ticked", "bold"),
                 (f" · {shown} shown by your checks", "$quiet"),
-            )
+            ),
+            layout=False,
         )
-        ready = ticked == total > 0
-        banner = self.query_one("#checklist-ready", Static)
-        banner.border_title = found.ready_title
-        banner.update(Content.assemble(("✓ ", "bold $good"), found.ready_text, "\n", (_rest(found), "$quiet")))
+        self._welcome_on(ticked == total > 0)
+
+    def _welcome_on(self, ready: bool) -> None:
+        """Who has ticked everything is told what comes next."""
+        found, banner = self._assessment, self.query_one("#checklist-ready", Static)
         banner.display = ready and bool(found.ready_text)
+        if banner.display:
+            banner.border_title = found.ready_title
+            banner.update(Content.assemble(("✓ ", "bold $good"), found.ready_text, "\n", (_rest(found), "$quiet")))
+            if (row := self.focused) is not None:  # the banner takes room from below
+                self.call_after_refresh(row.scroll_visible, animate=False)
 
     # --- moving ---
 

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
-from textual.containers import Horizontal, Vertical
+from textual.containers import Vertical
 from textual.content import Content
+from textual.geometry import Size
 from textual.message import Message
-from textual.widgets import Static
+from textual.widget import Widget
 
 from tutor.report.assessment import GroupStanding, ItemStanding
 from tutor.report.saying import near_day, say_evidence, say_sources
@@ -36,7 +36,7 @@ def about(item: ItemStanding) -> str:
     return "○ no check shows this: you are the judge"
 
 
-class ItemRow(Horizontal, can_focus=True):
+class ItemRow(Widget, can_focus=True):
     """One item: its box, its text, and below it what the checks have shown."""
 
     BINDINGS: ClassVar[list[BindingType]] = [
@@ -54,18 +54,7 @@ class ItemRow(Horizontal, can_focus=True):
         padding: 0 1 0 0;
         border-left: blank;
         &:hover { background: $panel; }
-        &:focus {
-            background: $block-cursor-background;
-            border-left: outer $primary;
-            & > .item-box, & .item-text { color: $block-cursor-foreground; text-style: bold; }
-        }
-        & > .item-box { width: 4; height: 1; }
-        & > Vertical { height: auto; width: 1fr; }
-        & .item-text, & .item-about { height: auto; }
-        & .item-about { color: $quiet; }
-        &.-shown .item-about { color: $good; }
-        &.-ticked > .item-box { color: $good; text-style: bold; }
-        &:focus .item-about { color: $block-cursor-foreground; }
+        &:focus { background: $block-cursor-background; border-left: outer $primary; }
     }
     """
 
@@ -80,39 +69,50 @@ class ItemRow(Horizontal, can_focus=True):
         super().__init__(id=f"item-{item.id}")
         self.item = item
         self.ticked = item.ticked
-        self._box = Static(markup=False, classes="item-box")
-        self._about = Static(markup=False, classes="item-about")
-
-    def compose(self) -> ComposeResult:
-        yield self._box
-        with Vertical():
-            yield Static(self.item.text, markup=False, classes="item-text")
-            yield self._about
-
-    def on_mount(self) -> None:
-        self.show(self.item)
 
     def show(self, item: ItemStanding) -> None:
         """Show how it stands now."""
-        self.item = item
-        self._about.update(about(item))
-        self.set_class(bool(item.evidence), "-shown")
-        self._tick(item.ticked)
+        if item != self.item or item.ticked != self.ticked:
+            grown = about(item) != about(self.item)
+            self.item, self.ticked = item, item.ticked
+            self.refresh(layout=grown)
+
+    def render(self) -> Content:
+        """The box, and beside it text and evidence, wrapped."""
+        width = self.content_size.width
+        return Content("\n").join(self._lines(width)) if width else Content()
+
+    def get_content_height(self, container: Size, viewport: Size, width: int) -> int:
+        """As many lines as it takes."""
+        return len(self._lines(width))
+
+    def _lines(self, width: int) -> list[Content]:
+        box = Content.styled("[✓] ", "bold $good") if self.ticked else Content("[ ] ")
+        room = max(1, width - box.cell_length)
+        known = "$good" if self.item.evidence else "$quiet"
+        focused = "$block-cursor-foreground" if self.has_focus else ""
+        text = Content.styled(self.item.text, f"bold {focused}" if focused else "").wrap(room)
+        shown = Content.styled(about(self.item), focused or known).wrap(room)
+        beside = Content(" " * box.cell_length)
+        return [Content.assemble(beside if n else box, line) for n, line in enumerate([*text, *shown])]
+
+    def on_focus(self) -> None:
+        """Its colours change."""
+        self.refresh()
+
+    def on_blur(self) -> None:
+        """Its colours change."""
+        self.refresh()
 
     def action_tick(self) -> None:
         """Tick it, or take the tick away."""
-        self._tick(not self.ticked)
+        self.ticked = not self.ticked
+        self.refresh()
         self.post_message(self.Toggled(self.item.id, self.ticked))
 
     def on_click(self) -> None:
         """A click does the same."""
-        self.focus()
         self.action_tick()
-
-    def _tick(self, ticked: bool) -> None:
-        self.ticked = ticked
-        self.set_class(ticked, "-ticked")
-        self._box.update("[✓]" if ticked else "[ ]")
 
 
 class GroupCard(Vertical):
