@@ -114,11 +114,7 @@ async def demonstration(bench: Bench) -> Demonstration:
         bench.doing(0.2, "running the client against our servers")
         clients: set[Service] = set()  # what it had while it ran: afterwards, the graph no longer knows
 
-        def over() -> bool:
-            clients.update(run.graph.clients if run.exit is None else ())
-            return run.exit is not None
-
-        await run.until(over, CLIENT_S)
+        await run.ends(CLIENT_S, meanwhile=lambda: clients.update(run.graph.clients if run.exit is None else ()))
         trace, served, ended = run.trace(), tuple(run.served), run.exit
         return Demonstration(trace, served, ended, await run.stuck_at() if ended is None else (), tuple(clients))
 

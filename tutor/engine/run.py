@@ -165,6 +165,15 @@ class LiveRun:
         # The limit is for the node, not for a machine that does not let it run, or us see it.
         return await self._until(seen, limit_s, lambda: self._cpu().waited_s + self.late_s())
 
+    async def ends(self, limit_s: float, *, meanwhile: Callable[[], object] = lambda: None) -> bool:
+        def ended() -> bool:
+            meanwhile()
+            return self.exit is not None
+
+        # Its other threads are kept waiting by the machine while the main thread sleeps: no excuse for a late end. Nor
+        # are we: what we see late has its time all the same.
+        return await self._until(ended, limit_s, lambda: self._cpu().main_waited_s)
+
     async def _until(self, seen: Callable[[], bool], limit_s: float, lost_s: Callable[[], float]) -> bool:
         """Wait as `until` does; the limit grows by what `lost_s` grows meanwhile, in seconds."""
         loop = asyncio.get_running_loop()
@@ -254,9 +263,7 @@ class LiveRun:
     async def interrupt(self, limit_s: float = 5.0) -> Ending:
         pressed = time.time()
         self._process.interrupt()
-        # Its other threads are kept waiting by the machine while the main thread sleeps: no excuse for a late end. Nor
-        # are we: what we see late has its time all the same.
-        await self._until(lambda: self.exit is not None, limit_s, lambda: self._cpu().main_waited_s)
+        await self.ends(limit_s)
         ended = self.exit
         took = (self.started_at + ended.after_s if ended is not None else time.time()) - pressed
         left = await self._left()

@@ -102,6 +102,12 @@ class Run(Protocol):
         soon after the process has ended.
         """
 
+    async def ends(self, limit_s: float, *, meanwhile: Callable[[], object] = lambda: None) -> bool:
+        """Wait until the process has ended; `meanwhile` is called whenever a new fact has come in.
+
+        Gives False when `limit_s` seconds have passed, and those in which the machine kept its main thread waiting.
+        """
+
     async def parameters(self, limit_s: float) -> tuple[Parameter, ...] | None:
         """Ask every node for its parameters; None where no node answered within the limit."""
 
