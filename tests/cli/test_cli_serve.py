@@ -15,11 +15,12 @@ from pathlib import Path
 
 import aiohttp
 import pytest
+from aiohttp import web
 
 from tests.cli.conftest import Run
 from tutor.content import load_course
-from tutor.serve import address, errors, is_loopback, listen, listening
-from tutor.serve.guard import is_this_machine
+from tutor.serve import address, errors, guard, is_loopback, listen, listening
+from tutor.serve.guard import is_this_machine, owner
 from tutor.workspace import Workspace, start
 
 LIMIT_S = 60.0
@@ -230,3 +231,35 @@ def test_who_opens_it_to_others_is_warned(run: Run, monkeypatch: pytest.MonkeyPa
 )
 def test_which_names_can_only_mean_this_machine(host: str, ours: bool) -> None:
     assert is_this_machine(host) is ours
+
+
+@pytest.mark.parametrize("host", ["127.0.0.1", "::1"])
+async def test_the_user_at_the_other_end_is_known(host: str) -> None:
+    found: list[int | None] = []
+
+    async def look(request: web.Request) -> web.Response:
+        found.append(owner(request))
+        return web.Response()
+
+    app = web.Application()
+    app.router.add_get("/", look)
+    runner = web.AppRunner(app)
+    await runner.setup()
+    with listen(host, 0) as listener:
+        await web.SockSite(runner, listener).start()
+        async with aiohttp.ClientSession() as client, client.get(address(listener)) as answer:
+            assert answer.status == 200
+        await runner.cleanup()
+    assert found == [os.getuid()]
+
+
+async def test_another_user_of_this_machine_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(guard, "owner", lambda request: os.getuid() + 1)
+    app = web.Application(middlewares=[guard.only_own_pages(loopback=True)])
+    runner = web.AppRunner(app)
+    await runner.setup()
+    with listen("127.0.0.1", 0) as listener:
+        await web.SockSite(runner, listener).start()
+        async with aiohttp.ClientSession() as client, client.get(address(listener)) as answer:
+            assert (answer.status, await answer.text()) == (403, "This app belongs to another user of this machine.\n")
+        await runner.cleanup()

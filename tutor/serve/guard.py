@@ -2,11 +2,17 @@
 
 A browser lets any page open a WebSocket to 127.0.0.1, but says in `Origin` whose page it is. And a site can give its
 own name the address 127.0.0.1, but the browser then says that name in `Host`.
+
+Keeps other users of this machine out, too: the kernel says whose a connection is that comes from the machine itself.
 """
 
 from __future__ import annotations
 
 import ipaddress
+import os
+import socket
+import sys
+from pathlib import Path
 from urllib.parse import urlsplit
 
 from aiohttp import web
@@ -33,6 +39,8 @@ def only_own_pages(*, loopback: bool) -> Middleware:
             raise web.HTTPForbidden(text="This page belongs to another site.\n")
         if loopback and not is_this_machine(request.host):
             raise web.HTTPForbidden(text="Only this machine may open this: use the address that ros-tutor printed.\n")
+        if owner(request) not in (None, 0, os.getuid()):
+            raise web.HTTPForbidden(text="This app belongs to another user of this machine.\n")
         return await handler(request)
 
     return guard
@@ -52,3 +60,27 @@ def is_this_machine(host: str) -> bool:
         return ipaddress.ip_address(name).is_loopback
     except ValueError:
         return False
+
+
+def owner(request: web.Request) -> int | None:
+    """The user id of whoever is at the other end, on this machine; None where that is elsewhere or cannot be known."""
+    transport = request.transport
+    peer, here = (None, None) if transport is None else map(transport.get_extra_info, ("peername", "sockname"))
+    if peer is None or here is None:
+        return None
+    table = "tcp6" if ":" in peer[0] else "tcp"
+    # Seen from the other end, its own address comes first.
+    wanted = [_as_listed(*peer[:2]), _as_listed(*here[:2])]
+    try:
+        rows = Path(f"/proc/self/net/{table}").read_text().splitlines()[1:]
+    except OSError:
+        return None
+    return next((int(words[7]) for words in map(str.split, rows) if words[1:3] == wanted), None)
+
+
+def _as_listed(host: str, port: int) -> str:
+    """An address as the kernel lists it: groups of four bytes, each in the machine's own order."""
+    family = socket.AF_INET6 if ":" in host else socket.AF_INET
+    raw = socket.inet_pton(family, host.partition("%")[0])
+    words = (int.from_bytes(raw[n : n + 4], sys.byteorder) for n in range(0, len(raw), 4))
+    return f"{''.join(f'{word:08X}' for word in words)}:{port:04X}"
