@@ -13,7 +13,13 @@ CHECK = Check(
         Criterion(
             "namespace",
             judges.judge_namespace,
-            (scenarios.plain, scenarios.other_topic, scenarios.other_namespace, scenarios.both),
+            (
+                scenarios.plain,
+                scenarios.other_topic,
+                scenarios.other_namespace,
+                scenarios.both,
+                scenarios.another_namespace,
+            ),
             after=("starts",),
         ),
         Criterion("communicates", judges.judge_communicates, (scenarios.plain,), after=("starts",)),

@@ -158,12 +158,13 @@ def of_namespace(usual: Launched, seen: Launched) -> Cause:
     """Why, with a namespace given, not both nodes and their topic are under it."""
     if (cause := _of_broken(seen)) is not None:
         return cause
-    graph, under = seen.trace.graph, f"/{NAMESPACE}/"
+    space = seen.arguments.get("namespace", NAMESPACE)
+    graph, under = seen.trace.graph, f"/{space}/"
     ends = [*publishers(graph), *subscriptions(graph)]
     within = [each for each in ends if each.node.startswith(under)]
     outside = [each for each in ends if not each.node.startswith(under)]
     if not within:
-        return _of_ignored(seen, "namespace", NAMESPACE) or Cause(
+        return _of_ignored(seen, "namespace", space) or Cause(
             "namespace not used",
             f"{_nodes(outside)}: no node is under {under[:-1]}",
             "give both nodes namespace=LaunchConfiguration('namespace'), or put them behind a PushRosNamespace",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -10,6 +10,9 @@ from tutor.judge.trace import Ending, Endpoint, Graph, LogRecord, Sample, Trace
 
 FILE = "my_launch.py"
 NAMESPACE = "robot1"
+ANOTHER = "robot2"
+"""The namespace that is asked for where everything is in the first one already, without arguments."""
+
 ARGUMENTS = ("topic", "namespace")
 
 Pair = tuple[Endpoint, Endpoint]
@@ -88,14 +91,26 @@ def shared(graph: Graph) -> set[str]:
     return {one.topic for one, _ in pairs(graph)}
 
 
-def on_topic(graph: Graph, name: str) -> list[Pair]:
-    """The pairs on /name."""
-    return [pair for pair in pairs(graph) if pair[0].topic == f"/{name}"]
+def homes(graph: Graph) -> set[str]:
+    """The namespaces that both nodes of a pair are in, and their topic with them, such as "/demo"; "" is none."""
+    spaces = {(one.topic, each.node.rpartition("/")[0]) for one, other in pairs(graph) for each in (one, other)}
+    return {space for topic, space in spaces if topic.startswith(f"{space}/")}
 
 
-def in_namespace(graph: Graph, name: str | None = None) -> list[Pair]:
+def on_topic(graph: Graph, name: str, within: Iterable[str] = ()) -> list[Pair]:
+    """The pairs on /name, or on this name in one of the namespaces."""
+    wanted = {f"{space}/{name}" for space in ("", *within)}
+    return [pair for pair in pairs(graph) if pair[0].topic in wanted]
+
+
+def called(graph: Graph, name: str) -> list[Pair]:
+    """The pairs on a topic of this name, in whatever namespace."""
+    return [pair for pair in pairs(graph) if pair[0].topic.endswith(f"/{name}")]
+
+
+def in_namespace(graph: Graph, name: str | None = None, *, space: str = NAMESPACE) -> list[Pair]:
     """The pairs of which both nodes and the topic (called `name`, if given) are under the namespace."""
-    under = f"/{NAMESPACE}/"
+    under = f"/{space}/"
     return [
         (one, other)
         for one, other in pairs(graph)

@@ -6,10 +6,12 @@ from dataclasses import replace
 
 from checks.i2_2.causes import of_launch, of_missing, of_namespace, of_pair, of_topic
 from checks.i2_2.facts import (
+    ANOTHER,
     NAMESPACE,
     Launched,
     Pair,
     heard,
+    homes,
     in_namespace,
     on_topic,
     pairs,
@@ -39,24 +41,35 @@ def judge_starts(seen: Launched) -> Verdict:
 def judge_topic(usual: Launched, seen: Launched) -> Verdict:
     name = seen.arguments["topic"]
     expected = f"with topic:={name}, both nodes use /{name}, and the default topic is unused"
-    found = on_topic(seen.trace.graph, name)
+    spaces = homes(usual.trace.graph)
+    found = on_topic(seen.trace.graph, name, spaces)
     if _moved(usual, seen, found) and _sent(usual, seen, found):
         return passed(expected, _observed(seen), _who(found[0]))
-    return failed(expected, _observed(seen), of_topic(usual, seen, f"/{name}"), causes.last_words(seen.trace))
+    wanted = next((f"{space}/{name}" for space in spaces if f"{space}/{name}" in used(seen.trace.graph)), f"/{name}")
+    return failed(expected, _observed(seen), of_topic(usual, seen, wanted), causes.last_words(seen.trace))
 
 
-def judge_namespace(usual: Launched, elsewhere: Launched, alone: Launched, both: Launched) -> Verdict:
+def judge_namespace(
+    usual: Launched, elsewhere: Launched, alone: Launched, both: Launched, another: Launched | None = None
+) -> Verdict:
+    """Judge `namespace`. `another`: a launch in another one, where all is in this one by default."""
     expected = f"with {alone.typed}, both nodes and the topic are under /{NAMESPACE}"
     within = in_namespace(alone.trace.graph)
     # Nodes that share no topic without a namespace either, or do not follow the argument topic, break other criteria.
     right = two_in_namespace(alone.trace.graph)
-    if shared(usual.trace.graph):
+    if another is not None:
+        right = bool(within)
+        if not (right and _moved(usual, another, in_namespace(another.trace.graph, space=ANOTHER))):
+            expected = f"with {another.typed}, both nodes and the topic are under /{ANOTHER}"
+            cause = of_namespace(usual, another)
+            return failed(expected, _observed(another), cause, causes.last_words(another.trace))
+    elif shared(usual.trace.graph):
         right = _moved(usual, alone, within) and _sent(usual, alone, within)
     if not right:
         return failed(expected, _observed(alone), of_namespace(usual, alone), causes.last_words(alone.trace))
     topic = both.arguments["topic"]
     expected = f"with {both.typed}, both nodes and /{NAMESPACE}/{topic} are under /{NAMESPACE}"
-    if on_topic(elsewhere.trace.graph, elsewhere.arguments["topic"]):
+    if on_topic(elsewhere.trace.graph, elsewhere.arguments["topic"], homes(usual.trace.graph)):
         found = in_namespace(both.trace.graph, topic)
         right = _moved(usual, both, found) and _sent(usual, both, found)
     else:

@@ -8,13 +8,14 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 
 from checks.i2_2.facts import (
+    ANOTHER,
     FILE,
     NAMESPACE,
     Launched,
     Pair,
+    called,
     heard,
     in_namespace,
-    on_topic,
     pairs,
     shared,
     size,
@@ -67,12 +68,19 @@ async def plain(bench: Bench) -> Launched:
 async def other_topic(bench: Bench) -> Launched:
     """Launch with another topic."""
     name = _name()
-    return await _varied(bench, {"topic": name}, lambda graph: on_topic(graph, name))
+    return await _varied(bench, {"topic": name}, lambda graph: called(graph, name))
 
 
 async def other_namespace(bench: Bench) -> Launched:
     """Launch in a namespace."""
     return await _varied(bench, {"namespace": NAMESPACE}, in_namespace)
+
+
+async def another_namespace(bench: Bench) -> Launched | None:
+    """Launch in yet another namespace; nothing, where what is there without arguments is not in the first one."""
+    if not in_namespace((await bench.facts(plain)).trace.graph):
+        return None
+    return await _varied(bench, {"namespace": ANOTHER}, lambda graph: in_namespace(graph, space=ANOTHER))
 
 
 async def both(bench: Bench) -> Launched:

@@ -272,6 +272,35 @@ def heard(text: str, name: str = "listener") -> LogRecord:
     return LogRecord(20, name, text, START + 1.5, START + 1.5)
 
 
+@pytest.mark.parametrize("home", ["/demo", "/robot1"])
+def test_the_default_namespace_need_not_be_empty(home: str) -> None:
+    usual, elsewhere = (
+        launched(pair(f"{home}/chatter", namespace=home)),
+        with_topic(pair(f"{home}/news", namespace=home)),
+    )
+    another = launched(pair("/robot2/chatter", namespace="/robot2"), arguments={"namespace": "robot2"})
+    assert_passed(judges.judge_topic(usual, elsewhere))
+    assert_passed(judges.judge_namespace(usual, elsewhere, ALONE, BOTH, another if home == "/robot1" else None))
+
+
+@pytest.mark.parametrize("home", ["/demo", "/robot1"])
+def test_a_namespace_that_stays_what_it_is(home: str) -> None:
+    usual, elsewhere = (
+        launched(pair(f"{home}/chatter", namespace=home)),
+        with_topic(pair(f"{home}/news", namespace=home)),
+    )
+    alone = in_robot1(pair(f"{home}/chatter", namespace=home))
+    another = launched(pair(f"{home}/chatter", namespace=home), arguments={"namespace": "robot2"})
+    verdict = judges.judge_namespace(usual, elsewhere, alone, BOTH, another if home == "/robot1" else None)
+    assert_failed(verdict, "namespace not used")
+
+
+def test_a_topic_that_leaves_the_default_namespace_with_one_node_only() -> None:
+    usual = launched(pair("/demo/chatter", namespace="/demo"))
+    seen = with_topic(pair("/demo/news", "/demo/chatter", namespace="/demo"))
+    assert_failed(judges.judge_topic(usual, seen), "remapping missing on one node")
+
+
 def test_a_message_is_logged() -> None:
     seen = launched(pair("/chatter"), logs=(heard("I heard: [Hello World: 1]"),))
     verdict = judges.judge_communicates(seen)
