@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from textwrap import shorten
 
 from tutor.content import Difficulty, Lesson
 from tutor.judge.result import ExerciseResult
@@ -50,3 +51,8 @@ def short(path: Path) -> str:
         return f"~/{path.relative_to(Path.home())}"
     except ValueError:
         return str(path)
+
+
+def fitted(text: str, width: int) -> str:
+    """A text in so many columns; where it is too long, whole words of it and an ellipsis."""
+    return text if len(text) <= width else shorten(text, max(1, width), placeholder=" …")

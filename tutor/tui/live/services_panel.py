@@ -125,9 +125,8 @@ class ServicesPanel(Vertical):
         bar.actions = tuple(actions)
         head = self.query_one("#service-head", Static)
         if self.chosen is None:
-            head.update(
-                Content.styled("Choose a service, and press Enter: its form comes here." if self._listed else "")
-            )
+            nothing = "The nodes here offer no services but those that every node has."
+            head.update("Choose a service, and press Enter: its form comes here." if self._listed else nothing)
         else:
             types = " and ".join(words.short_type(name) for name in self.chosen.types)
             head.update(Content.assemble((self.chosen.name, "bold"), (f"  {types}", "$quiet")))

@@ -22,7 +22,7 @@ from tutor.tui.live.state import LiveState, TopicView
 from tutor.tui.live.strip import Action, ActionBar
 from tutor.tui.widgets.line_view import LineView
 
-_COLUMNS = ("", "Topic", "Rate", "Messages", "Pub", "Sub", "Type")
+_COLUMNS = ("", "Topic", "Rate", "Count", "Pub", "Sub", "Type")
 _OTHER_FIELD = ("y", "Field", "next_field")
 
 

@@ -29,6 +29,7 @@ from tutor.tui.control.remember import Memory
 from tutor.tui.control.views import Views
 from tutor.tui.desk import Desk, domain_id
 from tutor.tui.findings import Findings
+from tutor.tui.node import Phase
 from tutor.tui.palette import Actions, LessonText
 from tutor.tui.screens.stage import Deed, Stage
 from tutor.tui.session import Session
@@ -72,6 +73,7 @@ class MainScreen(Stage):
             "quit": Deed(lambda: self.app.run_action("quit")),
             "evidence": Deed(self._evidence, lambda: self.query_one(Diagnosis).has_evidence),
         }
+        self._phases: list[tuple[str, Phase]] = []
         self._deeds: dict[str, Deed] = dict(own)
         controllers = (self.pages, self.records, self.files, self.views, self.nodes, self.checks, self.checklist, logs)
         for controller in controllers:
@@ -225,7 +227,7 @@ class MainScreen(Stage):
     @on(messages.EditorLeft)
     def _editor_left(self) -> None:
         self._code.leave_editor()
-        self.run_worker(self.files.save_all(), group="save")
+        self.work(self.files.save_all, group="save")
 
     @on(messages.NodeChanged)
     def _node_changed(self, message: messages.NodeChanged) -> None:
@@ -233,8 +235,11 @@ class MainScreen(Stage):
             self.show_page("log")
         if message.path == self.nodes.shown:
             self._log.show(message.state, domain_id(), self.session.paths)
-        self.query_one(StatusBar).show_nodes([node.state for node in self.nodes.known.values()], domain_id())
-        self.refresh_bindings()
+        states = [node.state for node in self.nodes.known.values()]
+        self.query_one(StatusBar).show_nodes(states, domain_id())
+        if (phases := [(state.file, state.phase) for state in states]) != self._phases:
+            self._phases = phases  # the footer is composed anew: not for each line of a log, it would flicker
+            self.refresh_bindings()
 
     @on(messages.CheckEvent)
     def _check_event(self, message: messages.CheckEvent) -> None:

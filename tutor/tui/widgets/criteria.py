@@ -20,9 +20,10 @@ from tutor.workspace import ExerciseProgress
 class CriterionRow(ListItem):
     """One criterion in one line: at rest, being checked (a bar, and what is done to the node), or judged."""
 
-    def __init__(self, finding: Finding) -> None:
+    def __init__(self, finding: Finding, name_width: int) -> None:
         super().__init__()
         self.finding = finding
+        self._name_width = name_width
 
     def show(self, finding: Finding) -> None:
         """Show what is known now."""
@@ -34,24 +35,23 @@ class CriterionRow(ListItem):
         """One line, made for the width that there is."""
         found, width = self.finding, self.content_size.width
         name = Content.assemble(found.id, (" bonus", "$quiet") if found.bonus else "")
-        name = name.pad_right(max(0, 17 - name.cell_length))
+        name = name.pad_right(max(0, self._name_width - name.cell_length))
+        word, said, ink = Content(""), found.text, "$quiet"
         if found.verdict is not None:
-            ink = words.INKS[found.verdict.status]
-            head = Content.assemble((f"{words.MARKS[found.verdict.status]} ", f"bold {ink}"), name, " ")
-            word = Content.styled(f"{found.verdict.status.value:<8}", ink)
-            tail = Content.styled(found.text, "$quiet")
+            mark, shade = words.MARKS[found.verdict.status], words.INKS[found.verdict.status]
+            head = Content.assemble((f"{mark} ", f"bold {shade}"), name, " ")
+            word = Content.styled(f"{found.verdict.status.value:<8}", shade)
         elif found.checking:
             head = Content.assemble(("◐ ", "$busy"), name, " ")
             word = _bar(found.fraction, 14 if width > 50 else 8)
-            tail = Content.styled(found.doing or "waiting", "$busy" if found.doing else "$quiet")
+            said, ink = found.doing or "waiting", "$busy" if found.doing else "$quiet"
         else:
             head = Content.assemble(("○ ", "$quiet"), name, " ")
-            word = Content("")
-            tail = Content.styled(found.text, "$quiet")
         gap = "  " if word else ""
-        if width - head.cell_length - word.cell_length < 14:
-            gap, tail = "", Content("")  # a stump of a sentence says nothing
-        return Content.assemble(head, word, gap, tail).truncate(width, ellipsis=True)
+        left = width - head.cell_length - word.cell_length - len(gap)
+        if left < 12:  # a stump of a sentence says nothing
+            gap, said = "", ""
+        return Content.assemble(head, word, gap, (words.fitted(said, left), ink)).truncate(width, ellipsis=True)
 
 
 def _bar(fraction: float, width: int) -> Content:
@@ -94,7 +94,8 @@ class CriteriaPanel(Container):
         self._following = following
         listed = self.query_one("#criteria-list", ListView)
         await listed.clear()
-        await listed.extend(CriterionRow(finding) for finding in findings.criteria)
+        widest = max(len(finding.id) + len(" bonus") * finding.bonus for finding in findings.criteria)
+        await listed.extend(CriterionRow(finding, max(17, widest + 1)) for finding in findings.criteria)
         self._show(findings)
         self._turn_to_result()
 

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from textwrap import wrap
 
 from textual.content import Content
+from textual.geometry import Size
 from textual.widgets import ListItem, ListView
 
 from tutor.content import Lesson
@@ -22,23 +24,30 @@ class UnitRow(ListItem):
         self.unit = unit
 
     def render(self) -> Content:
-        """One line."""
+        """Its words, none of them cut."""
         return Content(self.unit)
 
 
 class LessonRow(ListItem):
-    """One lesson, in two lines."""
+    """One lesson: its title, as many lines as that takes, and a line on it."""
 
     def __init__(self, lesson: Lesson) -> None:
         super().__init__()
         self.lesson = lesson
         self.progress = ExerciseProgress()
 
+    def _title(self, width: int) -> list[str]:
+        return wrap(f"{words.label(self.lesson)} {self.lesson.title}", max(10, width - 2))
+
+    def get_content_height(self, container: Size, viewport: Size, width: int) -> int:
+        """The title's lines, and one."""
+        return len(self._title(width)) + 1
+
     def render(self) -> Content:
         """The mark, the title; below it the difficulty, and how it stands in words."""
         mark, standing = words.standing(self.lesson, self.progress)
         width = self.content_size.width
-        title = Content(f"{words.label(self.lesson)} {self.lesson.title}").truncate(width - 2, ellipsis=True)
+        title = "\n  ".join(self._title(width))
         level = words.LEVELS[self.lesson.difficulty]
         gap = " " * max(1, width - 2 - len(level) - len(standing))
         ink = _INK[mark]
@@ -52,10 +61,10 @@ class LessonList(ListView):
     LessonList {
         background: $surface;
         scrollbar-size: 1 1;
-        & > ListItem { padding: 0 1; text-wrap: nowrap; text-overflow: ellipsis; }
-        & > LessonRow { height: 2; margin-bottom: 1; }
+        & > ListItem { padding: 0 1; }
+        & > LessonRow { height: auto; margin-bottom: 1; text-wrap: nowrap; }
         & > LessonRow.-shown { text-style: bold; }
-        & > UnitRow { height: 2; color: $quiet; opacity: 100%; padding: 0 1 1 1; }
+        & > UnitRow { height: auto; color: $quiet; opacity: 100%; padding: 0 1 1 1; }
         &:focus { background-tint: transparent 0%; }
     }
     """
