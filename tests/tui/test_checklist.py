@@ -1,0 +1,175 @@
+"""The self-assessment checklist: opening it, ticking, what the checks have shown, ready, and exporting it."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from tests.tui import made
+from tests.tui.conftest import Learner
+from tutor.content import load_course
+from tutor.judge.result import CriterionResult, ExerciseResult
+from tutor.judge.verdict import Status
+from tutor.tui.screens.checklist import ChecklistScreen
+from tutor.tui.screens.export import ExportScreen
+from tutor.workspace import Attempt, ExerciseProgress
+from tutor.workspace.progress import now
+
+
+@pytest.fixture
+def course(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The real lessons and the real checklist."""
+    monkeypatch.setattr(made, "course", lambda folder: load_course())
+
+
+pytestmark = pytest.mark.usefixtures("course")
+
+
+def checklist(me: Learner) -> ChecklistScreen:
+    found = me.app.screen
+    assert isinstance(found, ChecklistScreen)
+    return found
+
+
+def ticks(me: Learner) -> set[str]:
+    return set(me.desk.progress().ticks)
+
+
+def attempt(me: Learner, exercise: str, *criteria: str) -> None:
+    """A check in another terminal, in which these criteria passed and others did not."""
+    done = ExerciseProgress(now(), (Attempt(now(), Status.FAILED, criteria),), Status.FAILED)
+    me.desk.workspace.progress(print).change(lambda progress: progress.with_exercise(exercise, done))
+
+
+async def test_i_tick_what_i_can_do_and_it_is_kept_at_once(learner: Any) -> None:
+    async with learner() as me:
+        await me.sees("6 Checklist")
+        await me.press("6")
+        await me.sees("0 of 15 ticked", "rclpy Fundamentals", "Communication Patterns", "0 of 3")
+        await me.press("space")
+        await me.sees("1 of 15 ticked", "1 of 4", "[✓] Create nodes that publish and nodes that subscribe")
+        await me.until(lambda: ticks(me) == {"publish-and-subscribe"}, "kept")
+        await me.press("down", "enter", "up", "space")
+        await me.sees("1 of 15 ticked", "[ ] Create nodes that publish and nodes that subscribe")
+        await me.until(lambda: ticks(me) == {"timers"}, "kept")
+
+        # By mouse: a tick, and taken away as fast as one can click.
+        item = "#item-callback-groups"
+        await me.pilot.click(item)
+        await me.sees("2 of 15 ticked", "[✓] Use callback groups the right way")
+        await me.pilot.click(item)
+        await me.pilot.click(item)
+        await me.sees("2 of 15 ticked")
+        await me.until(lambda: ticks(me) == {"timers", "callback-groups"}, "kept")
+
+        # By the arrows from card to card.
+        order = [row.item.id for row in checklist(me).rows]
+        for key, place in (("home", 0), ("right", 4), ("left", 0), ("end", -1), ("down", -1), ("left", -5), ("up", -6)):
+            await me.press(key)
+            assert me.app.focused is not None
+            assert me.app.focused.id == f"item-{order[place]}", key
+
+        # What cannot be kept is not shown as kept.
+        file = me.desk.workspace.progress(print).path
+        text = file.read_text()
+        file.unlink()
+        file.mkdir()  # as good as a disk that is gone, for root too
+        await me.press("space")
+        await me.sees("Your progress is not kept", "2 of 15 ticked")
+        file.rmdir()
+        file.write_text(text)
+
+        await me.press("escape")
+        await me.until(lambda: me.app.screen is me.main, "back")
+        await me.press("6")
+        await me.sees("2 of 15 ticked", "[✓] Call a function at a fixed period with a timer")
+
+
+async def test_beside_each_item_i_see_what_my_checks_have_shown(learner: Any) -> None:
+    async with learner((180, 48)) as me:
+        attempt(me, "i2.1", "validation", "shutdown")
+        await me.press("6")
+        await me.sees("✓ i2.1 validation passed, today", "1 shown by your checks")
+        await me.sees("○ not yet shown by i2.1 runtime-params and timer")
+        await me.sees("○ no check shows this: you are the judge")
+        assert "shutdown passed" not in me.screen()  # the skeleton passes that, too
+        assert "[ ] Refuse parameter values that make no sense" in me.screen()  # ticking is mine alone
+
+        # A check ends, and another terminal ticks something, while I look.
+        lesson = me.desk.course.find("i1.1")
+        judged = tuple(CriterionResult(c.id, c.text, c.bonus, made.GOOD, 1.0) for c in lesson.criteria)
+        await asyncio.to_thread(me.desk.tick, "custom-messages", True)
+        me.main.records.add(ExerciseResult(lesson.id, lesson.title, (), judged, 4.2))
+        await me.sees("✓ i1.1 rate passed, today", "✓ i1.1 shutdown passed, today", "1 of 15 ticked")
+
+
+async def test_in_a_small_terminal_i_tick_everything_and_am_told_what_comes_next(learner: Any) -> None:
+    async with learner((80, 24)) as me:
+        await me.sees("6 Checklist", "q Quit")
+        await me.press("ctrl+p", *"do by now")
+        await me.sees("Tick what you can do by now")
+        await me.press("down", "enter")
+        await me.sees("0 of 15 ticked", "Space Tick", "x Export", "Esc Back")
+        for row in checklist(me).rows:
+            assert me.app.focused is row
+            assert "Ready for Advanced?" not in me.screen()
+            await me.sees(f"[ ] {row.item.text[:40]}")
+            await me.press("space", "down")
+        await me.sees("15 of 15 ticked", "Ready for Advanced?", "Well done!", "URDF", "6 exercises are not passed yet")
+        await me.sees("[✓] Say when two callbacks", "Esc Back")  # the banner hides neither the item nor the keys
+        await me.until(lambda: len(ticks(me)) == 15, "kept")
+        await me.press("x")
+        await me.sees("Export the checklist", "(•) Markdown", "A new file in", "Enter exports")
+        await me.press("enter")
+        await me.sees("Your checklist is in")
+        text = (me.desk.workspace.root / "checklist.md").read_text()
+        assert text.count("- [x] ") == 15
+        assert "## Ready for Advanced?" in text
+        await me.press("space")
+        await me.until(lambda: "Ready for Advanced?" not in me.screen())
+
+
+async def test_i_export_in_each_format_and_no_file_is_replaced_unasked(learner: Any) -> None:
+    async with learner((100, 30)) as me:
+        root: Path = me.desk.workspace.root
+        page = root / "checklist.html"
+        page.write_text("mine")
+        await me.press("6")
+        await me.sees("0 of 15 ticked")
+        await me.press("space", "x")  # the export has the tick, however soon it is asked for
+        await me.sees("(•) Markdown", "checklist.md")
+        await me.press("down")
+        await me.sees("(•) JSON", "checklist.json")
+        await me.press("enter")
+        await me.until(lambda: (root / "checklist.json").exists(), "written")
+        assert json.loads((root / "checklist.json").read_text())["ticked"] == 1
+
+        await me.until(lambda: isinstance(me.app.screen, ChecklistScreen), "back")
+        await me.press("x")
+        await me.sees("(•) Markdown")
+        await me.pilot.click("#format-html")
+        await me.sees("(•) HTML page", "checklist.html", "There already, in")
+        await me.pilot.click("#yes")
+        await me.sees("Replace the file?")
+        await me.press("escape")
+        await me.sees("Export the checklist", "checklist.html")  # asked anew: another name, perhaps
+        assert page.read_text() == "mine"
+        await me.press("enter")
+        await me.sees("Replace the file?")
+        await me.press("enter")
+        await me.until(lambda: page.read_text().startswith("<!DOCTYPE html>"), "replaced")
+
+        # Another place.
+        await me.until(lambda: isinstance(me.app.screen, ChecklistScreen), "back")
+        await me.press("x")
+        await me.sees("(•) Markdown")
+        await me.press(*"no/x.json")
+        await me.sees("(•) JSON", "There is no folder")
+        await me.press("enter")
+        assert isinstance(me.app.screen, ExportScreen)
+        await me.press("ctrl+u", *"y.json", "enter")
+        await me.until(lambda: (root / "y.json").exists(), "written")
