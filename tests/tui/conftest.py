@@ -71,7 +71,7 @@ class Learner:
         try:
             async with asyncio.timeout(LIMIT_S):
                 while not seen():
-                    await self.pilot.pause(0.03)
+                    await asyncio.sleep(0.02)  # the pace of looking; a pause of the pilot's would repaint each time
         except TimeoutError:
             pytest.fail(f"not seen: {what}\n{self.screen()}")
 

@@ -5,8 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+import pytest
+
 from tests.tui import made
 from tutor.tui.widgets.editor import CodeEditor
+from tutor.workspace import keep_aside
 
 
 def backups(path: Path) -> list[str]:
@@ -85,8 +88,29 @@ async def test_changed_on_both_sides_the_learner_takes_the_files_and_theirs_is_a
         await me.sees("version is shown", "theirs = 1")
         assert me.file.read_text() == "theirs = 1\n"
         assert backups(me.file) == ["m" + made.NODE]
+        assert me.editor.cursor_location == (0, 1), "where it was"
         await me.press("x")
-        await me.until(lambda: me.file.read_text() == "xtheirs = 1\n", "and typing goes on")
+        await me.until(lambda: me.file.read_text() == "txheirs = 1\n", "and typing goes on")
+
+
+async def test_what_is_typed_while_the_backup_is_written_is_in_a_backup_too(
+    learner: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    async with learner() as me:
+        editor = await typing(me)
+
+        def meanwhile(path: Path, text: str) -> Path:
+            if text == "m" + made.NODE:
+                me.app.call_from_thread(editor.insert, "ore")
+            return keep_aside(path, text)
+
+        monkeypatch.setattr("tutor.tui.control.files.keep_aside", meanwhile)
+        await me.press("m")
+        me.file.write_text("theirs = 1\n")
+        await me.sees("was changed outside", "Take the file's")
+        await me.press("escape")
+        await me.until(lambda: editor.text == "theirs = 1\n")
+        assert backups(me.file) == ["m" + made.NODE, "more" + made.NODE]
 
 
 async def test_the_looks_at_the_code_and_a_reset_that_keeps_a_backup(learner: Any) -> None:

@@ -161,8 +161,11 @@ async def test_the_code_is_shown_with_line_numbers_and_follows_the_disk(learner:
         path: Path = me.desk.path(me.desk.lessons[0].files[0])
         path.write_text("x = 1\n" + "y = '" + "long " * 60 + "'\n\ttabbed = 'a\x1b[31mb'\n")
         await me.sees("1  x = 1", "2  y = 'long", "3      tabbed = 'a")
+        removed = me.editor
         path.unlink()
         await me.sees("thermometer.py is not in your workspace yet")
+        await me.until(lambda: not removed.is_attached)
+        assert not removed.render_line(0).text.strip(), "painted until the next layout, though its styles are gone"
 
 
 async def test_a_lesson_with_two_files_shows_the_other_one(learner: Any) -> None:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import asyncio
 import signal
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from textual.app import App, SystemCommand
@@ -101,7 +102,8 @@ class TutorApp(App[int]):
         self._leaving = True
         if self.main.busy:
             self.notify("Ending your node and the check. Press q again to leave at once.", timeout=20)
-        self.run_worker(self._leave(self.main), group="leave", exit_on_error=False)
+        leave: Callable[[], Any] = partial(self._leave, self.main)
+        self.run_worker(leave, group="leave", exit_on_error=False)
 
     async def _leave(self, main: MainScreen) -> None:
         try:

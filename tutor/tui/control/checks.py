@@ -71,7 +71,7 @@ class Checks:
         self.running = Checking(lesson.id, desk.check_command(lesson), desk.workspace.root, self._stage.post_message)
         self._tell(self._stage.session.findings[lesson.id].begun())
         self._stage.refresh_bindings()
-        self._stage.run_worker(self._run(self.running), group="check")
+        self._stage.work(self._run, self.running, group="check")
 
     async def _run(self, checking: Checking) -> None:
         await self._files.save_all()

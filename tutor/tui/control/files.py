@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import signal
+from functools import partial
 from pathlib import Path
 
 from textual.timer import Timer
@@ -46,9 +47,8 @@ class Files:
         session.file_index = index
         self._pane.show_names(session.paths, index)
         path = session.path
-        self._stage.run_worker(
-            follow(path, lambda: self._stage.post_message(messages.FileTouched(path))), group="file", exclusive=True
-        )
+        tell = partial(self._stage.post_message, messages.FileTouched(path))
+        self._stage.work(follow, path, tell, group="file", exclusive=True)
 
     def next_file(self) -> None:
         """Show the lesson's other file."""
@@ -62,7 +62,7 @@ class Files:
         if message.path in paths:
             self.show(paths.index(message.path))
             self._stage.show_page("code")
-            self._stage.run_worker(self._go_to(message), group="show-line", exclusive=True)
+            self._stage.work(self._go_to, message, group="show-line", exclusive=True)
 
     async def _go_to(self, message: messages.GoToLine) -> None:
         await self.look(message.path)
@@ -72,7 +72,7 @@ class Files:
 
     def touched(self, message: messages.FileTouched) -> None:
         """Look at it anew."""
-        self._stage.run_worker(self.look(message.path), group="look")
+        self._stage.work(self.look, message.path, group="look")
 
     async def look(self, path: Path) -> None:
         """Bring the editor and the disk together now."""
@@ -124,6 +124,12 @@ class Files:
             return
         mine = await self._stage.app.push_screen_wait(ConflictScreen(path.name, backup.name, ours, theirs))
         if not mine:
+            if (typed := self._pane.text(path)) != ours:  # while the backup was written, before the question was there
+                try:
+                    backup = await asyncio.to_thread(keep_aside, path, typed)
+                except StorageError as error:
+                    self._stage.trouble(f"Nothing was changed: yours cannot be kept beside it: {error}")
+                    return
             self._disk[path] = theirs
             await self._pane.show_source(path, theirs, visible=path == self._stage.session.path)
             self._stage.say(f"The file's version is shown. Yours is kept as {backup.name}.", warn=True)
@@ -148,7 +154,7 @@ class Files:
 
     def _save_soon(self) -> None:
         self._autosave = None
-        self._stage.run_worker(self.save_all(), group="save")
+        self._stage.work(self.save_all, group="save")
 
     async def save(self) -> None:
         """Save by hand: what happens on each save happens now."""
@@ -161,10 +167,14 @@ class Files:
     async def save_all(self) -> bool:
         """Save whatever is not; whether all is saved now."""
         async with self._lock:
-            for path in self._pane.changed():
-                await self._write(path, self._disk.get(path))
+            await self._write_changed()
         self._pane.show_saved()
         return not self._pane.changed()
+
+    async def _write_changed(self) -> None:
+        """Write what was typed; the lock is held."""
+        for path in self._pane.changed():
+            await self._write(path, self._disk.get(path))
 
     async def _write(self, path: Path, expected: str | None) -> None:
         text = self._pane.text(path)
@@ -197,7 +207,7 @@ class Files:
 
     def start(self) -> None:
         """Put the skeletons there."""
-        self._stage.run_worker(self._start(self._stage.session.lesson), group="start", exclusive=True)
+        self._stage.work(self._start, self._stage.session.lesson, group="start", exclusive=True)
 
     async def _start(self, lesson: Lesson) -> None:
         try:
@@ -254,20 +264,22 @@ class Files:
         self._stage.ask(f"Reset {name}", text, "Reset", self._reset)
 
     def _reset(self) -> None:
-        self._stage.run_worker(self._reset_now(), group="start", exclusive=True)
+        self._stage.work(self._reset_now, group="start", exclusive=True)
 
     async def _reset_now(self) -> None:
         session = self._stage.session
         file, path = session.file, session.path
-        await self.save_all()
-        try:
-            placed = await asyncio.to_thread(session.desk.reset, file)
-            text = await asyncio.to_thread(read_source, path)
-        except (WorkspaceError, StorageError) as error:
-            self._stage.trouble(str(error))
-            return
-        if text is not None:
-            async with self._lock:
+        async with self._lock:  # nobody looks at the file between its two versions
+            await self._write_changed()
+            if self._pane.is_changed(path):
+                return  # it could not be saved, which was told: what was typed is nowhere else
+            try:
+                placed = await asyncio.to_thread(session.desk.reset, file)
+                text = await asyncio.to_thread(read_source, path)
+            except (WorkspaceError, StorageError) as error:
+                self._stage.trouble(str(error))
+                return
+            if text is not None:
                 self._disk[path] = text
                 await self._pane.show_source(path, text, visible=path == session.path)
         where = f" Yours is kept as {words.short(placed.backups[0])}." if placed.backups else ""

@@ -95,7 +95,7 @@ class Nodes:
     def _start(self, lesson: Lesson, file: LessonFile) -> None:
         path = self._stage.session.desk.path(file)
         self._wanted[path] = self._wanted.get(path, 0) + 1
-        self._stage.run_worker(self._run(lesson, file, path, self._wanted[path]), group="node")
+        self._stage.work(self._run, lesson, file, path, self._wanted[path], group="node")
 
     async def _run(self, lesson: Lesson, file: LessonFile, path: Path, number: int) -> None:
         session = self._stage.session

@@ -54,7 +54,7 @@ class Records:
         self._stage.app.push_screen(AttemptsScreen(session.lesson, session.progress.of(session.lesson.id)))
 
     def _work(self, change: Callable[..., Progress], *given: Any) -> None:
-        self._stage.run_worker(self.change(change, *given), group="progress")
+        self._stage.work(self.change, change, *given, group="progress")
 
     async def change(self, change: Callable[..., Progress], *given: Any) -> None:
         """Change the progress on the disk, and tell what it is then; where that fails, what it was."""

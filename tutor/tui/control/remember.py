@@ -20,6 +20,7 @@ class Memory:
     def __init__(self, stage: Stage) -> None:
         self._stage = stage
         self._timer: Timer | None = None
+        self._writing = asyncio.Lock()
         self._kept = stage.session.state
 
     def note(self, **changes: Any) -> None:
@@ -37,17 +38,18 @@ class Memory:
 
     def _due(self) -> None:
         self._timer = None
-        self._stage.run_worker(self.flush(), group="state")
+        self._stage.work(self.flush, group="state")
 
     async def flush(self) -> None:
         """Write it now, if anything has changed."""
         session = self._stage.session
-        state = session.state
-        if state == self._kept:
-            return
-        try:
-            await asyncio.to_thread(session.desk.keep, state)
-            self._kept = state
-        except StorageError as error:
-            self._kept = state  # told once, not at every change
-            self._stage.trouble(f"The app cannot remember this: {error}")
+        async with self._writing:  # two writes at once would take each other's temporary file away
+            state = session.state
+            if state == self._kept:
+                return
+            try:
+                await asyncio.to_thread(session.desk.keep, state)
+                self._kept = state
+            except StorageError as error:
+                self._kept = state  # told once, not at every change
+                self._stage.trouble(f"The app cannot remember this: {error}")

@@ -57,7 +57,7 @@ class Views:
         self._stage.ask(f"Solution of {words.label(lesson)}", text, "Show it", unveil)
 
     def _show(self, view: View) -> None:
-        self._stage.run_worker(self._show_now(view), group="view", exclusive=True)
+        self._stage.work(self._show_now, view, group="view", exclusive=True)
 
     async def _show_now(self, view: View) -> None:
         from tutor.tui.diffing import count, difference

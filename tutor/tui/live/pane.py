@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from textual import events, on
 from textual.app import ComposeResult
@@ -108,7 +109,8 @@ class LivePane(Vertical):
         """Start the child process that watches, unless it runs."""
         if self._worker is None:
             self._command, self._broken = command, ""
-            self._worker = self.run_worker(self._watch(command), group="live", exit_on_error=False)
+            watch: Callable[[], Any] = partial(self._watch, command)
+            self._worker = self.run_worker(watch, group="live", exit_on_error=False)
             if self._composed:
                 self._show_standing()
 

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Awaitable, Callable
+from collections.abc import Awaitable, Callable, Coroutine
 from dataclasses import dataclass
+from functools import partial
+from typing import Any
 
 from textual.screen import Screen
 
@@ -41,6 +43,14 @@ class Stage(Screen[None]):
     def remembered(self) -> None:
         """What is remembered has changed: show what of it is to be seen."""
         raise NotImplementedError
+
+    def work(
+        self, work: Callable[..., Coroutine[Any, Any, object]], *given: Any, group: str, exclusive: bool = False
+    ) -> None:
+        """Do this beside the screen."""
+        # Given a coroutine, run_worker leaves it behind, never awaited, where the screen closes before it begins.
+        begun: Callable[[], Any] = partial(work, *given)
+        self.run_worker(begun, group=group, exclusive=exclusive)
 
     def trouble(self, text: str) -> None:
         """Tell that something could not be done."""

@@ -9,6 +9,7 @@ from typing import ClassVar
 from rich.style import Style
 from textual import events
 from textual.binding import Binding, BindingType
+from textual.strip import Strip
 from textual.theme import Theme
 from textual.widgets import TextArea
 from textual.widgets.text_area import TextAreaTheme
@@ -109,6 +110,10 @@ class CodeEditor(TextArea):
         row = max(0, min(line, self.document.line_count) - 1)
         text = self.document[row]
         self.move_cursor((row, len(text) - len(text.lstrip())), center=True)
+
+    def render_line(self, y: int) -> Strip:
+        """A line; empty once the editor is removed: it may be painted until the next layout, without its styles."""
+        return super().render_line(y) if self.is_attached else Strip.blank(self.size.width)
 
     def on_key(self, event: events.Key) -> None:
         """Indentation, as Python wants it; Esc leaves."""
