@@ -12,7 +12,8 @@ from tutor.judge import causes
 from tutor.judge.trace import Level
 from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped
 
-Kind = tuple[int, str]
+SETTLED = 2
+"""What is said of a jump is said before so many more messages have come."""
 
 
 def judge_restart(restart: Feeding, steady: Feeding, jump: Feeding) -> Verdict:
@@ -85,12 +86,34 @@ def judge_gaps(jump: Feeding, steady: Feeding) -> Verdict:
     at = jump.sent[jump.breaks]
     told = said(jump, since=at.at, usual=(steady,))
     observed = f"N jumped from {jump.sent[jump.breaks - 1].number} to {at.number}"
+    if told and (again := _goes_on(told, jump)):
+        cause = Cause(
+            "false alarm",
+            f"it still says so when N rises by one again: {again[-1].text}",
+            "set self.last_number = number for each message, whether there was a gap or not",
+        )
+        return failed(expected, observed, cause, [line.text for line in again[:6]])
     if told:
         return passed(expected, observed, [line.text for line in told[:3]])
     since = [line for line in jump.lines if line.messages > jump.breaks]
     return failed(
         expected, f"{observed}; nothing new was logged", _why_unsaid(jump, steady), [line.text for line in since[:6]]
     )
+
+
+def _goes_on(told: Sequence[Line], jump: Feeding) -> list[Line]:
+    """The alarms that come with most of the messages after the jump: warnings, or of ever more missing messages."""
+    later = [line for line in told if line.messages > jump.breaks + SETTLED]
+    expected = jump.sent[jump.breaks - 1].number + 1
+    growing = [
+        line
+        for line in later
+        if any(number.value == jump.sent[line.messages - 1].number - expected for number in line.numbers)
+    ]
+    for alarms in (growing, [line for line in later if line.level >= Level.WARN]):
+        if len({line.messages for line in alarms}) > 0.7 * (len(jump.sent) - jump.breaks - SETTLED):
+            return alarms
+    return []
 
 
 def _of_end(feeding: Feeding, what: str) -> Cause:

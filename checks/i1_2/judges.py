@@ -45,19 +45,29 @@ def true_total(report: Report, feeding: Feeding, *, before: int = 0) -> int:
     One that comes later than its message must also quote the message that it has counted last. Then it may be as late
     as it likes: that is no matter of the count.
     """
-    recent = {each.number for each in feeding.sent[before + 1 : report.until]}
-    quoted = list(report.quoted)
-    for first in {feeding.sent[0].number, feeding.sent[before].number}.intersection(quoted):
-        quoted.remove(first)  # a new publisher sends some numbers once more
-    mentioned = recent.intersection(quoted)
     true = totals(report, feeding, before=before)
     for total in true:
         late = report.messages > before + total
-        if report.states(total) and (not late or mentioned <= {feeding.sent[before + total - 1].number}):
+        if report.states(total) and (not late or _made_at(before + total, report, feeding, before=before) is not False):
             return total
     before_that = {*range(EVERY, true.start, EVERY), *range(max(1, true.start - EVERY), true.start)}
     held_back = [total for total in sorted(before_that) if report.states(total)]
-    return next((total for total in held_back if mentioned == {feeding.sent[before + total - 1].number}), 0)
+    return next((t for t in held_back if _made_at(before + t, report, feeding, before=before)), 0)
+
+
+def _made_at(messages: int, report: Report, feeding: Feeding, *, before: int) -> bool | None:
+    """Whether what it quotes had come after so many messages, the last of them too; None where it quotes nothing recent.
+
+    A new publisher sends some numbers once more: what was there before is none of the newer ones.
+    """
+    sent, quoted = feeding.sent, list(report.quoted)
+    old = {each.number for each in sent[:messages]}
+    newer = {each.number for each in sent[messages : report.until]} - old
+    for first in {sent[0].number, sent[before].number}.intersection(quoted):
+        quoted.remove(first)
+    if not {each.number for each in sent[before + 1 : report.until]}.intersection(quoted):
+        return None
+    return sent[messages - 1].number in quoted and not newer.intersection(quoted)
 
 
 def _why_miscounted(report: Report, feeding: Feeding) -> Cause:

@@ -357,6 +357,22 @@ class LostSoFar(Delivered):
         yield from Counter.summary(self)
 
 
+class AllOfThem(Counter):
+    """The summary quotes every message."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.all: list[str] = []
+
+    def heard(self, data: str) -> Iterator[Log]:
+        self.all.append(data)
+        yield from ()
+
+    def summary(self) -> Iterator[Log]:
+        for level, text in super().summary():
+            yield level, f"{text} all={self.all}"
+
+
 class NumbersItsRuns(Restarting):
     """The summary says which run it is of; nothing else tells of a restart."""
 
@@ -374,7 +390,7 @@ class NumbersItsRuns(Restarting):
 
 
 RIGHT = (
-    Delivered, OfExpected, LostSoFar, NumbersItsRuns, Counter, Restarting, RestartsInTheSummary, GapCount,
+    AllOfThem, Delivered, OfExpected, LostSoFar, NumbersItsRuns, Counter, Restarting, RestartsInTheSummary, GapCount,
     MissedCount, LossPercent, LossShare, LargestStep, GapWords, GapAtTheStart, Noisy, OneLineEach, LevelsMixed,
     NoisyAndLong, LastSecond, LastTwoSeconds, LastTen, LastInterval, Intervals, Rounded, Scientific, WithClock,
     WithThousands, Anniversary,
@@ -589,6 +605,26 @@ class TakesForRepeated(Counter):
             yield from super().take(now, data)
 
 
+class NeverGetsOverIt(Counter):
+    """Keeps the last number only where there was no gap: from the jump on, each message is one."""
+
+    level: int = 30
+
+    def take(self, now: float, data: str) -> Iterator[Log]:
+        before = self.number
+        yield from super().take(now, data)
+        if before is not None and self.number is not None and self.number > before + 1:
+            self.number = before
+
+    def jumped(self, last: int, number: int) -> Iterator[Log]:
+        for _, text in super().jumped(last, number):
+            yield self.level, text
+
+
+class NeverGetsOverItQuietly(NeverGetsOverIt):
+    level: int = 20
+
+
 class ResetsAtAGap(Counter):
     """A jump is no restart: the total is no total any more."""
 
@@ -694,6 +730,8 @@ class AgainAfterASecond(Counter):
         (SilentResetWithGapCount, "restart", "starts over silently"),
         (TakesForRepeated, "restart", "stopped counting"),
         (Stubborn, "restart", "stopped counting"),
+        (NeverGetsOverIt, "gaps", "false alarm"),
+        (NeverGetsOverItQuietly, "gaps", "false alarm"),
         (ResetsAtAGap, "count", "wrong count"),
         (StopsAtAGap, "summary", "missing summary"),
         (Twice, "summary", "too many summaries"),
