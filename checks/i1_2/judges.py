@@ -56,7 +56,7 @@ def true_total(report: Report, feeding: Feeding, *, before: int = 0) -> int:
 
 
 def _made_at(messages: int, report: Report, feeding: Feeding, *, before: int) -> bool | None:
-    """Whether what it quotes had come after so many messages, the last of them too; None where it quotes nothing recent.
+    """Whether what it quotes had come by then, the last of so many messages too; None where it quotes nothing recent.
 
     A new publisher sends some numbers once more: what was there before is none of the newer ones.
     """
