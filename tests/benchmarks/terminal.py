@@ -7,6 +7,7 @@ import os
 import pty
 import re
 import select
+import signal
 import struct
 import termios
 import time
@@ -57,6 +58,15 @@ class Terminal:
         while (left := deadline - time.perf_counter()) > 0:
             self.read(left)
             self._seen = b""
+
+    def kill(self) -> None:
+        """SIGKILL. The terminal itself stays open, as the learner's would; `let_go` closes it."""
+        os.kill(self.pid, signal.SIGKILL)
+        os.waitpid(self.pid, 0)
+
+    def let_go(self) -> None:
+        """Close the terminal."""
+        os.close(self._fd)
 
     def close(self) -> None:
         """Quit, and wait for it."""

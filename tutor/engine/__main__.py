@@ -15,6 +15,7 @@ from pathlib import Path
 from tutor.content import ContentError, UnknownExercise, load_course
 from tutor.engine import EngineError, check
 from tutor.judge.events import Event, encode
+from tutor.live.lifeline import die_with_parent
 from tutor.workspace import SubmissionError, find_submission
 
 
@@ -36,13 +37,18 @@ def main() -> int:
         print(error, file=sys.stderr)
         return 2
     only = frozenset(arguments.criterion) if arguments.criterion else None
-
-    def show(event: Event) -> None:
-        print(encode(event), flush=True)
+    die_with_parent(signal.SIGINT)  # an app that is killed takes its check along; SIGINT is what ends one cleanly
 
     async def judge() -> None:
-        task = asyncio.ensure_future(check([submission], course, only=only, on_event=show))
         loop = asyncio.get_running_loop()
+
+        def show(event: Event) -> None:
+            try:
+                print(encode(event), flush=True)
+            except BrokenPipeError:  # nobody is there any more: all that is left to do is to clean up
+                task.cancel()
+
+        task = asyncio.ensure_future(check([submission], course, only=only, on_event=show))
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             loop.add_signal_handler(number, task.cancel)
         await task

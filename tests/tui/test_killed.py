@@ -1,0 +1,136 @@
+"""The app, killed: in a terminal of its own, with real nodes and checks. Nothing is left behind, nothing is lost."""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+import time
+import uuid
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+from tests.benchmarks.terminal import Terminal
+from tests.tui import made
+from tutor.content import load_course
+from tutor.process.warden import processes
+from tutor.ros.domain import reserve_domain
+from tutor.workspace import Progress, Workspace, start
+
+APP = "import sys; from tutor.cli import main; sys.exit(main())"
+LIMIT_S = 40.0
+GONE_S = 10.0
+"""A check that went on to its end would take longer."""
+
+
+class Killed:
+    """A learner who has passed the first exercise, and their app."""
+
+    def __init__(self, folder: Path, domain: int) -> None:
+        self.token = f"KILLED_TOKEN={uuid.uuid4().hex}"
+        lesson = load_course().lessons[0]
+        self.workspace = Workspace(folder / "ws")
+        start(lesson, self.workspace)
+        self.file = self.workspace.path_of(lesson.files[0].name)
+        self.file.write_bytes(lesson.files[0].solution.read_bytes())
+        passed = made.whole(lesson, made.GOOD)[-2]
+        assert isinstance(passed, ExerciseJudged)
+        self.before = self.workspace.progress().change(
+            lambda progress: progress.with_attempt(passed.result, whole=True)
+        )
+        env = {**os.environ, "ROS_DOMAIN_ID": str(domain), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
+        name, _, value = self.token.partition("=")
+        argv = [sys.executable, "-c", APP, "--workspace", str(self.workspace.root)]
+        self.app = Terminal(argv, {**env, name: value})
+        self.app.until(b"1 of 6 passed")
+
+    def running(self) -> dict[int, str]:
+        """The living processes of this app, itself too, by what started them."""
+        found = {}
+        for pid, process in processes().items():
+            try:
+                if process.alive and self.token.encode() in Path(f"/proc/{pid}/environ").read_bytes().split(b"\0"):
+                    found[pid] = Path(f"/proc/{pid}/cmdline").read_bytes().replace(b"\0", b" ").decode()
+            except OSError:
+                continue
+        return found
+
+    def runs(self, *parts: str) -> bool:
+        """Whether there is a process for each of these."""
+        running = self.running().values()
+        return all(any(part in line for line in running) for part in parts)
+
+    def until(self, true: Callable[[], bool], what: str) -> None:
+        """Wait until this is so; the app draws meanwhile."""
+        deadline = time.monotonic() + LIMIT_S
+        while not true():
+            assert time.monotonic() < deadline, f"waited in vain for {what}; there are {self.running()}"
+            self.app.read(0.02)
+
+    def is_killed(self) -> None:
+        """Kill the app, and wait until no process of it is left."""
+        self.app.kill()
+        deadline = time.monotonic() + GONE_S
+        while left := self.running():
+            assert time.monotonic() < deadline, f"left behind: {left}"
+            time.sleep(0.01)
+
+    def progress(self) -> Progress:
+        """What the progress file holds; a damaged one fails the test."""
+        return self.workspace.progress(pytest.fail).read()
+
+    def close(self) -> None:
+        for pid in self.running():
+            os.kill(pid, signal.SIGKILL)
+        self.app.let_go()
+
+
+@pytest.fixture
+def learner(tmp_path: Path) -> Iterator[Killed]:
+    with reserve_domain() as domain:
+        learner = Killed(tmp_path, domain)
+        try:
+            yield learner
+        finally:
+            learner.close()
+
+
+def test_while_the_node_runs_and_is_watched_with_an_edit_on_its_way(learner: Killed) -> None:
+    learner.app.press(b"4")
+    learner.until(lambda: learner.runs("tutor.live"), "the watching process")
+    learner.app.press(b"r")
+    learner.app.until(b"publishes 2.0")
+    assert learner.runs("temperature_publisher.py", "tutor.live")
+    whole = learner.file.read_text()
+    learner.app.press(b"e")
+    learner.app.until(b"Commands")
+    learner.app.press(b"# new")
+    learner.is_killed()
+    assert learner.file.read_text() in (whole, "# new" + whole)
+    assert learner.progress() == learner.before
+
+
+def test_while_a_check_runs_right_after_a_save(learner: Killed) -> None:
+    whole = learner.file.read_text()
+    learner.app.press(b"e")
+    learner.app.until(b"Commands")
+    learner.app.press(b"# new\r\x13")
+    learner.app.until(b"is saved.")
+    learner.app.press(b"\x1b[20~")  # F9
+    learner.until(lambda: learner.runs("tutor.engine", "temperature_publisher.py"), "the check's nodes")
+    learner.is_killed()
+    assert learner.file.read_text() == "# new\n" + whole
+    assert learner.progress() == learner.before
+
+
+def test_the_moment_a_save_or_a_check_begins(learner: Killed) -> None:
+    whole = learner.file.read_text()
+    learner.app.press(b"e")
+    learner.app.until(b"Commands")
+    learner.app.press(b"# new\r\x13\x1b[20~")
+    learner.until(lambda: learner.file.read_text() != whole, "the save")
+    learner.is_killed()
+    assert learner.file.read_text() == "# new\n" + whole
+    assert learner.progress() == learner.before
