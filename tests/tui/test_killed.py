@@ -15,6 +15,7 @@ import pytest
 from tests.benchmarks.terminal import Terminal
 from tests.tui import made
 from tutor.content import load_course
+from tutor.judge.events import ExerciseJudged
 from tutor.process.warden import processes
 from tutor.ros.domain import reserve_domain
 from tutor.workspace import Progress, Workspace, start
