@@ -149,9 +149,9 @@ def test_a_solved_lesson_is_run_and_really_checked(tmp_path: Path, env: dict[str
 
 
 def test_ctrl_c_is_130_at_the_prompt_and_during_a_check(tmp_path: Path, env: dict[str, str]) -> None:
-    def stopped(typed: str, until: str, *arguments: str) -> str:
+    def stopped(program: str, typed: str, until: str, *arguments: str) -> str:
         with subprocess.Popen(
-            [sys.executable, "-c", WITH_FAKE_ENGINE, "--plain", *arguments],
+            [sys.executable, "-c", program, "--plain", *arguments],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             text=True,
@@ -168,8 +168,8 @@ def test_ctrl_c_is_130_at_the_prompt_and_during_a_check(tmp_path: Path, env: dic
             assert talk.wait(LIMIT_S) == 130
         return said
 
-    assert stopped("", "help says what else").endswith("Stopped; nothing that was started is left.\n")
-    said = stopped(says("start", "check"), "begun", "--slow")
+    assert stopped(PROGRAM, "", "help says what else").endswith("Stopped; nothing that was started is left.\n")
+    said = stopped(WITH_FAKE_ENGINE, says("start", "check"), "begun", "--slow")
     assert said == "cleaned up\n\nStopped; nothing that was started is left.\n"
 
 

@@ -52,7 +52,7 @@ async def test_one_lesson_in_a_browser(tmp_path: Path) -> None:
         async with browser(tmp_path) as page:
             await page.do("Page.navigate", url=address)
             await page.sees("Press Enter")
-            await page.press_for("publishes", "Enter")  # the workspace is there, and the criteria are shown
+            await page.press_for("Float64 messages arrive", "Enter")  # the workspace is there, and the criteria are shown
             assert workspace.progress().read().of("i1.1").started_at
 
             node.write_text(lesson.files[0].solution.read_text())
@@ -77,9 +77,14 @@ async def test_one_lesson_in_a_browser(tmp_path: Path) -> None:
             assert "i1.1" in text
             assert "passed" in text
 
+            await page.press_for("6 of 6 passed", "Escape")
+            await page.press("r")
+            await until(lambda: runs(node), "the node runs")
+
             elsewhere = [url for url in page.requested if not url.startswith((address, address.replace("http", "ws")))]
             assert elsewhere == []
             assert not [said for said in page.complaints if "WebGL" not in said]
+        await until(lambda: not runs(node), "a page that is closed takes its node along")
         server.send_signal(signal.SIGINT)
         async with asyncio.timeout(LIMIT_S):
             await server.communicate()
