@@ -138,7 +138,7 @@ def test_evidence_is_said_in_one_phrase_for_each_exercise_and_day() -> None:
     ]
     assert say_evidence(found, calendar_day, most=1) == [
         "i2.1 defaults, timer and validation passed, 2026-01-03",
-        "and 2 more",
+        "2 more",
     ]
 
 

@@ -24,7 +24,11 @@ h2 { margin: 2rem 0 .5rem; padding-bottom: .25rem; border-bottom: 1px solid var(
 h2 small, .evidence { color: var(--quiet); font-size: .875rem; font-weight: normal; }
 ul { margin: 0; padding: 0; list-style: none; }
 li { margin: .5rem 0; padding-left: 1.75rem; break-inside: avoid; }
-input { float: left; margin: .3rem 0 0 -1.75rem; width: 1rem; height: 1rem; accent-color: var(--good); }
+input { appearance: none; float: left; box-sizing: border-box; width: 1.1rem; height: 1.1rem;
+  margin: .2rem 0 0 -1.75rem; border: 1.5px solid var(--quiet); border-radius: .2rem; }
+input:checked { border-color: var(--good); }
+input:checked::before { content: "✓"; display: block; text-align: center; font-size: 1rem; line-height: .9rem;
+  font-weight: bold; color: var(--good); }
 .evidence { display: block; }
 progress { width: 100%; height: .75rem; accent-color: var(--good); }
 .ready { margin-top: 2rem; padding: 0 1rem; border: 2px solid var(--good); border-radius: .5rem; }

@@ -41,7 +41,7 @@ def say_evidence(evidence: Sequence[Evidence], day: Day, most: int | None = None
     ]
     if most is None or len(phrases) <= most:
         return phrases
-    return [*phrases[:most], f"and {len(phrases) - most} more"]
+    return [*phrases[:most], f"{len(phrases) - most} more"]
 
 
 def say_sources(sources: Sequence[Source]) -> list[str]:

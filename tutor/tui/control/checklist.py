@@ -52,13 +52,13 @@ class ChecklistDesk:
             self._screen.show(assess(self._stage.session.desk.course, progress))
 
     def _theme(self) -> None:
-        self._stage.run_worker(self._stage.run_action("do('theme')"))
+        self._stage.work(self._stage.run_action, "do('theme')", group="theme")
 
     # --- ticks ---
 
     def _tick(self, item: str, ticked: bool) -> None:
         self._keeping += 1
-        self._stage.run_worker(self._keep(item, ticked), group="progress")
+        self._stage.work(self._keep, item, ticked, group="progress")
 
     async def _keep(self, item: str, ticked: bool) -> None:
         try:
@@ -77,7 +77,7 @@ class ChecklistDesk:
 
         def answered(answer: tuple[str, Path] | None) -> None:
             if answer is not None:
-                self._stage.run_worker(self._write(*answer), group="progress")
+                self._stage.work(self._write, *answer, group="progress")
 
         self._stage.app.push_screen(ExportScreen(self._stage.session.desk.workspace.root, format, file), answered)
 
@@ -96,7 +96,7 @@ class ChecklistDesk:
 
         def answered(yes: bool | None) -> None:
             if yes:
-                self._stage.run_worker(self._write(format, path, replace=True), group="progress")
+                self._stage.work(self._write, format, path, True, group="progress")
             else:
                 self._ask(format, path)
 
