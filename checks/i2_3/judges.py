@@ -5,6 +5,7 @@ from __future__ import annotations
 from checks.i2_3 import causes as why
 from checks.i2_3.facts import (
     ANSWER_S,
+    BESIDE,
     CALLS,
     EXCUSED_S,
     IN_TURN,
@@ -125,7 +126,7 @@ def judge_parallel(one: Lone, several: Trio) -> Verdict:
     if any(three.took_s < PARALLEL * one_s + min(three.starved_s, EXCUSED_S) for three in several.made):
         return passed(expected, observed)
     not_in_turn = [three for three in several.made if three.took_s < IN_TURN * one_s]
-    if any(three.took_s - three.starved_s < PARALLEL * one_s for three in not_in_turn):
+    if any(three.took_s - three.starved_s < BESIDE * one_s for three in not_in_turn):
         raise MachineTooBusy("this machine is too busy to time three calls at once")
     cause = Cause(
         "one call at a time",

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import Enum
 from itertools import pairwise
 
-from checks.i2_3.ticks import Series, hz_of
+from checks.i2_3.ticks import Series
 from tutor.judge.rates import TOLERANCE
 from tutor.judge.trace import LogRecord
 
@@ -63,7 +63,7 @@ def during(
     least = (1 - TOLERANCE) * max(0.0, for_s - starved_s) / series.interval_s - 1
     most = (1 + TOLERANCE) * expected + 1
     told = len(around) > 1 and around[-1].stamp - around[0].stamp >= 0.5 * for_s > 0.5
-    hz = hz_of(around) if told else None
+    hz = series.hz_in(around) if told else None
     fault = None
     if longest > allowed:
         fault = Fault.GAP

@@ -67,7 +67,11 @@ class Series:
     @property
     def hz(self) -> float:
         """Ticks in a second: by the tick's number, or where there is none, by the messages."""
-        return hz_of(self.ticks)
+        return self.hz_in(self.ticks)
+
+    def hz_in(self, ticks: Sequence[Tick]) -> float:
+        """The same of other messages of this series."""
+        return hz_of(ticks, starts_over=self.key.kind != "function")
 
     @property
     def is_10_hz(self) -> bool:
@@ -185,17 +189,18 @@ def _some(series: Series | None) -> list[Series]:
     return [] if series is None else [series]
 
 
-def hz_of(ticks: Sequence[Tick]) -> float:
+def hz_of(ticks: Sequence[Tick], *, starts_over: bool = True) -> float:
     """Ticks in a second, from the first message to the last: by the numbers in them, or by their count.
 
-    Where the number starts over, nobody knows how many ticks there were, and that interval is left out.
+    Where the number `starts_over`, nobody knows how many ticks there were, and that interval is left out. In messages
+    of other words, one that does is another number.
     """
     if any(tick.number is None for tick in ticks):
         return _per_second([(b.stamp - a.stamp, 1.0) for a, b in pairwise(ticks)])
     steps = [(b.stamp - a.stamp, (b.number or 0.0) - (a.number or 0.0)) for a, b in pairwise(ticks)]
     down = sum(step < 0 for _, step in steps) > len(steps) / 2
     steps = [(for_s, -step if down else step) for for_s, step in steps]
-    return abs(_per_second([(for_s, step) for for_s, step in steps if step >= -STARTS_OVER]))
+    return abs(_per_second([(for_s, step) for for_s, step in steps if step >= -STARTS_OVER or not starts_over]))
 
 
 def _per_second(steps: Sequence[tuple[float, float]]) -> float:
