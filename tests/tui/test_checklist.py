@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from textual.widgets import Input
 
 from tests.tui import made
 from tests.tui.conftest import Learner
@@ -173,3 +174,11 @@ async def test_i_export_in_each_format_and_no_file_is_replaced_unasked(learner: 
         assert isinstance(me.app.screen, ExportScreen)
         await me.press("ctrl+u", *"y.json", "enter")
         await me.until(lambda: (root / "y.json").exists(), "written")
+
+        # A name that no disk takes.
+        await me.until(lambda: isinstance(me.app.screen, ChecklistScreen), "back")
+        await me.press("x")
+        await me.sees("(•) Markdown")
+        me.app.screen.query_one(Input).value = "n" * 300
+        await me.press("enter")
+        await me.sees("Your checklist is not written")

@@ -126,7 +126,7 @@ class Desk:
         from tutor.report.assessment import assess
         from tutor.report.checklist import render_checklist
 
-        if path.exists() and not replace:
+        if os.path.exists(path) and not replace:  # Path.exists fails on what may not be looked at
             return False
         write_atomically(path, render_checklist(assess(self.course, self.progress()), format, at=now()))
         return True

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 from typing import ClassVar
 
@@ -97,7 +98,7 @@ class ExportScreen(Dialog[tuple[str, Path]]):
         place = words.short(self.path.parent)
         if problem := self._problem():
             text = Content.assemble(("! ", "bold $warn"), (problem, "$warn"))
-        elif self.path.exists():
+        elif os.path.exists(self.path):
             text = Content.styled(f"There already, in {place}: you will be asked before it is replaced.", "$warn")
         else:
             text = Content.styled(f"A new file in {place}", "$quiet")
@@ -106,9 +107,10 @@ class ExportScreen(Dialog[tuple[str, Path]]):
     def _problem(self) -> str:
         """What is wrong with the file, or nothing."""
         path = self.path
-        if not self.query_one(Input).value.strip() or path.is_dir():
+        # Not Path.is_dir and its kin: they raise where a folder may not be looked into.
+        if not self.query_one(Input).value.strip() or os.path.isdir(path):
             return "Give the name of a file."
-        if not path.parent.is_dir():
+        if not os.path.isdir(path.parent):
             return f"There is no folder {words.short(path.parent)}."
         return ""
 
