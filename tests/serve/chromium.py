@@ -24,6 +24,7 @@ _QUIET = (
     "--headless",
     "--no-sandbox",
     "--disable-gpu",
+    "--disable-3d-apis",  # drawn in software they would cost more than all the rest
     "--disable-dev-shm-usage",
     "--disable-background-networking",
     "--disable-component-update",

@@ -52,7 +52,9 @@ async def test_one_lesson_in_a_browser(tmp_path: Path) -> None:
         async with browser(tmp_path) as page:
             await page.do("Page.navigate", url=address)
             await page.sees("Press Enter")
-            await page.press_for("Float64 messages arrive", "Enter")  # the workspace is there, and the criteria are shown
+            await page.press_for(
+                "Float64 messages arrive", "Enter"
+            )  # the workspace is there, and the criteria are shown
             assert workspace.progress().read().of("i1.1").started_at
 
             node.write_text(lesson.files[0].solution.read_text())
@@ -65,7 +67,7 @@ async def test_one_lesson_in_a_browser(tmp_path: Path) -> None:
             await until(lambda: workspace.progress().read().of("i1.1").attempts, "the check is over")
             assert workspace.progress().read().of("i1.1").best is Status.PASSED
 
-            await page.press_for("Self-assessment", "6")
+            await page.press_for("Tick", "6")  # the footer says it once an item has the focus
             await page.press(" ")
             await until(lambda: workspace.progress().read().ticks, "an item is ticked")
             await page.press_for("Export the checklist", "x")
@@ -83,7 +85,7 @@ async def test_one_lesson_in_a_browser(tmp_path: Path) -> None:
 
             elsewhere = [url for url in page.requested if not url.startswith((address, address.replace("http", "ws")))]
             assert elsewhere == []
-            assert not [said for said in page.complaints if "WebGL" not in said]
+            assert page.complaints == []
         await until(lambda: not runs(node), "a page that is closed takes its node along")
         server.send_signal(signal.SIGINT)
         async with asyncio.timeout(LIMIT_S):
