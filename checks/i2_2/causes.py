@@ -8,11 +8,13 @@ from collections.abc import Sequence
 from checks.i2_2.facts import ARGUMENTS, FILE, NAMESPACE, Launched, publishers, shared, subscriptions, used
 from checks.i2_2.processes import Gone, by_stream, gone, writers, written_by
 from tutor.judge import causes, tracebacks
+from tutor.judge.bench import OnlyWithRos
 from tutor.judge.trace import Endpoint, Trace
 from tutor.judge.verdict import Cause
 
 _NO_PACKAGE = re.compile(r"package '(?P<name>[^']*)' not found", re.IGNORECASE)
 _NO_PROGRAM = re.compile(r"executable '(?P<name>[^']*)' not found (?:in|on)[^\n]*")
+_NOT_HERE = re.compile(r"\S+ is not supported by the launch files that run without an installed ROS 2")
 _NO_FILE = re.compile(r"FileNotFoundError|No such file or directory|\[Errno 2\]")
 _NO_FUNCTION = re.compile(r"required function '?generate_launch_description|no attribute '?generate_launch_description")
 _ERROR = re.compile(r"^\[ERROR\] \[launch\]: |Caught exception in launch[^:]*: ")
@@ -20,9 +22,14 @@ _REMAP = re.compile(r"(?:-r|--remap) (?P<source>[^\s:=]+):=(?P<target>\S+)")
 
 
 def of_launch(trace: Trace) -> Cause | None:
-    """Why the launch did not do what it should: its file is broken, or what it starts ends or cannot be found."""
+    """Why the launch did not do what it should: its file is broken, or what it starts ends or cannot be found.
+
+    Raises OnlyWithRos where it asks for what our substitute for `launch` does not have.
+    """
     own = written_by(trace.output, None)
     text = "\n".join(line.text for line in own)
+    if found := _NOT_HERE.search(text):
+        raise OnlyWithRos(_line_of(text, found.start()))
     if found := _NO_PACKAGE.search(text):
         return Cause(
             "package not found",

@@ -10,6 +10,7 @@ import pytest
 from checks.i2_2 import facts, judges, processes
 from checks.i2_2.facts import Launched
 from tests.checks.made import FOLDER, START, assert_failed, assert_passed, ending, exited, lines
+from tutor.judge.bench import OnlyWithRos
 from tutor.judge.trace import Endpoint, Graph, LogRecord, Sample, Service, Trace
 from tutor.judge.verdict import Status
 
@@ -144,6 +145,13 @@ def test_a_traceback_is_read_although_the_streams_are_mixed() -> None:
     mixed += lines("SyntaxError: closing parenthesis ']' does not match")
     trace = Trace("my_launch.py", FOLDER, output=(*lines(LOADING, "stdout"), *mixed), exit=exited(1))
     assert_failed(judges.judge_starts(Launched(trace)), "syntax error", "line 3")
+
+
+def test_what_only_an_installed_ros_has_is_no_fault_of_the_learner() -> None:
+    says = "launch_ros.actions.LifecycleNode is not supported by the launch files that run without an installed ROS 2"
+    broken = launched(Graph(), out=f"{ERROR}{says}; it works where ROS 2 is installed and sourced", exit=exited(1))
+    with pytest.raises(OnlyWithRos, match=r"^launch_ros\.actions\.LifecycleNode is not supported"):
+        judges.judge_starts(broken)
 
 
 # --- topic ---

@@ -11,7 +11,7 @@ from tutor.content import Lesson
 from tutor.engine.admission import Admission
 from tutor.engine.bench import LiveBench
 from tutor.engine.errors import EngineError
-from tutor.judge.bench import MachineTooBusy, Scenario
+from tutor.judge.bench import MachineTooBusy, OnlyWithRos, Scenario
 from tutor.judge.check import Check, Criterion
 from tutor.judge.events import CheckStarted, CriterionJudged, Event, ExerciseJudged, Progress
 from tutor.judge.result import CriterionResult, ExerciseResult
@@ -97,6 +97,8 @@ class Runner:
             return fault(str(error), error.mend)
         except MachineTooBusy as error:
             return fault(str(error), "close what keeps this machine busy, then check again")
+        except OnlyWithRos as error:
+            return fault(str(error), "install ROS 2 Jazzy, source its setup file, and check again")
         except Exception as error:  # the check's boundary: a fault of ours must not be shown as the learner's
             where = _where(error)
             return fault(

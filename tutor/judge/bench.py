@@ -34,6 +34,10 @@ class MachineTooBusy(RuntimeError):
     """The machine kept the node from running while it was measured: nothing can be said about the node."""
 
 
+class OnlyWithRos(RuntimeError):
+    """The learner uses something of a full ROS 2 that is not there without one: nothing can be said about it here."""
+
+
 Handler = Callable[[Mapping[str, Any]], Mapping[str, Any]]
 """Answers one service request (fields to values) with a response (fields to values)."""
 

@@ -87,7 +87,6 @@ def test_a_folder_named_launch_is_no_real_launch(stage: Stage) -> None:
         ("from launch.actions import OpaqueCoroutine", "launch.actions.OpaqueCoroutine"),
         ("import launch.actions; launch.actions.ForLoop", "launch.actions.ForLoop"),
         ("import launch; launch.LaunchIntrospector", "launch.LaunchIntrospector"),
-        ("from launch.substitutions import AnonName", "launch.substitutions.AnonName"),
         ("from launch.substitutions import LaunchLogDir", "launch.substitutions.LaunchLogDir"),
         ("from launch.frontend import Parser", "launch.frontend"),
         (
@@ -99,7 +98,7 @@ def test_a_folder_named_launch_is_no_real_launch(stage: Stage) -> None:
         ("import launch_testing", "launch_testing"),
         ("from launch_ros.actions import LifecycleNode", "launch_ros.actions.LifecycleNode"),
         ("from launch_ros.actions import ComposableNodeContainer", "launch_ros.actions.ComposableNodeContainer"),
-        ("from launch_ros.actions import SetUseSimTime", "launch_ros.actions.SetUseSimTime"),
+        ("from launch_ros.actions import SetROSLogDir", "launch_ros.actions.SetROSLogDir"),
         (
             "from launch_ros.actions.composable_node_container import ComposableNodeContainer",
             "launch_ros.actions.composable_node_container",

@@ -1,6 +1,7 @@
 """The substitutions."""
 
 from .._unsupported import lazily_refusing
+from .anon_name import AnonName
 from .boolean_substitution import AllSubstitution, AndSubstitution, AnySubstitution, NotSubstitution, OrSubstitution
 from .command import Command
 from .environment_variable import EnvironmentVariable
@@ -21,6 +22,7 @@ from .this_launch_file_dir import ThisLaunchFileDir
 __all__ = [
     "AllSubstitution",
     "AndSubstitution",
+    "AnonName",
     "AnySubstitution",
     "Command",
     "EnvironmentVariable",
@@ -45,7 +47,6 @@ __getattr__ = lazily_refusing(
     __name__,
     frozenset(
         {
-            "AnonName",
             "ForEachVar",
             "ForLoopIndex",
             "LaunchLogDir",

@@ -8,8 +8,17 @@ from .push_ros_namespace import PushROSNamespace as PushRosNamespace
 from .set_parameter import SetParameter
 from .set_parameters_from_file import SetParametersFromFile
 from .set_remap import SetRemap
+from .set_use_sim_time import SetUseSimTime
 
-__all__ = ["Node", "PushROSNamespace", "PushRosNamespace", "SetParameter", "SetParametersFromFile", "SetRemap"]
+__all__ = [
+    "Node",
+    "PushROSNamespace",
+    "PushRosNamespace",
+    "SetParameter",
+    "SetParametersFromFile",
+    "SetRemap",
+    "SetUseSimTime",
+]
 
 __getattr__ = lazily_refusing(
     __name__,
@@ -22,7 +31,6 @@ __getattr__ = lazily_refusing(
             "ROSTimer",
             "RosTimer",
             "SetROSLogDir",
-            "SetUseSimTime",
         }
     ),
 )
