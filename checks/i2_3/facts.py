@@ -32,7 +32,7 @@ PARALLEL = 1.5
 """Three calls at once take less than this many times one call where they run in parallel."""
 
 BESIDE = 1.2
-"""Calls that would have taken less than this many times one on a machine of their own prove nothing if they took more."""
+"""Calls that took more only because the machine was busy, and less than this many times one without, tell nothing."""
 
 IN_TURN = 2.6
 """Three calls that take more than this many times one were made one after another, however busy the machine is."""
