@@ -67,7 +67,7 @@ async def test_the_node_runs_on_while_another_lesson_is_read_and_the_terminal_ch
         await me.sees("ready")
         await me.press("n")
         await me.pilot.resize_terminal(80, 24)
-        await me.sees("I1.3", "running thermometer.py")
+        await me.sees("I1.3", "● running")
         await me.press("3")
         await me.sees("the sensor is warm")
 

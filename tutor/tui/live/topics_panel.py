@@ -18,7 +18,7 @@ from tutor.live.facts import Topic
 from tutor.live.protocol import Clear, Command, Follow, Plot, Unfollow
 from tutor.tui.live import words
 from tutor.tui.live.plot_view import PlotView
-from tutor.tui.live.state import LiveState, TopicView
+from tutor.tui.live.state import LiveState, TopicView, is_plumbing
 from tutor.tui.live.strip import Action, ActionBar
 from tutor.tui.widgets.line_view import LineView
 
@@ -181,6 +181,8 @@ class TopicsPanel(Vertical):
         silent = news is not None and view is not None and words.is_silent(news, max(0.0, time.time() - view.news_at))
         timing = news.timing if news and not silent else None
         types = [words.short_type(name) for name in topic.types]
+        if is_plumbing(topic.name):  # their types are long, and known to who looks for them
+            types = [name.rpartition("/")[2] for name in types]
         pub, sub = len(topic.publishers), len(topic.subscriptions)
         return (
             Text("●" if view else " "),

@@ -14,6 +14,9 @@ from tutor.tui import words
 from tutor.tui.findings import Findings
 from tutor.tui.node import NodeState, Phase
 
+WIDE = 100
+"""From so many columns on, what runs is named."""
+
 
 class StatusBar(Horizontal):
     """Name of the program, the lesson, the check and the node."""
@@ -62,10 +65,10 @@ class StatusBar(Horizontal):
         if busy:
             text = Content.assemble(("◐ ", "$warn"), (f"{busy[0].phase.value} {busy[0].file}", "$warn"))
         elif alive:
-            names = " and ".join(state.file for state in alive)
-            text = Content.assemble(
-                ("● ", "$good"), ("running ", "$good"), (f"{names} · domain {domain}", "$foreground")
-            )
+            wide = self.app.size.width >= WIDE  # else the lesson's title is worth more than the file's name
+            names = " and ".join(state.file for state in alive) if wide or len(alive) > 1 else ""
+            about = f"{names} · domain {domain}" if names else f"· domain {domain}"
+            text = Content.assemble(("● ", "$good"), ("running ", "$good"), (about, "$foreground"))
         else:
             text = Content.assemble(("○ ", "$quiet"), f"domain {domain}")
         self.query_one("#bar-node", Static).update(text)
