@@ -135,7 +135,7 @@ def test_a_solved_lesson_is_run_and_really_checked(tmp_path: Path, env: dict[str
         while "Edit it in your editor" not in talk.stdout.readline():
             assert talk.poll() is None
         node.write_text(lesson.files[0].solution.read_text())
-        talk.stdin.write(says("run", "log", "check", "stop", "lessons", "quit", "never read"))
+        talk.stdin.write(says("run", "log", "3", "start", "run", "1", "check", "stop", "lessons", "quit", "never read"))
         talk.stdin.close()
         said = talk.stdout.read()
         assert talk.wait(LIMIT_S) == 0
@@ -143,7 +143,8 @@ def test_a_solved_lesson_is_run_and_really_checked(tmp_path: Path, env: dict[str
     assert re.search(r"\[INFO\].*\[temperature_publisher\]", said)
     assert re.search(r"^i1\.1 Sensor Publisher: passed\. 6 of 6 passed, bonus 1 of 1, after \d", said, re.MULTILINE)
     assert "Well done. next goes to the next lesson" in said
-    assert "Your node temperature_publisher.py has ended: stopped.\n" in said
+    assert "Your node temperature_publisher.py: stopped.\nRunning" in said  # before a node of another lesson runs
+    assert "Command: stop\nYour node calculator_server.py: stopped.\n" in said
     assert "1: i1.1 Sensor Publisher, easy, passed. You are here.\n" in said
     assert said.endswith("Command: quit\nGoodbye. Your progress is kept.\n")
 

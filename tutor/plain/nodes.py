@@ -52,6 +52,7 @@ class Nodes:
             command = await asyncio.to_thread(desk.node_command, file, desk.app_state().run_of(lesson.id))
         except (CommandError, OSError) as error:
             raise Refused(f"The node cannot be started: {error}") from error
+        await self._stop_others({desk.path(each) for each in lesson.files})
         node = Node(command, self._show)
         self._nodes[path] = self._latest = node
         task = asyncio.create_task(node.run())
@@ -73,7 +74,7 @@ class Nodes:
         most = int(words[0]) if words and words[0].isdecimal() and int(words[0]) else _LINES
         await self._until(lambda: bool(node.state.lines) or not node.state.alive, FIRST_LINE_S)
         lines = node.state.lines[-most:]
-        self._here.say(f"The last {counted(len(lines), 'line')}:" if lines else "It has written nothing yet.")
+        self._here.say(f"{counted(len(lines), 'line')}, the latest last:" if lines else "It has written nothing yet.")
         for line in lines:
             self._here.say(one_line(line.text, 500))
 
@@ -84,11 +85,20 @@ class Nodes:
         await self.leave()
         self.tell_news()
 
+    async def _stop_others(self, own: set[Path]) -> None:
+        """Two lessons' nodes would talk into each other's topics."""
+        others = [node for path, node in self._nodes.items() if path not in own and node.state.alive]
+        for node in others:
+            node.stop()
+        for node in others:
+            await node.over.wait()
+        self.tell_news()
+
     def tell_news(self) -> None:
         """Say which nodes have ended since this was last said."""
         for node in [node for node in self._untold if not node.state.alive]:
             self._untold.remove(node)
-            self._here.say(f"Your node {node.state.file} has ended: {node.state.note}.")
+            self._here.say(f"Your node {node.state.file}: {node.state.note}.")
 
     async def leave(self) -> None:
         """Stop all of them; nothing of them is left then."""
