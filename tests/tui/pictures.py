@@ -28,6 +28,7 @@ from tutor.judge.verdict import Status
 from tutor.tui.app import TutorApp
 from tutor.tui.desk import Desk
 from tutor.tui.live.topics_panel import TopicsPanel
+from tutor.tui.screens.checklist import ChecklistScreen
 from tutor.tui.screens.main import MainScreen
 from tutor.tui.screens.welcome import WelcomeScreen
 from tutor.tui.themes import DARK, LIGHT
@@ -190,6 +191,19 @@ class Album:
         await self.check(passing=False)
         await self.check(passing=True)
 
+    async def ready(self) -> None:
+        async with self.opened() as (pilot, desk):
+            for item in desk.course.checklist.items[:-1]:
+                desk.tick(item.id, True)
+            await pilot.press("6")
+            await until(pilot, lambda: isinstance(pilot.app.screen, ChecklistScreen) and pilot.app.screen.is_mounted)
+            await pilot.press("end", "space")
+            await until(pilot, lambda: pilot.app.screen.query_one("#checklist-ready").display)
+            await self.take(pilot, "ready")
+            await pilot.press("x")
+            await pilot.pause(0.1)
+            await self.take(pilot, "export")
+
     async def crash(self) -> None:
         async with self.opened() as (pilot, desk):
             await pilot.press("c")
@@ -234,7 +248,7 @@ async def main(folder: Path, only: str = "") -> None:
     folder.mkdir(parents=True, exist_ok=True)
     for size in SIZES:
         album = Album(folder, size)
-        for group in (album.welcome, album.rest, album.busy, album.live, album.checked, album.crash):
+        for group in (album.welcome, album.rest, album.busy, album.live, album.checked, album.ready, album.crash):
             if only in f"{size[0]}x{size[1]} {group.__name__}":
                 await group()
     print(f"{len(list(folder.glob('*.svg')))} pictures in {folder}")
