@@ -39,6 +39,9 @@ INTO_CALL_S = 1.5
 SPINS_S = 2.5
 """A node whose service is there spins at the latest twice this later, or never."""
 
+APART_S = 0.1
+"""Of three calls at once, the last comes this much later, so that answers in another order are told from chance."""
+
 TRIES = 4
 """What only a busy machine can explain is looked at again, at most this often."""
 
@@ -145,10 +148,12 @@ def _held_up(three: Three) -> bool:
 
 async def _ask_at_once(run: Run, requests: Sequence[Mapping[str, int]]) -> tuple[CallAnswer, ...]:
     """Make all calls at once; give up when none has been answered for as long as one call may take."""
-    calls = [
-        asyncio.create_task(run.call(SERVICE, TYPE, request, limit_s=len(requests) * ANSWER_S)) for request in requests
-    ]
+    calls: list[asyncio.Task[CallAnswer]] = []
     asked_at = run.now()
+    for request in requests:
+        if len(calls) == len(requests) - 1:
+            await run.until(lambda: run.now() >= asked_at + APART_S, 1.0)
+        calls.append(asyncio.create_task(run.call(SERVICE, TYPE, request, limit_s=len(requests) * ANSWER_S)))
     while (answered := _done(calls)) < len(calls):
         if not await run.until(lambda answered=answered: _done(calls) > answered, ANSWER_S):  # type: ignore[misc]
             break

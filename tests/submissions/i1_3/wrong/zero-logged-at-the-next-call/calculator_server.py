@@ -1,0 +1,47 @@
+import rclpy
+from rclpy.node import Node
+from rclpy.executors import ExternalShutdownException
+from example_interfaces.srv import AddTwoInts
+
+class CalculatorServer(Node):
+    def __init__(self):
+        super().__init__('calculator_server')
+        self.create_service(AddTwoInts, 'add', self.add)
+        self.create_service(AddTwoInts, 'subtract', self.sub)
+        self.create_service(AddTwoInts, 'multiply', self.mul)
+        self.create_service(AddTwoInts, 'divide', self.div)
+        self.get_logger().info('ready')
+
+    def add(self, req, res):
+        res.sum = req.a + req.b
+        self.get_logger().info(f'{req.a} + {req.b} = {res.sum}')
+        return res
+
+    def sub(self, req, res):
+        res.sum = req.a - req.b
+        self.get_logger().info(f'{req.a} - {req.b} = {res.sum}')
+        return res
+
+    def mul(self, req, res):
+        res.sum = req.a * req.b
+        self.get_logger().info(f'{req.a} * {req.b} = {res.sum}')
+        return res
+
+    def div(self, req, res):
+        if getattr(self, 'late', None):
+            self.get_logger().error('the last one was a division by zero')
+        self.late = req.b == 0
+        res.sum = 0 if req.b == 0 else req.a // req.b
+        return res
+
+def main():
+    rclpy.init()
+    node = CalculatorServer()
+    try:
+        rclpy.spin(node)
+    except (KeyboardInterrupt, ExternalShutdownException):
+        pass
+    rclpy.try_shutdown()
+
+if __name__ == '__main__':
+    main()

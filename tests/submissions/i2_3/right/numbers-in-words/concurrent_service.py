@@ -1,0 +1,50 @@
+#!/usr/bin/env python3
+import time
+import rclpy
+from rclpy.node import Node
+from rclpy.callback_groups import ReentrantCallbackGroup
+from rclpy.executors import MultiThreadedExecutor, ExternalShutdownException
+from example_interfaces.srv import AddTwoInts
+
+
+class ConcurrentService(Node):
+    def __init__(self):
+        super().__init__('concurrent_service')
+        self.tick = 0
+        self.busy = 0
+        self.t0 = time.time()
+        self.group_a = ReentrantCallbackGroup()
+        self.group_b = ReentrantCallbackGroup()
+        self.srv = self.create_service(AddTwoInts, 'slow_add', self.slow_callback, callback_group=self.group_a)
+        self.timer = self.create_timer(0.1, self.timer_callback, callback_group=self.group_b)
+        pass
+        self.get_logger().info('Concurrent service ready')
+
+    def timer_callback(self):
+        E = ['null','eins','zwei','drei','vier','fünf','sechs','sieben','acht','neun']
+        self.get_logger().info('Tick ' + ' '.join(E[int(c)] for c in str(self.tick)))
+        self.tick += 1
+
+    def slow_callback(self, req, resp):
+        self.get_logger().info(f'Service called: {req.a} + {req.b}')
+        self.busy += 1
+        time.sleep(3.0)
+        self.busy -= 1
+        resp.sum = req.a + req.b
+        self.get_logger().info(f'Service complete: {resp.sum}')
+        return resp
+
+def main():
+    rclpy.init()
+    node = ConcurrentService()
+    executor = MultiThreadedExecutor(num_threads=8)
+    executor.add_node(node)
+    try:
+        executor.spin()
+    except (KeyboardInterrupt, ExternalShutdownException):
+        pass
+    finally:
+        rclpy.try_shutdown()
+
+if __name__ == '__main__':
+    main()
