@@ -88,6 +88,12 @@ class Use:
     memory_mb: float
 
 
+def kept_waiting(*pids: int) -> float:
+    """For how many seconds these processes have been ready to run, and no core was free."""
+    tasks = [task for pid in pids for task in Path(f"/proc/{pid}/task").glob("*/schedstat")]
+    return sum(int(task.read_text().split()[1]) for task in tasks) / 1e9
+
+
 def use_of(pid: int) -> Use:
     fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
     pages = int(Path(f"/proc/{pid}/statm").read_text().split()[1])
