@@ -4,7 +4,8 @@
 
 The app runs in a terminal of its own (a pty); a key is written to it, and the clock stops when the bytes that show its
 effect have come out. Three keys take turns: pause, zoom, turn a tab. The machine's load is printed beside: on a busy
-one the figures are those of a busy one, and the time for which no core was free is told apart. Where `ros2` is installed, `ros2 topic hz` is run on the same topic.
+one the figures are those of a busy one, and the time for which no core was free is told apart. Where `ros2` is
+installed, `ros2 topic hz` is run on the same topic.
 """
 
 from __future__ import annotations
