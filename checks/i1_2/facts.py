@@ -6,6 +6,7 @@ from bisect import bisect_right
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
+from statistics import median
 
 from checks.i1_2.reading import Line, read
 from tutor.judge.trace import Ending, Endpoint, Trace
@@ -93,6 +94,12 @@ class Feeding:
     def late_s(self) -> float:
         """How long after its message a summary may come on this machine."""
         return LATE_S + min(max(self.starved_s, 0.0), MOST_LATE_S)
+
+    @cached_property
+    def held_up_s(self) -> float:
+        """How much later than due a message was sent, at worst: our fault, and the machine's."""
+        spans = [b.at - a.at for index, (a, b) in enumerate(pairwise(self.sent), start=1) if index != self.breaks]
+        return max(spans) - median(spans) if spans else 0.0
 
     def delay_s(self, index: int) -> float:
         """How late the machine may have let the node take in this message: what it was kept from running thereafter."""

@@ -39,7 +39,7 @@ SAID_S = 0.15
 
 STUCK_S = 1.5
 ROUGH_S = 0.15
-"""A node kept from running for longer may have lost messages, and had no fair trial."""
+"""A node kept from running for longer may have lost messages, and one that was fed so unevenly measured no one rate."""
 
 
 async def steady(bench: Bench) -> Feeding:
@@ -136,7 +136,7 @@ async def _fairly(once: Callable[[], Awaitable[Feeding]], fair: Callable[[Feedin
     """Try again where the node did not do well, and the machine may be to blame."""
     for _ in range(TRIES):
         fed = await once()
-        if fed.starved_s < ROUGH_S or not fed.sent or await fair(fed):
+        if max(fed.starved_s, fed.held_up_s) < ROUGH_S or not fed.sent or await fair(fed):
             break
     return fed
 

@@ -922,3 +922,12 @@ def test_an_alarm_beside_a_summary_is_no_part_of_the_next_one() -> None:
 
     assert [report.messages for report in find(steady(Beside()))] == [10, 20]
     assert [len(report.lines) for report in find(steady(Beside()))] == [1, 1]
+
+
+def test_how_much_later_than_due_a_message_was_sent() -> None:
+    even = steady(Counter())
+    late = replace(even, sent=tuple(replace(each, at=each.at + 0.4 * (each.number > 12)) for each in even.sent))
+    assert even.held_up_s == pytest.approx(0.0, abs=1e-6)
+    assert late.held_up_s == pytest.approx(0.4, abs=1e-3)
+    assert restart(Counter()).held_up_s == pytest.approx(0.0, abs=1e-6), "a publisher that is away is none"
+    assert Feeding(trace()).held_up_s == 0.0
