@@ -9,7 +9,7 @@ from typing import ClassVar
 from textual import events, on
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
-from textual.containers import Container, VerticalScroll
+from textual.containers import ItemGrid, VerticalScroll
 from textual.content import Content
 from textual.screen import Screen
 from textual.widgets import Footer, Static
@@ -51,7 +51,7 @@ class ChecklistScreen(Screen[None]):
             "You are the judge: tick what you can do. Below it is what your checks show.",
             id="checklist-lead",
         )
-        with VerticalScroll(id="checklist-scroll", can_focus=False), Container(id="checklist-cards"):
+        with VerticalScroll(id="checklist-scroll", can_focus=False), ItemGrid(id="checklist-cards"):
             for group in self._assessment.groups:
                 yield GroupCard(group)
         yield Static(id="checklist-ready")
@@ -158,4 +158,4 @@ def _rest(assessment: Assessment) -> str:
     if not left:
         return f"All {len(assessment.exercises)} exercises are passed, too."
     some = "One exercise is" if left == 1 else f"{left} exercises are"
-    return f"{some} not passed yet: good practice before you go on. x exports your checklist."
+    return f"{some} not passed yet: good practice before you go on."
