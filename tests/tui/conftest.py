@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import threading
 from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager
@@ -15,6 +14,7 @@ from textual.screen import Screen
 from textual.widget import Widget
 from textual.widgets import Static
 
+from tests.patience import seen_within
 from tests.tui import made
 from tutor.judge.events import Event
 from tutor.tui.app import TutorApp
@@ -63,25 +63,27 @@ class Learner:
     async def types(self, text: str) -> None:
         await self.pilot.press(*("enter" if c == "\n" else _character_to_key(c) for c in text))
 
+    async def edits(self) -> CodeEditor:
+        """Go into the editor; the cursor is at the very beginning where nothing was done in it before."""
+        await self.press("e")
+        await self.until(lambda: isinstance(self.app.focused, CodeEditor), "the editor has the focus")
+        return self.editor
+
     async def sees(self, *texts: str) -> None:
         """Wait until every text is on the screen, in one line each."""
         await self.until(lambda: all(text in self.screen() for text in texts), texts)
 
     async def until(self, seen: Callable[[], bool], what: object = "") -> None:
-        try:
-            async with asyncio.timeout(LIMIT_S):
-                while not seen():
-                    await asyncio.sleep(0.02)  # the pace of looking; a pause of the pilot's would repaint each time
-        except TimeoutError:
+        if not await seen_within(seen, LIMIT_S):
             pytest.fail(f"not seen: {what}\n{self.screen()}")
 
     def screen(self) -> str:
         """What is drawn, as text: the top screen over whatever is below."""
         width, height = self.app.size
         screen: Screen[object] = self.app.screen
-        lines = screen._compositor.render_strips()
-        if not lines:  # a screen that has just been opened
+        if screen._compositor.size != (width, height):  # just opened, or just resized: not laid out yet
             return ""
+        lines = screen._compositor.render_strips()
         assert len(lines) == height
         assert all(line.cell_length <= width for line in lines)
         return "\n".join(line.text for line in lines)

@@ -69,6 +69,7 @@ async def test_passing_is_good_news_and_says_what_comes_next(learner: Any, size:
         if size == (80, 24):
             await me.press("5")
         await me.sees("I1.1 Sensor Publisher passed")
+        await me.until(lambda: me.main.session.progress.of("i1.1").best is not None)
         assert me.desk.progress().of("i1.1").best.value == "passed"
 
 
@@ -156,7 +157,8 @@ async def test_a_save_checks_anew_and_the_running_check_gives_way(learner: Any) 
         await me.sees("listening")
         first = me.desk.engine.pid
         me.desk.engine.close_quietly()
-        await me.press("e", "#", "ctrl+s")
+        await me.edits()
+        await me.press("#", "ctrl+s")
         await me.until(lambda: me.main.checks.running is not None and me.desk.engine.pid != first, "checked anew")
         with pytest.raises(ProcessLookupError):
             os.kill(first, 0)

@@ -8,7 +8,6 @@ from typing import Any
 import pytest
 
 from tests.tui import made
-from tutor.tui.widgets.editor import CodeEditor
 from tutor.workspace import keep_aside
 
 
@@ -16,22 +15,14 @@ def backups(path: Path) -> list[str]:
     return sorted(other.read_text() for other in path.parent.glob(f"{path.name}.~*~"))
 
 
-async def typing(me: Any) -> CodeEditor:
-    """Open the editor, with the cursor at the very beginning."""
-    await me.press("e")
-    await me.until(lambda: isinstance(me.app.focused, CodeEditor), "the editor has the focus")
-    editor: CodeEditor = me.editor
-    return editor
-
-
 async def test_letters_type_and_are_saved_by_themselves_and_the_keys_of_commands_work_after_esc(learner: Any) -> None:
     async with learner() as me:
-        editor = await typing(me)
+        editor = await me.edits()
         await me.sees("Esc Commands", "Ctrl+S Save", "F5 Run", "F9 Check")
         await me.press(*"rcq", "enter")
         await me.until(lambda: me.file.read_text() == "rcq\n" + made.NODE, "saved without asking")
         await me.sees("✓ saved")
-        await me.press("ctrl+z", "ctrl+z")
+        await me.press(*["ctrl+z"] * 4)  # at most one for each key; what is typed quickly is undone at once
         await me.until(lambda: me.file.read_text() == made.NODE, "undone, and saved")
         await me.press("escape", "1")
         await me.sees("Objective")
@@ -41,18 +32,20 @@ async def test_letters_type_and_are_saved_by_themselves_and_the_keys_of_commands
 async def test_the_editor_indents_as_python_wants_it(learner: Any) -> None:
     async with learner() as me:
         me.file.write_text("")
-        editor = await typing(me)
+        editor = await me.edits()
         await me.until(lambda: editor.text == "")
         await me.types("def f(x):\nif x:\nreturn 1\nreturn 2\ny = 3")
-        assert editor.text == "def f(x):\n    if x:\n        return 1\n    return 2\ny = 3"
+        wanted = "def f(x):\n    if x:\n        return 1\n    return 2\ny = 3"
+        await me.until(lambda: editor.text == wanted, wanted)
         await me.types("\nif y:\n")
+        await me.until(lambda: editor.text == wanted + "\nif y:\n    ", "set in")
         await me.press("backspace")
-        assert editor.text.endswith("\nif y:\n")
+        await me.until(lambda: editor.text == wanted + "\nif y:\n", "one step back")
 
 
 async def test_a_change_outside_is_taken_over_with_the_cursor_where_it_was_and_can_be_undone(learner: Any) -> None:
     async with learner() as me:
-        editor = await typing(me)
+        editor = await me.edits()
         await me.press("down", "down", "right")
         me.file.write_text("# theirs\n" + made.NODE)
         await me.sees("was changed outside", "# theirs")
@@ -62,9 +55,8 @@ async def test_a_change_outside_is_taken_over_with_the_cursor_where_it_was_and_c
 
 
 async def conflict(me: Any) -> None:
-    """Type, and have somebody else write the file before it is saved."""
-    await typing(me)
-    await me.press("m")
+    """Type, and have somebody else write the file before it is saved: at once, as that is a matter of half a second."""
+    (await me.edits()).insert("m")
     me.file.write_text("theirs = 1\n")
     await me.sees("was changed outside", "Keep mine", "Take the file's")
 
@@ -97,19 +89,16 @@ async def test_what_is_typed_while_the_backup_is_written_is_in_a_backup_too(
     learner: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     async with learner() as me:
-        editor = await typing(me)
 
         def meanwhile(path: Path, text: str) -> Path:
             if text == "m" + made.NODE:
-                me.app.call_from_thread(editor.insert, "ore")
+                me.app.call_from_thread(me.editor.insert, "ore")
             return keep_aside(path, text)
 
         monkeypatch.setattr("tutor.tui.control.files.keep_aside", meanwhile)
-        await me.press("m")
-        me.file.write_text("theirs = 1\n")
-        await me.sees("was changed outside", "Take the file's")
+        await conflict(me)
         await me.press("escape")
-        await me.until(lambda: editor.text == "theirs = 1\n")
+        await me.until(lambda: me.editor.text == "theirs = 1\n")
         assert backups(me.file) == ["m" + made.NODE, "more" + made.NODE]
 
 
@@ -135,7 +124,7 @@ async def test_the_looks_at_the_code_and_a_reset_that_keeps_a_backup(learner: An
 
 async def test_what_is_typed_is_saved_before_leaving(learner: Any) -> None:
     async with learner() as me:
-        await typing(me)
+        await me.edits()
         await me.press("x", "ctrl+q")
         await me.until(lambda: me.app.return_code == 0)
         assert me.file.read_text() == "x" + made.NODE

@@ -11,6 +11,7 @@ import pytest
 from textual.pilot import Pilot
 
 from tests.live.world import THERMOMETER, LiveApp, World, world
+from tests.patience import seen_within
 from tutor.content import load_course
 from tutor.live.facts import TopicNews
 from tutor.tui.live import services_panel
@@ -41,11 +42,7 @@ class Watcher:
         await self.until(lambda: text not in self.screen(), f"no {text}")
 
     async def until(self, seen: Callable[[], bool], what: object = "") -> None:
-        try:
-            async with asyncio.timeout(LIMIT_S):
-                while not seen():
-                    await asyncio.sleep(0.03)  # the pace of looking; a pause of the pilot's would repaint each time
-        except TimeoutError:
+        if not await seen_within(seen, LIMIT_S):
             pytest.fail(f"not seen: {what}\n{self.screen()}")
 
     async def turn_to(self, tab: str) -> None:

@@ -77,6 +77,7 @@ async def test_quitting_ends_the_node(learner: Any) -> None:
         me.desk.path(me.desk.lessons[0].files[0]).write_text("import os\nprint(os.getpid(), flush=True)\n" + made.NODE)
         await me.press("r")
         await me.sees("ready")
+        await me.until(lambda: any(line.text.isdecimal() for line in me.node.state.lines))
         pid = int(next(line.text for line in me.node.state.lines if line.text.isdecimal()))
         assert alive(pid)
         await me.press("q")
@@ -111,7 +112,8 @@ async def test_a_save_restarts_the_node_where_that_is_wanted(learner: Any) -> No
         await me.press("r")
         await me.sees("the sensor is warm")
         before = me.node
-        await me.press("e", "end", "#", "ctrl+s")
+        await me.edits()
+        await me.press("end", "#", "ctrl+s")
         await me.until(lambda: me.node is not before and me.node.state.phase is Phase.RUNNING, "run anew")
         assert before.over.is_set()
         await me.until(lambda: "the sensor is warm" in me.screen())

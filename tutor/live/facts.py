@@ -8,9 +8,6 @@ from typing import Any
 
 from tutor.judge.trace import Parameter
 
-PLUMBING = ("/rosout", "/parameter_events")
-"""Topics that every node has."""
-
 
 @dataclass(frozen=True, slots=True)
 class Qos:

@@ -7,7 +7,7 @@ import contextlib
 import os
 import signal
 from collections import deque
-from collections.abc import AsyncIterator, Mapping, Sequence
+from collections.abc import AsyncIterator, Sequence
 from pathlib import Path
 
 from tutor.judge.events import Event, decode
@@ -28,13 +28,12 @@ class EngineChild:
         self._reader = asyncio.create_task(self._read_stderr())
 
     @classmethod
-    async def start(cls, argv: Sequence[str], cwd: Path, env: Mapping[str, str] | None = None) -> EngineChild:
+    async def start(cls, argv: Sequence[str], cwd: Path) -> EngineChild:
         """Start it in a process group of its own, so that no Ctrl+C in an editor hits it. Raises OSError."""
         pipe = asyncio.subprocess.PIPE
         process = await asyncio.create_subprocess_exec(
             *argv,
             cwd=cwd,
-            env=None if env is None else dict(env),
             stdin=asyncio.subprocess.DEVNULL,
             stdout=pipe,
             stderr=pipe,
@@ -69,11 +68,6 @@ class EngineChild:
                 except TimeoutError:
                     continue
         self._reader.cancel()
-
-    def kill(self) -> None:
-        """The last resort, for when nothing can be waited for any more."""
-        if self._process.returncode is None:
-            self._send(signal.SIGINT)
 
     @property
     def last_words(self) -> tuple[str, ...]:

@@ -231,10 +231,23 @@ class Files:
 
     def edit(self) -> None:
         """Put the focus into the editor."""
-        if not self.needed_for("edit"):
-            self._pane.edit()
-            self._stage.show_page("code")
-            self._pane.focus_content(typing=True)
+        if self.needed_for("edit"):
+            return
+        path = self._stage.session.path
+        if self._pane.knows(path):
+            self._type()
+        else:  # asked for before the file has been read
+            self._stage.work(self._type_soon, path, group="show-line", exclusive=True)
+
+    async def _type_soon(self, path: Path) -> None:
+        await self.look(path)
+        if path == self._stage.session.path:
+            self._type()
+
+    def _type(self) -> None:
+        self._pane.edit()
+        self._stage.show_page("code")
+        self._pane.focus_content(typing=True)
 
     async def open_outside(self) -> None:
         """Hand the terminal to the learner's own editor."""

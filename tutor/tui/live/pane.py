@@ -100,11 +100,6 @@ class LivePane(Vertical):
 
     # --- the watching process ---
 
-    @property
-    def watching(self) -> bool:
-        """Whether the child runs, or is about to."""
-        return self._worker is not None
-
     def start_watching(self, command: Callable[[], LiveCommand] = live_command) -> None:
         """Start the child process that watches, unless it runs."""
         if self._worker is None:

@@ -1,0 +1,25 @@
+"""Waiting for what is to be seen. A crowded machine is given back the time for which it kept us from looking."""
+
+from __future__ import annotations
+
+import asyncio
+import time
+from collections.abc import Callable
+
+from tutor.process.starvation import cpu_time_here
+
+LOOK_EVERY_S = 0.02
+
+
+async def seen_within(seen: Callable[[], bool], limit_s: float) -> bool:
+    """Whether it is there within `limit_s` seconds; those in which we were able to run, but not let, do not count.
+
+    Whoever looks so often, and sleeps so little between, waits for the CPU as long as anybody on the machine.
+    """
+    began, waited = time.monotonic(), cpu_time_here().waited_s
+    while not seen():
+        took = time.monotonic() - began
+        if took > limit_s and took - (cpu_time_here().waited_s - waited) > limit_s:
+            return False
+        await asyncio.sleep(LOOK_EVERY_S)
+    return True
