@@ -23,8 +23,13 @@ RARE_S = 12.0
 LOOK_EVERY_S = 0.1
 
 
-async def listen(run: Run, is_up: Callable[[], bool]) -> None:
-    """Wait until the logs tell what there is to know about the timer. It is given time from when the node `is_up`."""
+def said_since(logs: Sequence[LogRecord], since: float) -> Sequence[LogRecord]:
+    """What was logged from then on: what a node tells of its own start, however steadily, comes from no timer."""
+    return [log for log in logs if log.stamp >= since]
+
+
+async def listen(run: Run, since: float, is_up: Callable[[], bool]) -> None:
+    """Wait until the logs `since` then tell all about the timer. It is given time from when the node `is_up`."""
     up_at, lost_s = run.now(), run.starved_s() + run.late_s()
     was_up, looked_at, enough = is_up(), 0.0, False
 
@@ -34,9 +39,8 @@ async def listen(run: Run, is_up: Callable[[], bool]) -> None:
             up_at, was_up = run.now(), True
         if run.now() - looked_at >= LOOK_EVERY_S:  # not at each of a thousand messages
             looked_at = run.now()
-            enough = (
-                _told(run.logs) or run.now() - up_at > _patience_s(run.logs) + run.starved_s() + run.late_s() - lost_s
-            )
+            logs = said_since(run.logs, since)
+            enough = _told(logs) or run.now() - up_at > _patience_s(logs) + run.starved_s() + run.late_s() - lost_s
         return enough
 
     await run.until(heard, 2 * RARE_S)

@@ -26,7 +26,7 @@ from checks.i2_3.facts import (
     excused,
     is_there,
 )
-from checks.i2_3.listening import listen, may_be_10_hz, next_tick
+from checks.i2_3.listening import listen, may_be_10_hz, next_tick, said_since
 from checks.i2_3.ticks import all_series, likely
 from tutor.judge.bench import Bench, Run
 from tutor.judge.trace import CallAnswer
@@ -35,6 +35,9 @@ from tutor.judge.waiting import STARVED, appears
 
 INTO_CALL_S = 1.5
 """A call that was made this long ago is being worked on."""
+
+IN_GRAPH_S = 1.0
+"""All services of a node are in the graph this much later than the first sign of it."""
 
 SPINS_S = 2.5
 """A node whose service is there spins at the latest twice this later, or never."""
@@ -54,11 +57,12 @@ async def quiet(bench: Bench) -> Quiet:
     async with bench.start(FILE) as run:
         bench.doing(0.1, "waiting for the timer's log messages")
         await appears(run, lambda: bool(run.logs))
+        await _spins(run)
         since, starved_s = run.now(), run.starved_s()
         bench.doing(0.3, "listening to the timer")
-        await listen(run, lambda: is_there(run.graph.services))
+        await listen(run, since, lambda: is_there(run.graph.services))
         share = (run.starved_s() - starved_s) / max(0.1, run.now() - since)
-        series = likely(all_series(run.logs))
+        series = likely(all_series(said_since(run.logs, since)))
         trace = run.trace()
         bench.doing(0.8, "pressing Ctrl+C")
         ended = await run.interrupt() if run.exit is None else None
@@ -97,8 +101,18 @@ async def _serves(run: Run) -> bool:
     """Wait for the service, and for the node to answer anything: it may be in the graph long before it spins."""
     there = await appears(run, lambda: is_there(run.graph.services))
     if there:
-        await run.parameters(SPINS_S)
+        await _spins(run)
     return there
+
+
+async def _spins(run: Run) -> None:
+    """Wait until the node answers what every node does, unless it never will."""
+
+    def can_be_asked() -> bool:
+        return any(service.type == "rcl_interfaces/srv/ListParameters" for service in run.graph.services)
+
+    if await run.until(can_be_asked, IN_GRAPH_S):
+        await run.parameters(SPINS_S)
 
 
 def _lost_s(run: Run) -> float:

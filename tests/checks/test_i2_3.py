@@ -20,6 +20,7 @@ from checks.i2_3.judges import (
     judge_shutdown_busy,
     judge_timer,
 )
+from checks.i2_3.listening import said_since
 from checks.i2_3.pace import Fault, during
 from checks.i2_3.ticks import Series, all_series, likely
 from tests.checks.made import (
@@ -281,6 +282,13 @@ def test_a_greeting_of_many_messages_is_no_timer() -> None:
     greeting = [says(f"loading module {n}", START + n / 1000) for n in range(300)]
     assert all_series(greeting) == []
     assert_passed(judge_timer(quiet([*greeting, *ticking()]), lone([*greeting, *ticking()])))
+
+
+def test_what_a_node_tells_while_it_starts_is_no_timer() -> None:
+    loading = [says(f"loading part {n}", START + n / 10) for n in range(30)]
+    later = [replace(log, stamp=log.stamp + 3) for log in ticking()]
+    (series,) = all_series(said_since([*loading, *later], START + 3))
+    assert {tick.text for tick in series.ticks} == {log.text for log in later}
 
 
 def test_a_second_timer_is_not_taken_for_the_fast_one() -> None:
