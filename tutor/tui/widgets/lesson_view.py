@@ -18,12 +18,12 @@ class LessonView(VerticalScroll):
     DEFAULT_CSS = """
     LessonView {
         background: $surface;
-        padding: 1 2 0 2;
+        padding: 1 1 0 2;
         scrollbar-size: 1 1;
         & > #lesson-head { height: auto; }
         & > Markdown {
             background: transparent;
-            padding: 0;
+            padding: 0 2 0 0;
             max-width: 100;
             MarkdownH2 { color: $primary; text-style: bold; margin: 1 0 1 0; }
             MarkdownH3 { color: $secondary; text-style: bold; margin: 1 0 1 0; }
