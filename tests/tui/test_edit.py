@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 
 from tests.tui import made
+from tutor.tui.widgets.code_pane import CodePane
 from tutor.workspace import keep_aside
 
 
@@ -128,6 +129,15 @@ async def test_what_is_typed_is_saved_before_leaving(learner: Any) -> None:
         await me.press("x", "ctrl+q")
         await me.until(lambda: me.app.return_code == 0)
         assert me.file.read_text() == "x" + made.NODE
+
+
+async def test_a_file_that_is_still_being_read_when_the_app_closes_is_shown_nowhere(learner: Any) -> None:
+    async with learner() as me:
+        pane = me.main.query_one(CodePane)
+        await me.main.close_down()
+        await pane.remove_children()
+        await me.main.files.look(me.file)
+        assert not pane.children
 
 
 async def test_a_file_that_is_no_text_is_left_alone(learner: Any) -> None:

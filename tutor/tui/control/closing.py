@@ -30,3 +30,5 @@ async def close_down(stage: Stage, files: Files, nodes: Nodes, checks: Checks, m
     busy = [worker for worker in stage.workers if worker.group in ("check", "node", "progress")]
     if busy:  # an empty list would mean all of them, and the one that follows the file never ends
         await stage.app.workers.wait_for_complete(busy)
+    files.leave()
+    stage.workers.cancel_node(stage)  # whatever still reads or follows a file would find no widget to show it in

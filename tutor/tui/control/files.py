@@ -30,6 +30,7 @@ class Files:
         """What is on the disk as far as the editors know, by file."""
         self._lock = asyncio.Lock()
         self._autosave: Timer | None = None
+        self._closed = False
         self.deeds = {
             "start": Deed(self.start),
             "edit": Deed(self.edit),
@@ -80,10 +81,11 @@ class Files:
             try:
                 text = await asyncio.to_thread(read_source, path)
             except StorageError as error:
-                if path == self._stage.session.path:
+                if path == self._stage.session.path and not self._closed:
                     self._pane.show_missing(path, str(error))
                 return
-            await self._compare(path, text)
+            if not self._closed:
+                await self._compare(path, text)
 
     async def _compare(self, path: Path, text: str | None) -> None:
         """Bring the editor and the disk together; the lock is held."""
@@ -168,7 +170,8 @@ class Files:
         """Save whatever is not; whether all is saved now."""
         async with self._lock:
             await self._write_changed()
-        self._pane.show_saved()
+        if not self._closed:
+            self._pane.show_saved()
         return not self._pane.changed()
 
     async def _write_changed(self) -> None:
@@ -192,6 +195,12 @@ class Files:
             self._stage.say(
                 f"{path.name} was changed outside just now: that is kept as {saved.backup.name}.", warn=True
             )
+
+    def leave(self) -> None:
+        """All is saved, and the editors are about to go: look at nothing any more."""
+        self._closed = True
+        if self._autosave is not None:
+            self._autosave.stop()
 
     # --- start, edit, reset ---
 
