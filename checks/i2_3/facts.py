@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from checks.i2_3.pace import During, during
 from checks.i2_3.ticks import Series
@@ -20,6 +20,9 @@ SHORTEST_S, LONGEST_S = 2.75, 3.4
 
 EXCUSED_S = 0.5
 """A busy machine may add this much to what a call takes."""
+
+LITTLE_S = 0.2
+"""Seconds that a busy machine takes away without anybody being in doubt about the rest."""
 
 MOST_EXCUSED_S = 1.0
 """A timer may pause this much longer on a busy machine. With more, one that stands still for 3 s looks like another."""
@@ -150,6 +153,13 @@ def disturbed(logs: Sequence[LogRecord], call: Call, series: Sequence[Series]) -
     """Whether no way to see the timer's messages lets them go on as they should during this call."""
     right = [each for each in series if each.is_10_hz]
     return bool(right) and all(heard(each, logs, call).fault for each in right)
+
+
+def doubtful(logs: Sequence[LogRecord], call: Call, series: Sequence[Series]) -> bool:
+    """Whether the timer seems undisturbed during this call only because a busy machine excuses much."""
+    if call.starved_s <= LITTLE_S or disturbed(logs, call, series):
+        return False
+    return disturbed(logs, replace(call, starved_s=LITTLE_S), series)
 
 
 def excused(logs: Sequence[LogRecord], call: Call, series: Sequence[Series]) -> bool:

@@ -19,6 +19,7 @@ from checks.i2_3.facts import (
     Lone,
     Quiet,
     Trio,
+    doubtful,
     excused,
     heard,
     is_there,
@@ -81,7 +82,8 @@ def judge_timer(alone: Quiet, seen: Lone) -> Verdict:
     if not seen.calls:
         return skipped("not judged, because there was no call to listen during: `blocks` did not pass")
     right = [series for series in alone.series if series.is_10_hz]
-    found = [(series, heard(series, seen.trace.logs, call)) for call in seen.calls for series in right]
+    calls = [call for call in seen.calls if not doubtful(seen.trace.logs, call, right)] or seen.calls
+    found = [(series, heard(series, seen.trace.logs, call)) for call in calls for series in right]
     series, call = next(
         ((series, call) for series, call in found if not call.fault),
         next(each for each in reversed(found) if each[0] == likely),
@@ -90,7 +92,7 @@ def judge_timer(alone: Quiet, seen: Lone) -> Verdict:
     observed = f"outside: {series}; {_heard(call, series)}"
     if call.fault is None:
         return passed(expected, observed, texts[:6])
-    if excused(seen.trace.logs, seen.calls[-1], right):
+    if excused(seen.trace.logs, calls[-1], right):
         raise MachineTooBusy("this machine is too busy to listen to the timer")
     return failed(expected, observed, why.of_disturbed_timer(seen, call.fault), texts[-6:])
 

@@ -23,6 +23,7 @@ from checks.i2_3.facts import (
     Three,
     Trio,
     disturbed,
+    doubtful,
     excused,
     is_there,
 )
@@ -88,7 +89,8 @@ async def lone(bench: Bench) -> Lone:
             calls.append(Call(answer, run.now(), lost_s))
             still = disturbed(run.logs, calls[-1], series)
             may_be_ours = still and excused(run.logs, calls[-1], series)
-            if answer.response is None or run.exit is not None or not _again(calls[-1], still, may_be_ours, tried):
+            again = _again(calls[-1], still, may_be_ours, tried) or doubtful(run.logs, calls[-1], series)
+            if answer.response is None or run.exit is not None or not again:
                 break
         seen = Lone(run.trace(), tuple(calls))
     if seen.trace.exit is None and (answer.response is None or (still and not may_be_ours)):

@@ -264,6 +264,17 @@ def test_every_second_tick_left_out_during_a_call() -> None:
     assert_failed(judge_timer(quiet(ticking(lambda n: "tick", every=1)), lone(kept)), "slowed timer")
 
 
+def test_a_call_that_needs_no_excuse_tells_more_than_one_that_does() -> None:
+    kept = [log for n, log in enumerate(ticking(lambda n: "tick", every=1)) if n % 3 or not 3 < n < 33]
+    later = [replace(log, stamp=log.stamp + 5) for n, log in enumerate(kept)]
+    first, second = answer(), answer(asked_at=ASKED + 5)
+    alone = quiet(ticking(lambda n: "tick", every=1))
+    calls = (Call(first, START + 4.7, 1.0), Call(second, START + 9.7, 0.0))
+    slowed = Lone(trace(graph=SERVING, logs=[*kept, *later]), calls)
+    assert_failed(judge_timer(alone, slowed), "slowed timer")
+    assert_passed(judge_timer(alone, replace(slowed, calls=calls[:1])))
+
+
 def test_a_timer_that_never_comes_back() -> None:
     assert_failed(judge_timer(quiet(ticking()), lone(ticking(until_s=2))), "blocked executor")
 
@@ -287,8 +298,8 @@ def test_a_greeting_of_many_messages_is_no_timer() -> None:
 def test_what_a_node_tells_while_it_starts_is_no_timer() -> None:
     loading = [says(f"loading part {n}", START + n / 10) for n in range(30)]
     later = [replace(log, stamp=log.stamp + 3) for log in ticking()]
-    (series,) = all_series(said_since([*loading, *later], START + 3))
-    assert {tick.text for tick in series.ticks} == {log.text for log in later}
+    found = all_series(said_since([*loading, *later], START + 3))
+    assert {tick.text for series in found for tick in series.ticks} == {log.text for log in later}
 
 
 def test_a_second_timer_is_not_taken_for_the_fast_one() -> None:
