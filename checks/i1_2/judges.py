@@ -153,8 +153,10 @@ def _why_not_every_ten(reports: Sequence[Report], feeding: Feeding, messages: in
     hint = f"if self.total_count % {EVERY} == 0: write the summary, in the callback, after counting"
     if len(reports) > 3 and len(reports) >= 0.7 * messages:
         return Cause("summary for every message", f"{len(reports)} summaries for {messages} messages", hint)
-    if len(reports) > len(due) or any(report.twice for report in reports):
-        return Cause("too many summaries", f"{_times(reports)} summaries for {messages} messages", hint)
+    if len(reports) > len(due) or any(report.times > 1 for report in reports):
+        return Cause(
+            "too many summaries", f"{sum(report.times for report in reports)} summaries for {messages} messages", hint
+        )
     for number in due:
         on_time = [each for each in reports if in_time(each, feeding) and milestone(each.messages) == number]
         if not on_time:
@@ -163,10 +165,6 @@ def _why_not_every_ten(reports: Sequence[Report], feeding: Feeding, messages: in
             said = f"it comes after {(early or late)[-1]}" if early or late else "and none comes later"
             return Cause("missing summary", f"there is none after {number} messages, {said}", hint)
     return None
-
-
-def _times(reports: Sequence[Report]) -> int:
-    return sum(2 if report.twice else 1 for report in reports)
 
 
 def _counts_wrongly(reports: Sequence[Report], feeding: Feeding) -> bool:

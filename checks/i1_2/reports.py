@@ -52,18 +52,16 @@ class Report:
         return frozenset(line.kind for line in self.lines if line.tells)
 
     @property
-    def twice(self) -> bool:
-        """Whether it is one summary, logged twice: the same lines, with the same quotations and the same numbers."""
-        half, odd = divmod(len(self.lines), 2)
-        tells = any(line.quoted for line in self.lines) and any(line.numbers for line in self.lines)
-        return (
-            tells
-            and not odd
-            and all(
-                (one.quoted, one.numbers, one.kind) == (other.quoted, other.numbers, other.kind)
-                for one, other in zip(self.lines[:half], self.lines[half:], strict=True)
-            )
-        )
+    def times(self) -> int:
+        """How often it is there: the same lines, with the same quotations, may have been logged again and again."""
+        for length in range(1, len(self.lines) // 2 + 1):
+            times, rest = divmod(len(self.lines), length)
+            parts = [self.lines[start : start + length] for start in range(0, len(self.lines), length)]
+            if rest or not (any(line.quoted for line in parts[0]) and any(line.numbers for line in parts[0])):
+                continue
+            if len({tuple((line.kind, line.quoted) for line in part) for part in parts}) == 1:
+                return times
+        return 1
 
     def states(self, value: float) -> bool:
         """Whether this number is in it, in whichever writing."""

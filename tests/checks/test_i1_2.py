@@ -656,6 +656,15 @@ class Twice(Counter):
         yield from super().summary()
 
 
+class Polled(Counter):
+    """A timer sums up whenever it finds a multiple of ten: three times until the next message."""
+
+    def summary(self) -> Iterator[Log]:
+        for times in range(3):
+            for level, text in super().summary():
+                yield level, f"{text} after {1.84 + 0.05 * times:.2f} s"
+
+
 class Stubborn(Counter):
     """Drops what it takes for old."""
 
@@ -735,6 +744,7 @@ class AgainAfterASecond(Counter):
         (ResetsAtAGap, "count", "wrong count"),
         (StopsAtAGap, "summary", "missing summary"),
         (Twice, "summary", "too many summaries"),
+        (Polled, "summary", "too many summaries"),
         (CountsUpToN, "restart", "wrong count after a restart"),
         (OnlyOnce, "summary", "missing summary"),
         (FirstOverwritten, "summary", "first message overwritten"),
