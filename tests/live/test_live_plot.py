@@ -1,7 +1,7 @@
 from __future__ import annotations
 
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from tutor.tui.live.plot import draw, limits, short
@@ -58,6 +58,7 @@ def test_labels_have_as_many_digits_as_they_need(value: float, span: float, text
     st.integers(12, 200),
     st.integers(3, 60),
 )
+@example([(40.0, 2.225073858507203e-309)], 12, 3)
 def test_whatever_the_values_it_fits(points: list[tuple[float, float]], width: int, height: int) -> None:
     plot = draw(sorted(points), width, height, 100.0, 60.0)
     assert len(plot.rows) == height - 1

@@ -22,6 +22,9 @@ _STROKES = [[[sum(dots[low : high + 1]) for high in range(4)] for low in range(4
 _HOLE = 4.0
 """A silence of so many usual periods is left open."""
 
+_LEAST = 1e-290
+"""A value nearer to 0 than this is drawn as 0: an axis around it could not be calculated with."""
+
 
 @dataclass(frozen=True, slots=True)
 class Plot:
@@ -67,7 +70,7 @@ def _scale(values: Iterable[float]) -> tuple[float, float, float]:
         return 0.0, 1.0, 0.5
     low, high = min(known), max(known)
     if high - low < 1e-9 * max(1.0, abs(high)):
-        around = abs(high) * 0.1 or 1.0
+        around = abs(high) * 0.1 if abs(high) > _LEAST else 1.0
         low, high = low - around, high + around
     step = _round_step((high - low) / 4)
     return math.floor(low / step + 1e-9) * step, math.ceil(high / step - 1e-9) * step, step
