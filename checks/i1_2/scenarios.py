@@ -37,6 +37,9 @@ SPIN_S = 2.0
 SAID_S = 0.15
 """What belongs to one summary is logged within this time, each line after the other."""
 
+MOST_SAID_S = 1.0
+"""A node that goes on logging for ever is not heard out longer than this."""
+
 STUCK_S = 1.5
 ROUGH_S = 0.15
 """A node kept from running for longer may have lost messages, and one that was fed so unevenly measured no one rate."""
@@ -186,7 +189,7 @@ async def _pause(run: Run, for_s: float) -> None:
 
 
 async def _hear_out(run: Run, fed: Feeding) -> Feeding:
-    """Wait for the last summary, and until nothing more is logged."""
+    """Wait for the last summary, and until nothing more is logged, or for a while where that never ends."""
 
     def now() -> Feeding:
         return replace(fed, trace=run.trace())
@@ -196,8 +199,8 @@ async def _hear_out(run: Run, fed: Feeding) -> Feeding:
 
     if len(fed.sent) % 10 == 0:
         await run.until(due, LATE_S)
-    seen = -1
-    while len(run.logs) != seen:
+    seen, until = -1, run.now() + MOST_SAID_S
+    while len(run.logs) != seen and run.now() < until:
         seen = len(run.logs)
         await run.until(lambda seen=seen: len(run.logs) != seen, SAID_S)  # type: ignore[misc]
     return now()
