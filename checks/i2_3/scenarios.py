@@ -57,12 +57,14 @@ async def quiet(bench: Bench) -> Quiet:
     """Listen to the node while nobody calls, then press Ctrl+C."""
     async with bench.start(FILE) as run:
         bench.doing(0.1, "waiting for the timer's log messages")
-        await appears(run, lambda: bool(run.logs))
+        await appears(run, lambda: bool(run.graph.nodes))
         await _spins(run)
-        since, starved_s = run.now(), run.starved_s()
+        since = run.now()
+        await appears(run, lambda: bool(said_since(run.logs, since)))
+        listened_at, starved_s = run.now(), run.starved_s()
         bench.doing(0.3, "listening to the timer")
         await listen(run, since, lambda: is_there(run.graph.services))
-        share = (run.starved_s() - starved_s) / max(0.1, run.now() - since)
+        share = (run.starved_s() - starved_s) / max(0.1, run.now() - listened_at)
         series = likely(all_series(said_since(run.logs, since)))
         trace = run.trace()
         bench.doing(0.8, "pressing Ctrl+C")
