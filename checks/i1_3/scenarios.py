@@ -30,6 +30,9 @@ from tutor.judge.trace import CallAnswer, Service
 from tutor.judge.tracebacks import Frame
 from tutor.judge.waiting import appears
 
+MOST_SAID_S = 2.0
+"""A node that goes on logging for ever is not heard out longer than this."""
+
 
 async def survey(bench: Bench) -> Calls:
     """Call every service once as `ros2 service call` does, then press Ctrl+C."""
@@ -137,8 +140,8 @@ def _server(service: str) -> Any:
 
 
 async def _quiet(run: Run) -> None:
-    """Wait until the node has logged what it had to say about the call just answered."""
-    seen = -1
-    while len(run.logs) != seen:
+    """Wait until the node has logged what it had to say about the call just answered; one may log without end."""
+    seen, until = -1, run.now() + MOST_SAID_S
+    while len(run.logs) != seen and run.now() < until:
         seen = len(run.logs)
         await run.until(lambda seen=seen: len(run.logs) != seen, 0.3)  # type: ignore[misc]
