@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import os
 import sys
 import time
 from collections.abc import Sequence
@@ -61,6 +62,7 @@ async def judge(case: Case) -> Outcome:
         stdout=asyncio.subprocess.PIPE,
         stderr=asyncio.subprocess.PIPE,
         stdin=asyncio.subprocess.DEVNULL,
+        env=dict(os.environ),  # a copy: pytest writes to the real one while, in another thread, this is started
         limit=2**24,
     )
     try:
