@@ -113,12 +113,12 @@ def test_the_sample_has_right_ones_and_each_criterion_and_cause() -> None:
         _case("r2", "right"),
         _case("one", fails=("a",), causes={"": ("no spin",)}),
         _case("two", fails=("a", "b"), causes={"": ("No spin",)}),
-        _case("three", fails=("b",), causes={"b": ("other", "ramp")}),
+        _case("three", fails=("b",), causes={"b": ("blocked executor", "ramp")}),
         _case("four", bonus_failed=("c",)),
-        _case("five", fails=("a",), exercise="x1.2"),
-        _case("six", fails=("a",), exercise="x1.2"),
+        *(_case(name, fails=("a",), exercise="x1.2") for name in ("five", "six", "seven")),
     ]
-    assert [case.folder.name for case in sample(cases)] == ["r1", "two", "three", "four", "five"]
+    names = [case.folder.name for case in sample(cases)]
+    assert names == ["r1", "one", "two", "three", "four", "five", "seven"]  # of the last three, two by name
     assert sample(cases[::-1]) == sample(cases)[::-1]
 
 
@@ -126,7 +126,7 @@ def test_the_real_sample_leaves_nothing_out() -> None:
     chosen = sample(EVERY)
     assert set().union(*map(shows, chosen)) == set().union(*map(shows, EVERY))
     right = [[case.exercise for case in cases if case.kind == "right"] for cases in (chosen, EVERY)]
-    assert all(2 * right[0].count(each) >= right[1].count(each) - 1 for each in set(right[1]))
+    assert all(3 * right[0].count(each) >= right[1].count(each) - 2 for each in set(right[1]))
 
 
 def _outcome(name: str, verdict: str, took_s: float, *wrong: str) -> Outcome:
