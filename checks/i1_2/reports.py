@@ -136,7 +136,7 @@ def _alone(reports: Sequence[Report], candidates: Iterable[Report], feeding: Fee
 
     That is what comes by itself, too, and not when a summary is due: then it may be the rest of a torn one.
     """
-    apart = [each for each in candidates if each not in reports and not in_time(each, feeding)]
+    apart = [each for each in candidates if each not in reports and each.messages % EVERY > STALE]
     elsewhere = {line.kind for each in apart for line in each.lines}
     return tuple(_without(report, elsewhere, feeding) for report in reports)
 

@@ -769,13 +769,14 @@ def test_wrong_ones(node: Callable[[], Counter], criterion: str, cause: str) -> 
     assert_breaks(verdicts, criterion, cause)
 
 
+@pytest.mark.parametrize("starved_s", [0.0, 2.0])
 @pytest.mark.parametrize(("first", "late_s"), [(91, 0.0005), (92, 0.0005), (92, 0.124), (90, 0.0005)])
-def test_an_alarm_beside_a_summary_is_none_of_its_lines(first: int, late_s: float) -> None:
+def test_an_alarm_beside_a_summary_is_none_of_its_lines(first: int, late_s: float, starved_s: float) -> None:
     jumped, even = jump(AlarmedByTens(), first=first), steady(AlarmedByTens())
     alarm = next(log for log in jumped.trace.logs if log.text == "out of sequence")
     stamp = alarm.stamp + late_s
     logs = [replace(log, stamp=stamp, received_at=stamp) if log is alarm else log for log in jumped.trace.logs]
-    jumped = replace(jumped, trace=replace(jumped.trace, logs=tuple(logs)))
+    jumped = replace(jumped, trace=replace(jumped.trace, logs=tuple(logs)), starved_s=starved_s)
     assert_passed(judges.judge_summary(even, jumped))
     assert_passed(judges.judge_count(even, jumped))
     assert_failed(continuity.judge_gaps(jumped, even), "false alarm")
