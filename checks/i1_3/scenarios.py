@@ -30,6 +30,9 @@ from tutor.judge.trace import CallAnswer, Service
 from tutor.judge.tracebacks import Frame
 from tutor.judge.waiting import appears
 
+DYING_S = 3.0
+"""A process whose node has gone ends within this time."""
+
 MOST_SAID_S = 2.0
 """A node that goes on logging for ever is not heard out longer than this."""
 
@@ -44,8 +47,10 @@ async def survey(bench: Bench) -> Calls:
         there = [name for name in SIGNS if name not in missing_of(met.services)]
         bench.doing(0.4, "calling each service")
         answers = await _ask(run, [(name, *EASY) for name in there])
+        if answers and answers[-1].response is None and not run.graph.nodes:  # a call has killed it: it is about to end
+            await run.ends(DYING_S)
         trace = run.trace()
-        if trace.exit is not None:  # one that a call has killed takes its services along, one by one
+        if trace.exit is not None or not trace.graph.nodes:  # it takes its services along, one by one
             trace = replace(trace, graph=met)
         bench.doing(0.8, "pressing Ctrl+C")
         ended = await run.interrupt() if run.exit is None else None
