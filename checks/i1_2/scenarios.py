@@ -29,7 +29,7 @@ from checks.i1_2.facts import (
 from checks.i1_2.reports import Report, find
 from tutor.judge.bench import Bench, Feed, MachineTooBusy, Run
 from tutor.judge.tracebacks import Frame
-from tutor.judge.waiting import TRIES, appears
+from tutor.judge.waiting import TRIES, appears, heard_out
 
 SPIN_S = 2.0
 """A node that is subscribed and spins answers a request within this time; for one that sleeps first, twice as long."""
@@ -199,10 +199,7 @@ async def _hear_out(run: Run, fed: Feeding) -> Feeding:
 
     if len(fed.sent) % 10 == 0:
         await run.until(due, LATE_S)
-    seen, until = -1, run.now() + MOST_SAID_S
-    while len(run.logs) != seen and run.now() < until:
-        seen = len(run.logs)
-        await run.until(lambda seen=seen: len(run.logs) != seen, SAID_S)  # type: ignore[misc]
+    await heard_out(run, quiet_s=SAID_S, most_s=MOST_SAID_S)
     return now()
 
 

@@ -28,10 +28,13 @@ from checks.i1_3.facts import (
 from tutor.judge.bench import Bench, Run
 from tutor.judge.trace import CallAnswer, Service
 from tutor.judge.tracebacks import Frame
-from tutor.judge.waiting import appears
+from tutor.judge.waiting import appears, heard_out
 
 DYING_S = 3.0
 """A process whose node has gone ends within this time."""
+
+SAID_S = 0.3
+"""What a node has to say of a call is logged within this time, each line after the other."""
 
 MOST_SAID_S = 2.0
 """A node that goes on logging for ever is not heard out longer than this."""
@@ -47,14 +50,14 @@ async def survey(bench: Bench) -> Calls:
         there = [name for name in SIGNS if name not in missing_of(met.services)]
         bench.doing(0.4, "calling each service")
         answers = await _ask(run, [(name, *EASY) for name in there])
-        if answers and answers[-1].response is None and not run.graph.nodes:  # a call has killed it: it is about to end
+        unanswered = next((answer for answer in answers if answer.response is None), None)
+        if unanswered and not run.graph.nodes:  # a call has killed it: it is about to end
             await run.ends(DYING_S)
         trace = run.trace()
         if trace.exit is not None or not trace.graph.nodes:  # it takes its services along, one by one
             trace = replace(trace, graph=met)
         bench.doing(0.8, "pressing Ctrl+C")
         ended = await run.interrupt() if run.exit is None else None
-    unanswered = next((answer for answer in answers if answer.response is None), None)
     stuck = await _stuck(bench, unanswered) if unanswered and trace.exit is None else ()
     return Calls(trace, answers, spins, stuck, ended)
 
@@ -99,7 +102,7 @@ async def division(bench: Bench) -> Division:
             return await run.call("/divide", TYPE, {"a": a, "b": b}, limit_s=ANSWER_S)
 
         before = await divide(84, 7)
-        await _quiet(run)
+        await heard_out(run, quiet_s=SAID_S, most_s=MOST_SAID_S)
         ordinary = tuple(run.logs)
         bench.doing(0.4, "calling /divide: 10 ÷ 0")
         by_zero = await divide(10, 0)
@@ -142,11 +145,3 @@ def _server(service: str) -> Any:
         return {"sum": max(-(2**63), min(2**63 - 1, result))}
 
     return answer
-
-
-async def _quiet(run: Run) -> None:
-    """Wait until the node has logged what it had to say about the call just answered; one may log without end."""
-    seen, until = -1, run.now() + MOST_SAID_S
-    while len(run.logs) != seen and run.now() < until:
-        seen = len(run.logs)
-        await run.until(lambda seen=seen: len(run.logs) != seen, 0.3)  # type: ignore[misc]

@@ -66,6 +66,14 @@ async def stuck(bench: Bench, file: str) -> tuple[Frame, ...]:
         return await run.stuck_at()
 
 
+async def heard_out(run: Run, *, quiet_s: float, most_s: float) -> None:
+    """Wait until nothing has been logged for `quiet_s`, or for `most_s` where a node logs without end."""
+    seen, until = -1, run.now() + most_s
+    while len(run.logs) != seen and run.now() < until:
+        seen = len(run.logs)
+        await run.until(lambda seen=seen: len(run.logs) != seen, quiet_s)  # type: ignore[misc]
+
+
 def window_s(hz: float) -> float:
     """How many seconds of messages it takes to tell this rate: two periods at least, and one second."""
     return max(1.0, (2.0 if hz < 1 else 3.0) / hz)

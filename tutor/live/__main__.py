@@ -12,8 +12,9 @@ import sys
 from typing import BinaryIO
 
 from tutor.live.facts import TopicNews
-from tutor.live.lifeline import die_with_parent, read_lines
+from tutor.live.lifeline import read_lines
 from tutor.live.protocol import News, decode_command, encode
+from tutor.process.parent import die_with_parent
 from tutor.ros.environment import detect
 from tutor.ros.this_process import use
 

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import asyncio
 import os
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from textual import on
 from textual.app import ComposeResult
@@ -94,7 +96,9 @@ class WelcomeScreen(Screen[bool]):
         if root is not None and not self._making and not _about(root, root)[1]:
             self._making = True
             self.query_one("#begin", Button).label = "Making your workspace …"
-            self.run_worker(self._begin(root))
+            # Given a coroutine, run_worker leaves it behind, never awaited, where the screen closes before it begins.
+            begun: Callable[[], Any] = partial(self._begin, root)
+            self.run_worker(begun)
 
     async def _begin(self, root: Path) -> None:
         try:
