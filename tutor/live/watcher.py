@@ -30,7 +30,7 @@ from tutor.ros.observer import Observer
 from tutor.ros.tap import Tap
 from tutor.ros.whole_graph import quick_look, whole_graph
 
-NEWS_EVERY_S = 0.1
+NEWS_EVERY_S = 0.2
 """Topics are told about at most this often, in seconds, however fast they are."""
 
 LOOK_EVERY_S = 0.5

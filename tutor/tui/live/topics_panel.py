@@ -13,6 +13,7 @@ from textual.containers import Horizontal, Vertical
 from textual.content import Content
 from textual.message import Message
 from textual.widgets import DataTable, Static
+from textual.widgets.data_table import ColumnKey
 
 from tutor.live.facts import Topic
 from tutor.live.protocol import Clear, Command, Follow, Plot, Unfollow
@@ -94,16 +95,12 @@ class TopicsPanel(Vertical):
                 if names:
                     table.move_cursor(row=names.index(chosen) if chosen in names else 0)
                     self.chosen = chosen if chosen in names else names[0]
-        elif listed != self._listed:
-            for topic in listed:
-                self._update(topic)
         self._listed = listed
+        self._update_all()
         self.show_chosen()
 
     def show_news(self, name: str) -> None:
-        """Something has come on a topic."""
-        if topic := next((topic for topic in self._listed if topic.name == name), None):
-            self._update(topic)
+        """Something has come on a topic. Its line in the list follows within the second."""
         if name == self.chosen:
             self.show_chosen()
 
@@ -200,13 +197,20 @@ class TopicsPanel(Vertical):
             return
         for name, cell in zip(_COLUMNS, self._cells(topic), strict=True):
             key = name or "mark"
-            if (old := table.get_cell(topic.name, key)) != cell:
+            if table.get_cell(topic.name, key) != cell:
                 # A new width lays the whole page out anew: only where it must.
-                table.update_cell(topic.name, key, cell, update_width=cell.cell_len > old.cell_len)
+                wider = cell.cell_len > table.columns[ColumnKey(key)].content_width
+                table.update_cell(topic.name, key, cell, update_width=wider)
 
     def _tick(self) -> None:
-        if self.display and self.view is not None:
-            self.show_news(self.chosen)
+        if self.display:
+            self._update_all()
+            if self.view is not None:
+                self.show_chosen()
+
+    def _update_all(self) -> None:
+        for topic in self._listed:
+            self._update(topic)
 
     # --- what is done ---
 
@@ -238,8 +242,6 @@ class TopicsPanel(Vertical):
     def action_unfollow(self) -> None:
         if self.state.topics.pop(self.chosen, None) is not None:
             self.post_message(Order(Unfollow(self.chosen)))
-            for topic in self._listed:
-                self._update(topic)
             self.show_list()
 
     def action_pause(self) -> None:
@@ -251,7 +253,8 @@ class TopicsPanel(Vertical):
         if self.view is not None:
             self.view.clear()
             self.post_message(Order(Clear(self.chosen)))
-            self.show_news(self.chosen)
+            self._update_all()
+            self.show_chosen()
 
     def action_next_field(self) -> None:
         view = self.view

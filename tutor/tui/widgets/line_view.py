@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import zip_longest
 
 from rich.cells import cell_len
 from rich.segment import Segment
@@ -38,10 +39,14 @@ class LineView(ScrollView, can_focus=True):
 
     def show_rows(self, rows: Sequence[Row], margins: Sequence[Piece] = ()) -> None:
         """Show other rows; the place that is looked at stays."""
+        changed = [y for y, (old, new) in enumerate(zip_longest(self.rows, rows)) if old != new]
+        if margins != self.margins:
+            self.refresh()
+        elif changed:  # the rest need not be painted again, which is most of it where values come fast
+            self.refresh_lines(changed[0], changed[-1] - changed[0] + 1)
         self.rows, self.margins = rows, margins
         widest = max((sum(cell_len(text) for text, _ in row) for row in rows), default=0)
         self.virtual_size = Size(widest + self._margin_width, len(rows))
-        self.refresh()
 
     @property
     def plain(self) -> str:
