@@ -24,6 +24,7 @@ from tutor.tui.live.strip import Action, ActionBar
 from tutor.tui.widgets.line_view import LineView
 
 _COLUMNS = ("", "Topic", "Rate", "Count", "Pub", "Sub", "Type")
+_LIST_EVERY_S = 0.45
 _OTHER_FIELD = ("y", "Field", "next_field")
 
 
@@ -52,6 +53,7 @@ class TopicsPanel(Vertical):
         self.state = state
         self.chosen = ""
         self._listed: tuple[Topic, ...] = ()
+        self._list_again_at = 0.0
 
     def compose(self) -> ComposeResult:
         yield DataTable(id="topics-table", cursor_type="row", cell_padding=1)
@@ -100,7 +102,9 @@ class TopicsPanel(Vertical):
         self.show_chosen()
 
     def show_news(self, name: str) -> None:
-        """Something has come on a topic. Its line in the list follows within the second."""
+        """Something has come on a topic. Where much comes, the list follows now and then: it costs more to paint."""
+        if time.monotonic() >= self._list_again_at:
+            self._update_all()
         if name == self.chosen:
             self.show_chosen()
 
@@ -209,6 +213,7 @@ class TopicsPanel(Vertical):
                 self.show_chosen()
 
     def _update_all(self) -> None:
+        self._list_again_at = time.monotonic() + _LIST_EVERY_S
         for topic in self._listed:
             self._update(topic)
 
