@@ -58,6 +58,14 @@ expecting type '{wanted}': wrong"""
         (trace(exit=exited(3)), "exit at once", "exit code 3"),
         (trace(exit=exited(signal=9)), "killed", "SIGKILL"),
         (trace(exit=exited(signal=77)), "killed", "signal 77"),
+        (
+            trace(
+                err="terminate called without an active exception\nFatal Python error: Aborted", exit=exited(signal=6)
+            ),
+            "thread still running",
+            "of its own",
+        ),
+        (trace(err="free(): invalid pointer", exit=exited(signal=6)), "killed", "SIGABRT"),
         (trace(exit=exited(0), uncalled_main=True), "no main call", "main()"),
         (NO_NODE, "no node", "made no ROS node"),
         (trace(graph=NOWHERE, dropped_lines=5), "no node", "prints without end"),

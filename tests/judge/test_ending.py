@@ -76,6 +76,8 @@ def test_clean(end: Ending) -> None:
         (ended(signal=15), "non-zero exit", "signal 15"),
         (ended(signal=11), "non-zero exit", "signal 11"),
         (ended(143), "non-zero exit", "exit code 143"),
+        (ended(signal=6), "non-zero exit", "signal 6"),
+        (ended(signal=6, err="terminate called without an active exception"), "thread still running", "join"),
     ],
 )
 def test_not_clean(end: Ending, cause: str, words: str) -> None:

@@ -34,16 +34,13 @@ def judge(trace: Trace, ending: Ending | None) -> Verdict:
         return failed(expected, f"{observed} and a traceback", _of_traceback(found[-1], trace), [found[-1].raised])
     if ending.exit.code in (0, 130) or ending.exit.signal == 2 or (found and ending.exit.code == 1):
         return passed(expected, observed)
-    return failed(
-        expected,
-        observed,
-        Cause(
-            "non-zero exit",
-            f"the process ended with {ending.exit}",
-            "return normally from main() after Ctrl+C; call no sys.exit() with another code",
-        ),
-        causes.last_words(trace),
+    other = Cause(
+        "non-zero exit",
+        f"the process ended with {ending.exit}",
+        "return normally from main() after Ctrl+C; call no sys.exit() with another code",
     )
+    cause = causes.of_torn_thread(ending.exit, ending.output) or other
+    return failed(expected, observed, cause, causes.last_words(trace))
 
 
 def _of_rclpys_clean_up(found: tracebacks.Traceback, trace: Trace) -> bool:

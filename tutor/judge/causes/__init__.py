@@ -13,7 +13,16 @@ from tutor.judge.causes.parameters import (
     rate_as_period,
     timer_not_replaced,
 )
-from tutor.judge.causes.process import QUICK_S, in_call, last_words, no_spin, of_no_answer, of_process, same_name
+from tutor.judge.causes.process import (
+    QUICK_S,
+    in_call,
+    last_words,
+    no_spin,
+    of_no_answer,
+    of_process,
+    of_torn_thread,
+    same_name,
+)
 from tutor.judge.causes.topics import (
     incompatible_qos,
     incompatible_service,
@@ -40,6 +49,7 @@ __all__ = [
     "of_qos",
     "of_refusal",
     "of_silence",
+    "of_torn_thread",
     "of_traceback",
     "of_types",
     "old_timer_kept",

@@ -8,12 +8,15 @@ from collections.abc import Sequence
 from tutor.judge import tracebacks
 from tutor.judge.causes import names
 from tutor.judge.causes.exceptions import of_traceback
-from tutor.judge.trace import Trace
+from tutor.judge.trace import Exit, OutputLine, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Cause
 
 QUICK_S = 3.0
 """A process that ends by itself within this many seconds of its start ended "at once"."""
+
+_TORN_THREAD = ("terminate called without an active exception", "FATAL: exception not rethrown")
+"""What C++ and glibc write where Python, at its end, stops a thread that is inside rclpy."""
 
 
 def of_process(trace: Trace) -> Cause | None:
@@ -41,6 +44,8 @@ def _of_exit(trace: Trace) -> Cause:
             f"{ended}: main() is defined, but nothing calls it",
             'end the file with: if __name__ == "__main__": main()',
         )
+    if (torn := of_torn_thread(trace.exit, trace.output)) is not None:
+        return torn
     if trace.exit.signal is not None:
         return Cause("killed", f"{ended} ({_signal_name(trace.exit.signal)})", "see the last lines of its output")
     if trace.exit.code == 0 and trace.exit.after_s <= QUICK_S + 0.5:
@@ -50,6 +55,18 @@ def _of_exit(trace: Trace) -> Cause:
             "a node lives as long as rclpy.spin(node) runs: is it called, and is anything ending it?",
         )
     return Cause(names.EXIT_AT_ONCE, ended, "let rclpy.spin(node) run until Ctrl+C; see the last lines of its output")
+
+
+def of_torn_thread(ended: Exit, output: Sequence[OutputLine]) -> Cause | None:
+    """Whether the program aborted because it came to its end while a daemon thread of its own was inside rclpy."""
+    if ended.signal != signal.SIGABRT or not any(words in line.text for line in output for words in _TORN_THREAD):
+        return None
+    return Cause(
+        "thread still running",
+        f"the process ended after {ended.after_s:.1f} s with {ended}: the program came to its end while a thread of "
+        "its own was still spinning, which aborts it",
+        "end that thread first: call rclpy.shutdown() or executor.shutdown(), then thread.join(), also for a daemon",
+    )
 
 
 def no_spin(trace: Trace) -> Cause:

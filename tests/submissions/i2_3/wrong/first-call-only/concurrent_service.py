@@ -22,7 +22,7 @@ class ConcurrentServiceNode(Node):
         self.get_logger().info(f'Service called: {req.a} + {req.b}')
         time.sleep(3.0)
         resp.sum = req.a + req.b
-        self.create_timer(0.01, lambda: self.destroy_service(self.srv))
+        self.create_timer(0.2, lambda: self.destroy_service(self.srv))
         self.get_logger().info(f'Service complete: {resp.sum}')
         return resp
 
