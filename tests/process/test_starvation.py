@@ -3,21 +3,26 @@ import subprocess
 import sys
 import time
 
-from tutor.process import cpu_time, cpu_time_here
+from tutor.process import CpuMeter, cpu_time_here
 
 BUSY = "while True: pass"
 
 
-def test_a_busy_process_is_seen_to_run_and_an_ended_one_no_longer_counts() -> None:
+def test_a_busy_process_is_seen_to_run_and_what_it_had_is_kept_when_it_has_ended() -> None:
     with subprocess.Popen([sys.executable, "-c", BUSY], start_new_session=True) as process:
+        meter = CpuMeter(process.pid)
         try:
             deadline = time.monotonic() + 30
-            while cpu_time(process.pid).ran_s < 0.2 and time.monotonic() < deadline:
+            while meter.read().ran_s < 0.2 and time.monotonic() < deadline:
                 time.sleep(0.01)
-            assert cpu_time(process.pid).ran_s >= 0.2
+            had = meter.read()
+            assert had.ran_s >= 0.2
         finally:
             process.kill()
-    assert cpu_time(process.pid).ran_s == 0.0
+    after = meter.read()
+    assert after.ran_s >= had.ran_s
+    assert after.waited_s >= had.waited_s
+    assert CpuMeter(process.pid).read().ran_s == 0.0
 
 
 def test_two_on_one_cpu_wait_for_each_other() -> None:
@@ -25,10 +30,11 @@ def test_two_on_one_cpu_wait_for_each_other() -> None:
     code = f"import os; os.sched_setaffinity(0, {{{cpu}}})\n{BUSY}"
     both = [subprocess.Popen([sys.executable, "-c", code], start_new_session=True) for _ in range(2)]
     try:
+        meters = [CpuMeter(each.pid) for each in both]
         deadline = time.monotonic() + 30
-        while min(cpu_time(each.pid).waited_s for each in both) < 0.2 and time.monotonic() < deadline:
+        while min(meter.read().waited_s for meter in meters) < 0.2 and time.monotonic() < deadline:
             time.sleep(0.01)
-        assert min(cpu_time(each.pid).waited_s for each in both) >= 0.2
+        assert min(meter.read().waited_s for meter in meters) >= 0.2
     finally:
         for each in both:
             each.kill()
@@ -38,19 +44,28 @@ def test_two_on_one_cpu_wait_for_each_other() -> None:
 def test_a_main_thread_that_sleeps_is_not_kept_waiting() -> None:
     cpu = min(os.sched_getaffinity(0))
     pinned = f"import os, threading, time; os.sched_setaffinity(0, {{{cpu}}})\n"
-    rest = f"threading.Thread(target=exec, args=({BUSY!r},), daemon=True).start()\ntime.sleep(1000)"
-    both = [subprocess.Popen([sys.executable, "-c", pinned + code], start_new_session=True) for code in (BUSY, rest)]
+    rest = (
+        f"threading.Thread(target=exec, args=({BUSY!r},), daemon=True).start()\n"
+        "print('up', flush=True)\ntime.sleep(1000)"
+    )
+    both = [
+        subprocess.Popen([sys.executable, "-c", pinned + code], start_new_session=True, stdout=subprocess.PIPE)
+        for code in (BUSY, rest)
+    ]
     try:
-        deadline = time.monotonic() + 30
-        while cpu_time(both[1].pid).waited_s < 0.5 and time.monotonic() < deadline:
+        assert both[1].stdout is not None
+        assert both[1].stdout.readline() == b"up\n"
+        meter, deadline = CpuMeter(both[1].pid), time.monotonic() + 30
+        before = meter.read()
+        while meter.read().waited_s < before.main_waited_s + 1.0 and time.monotonic() < deadline:
             time.sleep(0.01)
-        had = cpu_time(both[1].pid)
-        assert had.waited_s >= 0.5
-        assert had.main_waited_s < had.waited_s / 2
+        had = meter.read()
+        assert had.waited_s >= before.main_waited_s + 1.0
+        assert had.main_waited_s < before.main_waited_s + 0.5
     finally:
         for each in both:
             each.kill()
-            each.wait()
+            each.communicate()
 
 
 def test_our_own_process_has_run() -> None:

@@ -32,7 +32,7 @@ from tutor.judge.trace import (
     Trace,
 )
 from tutor.judge.tracebacks import Frame
-from tutor.process import CpuTime, LearnerProcess, cpu_time, cpu_time_here
+from tutor.process import CpuMeter, CpuTime, LearnerProcess, cpu_time_here
 from tutor.ros import echo, graph, parameters
 from tutor.ros.feed import TopicFeed
 from tutor.ros.messages import UnknownType, to_plain
@@ -91,6 +91,7 @@ class LiveRun:
         self._observer = observer
         self._facts = facts
         self._graph: tuple[float, Graph] = (0.0, Graph())
+        self._meter = CpuMeter(process.pid)
         self._cpu_time: tuple[float, CpuTime] = (0.0, CpuTime())
         self._late: tuple[float, float] = (0.0, 0.0)
 
@@ -157,7 +158,7 @@ class LiveRun:
         asked, had = self._cpu_time
         now = time.monotonic()
         if now - asked >= LOOK_EVERY_S:
-            had = cpu_time(self._process.pid)
+            had = self._meter.read()
             self._cpu_time = (now, had)
         return had
 

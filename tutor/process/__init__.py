@@ -2,15 +2,15 @@
 
 from tutor.process.errors import EndError, ProcessError, StartError
 from tutor.process.learner import LearnerProcess, Survivor
-from tutor.process.starvation import CpuTime, cpu_time, cpu_time_here
+from tutor.process.starvation import CpuMeter, CpuTime, cpu_time_here
 
 __all__ = [
+    "CpuMeter",
     "CpuTime",
     "EndError",
     "LearnerProcess",
     "ProcessError",
     "StartError",
     "Survivor",
-    "cpu_time",
     "cpu_time_here",
 ]

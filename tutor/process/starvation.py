@@ -28,10 +28,23 @@ class CpuTime:
     main_waited_s: float = 0.0
 
 
-def cpu_time(session: int) -> CpuTime:
-    """What the processes of a session had of the CPU so far; one that has ended no longer counts."""
-    each = [_of(process.pid) for process in _processes(session).values() if process.session == session]
-    return CpuTime(*(sum(values) for values in zip(*map(astuple, each), strict=True)))
+class CpuMeter:
+    """Reads what the processes of a session had of the CPU.
+
+    Those that have ended since it first saw them go on counting: what one of several waited is not given back when it
+    is gone.
+    """
+
+    def __init__(self, session: int) -> None:
+        self._session = session
+        self._of: dict[int, CpuTime] = {}
+
+    def read(self) -> CpuTime:
+        """The sum of all processes so far."""
+        for process in _processes(self._session).values():
+            if process.session == self._session and (had := _of(process.pid)) != CpuTime():
+                self._of[process.pid] = had
+        return CpuTime(*(sum(values) for values in zip(*map(astuple, self._of.values()), strict=True)))
 
 
 def cpu_time_here() -> CpuTime:
