@@ -15,6 +15,8 @@ from tutor.judge.verdict import Cause
 _NO_PACKAGE = re.compile(r"package '(?P<name>[^']*)' not found", re.IGNORECASE)
 _NO_PROGRAM = re.compile(r"executable '(?P<name>[^']*)' not found (?:in|on)[^\n]*")
 _NOT_HERE = re.compile(r"\S+ is not supported by the launch files that run without an installed ROS 2")
+_ELSEWHERE = re.compile(r"`ros2 \w+` needs an installed ROS 2")
+_UNRESOLVED = re.compile(r"<launch\S* object at 0x")
 _NO_FILE = re.compile(r"FileNotFoundError|No such file or directory|\[Errno 2\]")
 _NO_FUNCTION = re.compile(r"required function '?generate_launch_description|no attribute '?generate_launch_description")
 _ERROR = re.compile(r"^\[ERROR\] \[launch\]: |Caught exception in launch[^:]*: ")
@@ -30,6 +32,13 @@ def of_launch(trace: Trace) -> Cause | None:
     text = "\n".join(line.text for line in own)
     if found := _NOT_HERE.search(text):
         raise OnlyWithRos(_line_of(text, found.start()))
+    if any(_UNRESOLVED.search(line.text) for line in trace.output):
+        return Cause(
+            "substitution made text too early",
+            "an f-string, str() or + has turned a substitution, such as LaunchConfiguration, into text like "
+            "<launch.substitutions... object at 0x...>: its value is known only when the launch runs",
+            "give a list instead, whose parts are joined then: [LaunchConfiguration('namespace'), '/', 'name']",
+        )
     if found := _NO_PACKAGE.search(text):
         return Cause(
             "package not found",
@@ -84,6 +93,8 @@ def _of_dead(dead: Gone, trace: Trace) -> Cause:
         named = causes.of_traceback(dead.traceback, trace)
         return Cause("a node that ends", f"{dead.process} has ended: {named}", named.hint)
     words = [line.text for line in dead.output if line.text.strip()][-1:]
+    if words and (elsewhere := _ELSEWHERE.search(words[0])):
+        raise OnlyWithRos(elsewhere[0])
     return Cause(
         "a node that ends",
         f"{dead.process} has ended by itself with exit code {dead.code}" + (f": {words[0]}" if words else ""),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -15,6 +16,11 @@ ANOTHER = "robot2"
 
 ARGUMENTS = ("topic", "namespace")
 
+_TELLING = 4
+"""A text of so many letters does not stand in a log message by chance."""
+
+_NUMBER = re.compile(r"[-+\d.,e]+")
+
 Pair = tuple[Endpoint, Endpoint]
 """A publisher and a subscription on one topic, of two nodes."""
 
@@ -24,15 +30,15 @@ class Launched:
     """One launch. `commands` are the command lines of its processes, itself included.
 
     `hidden` are topics whose type this ROS does not have, so that their messages cannot be seen. `answering` are the
-    nodes that answered a parameter call after messages had come, None where that was not asked. `parted`: the nodes had
-    met, and do so no longer; the graph is then that of their meeting.
+    nodes that answered a request after messages had come. `parted`: the nodes had met, and do so no longer; the graph
+    is then that of their meeting.
     """
 
     trace: Trace
     arguments: Mapping[str, str] = field(default_factory=dict)
     commands: tuple[str, ...] = ()
     hidden: frozenset[str] = frozenset()
-    answering: frozenset[str] | None = None
+    answering: frozenset[str] = frozenset()
     ending: Ending | None = None
     parted: bool = False
 
@@ -136,21 +142,31 @@ def size(graph: Graph) -> tuple[int, int, int]:
 
 
 def heard(pair: Pair, logs: Sequence[LogRecord], samples: Sequence[Sample]) -> list[LogRecord]:
-    """What the subscriber logged that has the content of a message in it."""
+    """What the subscriber logged that has the content of a message in it.
+
+    A number or a few letters may stand in any log message: they count where they follow two messages that differ.
+    """
     name = pair[1].node.strip("/").replace("/", ".")
     own = [log for log in logs if log.name == name or log.name.startswith(f"{name}.")]
-    return [
-        log
-        for log in own
-        if any(
-            text in log.text for sample in samples if sample.source_time <= log.stamp + 0.01 for text in _texts(sample)
-        )
-    ]
+    found: list[LogRecord] = []
+    weak: set[str] = set()
+    strong = False
+    for log in own:
+        said = {
+            text for sample in samples if sample.source_time <= log.stamp + 0.01 for text in _said(log.text, sample)
+        }
+        if said:
+            found.append(log)
+            weak |= said
+            strong = strong or any(len(text) >= _TELLING and not _NUMBER.fullmatch(text) for text in said)
+    return found if strong or len(weak) > 1 else []
 
 
-def _texts(sample: Sample) -> set[str]:
-    """The contents of a message, as they would be written in a log; what is too short to be told is left out."""
-    return {text for value in _leaves(sample.message) if len(text := str(value).strip()) > 0}
+def _said(text: str, sample: Sample) -> Iterator[str]:
+    """The contents of a message that stand in a text as words of their own."""
+    for value in {str(leaf).strip() for leaf in _leaves(sample.message)} - {""}:
+        if re.search(rf"(?<![\w.]){re.escape(value)}(?!\w|\.\d)", text, re.IGNORECASE):
+            yield value
 
 
 def _leaves(value: Any) -> Iterator[Any]:

@@ -114,7 +114,7 @@ def _why_not(seen: Launched, pair: Pair) -> Cause | None:
         return of_launch(seen.trace) or Cause(
             "no messages", f"{one.node} publishes nothing on {one.topic}", "start it alone, and see what it says"
         )
-    alive = seen.answering is not None and other.node in seen.answering
+    alive = other.node in seen.answering
     mute = not any(
         service.node == other.node and service.type.endswith("/ListParameters") for service in seen.trace.graph.services
     )

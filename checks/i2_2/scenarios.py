@@ -38,6 +38,12 @@ ENDPOINTS_S = 2.0
 GONE_S = 3.0
 """A launch tells that a process has ended within this time."""
 
+ANSWERS_S = 12.0
+"""A node whose callbacks take some seconds answers a request within this time; most do at once."""
+
+LIST_PARAMETERS = "rcl_interfaces/srv/ListParameters"
+"""What every node of rclpy's and rclcpp's can be asked."""
+
 SILENT_S = 1.0
 """A subscriber that logs what it gets does so within this time."""
 
@@ -54,8 +60,7 @@ async def plain(bench: Bench) -> Launched:
         met = run.graph
         hidden = _listen(run, shared(met))
         await run.until(lambda: _heard_out(run, hidden), RARE_S)
-        asked = await run.parameters(2.0) if pairs(run.graph) else None
-        answering = frozenset(parameter.node for parameter in asked or ())
+        answering = await _answering(run)
         if pairs(met):  # a node that has gone is told of a little later
             await run.until(lambda: bool(pairs(run.graph)) or bool(gone(run.output)), GONE_S)
         trace, commands = run.trace(), await run.commands()
@@ -111,6 +116,16 @@ async def _varied(bench: Bench, arguments: Mapping[str, str], wanted: Callable[[
             return Launched(_with(run.trace(), met, wanted), arguments, await run.commands(), hidden)
     finally:
         usual.cancel()
+
+
+async def _answering(run: Run) -> frozenset[str]:
+    """The nodes of the pairs that answer a request."""
+    able = {service.node for service in run.graph.services if service.type == LIST_PARAMETERS}
+    asked = sorted(able & {end.node for pair in pairs(run.graph) for end in pair})
+    answers = await asyncio.gather(
+        *(run.call(f"{node}/list_parameters", LIST_PARAMETERS, {}, limit_s=ANSWERS_S) for node in asked)
+    )
+    return frozenset(node for node, answer in zip(asked, answers, strict=True) if answer.response is not None)
 
 
 def _with(trace: Trace, met: Graph, wanted: Callable[[Graph], list[Pair]]) -> Trace:

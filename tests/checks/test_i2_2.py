@@ -147,6 +147,21 @@ def test_a_traceback_is_read_although_the_streams_are_mixed() -> None:
     assert_failed(judges.judge_starts(Launched(trace)), "syntax error", "line 3")
 
 
+def test_a_command_that_only_an_installed_ros_has_is_no_fault_of_the_learner() -> None:
+    says = "[ros2-1] ros2: `ros2 topic` needs an installed ROS 2; this ros2 knows: launch, run"
+    out = f"{says}\n[ERROR] [ros2-1]: process has died [pid 12, exit code 2, cmd 'ros2 topic pub /chatter']"
+    with pytest.raises(OnlyWithRos, match="ros2 topic"):
+        judges.judge_starts(launched(Graph(nodes=(HEARS,)), out=out))
+
+
+def test_a_substitution_in_an_f_string() -> None:
+    broken = (
+        "[talker-1] Couldn't parse remap rule: '-r chatter:=<launch.substitutions.launch_configuration.LaunchConfig"
+    )
+    out = f"{broken}uration object at 0x7f1>'\n{DEAD.replace('hearer-2', 'talker-1')}"
+    assert_failed(judges.judge_starts(launched(Graph(), out=out)), "substitution made text too early", "f-string")
+
+
 def test_what_only_an_installed_ros_has_is_no_fault_of_the_learner() -> None:
     says = "launch_ros.actions.LifecycleNode is not supported by the launch files that run without an installed ROS 2"
     broken = launched(Graph(), out=f"{ERROR}{says}; it works where ROS 2 is installed and sourced", exit=exited(1))
@@ -324,6 +339,29 @@ def test_a_subscriber_that_says_nothing_is_right_where_it_spins() -> None:
 def test_one_that_answers_no_calls_but_logs_is_right() -> None:
     seen = launched(pair("/chatter"), answering=frozenset(), logs=(heard("Hello World: 0"),))
     assert_passed(judges.judge_communicates(seen))
+
+
+@pytest.mark.parametrize(
+    ("logged", "proves"),
+    [
+        (("got 0", "got 1"), True),
+        (("got 0", "still 0"), False),  # a number may stand in any message
+        (("waiting 1.0 s",), False),
+        (("10 and 11",), False),
+    ],
+)
+def test_one_that_answers_no_calls_but_logs_numbers(logged: Sequence[str], proves: bool) -> None:
+    samples = [Sample("/chatter", {"data": number}, START + number / 10, START) for number in range(2)]
+    found = facts.heard(facts.pairs(pair("/chatter"))[0], [heard(text) for text in logged], samples)
+    assert bool(found) == proves
+
+
+@pytest.mark.parametrize(
+    ("said", "proves"), [("HELLO WORLD: 1!", True), ("Hello World: 11", False), ("Hello World: 1.", True)]
+)
+def test_a_logged_message_stands_for_itself(said: str, proves: bool) -> None:
+    samples = [Sample("/chatter", {"data": "Hello World: 1"}, START, START)]
+    assert bool(facts.heard(facts.pairs(pair("/chatter"))[0], [heard(said)], samples)) == proves
 
 
 def test_a_log_of_another_node_is_no_proof() -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import pytest
 
 from tests.checks.made import CRASH, CRASHED, FOLDER, NO_NODE, UP, exited, graph, lines, log, trace
@@ -139,11 +141,13 @@ def test_two_nodes_of_one_name_are_told_and_two_of_different_names_are_not() -> 
     assert same_name(Trace("x.py", graph=Graph(nodes=("/a", "/talker")))) is None
 
 
+PLAIN = ("reliable", "volatile")
 OURS = Endpoint("/chatter", "std_msgs/msg/String", "/ours", "reliable", "volatile")
 
 
 def subscribed(topic: str = OURS.topic, type_name: str = OURS.type, *qos: str) -> Trace:
-    asked = Endpoint(topic, type_name, "/node", *(qos or ("reliable", "volatile")))
+    reliability, durability = qos or PLAIN
+    asked = Endpoint(topic, type_name, "/node", reliability, durability)
     return trace(graph=Graph(nodes=("/node",), subscriptions=(asked,)))
 
 
@@ -175,9 +179,16 @@ def test_why_a_subscriber_took_in_nothing(seen: Trace, answers: bool, cause: str
         (("reliable", "transient_local"), ("best_effort", "volatile"), ""),
         (("best_effort", "volatile"), ("best_effort", "volatile"), ""),
         (("system_default", "system_default"), ("reliable", "volatile"), ""),
+        ((*PLAIN, None), (*PLAIN, 0.5), "deadline without end"),
+        ((*PLAIN, 1.0), (*PLAIN, 0.5), "deadline 1 s"),
+        ((*PLAIN, 0.5), (*PLAIN, 0.5), ""),
+        ((*PLAIN, 0.5), (*PLAIN, None), ""),
+        ((*PLAIN, None, "automatic"), (*PLAIN, None, "manual_by_topic"), "liveliness automatic"),
+        ((*PLAIN, None, "manual_by_topic"), (*PLAIN, None, "automatic"), ""),
+        ((*PLAIN, None, "automatic", None), (*PLAIN, None, "automatic", 1.0), "lease"),
     ],
 )
-def test_qos_of_the_learners_own_endpoints(offered: tuple[str, str], asked: tuple[str, str], policy: str) -> None:
+def test_qos_of_the_learners_own_endpoints(offered: tuple[Any, ...], asked: tuple[Any, ...], policy: str) -> None:
     both = Graph(
         publishers=(Endpoint("/a", "T", "/one", *offered),), subscriptions=(Endpoint("/a", "T", "/two", *asked),)
     )

@@ -50,13 +50,19 @@ class LogRecord:
 
 @dataclass(frozen=True, slots=True)
 class Endpoint:
-    """A publisher or subscription in the graph. `node` is the full name; QoS values are the policies' short names."""
+    """A publisher or subscription in the graph. `node` is the full name; QoS values are the policies' short names.
+
+    `deadline_s` and `lease_s` (of liveliness), in seconds, are None where infinite.
+    """
 
     topic: str
     type: str
     node: str
     reliability: str
     durability: str
+    deadline_s: float | None = None
+    liveliness: str = "automatic"
+    lease_s: float | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 
+from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 
@@ -13,6 +14,7 @@ from tutor.ros.observer import OUR_PREFIX
 _AskByNode = Callable[[str, str], Sequence[tuple[str, Sequence[str]]]]
 
 _PLUMBING = ("/rosout", "/parameter_events")
+_INFINITE_S = 1e9
 
 
 def full_name(name: str, namespace: str) -> str:
@@ -51,7 +53,16 @@ def _endpoint(topic: str, info: TopicEndpointInfo) -> Endpoint:
         node=full_name(info.node_name, info.node_namespace),
         reliability=info.qos_profile.reliability.short_key,
         durability=info.qos_profile.durability.short_key,
+        deadline_s=finite_s(info.qos_profile.deadline),
+        liveliness=info.qos_profile.liveliness.short_key,
+        lease_s=finite_s(info.qos_profile.liveliness_lease_duration),
     )
+
+
+def finite_s(duration: Duration) -> float | None:
+    """A duration of a QoS policy in seconds; None where it is infinite, or was left to the default."""
+    seconds = duration.nanoseconds * 1e-9
+    return seconds if 0 < seconds < _INFINITE_S else None
 
 
 def _services(node: Node, nodes: set[str], ask: _AskByNode, sends_on: str) -> tuple[Service, ...]:

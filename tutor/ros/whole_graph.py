@@ -9,10 +9,8 @@ from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 from tutor.live.facts import Endpoint, Graph, Qos, Service, Topic
-from tutor.ros.graph import full_name
+from tutor.ros.graph import finite_s, full_name
 from tutor.ros.observer import OUR_PREFIX
-
-_INFINITE_S = 1e9
 
 
 def whole_graph(node: Node) -> Graph:
@@ -70,15 +68,10 @@ def _qos(profile: QoSProfile) -> Qos:
     return Qos(
         reliability=profile.reliability.short_key,
         durability=profile.durability.short_key,
-        deadline_s=_finite(profile.deadline.nanoseconds),
+        deadline_s=finite_s(profile.deadline),
         liveliness=profile.liveliness.short_key,
-        lease_s=_finite(profile.liveliness_lease_duration.nanoseconds),
+        lease_s=finite_s(profile.liveliness_lease_duration),
     )
-
-
-def _finite(nanoseconds: int) -> float | None:
-    seconds = nanoseconds * 1e-9
-    return seconds if 0 < seconds < _INFINITE_S else None
 
 
 def _services(node: Node, nodes: list[tuple[str, str]]) -> tuple[Service, ...]:

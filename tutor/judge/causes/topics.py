@@ -62,18 +62,39 @@ def of_deafness(trace: Trace, ours: Endpoint, *, answers: bool, stuck: Sequence[
 
 def incompatible_qos(publisher: Endpoint, subscription: Endpoint) -> Cause | None:
     """Whether the subscription asks for more than the publisher offers: then they are not matched at all."""
-    if publisher.reliability == "best_effort" and subscription.reliability == "reliable":
-        policy, offered, asked = "reliability", publisher.reliability, subscription.reliability
-    elif publisher.durability == "volatile" and subscription.durability == "transient_local":
-        policy, offered, asked = "durability", publisher.durability, subscription.durability
-    else:
+    unmet = _unmet(publisher, subscription)
+    if unmet is None:
         return None
+    policy, offered, asked = unmet
     return Cause(
         names.INCOMPATIBLE_QOS,
         f"on {publisher.topic} the publisher offers {policy} {offered}, the subscription asks for {asked}: "
         "they are not connected",
         f"give both the same {policy}: with a plain depth, such as 10, instead of a QoSProfile they match",
     )
+
+
+def _unmet(offered: Endpoint, asked: Endpoint) -> tuple[str, str, str] | None:
+    """The policy of which more is asked than offered, and both values."""
+    if offered.reliability == "best_effort" and asked.reliability == "reliable":
+        return "reliability", offered.reliability, asked.reliability
+    if offered.durability == "volatile" and asked.durability == "transient_local":
+        return "durability", offered.durability, asked.durability
+    if _longer(offered.deadline_s, asked.deadline_s):
+        return "deadline", _duration(offered.deadline_s), _duration(asked.deadline_s)
+    if (offered.liveliness, asked.liveliness) == ("automatic", "manual_by_topic"):
+        return "liveliness", offered.liveliness, asked.liveliness
+    if _longer(offered.lease_s, asked.lease_s):
+        return "liveliness lease duration", _duration(offered.lease_s), _duration(asked.lease_s)
+    return None
+
+
+def _longer(offered_s: float | None, asked_s: float | None) -> bool:
+    return asked_s is not None and (offered_s is None or offered_s > asked_s)
+
+
+def _duration(seconds: float | None) -> str:
+    return "without end" if seconds is None else f"{seconds:g} s"
 
 
 def incompatible_service(services: Iterable[Service]) -> Cause | None:
