@@ -50,7 +50,10 @@ class Survey:
 
 @dataclass(frozen=True)
 class Launched:
-    """Starts with parameters: one with a prefix and a rate, one with enabled false."""
+    """Starts with parameters: one with a prefix and a rate, one with enabled false.
+
+    `woken`: the first message after the latter has had enabled set to true, where it had no publisher to begin with.
+    """
 
     prefix: str
     trace: Trace
@@ -59,6 +62,7 @@ class Launched:
     disabled: Trace
     disabled_answer: Parameter | None
     disabled_for_s: float
+    woken: Sample | None = None
 
 
 @dataclass(frozen=True)

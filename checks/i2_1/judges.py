@@ -96,8 +96,11 @@ def judge_launch(seen: Launched) -> Verdict:
     if loud:
         return failed(expected, f"{off}: {len(loud)} messages", _ignored(ENABLED), [text(s) for s in loud[:3]])
     broken = causes.of_process(seen.disabled)
-    silent_on_purpose = any(p.topic == TOPIC for p in seen.disabled.graph.publishers)
-    if broken or not silent_on_purpose or (seen.disabled_answer and seen.disabled_answer.value is not False):
+    held = seen.disabled_answer.value if seen.disabled_answer else None
+    offered = any(p.topic == TOPIC for p in seen.disabled.graph.publishers)
+    # A node that answers no parameter call shows its purpose by its publisher, one that has none by being woken.
+    silent_on_purpose = held in (False, None) if offered else held is False and seen.woken is not None
+    if broken or not silent_on_purpose:
         return failed(
             expected,
             f"{off}: silence, but not because {ENABLED} is false",
@@ -229,7 +232,7 @@ def judge_validation(seen: Validated) -> Verdict:
                     "SetParametersResult(successful=False, reason='the rate must be > 0')",
                 ),
             )
-        if any(own in answer.reason for own in causes.RCLPYS_OWN):
+        if causes.RCLPYS_OWN.match(answer.reason):
             return _not_set(expected, answer, seen.trace, seen.stuck)
         if value != seen.before:
             return failed(

@@ -65,19 +65,29 @@ async def launched(bench: Bench) -> Launched:
             rate, messages = await steady_rate(run, TOPIC, LAUNCH_HZ, since=run.on(TOPIC)[0].source_time)
             return run.trace(), rate, messages
 
-    async def silent() -> tuple[Trace, Parameter | None, float]:
+    def offered(run: Run) -> bool:
+        return any(p.topic == TOPIC for p in run.graph.publishers)
+
+    async def silent() -> tuple[Trace, Parameter | None, float, Sample | None]:
         async with bench.start(FILE, parameters={ENABLED: False, RATE: LAUNCH_HZ}, watch={TOPIC: TYPE}) as run:
             bench.doing(0.3, f"{ENABLED}:=false, listening for silence")
             node = await _node(run)
             declared = await run.parameters(ANSWER_S) if node else None
-            await appears(run, lambda: any(p.topic == TOPIC for p in run.graph.publishers))
+            await appears(run, lambda: offered(run))
             since = run.now()
             # Two periods of the default rate, in case the rate that was given here is not heeded.
             await run.until(lambda: bool(run.on(TOPIC)) or run.now() - since >= 2.2 / DEFAULT_HZ, 4.0)
-            return run.trace(), find(declared or (), ENABLED), run.now() - since
+            trace, quiet_s, woken = run.trace(), run.now() - since, None
+            if node and not trace.on(TOPIC) and not offered(run):
+                # It may make its publisher only when it is enabled.
+                bench.doing(0.7, f"setting {ENABLED} to true")
+                await run.set_parameters(node, {ENABLED: True}, limit_s=ANSWER_S)
+                await first_message(run, TOPIC, TYPE, rare_s=RARE_S)
+                woken = next(iter(run.on(TOPIC)), None)
+            return trace, find(declared or (), ENABLED), quiet_s, woken
 
-    (trace, rate, messages), (disabled, answer, quiet) = await asyncio.gather(loud(), silent())
-    return Launched(prefix, trace, rate, messages, disabled, answer, quiet)
+    (trace, rate, messages), (disabled, answer, quiet_s, woken) = await asyncio.gather(loud(), silent())
+    return Launched(prefix, trace, rate, messages, disabled, answer, quiet_s, woken)
 
 
 async def switched(bench: Bench) -> Switched:

@@ -58,7 +58,7 @@ from tests.checks.made import (
 )
 from tests.judge.real import crash
 from tutor.judge.rates import Rate
-from tutor.judge.trace import Parameter, SetAnswer, Trace
+from tutor.judge.trace import Parameter, Sample, SetAnswer, Trace
 
 PUBLISHING = graph(publishers={TOPIC: TYPE})
 RUNNING = trace(*samples(TOPIC, 1.0), graph=PUBLISHING)
@@ -119,13 +119,21 @@ def launched(
     loud: Trace | None = None,
     disabled: Trace = SILENT,
     held: object = False,
+    woken: Sample | None = None,
 ) -> Launched:
     seen = loud or trace(*samples(TOPIC, LAUNCH_HZ, data=said), graph=PUBLISHING)
     held_now = None if held is None else parameter(ENABLED, "boolean", held)
-    return Launched("Ahoy7", seen, rate(hz) if hz else None, 10, disabled, held_now, 2.2)
+    return Launched("Ahoy7", seen, rate(hz) if hz else None, 10, disabled, held_now, 2.2, woken)
 
 
-@pytest.mark.parametrize("found", [launched(), launched(4.1), launched(5.9), launched(held=None)])
+WOKEN = sample(TOPIC, "Hello 1", 1005.0)
+NO_PUBLISHER = trace(graph=UP)
+
+
+@pytest.mark.parametrize(
+    "found",
+    [launched(), launched(4.1), launched(5.9), launched(held=None), launched(disabled=NO_PUBLISHER, woken=WOKEN)],
+)
 def test_launch(found: Launched) -> None:
     assert_passed(judge_launch(found))
 
@@ -144,7 +152,11 @@ def test_launch(found: Launched) -> None:
         (launched(disabled=RUNNING), "parameter ignored", ENABLED),
         (launched(disabled=SILENT, held=True), "parameter ignored", ENABLED),
         (launched(disabled=CRASHED), "unhandled exception", "silence, but not because"),
-        (launched(disabled=trace(graph=UP), held=None), "parameter ignored", ENABLED),
+        (launched(disabled=NO_PUBLISHER, held=None), "parameter ignored", ENABLED),
+        (launched(disabled=NO_PUBLISHER, held=None, woken=WOKEN), "parameter ignored", ENABLED),
+        (launched(disabled=NO_PUBLISHER, held=True, woken=WOKEN), "parameter ignored", ENABLED),
+        (launched(disabled=NO_PUBLISHER), "parameter ignored", ENABLED),
+        (launched(disabled=trace(graph=UP, exit=exited(0)), woken=WOKEN), "exit at once", "silence, but not because"),
     ],
 )
 def test_launch_not(found: Launched, cause: str, word: str) -> None:
@@ -172,6 +184,9 @@ def not_set(reason: str, answered: bool = True) -> SetAnswer:
     return answer({ENABLED: False}, reason, successful=False, answered=answered)
 
 
+WRONG_TYPE = "Wrong parameter type, expected 'Type.STRING' got 'Type.BOOL'"
+
+
 def test_runtime() -> None:
     assert_passed(judge_runtime(switched()))
     assert_passed(judge_runtime(switched(after_prefix=sample(TOPIC, "say Servus7", 1003.0))))
@@ -186,7 +201,7 @@ def test_runtime() -> None:
         (switched(set_prefix=not_set("", answered=False)), "blocked executor", "no answer in 5 s"),
         (switched(set_off=not_set("", answered=False), trace=BROKEN_LATER), "unhandled exception", "line 12"),
         (switched(set_off=not_set("Callback returned an invalid type")), "callback returns None", ""),
-        (switched(set_off=not_set("Wrong parameter type, expected X got Y")), "wrong parameter type", "expected X"),
+        (switched(set_off=not_set(WRONG_TYPE)), "wrong parameter type", "expected 'Type.STRING'"),
         (switched(set_on=not_set("enabled has not been declared")), "parameter not declared", ""),
         (switched(set_on=not_set("no way")), "rejected", "no way"),
         (switched(after_prefix=None), "parameter ignored", 'still read "Hello"'),
@@ -228,6 +243,19 @@ def test_validation(found: Validated) -> None:
     assert_passed(judge_validation(found))
 
 
+@pytest.mark.parametrize(
+    "reason",
+    [
+        "Wrong parameter type or value: I need a positive float",
+        "publish_rate cannot be set to this",
+        "no rate that has not been declared a positive one",
+        "my callback: Callback returned an invalid type",
+    ],
+)
+def test_a_reason_of_their_own_may_have_words_of_rclpys(reason: str) -> None:
+    assert_passed(judge_validation(validated(*((refused({RATE: bad}, reason), 1.0) for bad in BAD_RATES))))
+
+
 def rejected(which: SetAnswer, held: Any = 1.0) -> Validated:
     return validated(REFUSED[0], (which, held))
 
@@ -246,8 +274,17 @@ BAD = {RATE: -1.0}
         (rejected(refused(BAD, "  ")), "no reason given", "-1.0"),
         (rejected(answer(BAD, answered=False)), "blocked executor", "no answer"),
         (rejected(refused(BAD, "Callback returned an invalid type")), "callback returns None", ""),
-        (rejected(refused(BAD, "Wrong parameter type, x")), "wrong parameter type", ""),
-        (rejected(refused(BAD, "publish_rate has not been declared")), "parameter not declared", ""),
+        (rejected(refused(BAD, WRONG_TYPE)), "wrong parameter type", ""),
+        (
+            rejected(refused(BAD, "Invalid access to undeclared parameter(s): publish_rate")),
+            "parameter not declared",
+            "",
+        ),
+        (
+            rejected(refused(BAD, "parameter list cannot be empty, this might be due to pre_set_parameters_callback")),
+            "rejected",
+            "",
+        ),
         (rejected(refused(BAD, "Trying to set a read-only parameter: publish_rate")), "rejected", "read-only"),
         (rejected(refused(BAD), -1.0), "value changed all the same", "-1.0 now"),
         (rejected(refused(BAD), None), "value changed all the same", "None"),

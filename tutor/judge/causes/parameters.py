@@ -9,16 +9,18 @@ from typing import Any
 from tutor.judge.causes import names
 from tutor.judge.verdict import Cause
 
-RCLPYS_OWN = (
-    "Callback returned an invalid type",
-    "Wrong parameter type",
-    "Trying to set a read-only parameter",
-    "parameter list cannot be empty",
-    "not been declared",
-    "Invalid access to undeclared",
-    "cannot be set",
+RCLPYS_OWN = re.compile(
+    r"Callback returned an invalid type"
+    r"|Wrong parameter type, expected '.*' got '"
+    r"|Trying to set a read-only parameter: "
+    r"|Static parameter cannot be undeclared"
+    r"|parameter list cannot be empty, this might be due to pre_set_parameters_callback"
+    r"|Invalid access to undeclared parameter\(s\): "
 )
-"""Reasons that rclpy gives by itself: they are not the learner's. (That a value is outside a declared range is.)"""
+"""How reasons begin that rclpy gives by itself, whole sentences: a learner may say "it cannot be set to 0", too.
+
+They are not the learner's. (That a value is outside a declared range is.)
+"""
 
 _TYPES = re.compile(r"(?:of type|got) '(?:Type\.)?(?P<given>\w+)'|expect(?:ing type|ed) '(?:Type\.)?(?P<wanted>\w+)'")
 
@@ -50,7 +52,7 @@ def of_refusal(reason: str, values: Mapping[str, Any]) -> Cause:
             "the parameter callback does not return a SetParametersResult",
             "end every way through the callback with: return SetParametersResult(successful=True)",
         )
-    if "Wrong parameter type" in reason:
+    if _TYPES.search(reason):
         return of_types(reason)
     if "declared" in reason:
         return Cause("parameter not declared", reason, f"declare it in __init__: {', '.join(values)}")
