@@ -101,7 +101,7 @@ def find(feeding: Feeding) -> tuple[Report, ...]:
     times = Counter(line.kind for line in feeding.lines)
     usual = {kind for kind, count in times.items() if count >= max(3, ORDINARY * len(feeding.sent))}
     special = _together([line for line in feeding.lines if line.kind not in usual], feeding)
-    if complete := [report for report in special if _complete(report, feeding)]:
+    if complete := _but_of_the_break([report for report in special if _complete(report, feeding)], feeding):
         return _alone(_like(complete, special), special, feeding)
     everything = _together(feeding.lines, feeding)
     complete = [report for report in everything if report.messages > 1 and _complete(report, feeding)]
@@ -120,6 +120,30 @@ def _complete(report: Report, feeding: Feeding) -> bool:
         first in quoted and any(last in quoted and (last != first or quoted.count(first) > 1) for last in recent)
         for first in firsts
     )
+
+
+def _but_of_the_break(complete: Sequence[Report], feeding: Feeding) -> list[Report]:
+    """Without what is said of a jump or a restart: that may quote a first and a recent message, too.
+
+    It is told from a summary by its wording, if there are summaries elsewhere.
+    """
+    summaries = {
+        kind
+        for report in complete
+        if in_time(report, feeding) and not _at_the_break(report, feeding)
+        for kind in report.kinds
+    }
+    return [
+        report for report in complete if not summaries or report.kinds & summaries or not _at_the_break(report, feeding)
+    ]
+
+
+def _at_the_break(report: Report, feeding: Feeding) -> bool:
+    """Whether it came right after a break, and quotes nothing newer than the message after that."""
+    if not feeding.breaks or not 0 <= report.at - feeding.sent[feeding.breaks].at <= feeding.late_s:
+        return False
+    quoted = [index for index, each in enumerate(feeding.sent[: report.until]) if each.number in report.quoted]
+    return feeding.breaks - 1 <= max(quoted, default=0) <= feeding.breaks
 
 
 def _like(complete: Sequence[Report], candidates: Iterable[Report]) -> tuple[Report, ...]:

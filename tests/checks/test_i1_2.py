@@ -389,11 +389,46 @@ class NumbersItsRuns(Restarting):
             yield level, f"run {self.run}: {text}"
 
 
+class QuotesBoth(Counter):
+    """What it says of a jump quotes the message before and the one after, as a summary quotes two, too."""
+
+    def jumped(self, last: int, number: int) -> Iterator[Log]:
+        yield 30, f"{number - last - 1} missing: Hello World: {last} -> Hello World: {number}"
+
+
+class QuotesBothInThree(Counter):
+    def jumped(self, last: int, number: int) -> Iterator[Log]:
+        yield 30, "GAP!"
+        yield 30, f"before: Hello World: {last}"
+        yield 30, f"after: Hello World: {number}"
+
+
+class QuotesTheFirst(Counter):
+    def jumped(self, last: int, number: int) -> Iterator[Log]:
+        yield 20, f"since {self.first}: something is missing before Hello World: {number}"
+
+
+class RestartsAndQuotesBoth(Restarting):
+    def take(self, now: float, data: str) -> Iterator[Log]:
+        before = self.last
+        for level, text in super().take(now, data):
+            yield level, f"{before} -> {data}: counting from zero" if "restarted" in text else text
+
+
+class QuotesBothAndChangesItsWords(QuotesBoth, GapWords):
+    """After the jump, only what comes in time tells which are the summaries."""
+
+    def jumped(self, last: int, number: int) -> Iterator[Log]:
+        yield from QuotesBoth.jumped(self, last, number)
+        yield from GapWords.jumped(self, last, number)
+
+
 RIGHT = (
     AllOfThem, Delivered, OfExpected, LostSoFar, NumbersItsRuns, Counter, Restarting, RestartsInTheSummary, GapCount,
     MissedCount, LossPercent, LossShare, LargestStep, GapWords, GapAtTheStart, Noisy, OneLineEach, LevelsMixed,
     NoisyAndLong, LastSecond, LastTwoSeconds, LastTen, LastInterval, Intervals, Rounded, Scientific, WithClock,
-    WithThousands, Anniversary,
+    WithThousands, Anniversary, QuotesBoth, QuotesBothInThree, QuotesTheFirst, RestartsAndQuotesBoth,
+    QuotesBothAndChangesItsWords,
 )  # fmt: skip
 
 
