@@ -32,7 +32,11 @@ not_allowed not_possible not_defined not_permitted not_valid can_not n/a
 ungültig nicht unmöglich undefiniert verboten inválid invalide interdit indéfini indefinid impossível não no_se_puede
 no_permitid no_definid non_si_può non_valid non_definit
 нельзя невозмож недопуст 不能 无效 無效 未定義 未定义 できません 無理 不可 불가
-\bnot\b n['’]t\b never oops hoppla \bups\b problem attention caution achtung vorsicht \berr\b non-?zero
+\bnot\b n['’]t\b never oops hoppla \bups\b problem attention caution achtung vorsicht non-?zero
+(?<![^\W\x5f])err(?![^\W\x5f]) abort cancel wrong \bbad(?:\b|\x5f|request|input|divisor) \bden(?:y|ied) prohibit disallow
+unsupported unaccept unsuccess \bfault \bhalt ignored ignoring undef indetermin meaningless overflow \bdomain\b sorry ∞
+\bno_(?:\w+_)?(?:result|answer|quotient|solution) \b(?:ok|success\w*|valid)["']?\s*[:=]\s*false
+(?:!=|<>|≠)\s*0(?![\d.]) (?:different_from|other_than|but)_0(?![\d.])
 kein ungueltig unmoeglich nöd falsch niet\b geen\b ongeldig inte\b ikke ogiltig omöjlig \bei_voi mahdoto
 \bno_es \bno_puede imposib \bno_è \bnon\b \bne_peut \bne_doit pas_possible atenção cuidado \bnie\b nelze nejde
 nemož nemůž nemogu nije_mog \bne_mo \bnem\b \bnu_se \bnu_po bölünem bölünmez geçersiz tanımsız \bне\b неможлив δεν
