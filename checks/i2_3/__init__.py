@@ -8,7 +8,7 @@ from tutor.judge.check import Check, Criterion
 CHECK = Check(
     "i2.3",
     (
-        Criterion("blocks", judges.judge_blocks, (scenarios.lone,)),
+        Criterion("blocks", judges.judge_blocks, (scenarios.lone, scenarios.trio)),
         Criterion("timer", judges.judge_timer, (scenarios.quiet, scenarios.lone)),
         Criterion("concurrent", judges.judge_concurrent, (scenarios.trio,)),
         Criterion("shutdown", judges.judge_shutdown, (scenarios.quiet,)),
@@ -21,5 +21,5 @@ CHECK = Check(
         ),
         Criterion("shutdown-busy", judges.judge_shutdown_busy, (scenarios.interrupted,), bonus=True),
     ),
-    asks_s=4.0,  # lone: a call of 3 s, and the message of the next tenth tick, 4 s after the timer's start
+    asks_s=8.0,  # lone: two calls of 3 s, each until the message of the next tenth tick, 4 s and 8 s after the start
 )

@@ -6,13 +6,16 @@ from collections import Counter
 from collections.abc import Sequence
 
 from checks.i2_3.facts import SERVICE, TYPE, Lone, Quiet, Three, right_sum
-from checks.i2_3.pace import Fault
+from checks.i2_3.pace import During, Fault
 from checks.i2_3.ticks import HZ, Series
 from tutor.judge import causes, tracebacks
 from tutor.judge.trace import CallAnswer, Service, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Cause
 from tutor.judge.wording import shape
+
+WHOLE = 0.75
+"""A timer that stands still for less than this share of a call is not held up by the call as a whole."""
 
 REPEATED = 4
 """Lines of one shape that are as many as this come from a timer."""
@@ -105,21 +108,27 @@ def of_other_pace(alone: Quiet, likely: Series | None) -> Cause:
     )
 
 
-def of_disturbed_timer(seen: Lone, fault: Fault) -> Cause:
+def of_disturbed_timer(seen: Lone, heard: During) -> Cause:
     """Why the timer does not go on during a call as it does outside one."""
     if (broken := causes.of_process(seen.trace)) is not None:
         return broken
-    if fault is Fault.FAST:
+    if heard.fault is Fault.FAST:
         return Cause(
             "ticks in a burst",
             "more ticks are logged around a call than the timer makes",
             "log ticks in the timer's callback only; do not make up for missed ones",
         )
-    if fault is Fault.SLOW:
+    if heard.fault is Fault.SLOW:
         return Cause(
             "slowed timer",
             "the timer ticks during a call, but not as often",
             "give the timer a callback group of its own and the executor enough threads; let the service sleep",
+        )
+    if heard.count > 1 and heard.longest_s < WHOLE * heard.for_s:
+        return Cause(
+            "timer pauses",
+            f"the timer goes on during a call, but pauses for {heard.longest_s:.1f} s of it",
+            "let the two callbacks share no lock, and neither of them wait for the other",
         )
     own = tracebacks.own(seen.stuck, seen.trace.folder)
     where = f", at {own}" if own else ""

@@ -88,14 +88,22 @@ class Call:
 class Lone:
     """Single calls: one, or more where the first was disturbed; none where the service was not there.
 
-    `stuck`: where the node's threads are during a call (innermost frames first), looked up where the call was not
-    answered or the timer stood still; `spins`: whether the node answered anything at all then.
+    `later` are those made for a second time, with large numbers, where nothing was wrong with the first. `stuck`: where
+    the node's threads are during a call (innermost frames first), looked up where the call was not answered or the
+    timer stood still; `spins`: whether the node answered anything at all then.
     """
 
     trace: Trace
     calls: tuple[Call, ...] = ()
     stuck: tuple[Frame, ...] = ()
     spins: bool = True
+    later: tuple[Call, ...] = ()
+
+    @property
+    def rounds(self) -> tuple[Lone, ...]:
+        """The first call and the second one, each with its repetitions, to be judged for itself."""
+        first = replace(self, later=())
+        return (first, replace(first, calls=self.later)) if self.later else (first,)
 
     @property
     def quickest(self) -> Call | None:

@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+import contextlib
+from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
+
 from checks.i2_3 import causes as why
 from checks.i2_3.facts import (
     ANSWER_S,
@@ -34,7 +39,24 @@ from tutor.judge.trace import CallAnswer
 from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped
 
 
-def judge_blocks(seen: Lone) -> Verdict:
+def judge_blocks(seen: Lone, several: Trio) -> Verdict:
+    # Where calls at once do not get their sums either, it is `concurrent` that tells so.
+    alike = any(three.right < CALLS for three in several.made[:1])
+    return _judge_answer(replace(seen, later=())) if alike else _of_both(seen, _judge_answer)
+
+
+def _of_both(seen: Lone, judge: Callable[[Lone], Verdict]) -> Verdict:
+    """The verdict on the first call, unless the second one is not as good as it."""
+    first, *later = seen.rounds
+    verdict = judge(first)
+    for each in later if verdict.passed else ():
+        with contextlib.suppress(MachineTooBusy):  # the first call has shown it
+            if not (second := judge(each)).passed:
+                return replace(second, observed=f"the second call: {second.observed}")
+    return verdict
+
+
+def _judge_answer(seen: Lone) -> Verdict:
     expected = f"{SERVICE} ({TYPE}) answers with the sum after {WORK_S:g} s ({SHORTEST_S:g} to {LONGEST_S:g} s)"
     if not seen.calls:
         return failed(
@@ -68,6 +90,10 @@ def _told(answer: CallAnswer) -> str:
 
 
 def judge_timer(alone: Quiet, seen: Lone) -> Verdict:
+    return _of_both(seen, partial(_judge_timer, alone))
+
+
+def _judge_timer(alone: Quiet, seen: Lone) -> Verdict:
     expected = (
         f"the timer of {HZ:g} Hz (±{TOLERANCE:.0%}) logs during a call at the pace it has outside one, without a gap "
         "or a burst"
@@ -90,11 +116,14 @@ def judge_timer(alone: Quiet, seen: Lone) -> Verdict:
     )
     texts = [log.text for log in seen.trace.logs if series.key.of(log)]
     observed = f"outside: {series}; {_heard(call, series)}"
+    if seen.trace.exit is not None:
+        observed = f"{observed}; then the process ended by itself with {seen.trace.exit}"
+        return failed(expected, observed, why.of_disturbed_timer(seen, call), causes.last_words(seen.trace))
     if call.fault is None:
         return passed(expected, observed, texts[:6])
     if excused(seen.trace.logs, calls[-1], right):
         raise MachineTooBusy("this machine is too busy to listen to the timer")
-    return failed(expected, observed, why.of_disturbed_timer(seen, call.fault), texts[-6:])
+    return failed(expected, observed, why.of_disturbed_timer(seen, call), texts[-6:])
 
 
 def _heard(call: During, series: Series) -> str:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import random
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 
 from checks.i2_3.facts import (
     ANSWER_S,
@@ -74,31 +75,40 @@ async def quiet(bench: Bench) -> Quiet:
 
 
 async def lone(bench: Bench) -> Lone:
-    """Call the service once, and listen to the timer meanwhile and until it is heard again."""
-    calls: list[Call] = []
+    """Call the service, then once more, and listen to the timer meanwhile and until it is heard again."""
     async with bench.start(FILE) as run:
         bench.doing(0.1, f"waiting for {SERVICE}")
         if not await _serves(run):
             return Lone(run.trace())
-        for tried in range(1, TRIES + 1):
-            bench.doing(0.3, f"calling {SERVICE}")
-            lost_s = _lost_s(run)
-            answer = await run.call(SERVICE, TYPE, _operands(), limit_s=ANSWER_S)
-            lost_s = _lost_s(run) - lost_s
-            series = (await bench.facts(quiet)).series
-            bench.doing(0.8, "listening to the timer after the call")
-            await next_tick(run, series, answer)
-            calls.append(Call(answer, run.now(), lost_s))
-            still = disturbed(run.logs, calls[-1], series)
-            may_be_ours = still and excused(run.logs, calls[-1], series)
-            again = _again(calls[-1], still, may_be_ours, tried) or doubtful(run.logs, calls[-1], series)
-            if answer.response is None or run.exit is not None or not again:
-                break
-        seen = Lone(run.trace(), tuple(calls))
-    if seen.trace.exit is None and (answer.response is None or (still and not may_be_ours)):
-        stuck, spins = await _stuck(bench, answer)
-        return Lone(seen.trace, seen.calls, stuck, spins)
+        bench.doing(0.2, f"calling {SERVICE}")
+        calls, well = await _call(bench, run, _operands)
+        later: Sequence[Call] = ()
+        if well and run.exit is None:
+            bench.doing(0.6, f"calling {SERVICE} once more, with large numbers")
+            later, _ = await _call(bench, run, _large)
+        seen = Lone(run.trace(), tuple(calls), later=tuple(later))
+    if seen.trace.exit is None and not well:
+        stuck, spins = await _stuck(bench, calls[-1].answer)
+        return replace(seen, stuck=stuck, spins=spins)
     return seen
+
+
+async def _call(bench: Bench, run: Run, operands: Callable[[], Mapping[str, int]]) -> tuple[list[Call], bool]:
+    """Make a call, and again where a busy machine leaves it in doubt; and whether there was nothing wrong with it."""
+    calls: list[Call] = []
+    for tried in range(1, TRIES + 1):
+        lost_s = _lost_s(run)
+        answer = await run.call(SERVICE, TYPE, operands(), limit_s=ANSWER_S)
+        lost_s = _lost_s(run) - lost_s
+        series = (await bench.facts(quiet)).series
+        await next_tick(run, series, answer)
+        calls.append(Call(answer, run.now(), lost_s))
+        still = disturbed(run.logs, calls[-1], series)
+        may_be_ours = still and excused(run.logs, calls[-1], series)
+        again = _again(calls[-1], still, may_be_ours, tried) or doubtful(run.logs, calls[-1], series)
+        if answer.response is None or run.exit is not None or not again:
+            break
+    return calls, answer.response is not None and (not still or may_be_ours)
 
 
 async def _serves(run: Run) -> bool:
@@ -212,6 +222,11 @@ async def interrupted(bench: Bench) -> Interrupted:
 def _operands() -> Mapping[str, int]:
     """Operands by chance, so that no sum can be known beforehand."""
     return {"a": random.randint(-900, 900), "b": random.randint(1000, 9000)}
+
+
+def _large() -> Mapping[str, int]:
+    """Operands whose sum needs an integer of 64 bits: neither 32 bits nor a float can hold it."""
+    return {"a": 2**53 + 2 * random.randint(1, 2**50) + 1, "b": 2 * random.randint(1, 900)}
 
 
 def _different() -> list[Mapping[str, int]]:

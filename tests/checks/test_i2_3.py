@@ -32,6 +32,7 @@ from tests.checks.made import (
     assert_failed,
     assert_passed,
     ending,
+    exited,
     frame,
     graph,
     lines,
@@ -39,7 +40,7 @@ from tests.checks.made import (
 )
 from tutor.judge.bench import MachineTooBusy
 from tutor.judge.trace import CallAnswer, LogRecord
-from tutor.judge.verdict import Status
+from tutor.judge.verdict import Status, Verdict
 
 SERVING = graph(services={SERVICE: TYPE})
 ASKED = START + 0.3
@@ -100,29 +101,57 @@ def quiet(logs: Sequence[LogRecord], **more: Any) -> Quiet:
     return Quiet(trace(graph=SERVING, logs=logs), seen_in(logs), **more)
 
 
+def blocks(seen: Lone, several: Trio | None = None) -> Verdict:
+    return judge_blocks(seen, several or Trio(trace()))
+
+
 @given(st.floats(2.8, 3.35), st.integers(-900, 900), st.integers(-900, 900))
 def test_three_seconds(took_s: float, a: int, b: int) -> None:
-    assert_passed(judge_blocks(lone((), answer(took_s, a, b, a + b))))
+    assert_passed(blocks(lone((), answer(took_s, a, b, a + b))))
 
 
 @given(st.floats(0, 2.7) | st.floats(3.5, 12))
 def test_other_times(took_s: float) -> None:
-    assert_failed(judge_blocks(lone((), answer(took_s))), "too quick" if took_s < 3 else "too slow", "s")
+    assert_failed(blocks(lone((), answer(took_s))), "too quick" if took_s < 3 else "too slow", "s")
 
 
 def test_a_busy_machine_may_take_longer_but_never_less() -> None:
-    assert_passed(judge_blocks(lone((), answer(3.7), starved_s=0.4)))
-    assert_passed(judge_blocks(lone((), answer(4.2), answer(3.3))))
-    assert_failed(judge_blocks(lone((), answer(2.6), starved_s=2.0)), "too quick")
-    assert_failed(judge_blocks(lone((), answer(4.0), starved_s=0.6)), "too slow", "4.0 s")
-    assert_failed(judge_blocks(lone((), answer(4.5), starved_s=1.0)), "too slow", "4.5 s")
-    assert_failed(judge_blocks(lone((), answer(4.5), answer(4.1))), "too slow", "4.1 s")
+    assert_passed(blocks(lone((), answer(3.7), starved_s=0.4)))
+    assert_passed(blocks(lone((), answer(4.2), answer(3.3))))
+    assert_failed(blocks(lone((), answer(2.6), starved_s=2.0)), "too quick")
+    assert_failed(blocks(lone((), answer(4.0), starved_s=0.6)), "too slow", "4.0 s")
+    assert_failed(blocks(lone((), answer(4.5), starved_s=1.0)), "too slow", "4.5 s")
+    assert_failed(blocks(lone((), answer(4.5), answer(4.1))), "too slow", "4.1 s")
     with pytest.raises(MachineTooBusy):
-        judge_blocks(lone((), answer(4.2), starved_s=1.0))
+        blocks(lone((), answer(4.2), starved_s=1.0))
 
 
 def test_one_wrong_sum_is_wrong() -> None:
-    assert_failed(judge_blocks(lone((), answer(3.6), answer(3.0, sum_=9))), "wrong sum", "9 instead of 8")
+    assert_failed(blocks(lone((), answer(3.6), answer(3.0, sum_=9))), "wrong sum", "9 instead of 8")
+
+
+def again(*called: CallAnswer, starved_s: float = 0.0) -> Lone:
+    """A first call with nothing wrong, and these as the second one."""
+    return replace(lone(), later=lone((), *called, starved_s=starved_s).calls)
+
+
+@pytest.mark.parametrize(
+    ("called", "cause"), [(answer(sum_=9), "wrong sum"), (answer(0.01), "too quick"), (answer(5.0), "too slow")]
+)
+def test_the_second_call_counts_too(called: CallAnswer, cause: str) -> None:
+    assert_passed(blocks(again(answer())))
+    assert_failed(blocks(again(called)), cause)
+    assert blocks(again(called)).observed.startswith("the second call: ")
+
+
+def test_what_calls_at_once_show_as_well_is_not_told_twice() -> None:
+    for called in (answer(sum_=9), answer(sum_=None)):
+        assert_failed(blocks(again(called), three(1005, 2005, 3005)), "wrong sum" if called.response else "no answer")
+        assert_passed(blocks(again(called), three(1005, None, 3005)))
+
+
+def test_a_second_call_on_a_busy_machine_takes_nothing_back() -> None:
+    assert_passed(blocks(again(answer(4.2), starved_s=1.0)))
 
 
 @pytest.mark.parametrize(
@@ -147,7 +176,7 @@ def test_one_wrong_sum_is_wrong() -> None:
     ],
 )
 def test_no_right_answer(seen: Lone, cause: str, word: str) -> None:
-    assert_failed(judge_blocks(seen), cause, word)
+    assert_failed(blocks(seen), cause, word)
 
 
 TEXTS: list[Text] = [
@@ -190,6 +219,28 @@ def test_a_timer_that_stands_still_is_found_out(text: Text, every: int) -> None:
     assert_failed(judge_timer(alone, seen), "blocked executor", "line 12", "default group")
     alone_thread = lone(blocked, until=START + 8, stuck=(frame("slow_add"),))
     assert_failed(judge_timer(alone, alone_thread), "blocked executor", "one thread")
+
+
+def test_a_timer_that_pauses_for_a_part_of_a_call() -> None:
+    logs = ticking(every=1, stands_still=(1.2, 2.6), until_s=8)
+    verdict = judge_timer(quiet(ticking(every=1)), lone(logs, until=START + 8, stuck=IN_WORKER))
+    assert_failed(verdict, "timer pauses", "1.5 s")
+
+
+def test_a_process_that_ends_after_a_call() -> None:
+    seen = lone(ticking(until_s=4.0), until=START + 4.1)
+    gone = replace(seen, trace=replace(seen.trace, exit=exited(0, after_s=4.1)))
+    assert_failed(judge_timer(quiet(ticking()), gone), "exit at once", "exit code 0")
+
+
+def test_the_timer_is_listened_to_during_a_second_call_too() -> None:
+    later = answer(asked_at=START + 4.8)
+    whole, still = (ticking(until_s=10, every=5, stands_still=pause) for pause in (None, (5.0, 7.9)))
+    for logs, right in ((whole, True), (still, False)):
+        seen = replace(lone(logs), later=lone((), later, until=START + 9).calls)
+        verdict = judge_timer(quiet(ticking(every=5)), seen)
+        assert verdict.passed == right
+        assert right or verdict.observed.startswith("the second call: ")
 
 
 UNNUMBERED: list[Text] = [
