@@ -9,7 +9,7 @@ from checks.i2_2.facts import ARGUMENTS, FILE, NAMESPACE, Launched, publishers, 
 from checks.i2_2.processes import Gone, by_stream, gone, writers, written_by
 from tutor.judge import causes, tracebacks
 from tutor.judge.bench import OnlyWithRos
-from tutor.judge.trace import Endpoint, Trace
+from tutor.judge.trace import Endpoint, Graph, Trace
 from tutor.judge.verdict import Cause
 
 _NO_PACKAGE = re.compile(r"package '(?P<name>[^']*)' not found", re.IGNORECASE)
@@ -138,7 +138,8 @@ def of_topic(usual: Launched, seen: Launched, wanted: str) -> Cause:
     takes = [each for each in subscriptions(graph) if each.topic == wanted]
     if not sends and not takes:
         return (
-            _of_ignored(seen, "topic", wanted)
+            _of_added(graph, wanted)
+            or _of_ignored(seen, "topic", wanted)
             or _of_remaps(seen, wanted)
             or Cause(
                 "topic hard-coded",
@@ -216,6 +217,20 @@ def _of_broken(seen: Launched) -> Cause | None:
     """Where something ended, or the launch is broken, with these arguments only."""
     if seen.trace.exit is not None or gone(seen.trace.output) or not seen.trace.graph.nodes:
         return of_launch(seen.trace)
+    return None
+
+
+def _of_added(graph: Graph, wanted: str) -> Cause | None:
+    """Whether a topic has the value that was given as a part of its last name."""
+    word = wanted.rsplit("/", 1)[-1]
+    for each in (*publishers(graph), *subscriptions(graph)):
+        last = each.topic.rsplit("/", 1)[-1]
+        if word in last and word != last:
+            return Cause(
+                "wrong topic",
+                f"{each.node} uses {each.topic}: something is added to the argument's value, {word}",
+                "remap to LaunchConfiguration('topic') alone",
+            )
     return None
 
 

@@ -195,6 +195,11 @@ def test_one_node_is_not_remapped(sent: str, taken: str) -> None:
     assert_failed(verdict, "remapping missing on one node", "/chatter")
 
 
+def test_something_is_added_to_the_topic() -> None:
+    seen = with_topic(pair("/news_data"), commands=["talker --ros-args -r chatter:=news_data"])
+    assert_failed(judges.judge_topic(USUAL, seen), "wrong topic", "/news_data", "added")
+
+
 @pytest.mark.parametrize(
     ("commands", "declares", "cause"),
     [
