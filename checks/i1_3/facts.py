@@ -14,6 +14,8 @@ SERVER, CLIENT = "calculator_server.py", "calculator_client.py"
 TYPE = "example_interfaces/srv/AddTwoInts"
 SIGNS = {"/add": "+", "/subtract": "-", "/multiply": "*", "/divide": "/"}
 EASY = (6, 3)
+AFTER_ZERO = ((18, 3), (-9, 0), (0, 0), (35, 5))
+"""What is divided after a division by zero: well, by zero again, and well."""
 ANSWER_S = 5.0
 CLIENT_S = 15.0
 AFTERWARDS_S = 0.5
@@ -33,9 +35,9 @@ ungültig nicht unmöglich undefiniert verboten inválid invalide interdit indé
 no_permitid no_definid non_si_può non_valid non_definit
 нельзя невозмож недопуст 不能 无效 無效 未定義 未定义 できません 無理 不可 불가
 \bnot\b n['’]t\b never oops hoppla \bups\b problem attention caution achtung vorsicht non-?zero
-(?<![^\W\x5f])err(?![^\W\x5f]) abort cancel wrong \bbad(?:\b|\x5f|request|input|divisor) \bden(?:y|ied) prohibit disallow
-unsupported unaccept unsuccess \bfault \bhalt ignored ignoring undef indetermin meaningless overflow \bdomain\b sorry ∞
-\bno_(?:\w+_)?(?:result|answer|quotient|solution) \b(?:ok|success\w*|valid)["']?\s*[:=]\s*false
+(?<![^\W\x5f])err(?![^\W\x5f]) abort cancel wrong \bbad(?:\b|\x5f|request|input|divisor) \bden(?:y|ied) prohibit
+disallow unsupported unaccept unsuccess \bfault \bhalt ignored ignoring undef indetermin meaningless overflow
+\bdomain\b sorry ∞ \bno_(?:\w+_)?(?:result|answer|quotient|solution) \b(?:ok|success\w*|valid)["']?\s*[:=]\s*false
 (?:!=|<>|≠)\s*0(?![\d.]) (?:different_from|other_than|but)_0(?![\d.])
 kein ungueltig unmoeglich nöd falsch niet\b geen\b ongeldig inte\b ikke ogiltig omöjlig \bei_voi mahdoto
 \bno_es \bno_puede imposib \bno_è \bnon\b \bne_peut \bne_doit pas_possible atenção cuidado \bnie\b nelze nejde
@@ -86,7 +88,7 @@ class Division:
     trace: Trace
     before: CallAnswer | None = None
     by_zero: CallAnswer | None = None
-    after: CallAnswer | None = None
+    after: tuple[CallAnswer, ...] = ()
     ordinary: tuple[LogRecord, ...] = ()
     said: tuple[LogRecord, ...] = ()
     at_end: tuple[OutputLine, ...] = ()

@@ -124,7 +124,7 @@ def _why_wrong(answer: CallAnswer, right: int) -> Cause:
     got, a, b = answer.response["sum"], answer.request["a"], answer.request["b"]
     name = answer.service
     others = [other for other in SIGNS if other != name and right_result(other, a, b) == got]
-    if others:
+    if others and a:
         return Cause(
             "wrong result",
             f"this is what {others[0]} would answer",
@@ -134,6 +134,10 @@ def _why_wrong(answer: CallAnswer, right: int) -> Cause:
         return Cause("wrong result", "the operands are the wrong way round", "resp.sum = req.a - req.b")
     if got == -1 and name == "/divide":
         return Cause("float in an int field", "a / b is a float, and resp.sum takes whole numbers only", "use a // b")
+    if (got - right) % 2**32 == 0:
+        return Cause(
+            "wrong result", "the result is cut off to 32 bits", "an int64 has 64: leave the numbers as they are"
+        )
     if abs(got) == abs(right):
         return Cause("wrong result", "the sign is lost", "no abs(): negative numbers are numbers too")
     if got == 0:
@@ -142,8 +146,8 @@ def _why_wrong(answer: CallAnswer, right: int) -> Cause:
 
 
 def judge_division(seen: Division) -> Verdict:
-    expected = "dividing by zero gets an answer, the node says that it is an error, and the next call is answered too"
-    if seen.before is None or seen.before.response is None or seen.by_zero is None or seen.after is None:
+    expected = "dividing by zero gets an answer, the node says that it is an error, and the next calls go well"
+    if seen.before is None or seen.before.response is None or seen.by_zero is None:
         return failed(
             expected,
             "/divide does not answer even 84 ÷ 7",
@@ -169,16 +173,26 @@ def judge_division(seen: Division) -> Verdict:
             cause,
             [str(log) for log in seen.said],
         )
-    if seen.after.response is None:
-        cause = causes.of_process(seen.trace) or Cause(
-            "no answer",
-            "the node no longer answers after a division by zero",
-            "let the node go on: only log, and answer",
-        )
-        return failed(expected, "the call after it got no answer", cause, causes.last_words(seen.trace))
+    divides = seen.before.response["sum"] == right_result("/divide", **seen.before.request)
+    for answer in seen.after:
+        a, b = answer.request["a"], answer.request["b"]
+        if answer.response is None:
+            cause = causes.of_process(seen.trace) or Cause(
+                "no answer",
+                "the node no longer answers after a division by zero",
+                "let the node go on: only log, and answer, whatever a is",
+            )
+            return failed(expected, f"after it, {a} ÷ {b} got no answer", cause, causes.last_words(seen.trace))
+        if b and divides and answer.response["sum"] != right_result("/divide", a, b):
+            cause = Cause(
+                "wrong result",
+                "the node divides well until it is asked to divide by zero",
+                "let a division by zero change nothing: only log, and answer",
+            )
+            return failed(expected, f"after it, {a} ÷ {b} was answered {answer.response['sum']}", cause)
     return passed(
         expected,
-        f"answered {seen.by_zero.response['sum']}; 18 ÷ 3 after it {seen.after.response['sum']}",
+        f"answered {seen.by_zero.response['sum']}, and {len(seen.after)} calls after it",
         [str(complaints[0])],
     )
 

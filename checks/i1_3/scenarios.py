@@ -8,6 +8,7 @@ from dataclasses import replace
 from typing import Any
 
 from checks.i1_3.facts import (
+    AFTER_ZERO,
     AFTERWARDS_S,
     ANSWER_S,
     CLIENT,
@@ -77,7 +78,8 @@ async def calculation(bench: Bench) -> Calls:
         await appears(run, lambda: not missing_of(run.graph.services))
         there = [name for name in SIGNS if name not in missing_of(run.graph.services)]
         bench.doing(0.3, "calculating with positive and negative numbers")
-        answers = await _ask(run, [(name, a, b) for name in there for a, b in _operands(name)])
+        chosen = operands()
+        answers = await _ask(run, [(name, a, b) for name in there for a, b in chosen])
         return Calls(run.trace(), answers)
 
 
@@ -92,7 +94,7 @@ async def _ask(run: Run, questions: Sequence[tuple[str, int, int]]) -> tuple[Cal
 
 
 async def division(bench: Bench) -> Division:
-    """Divide by zero, listen to what the node says, and call again."""
+    """Divide by zero, listen to what the node says, and go on calling."""
     async with bench.start(SERVER) as run:
         bench.doing(0.1, "waiting for /divide")
         if not await appears(run, lambda: "/divide" not in missing_of(run.graph.services)):
@@ -109,8 +111,8 @@ async def division(bench: Bench) -> Division:
         await run.until(lambda: bool(complaints_in(ordinary, run.logs[len(ordinary) :])), LOG_S)
         said = tuple(run.logs[len(ordinary) :])
         await run.until(lambda: run.exit is not None, AFTERWARDS_S)
-        bench.doing(0.8, "calling /divide again: 18 ÷ 3")
-        after = await divide(18, 3)
+        bench.doing(0.8, "calling /divide again")
+        after = await _ask(run, [("/divide", a, b) for a, b in AFTER_ZERO])
         trace, silent = run.trace(), run.exit is None and not complaints_in(ordinary, said)
         at_end = (await run.interrupt()).output if silent else ()
         return Division(trace, before, by_zero, after, ordinary, said, at_end)
@@ -130,13 +132,18 @@ async def demonstration(bench: Bench) -> Demonstration:
         return Demonstration(trace, served, ended, await run.stuck_at() if ended is None else (), tuple(clients))
 
 
-def _operands(service: str) -> list[tuple[int, int]]:
-    """Operands by chance, so that no answer can be known beforehand; with every combination of signs."""
-    chosen: list[tuple[int, int]] = []
-    for sign_a, sign_b in ((1, 1), (-1, 1), (1, -1), (-1, -1)):
-        a, b = sign_a * random.randint(20, 900), sign_b * random.randint(2, 19)
-        chosen.append((a * b, b) if service == "/divide" else (a, b))
-    return chosen
+def operands() -> list[tuple[int, int]]:
+    """Operands for each service, by chance, so that no answer can be known beforehand; a can be divided by b.
+
+    With every combination of signs, with more than fits into 32 bits, and with 0. No result has more than 53 bits.
+    """
+    ordinary = [(sign * random.randint(20, 900), by) for by in (1, -1) for sign in (1, -1)]
+    large = random.choice((1, -1)) * random.randint(2 * 10**9, 4 * 10**9)
+    return [
+        (times * divisor, divisor)
+        for times, sign in (*ordinary, (large, 1), (0, 1))
+        for divisor in [sign * random.randint(3, 19)]
+    ]
 
 
 def _server(service: str) -> Any:

@@ -8,8 +8,19 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checks.i1_3.facts import SIGNS, TYPE, Calls, Demonstration, Division, complaints_in, missing_of, right_result
+from checks.i1_3.facts import (
+    AFTER_ZERO,
+    SIGNS,
+    TYPE,
+    Calls,
+    Demonstration,
+    Division,
+    complaints_in,
+    missing_of,
+    right_result,
+)
 from checks.i1_3.judges import judge_client, judge_division, judge_operations, judge_services, judge_shutdown
+from checks.i1_3.scenarios import operands as divisible
 from tests.checks.made import (
     CRASH,
     CRASHED,
@@ -124,6 +135,9 @@ def test_any_wrong_result_is_wrong(asked: tuple[str, int, int], result: int, bef
         (called("/divide", -60, 3, 20), "wrong result", "abs()"),
         (called("/multiply", 20, 3, 0), "wrong result", "resp.sum"),
         (called("/add", 20, 3, 99), "wrong result", "99 instead of 23"),
+        (called("/add", 5 * 10**9, 3, 705032707), "wrong result", "32 bits"),
+        (called("/add", -5 * 10**9, 3, -705032701), "wrong result", "32 bits"),
+        (called("/subtract", 0, 3, 0), "wrong result", "resp.sum"),
         (called("/add", 20, 3, None), "no answer", "no answer in 5 s"),
     ],
 )
@@ -154,14 +168,23 @@ INCOMING = "Incoming request: a={} b={}"
 ORDINARY = (log("calculator ready"), log(INCOMING.format(84, 7)), log("84 / 7 = 12"))
 
 
+def then(*results: int | None) -> tuple[CallAnswer, ...]:
+    """What is answered after a division by zero, until one is not."""
+    return tuple(called("/divide", a, b, result) for (a, b), result in zip(AFTER_ZERO, results, strict=False))
+
+
 def division(
-    *said: LogRecord, by_zero: int | None = 0, after: int | None = 6, seen: Trace = SERVING, before: int | None = 12
+    *said: LogRecord,
+    by_zero: int | None = 0,
+    after: tuple[CallAnswer, ...] = then(6, 0, 0, 7),
+    seen: Trace = SERVING,
+    before: int | None = 12,
 ) -> Division:
     return Division(
         seen,
         called("/divide", 84, 7, before),
         called("/divide", 10, 0, by_zero),
-        called("/divide", 18, 3, after),
+        after,
         ORDINARY,
         said,
     )
@@ -326,16 +349,40 @@ def test_an_error_is_one_among_whatever_else_is_said(text: str, around: list[Log
         (division(by_zero=None, seen=trace(err=CRASH, exit=exited(1))), "unhandled exception", "line 12"),
         (division(), "no error message", "self.get_logger().error"),
         (division(seen=trace(graph=ALL, out="error: division by zero")), "printed, not logged", "error: division"),
-        (division(log("division by zero", 40), after=None), "no answer", "after a division by zero"),
+        (division(log("division by zero", 40), after=then(None)), "no answer", "after a division by zero"),
+        (division(log("division by zero", 40), after=then(6, None)), "no answer", "-9 ÷ 0"),
+        (division(log("division by zero", 40), after=then(6, 0, None)), "no answer", "0 ÷ 0"),
+        (division(log("division by zero", 40), after=then(6, 0, 0, None)), "no answer", "35 ÷ 5"),
+        (division(log("division by zero", 40), after=then(0, 0, 0, 7)), "wrong result", "18 ÷ 3 was answered 0"),
+        (division(log("division by zero", 40), after=then(6, 0, 0, 0)), "wrong result", "35 ÷ 5 was answered 0"),
         (
-            division(log("division by zero", 40), after=None, seen=trace(exit=exited(0, after_s=9.0))),
+            division(log("division by zero", 40), after=then(None), seen=trace(exit=exited(0, after_s=9.0))),
             "exit at once",
-            "call after it",
+            "18 ÷ 3",
         ),
     ],
 )
 def test_division_not(seen: Division, cause: str, word: str) -> None:
     assert_failed(judge_division(seen), cause, word)
+
+
+@pytest.mark.parametrize("results", [(6, 0, 0, 7), (6, -1, 99, 7)])
+def test_any_answer_to_a_division_by_zero_will_do(results: tuple[int, ...]) -> None:
+    assert_passed(judge_division(division(log("division by zero", 40), after=then(*results))))
+
+
+def test_who_always_divides_wrongly_is_not_judged_for_that_here() -> None:
+    assert_passed(judge_division(division(log("division by zero", 40), before=13, after=then(7, 0, 0, 8))))
+
+
+def test_operands() -> None:
+    chosen = divisible()
+    assert {(a > 0, b > 0) for a, b in chosen if a} == {(True, True), (True, False), (False, True), (False, False)}
+    assert [a for a, _ in chosen].count(0) == 1
+    assert any(abs(a) > 2**32 for a, _ in chosen)
+    for a, b in chosen:
+        assert b != 0 == a % b
+        assert max(abs(right_result(service, a, b)) for service in SIGNS) < 2**53
 
 
 # --- the client --------------------------------------------------------------
