@@ -81,6 +81,7 @@ def test_services() -> None:
         ),
         (Calls(trace(graph=without("/add", services(calc__add=TYPE))), ()), "wrong service name", "/calc/add"),
         (Calls(trace(graph=without("/subtract", services(sub=TYPE))), ()), "wrong service name", "/sub"),
+        (Calls(trace(graph=without("/add", services(Add=TYPE))), ()), "wrong service name", "/Add"),
         (
             Calls(trace(graph=without("/add", services(node__set_parameters="rcl_interfaces/srv/SetParameters"))), ()),
             "service missing",
@@ -360,6 +361,8 @@ def test_an_error_is_one_among_whatever_else_is_said(text: str, around: list[Log
             "exit at once",
             "18 ÷ 3",
         ),
+        (division(after=then(None), seen=trace(exit=exited(0, after_s=9.0))), "exit at once", "18 ÷ 3"),
+        (division(seen=trace(exit=exited(0, after_s=9.0))), "no error message", ""),
     ],
 )
 def test_division_not(seen: Division, cause: str, word: str) -> None:
