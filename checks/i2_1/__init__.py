@@ -17,5 +17,6 @@ CHECK = Check(
         Criterion("launch-validation", judges.judge_bad_launch, (scenarios.survey, scenarios.bad_launches), bonus=True),
         Criterion("shutdown", judges.judge_shutdown, (scenarios.survey,), bonus=True),
     ),
-    asks_s=5.6,  # switched, at 1 Hz: 1 s to the first message, 1 s to the next, 2.6 s of silence, 1 s to resume
+    # switched, at 1 Hz: 1 s to the first message, 1 s to the next, 2.6 s of silence, 1.1 s to resume, 2.2 s to go on
+    asks_s=7.9,
 )

@@ -22,8 +22,13 @@ DEFAULTS: Mapping[str, tuple[str, Any]] = {
     ENABLED: ("boolean", True),
 }
 DEFAULT_HZ = 1.0
-LAUNCH_HZ = 5.0
-UP_HZ, DOWN_HZ = 10.0, 2.0
+LAUNCH_HZ, SLOW_LAUNCH_HZ = 5.0, 1.5
+UP_HZ, DOWN_HZ = 10.0, 1.5
+"""The slower ones show a rate that is made a whole number: 1 and 2 Hz are both beyond the tolerance."""
+
+REFUSING_HZ = 4.0
+"""Bad rates are asked for at this rate, so that falling back to the default one shows."""
+
 BAD_RATES = (0.0, -1.0)
 ANSWER_S = 5.0
 """A parameter call is answered within this time, else it is not answered."""
@@ -50,15 +55,18 @@ class Survey:
 
 @dataclass(frozen=True)
 class Launched:
-    """Starts with parameters: one with a prefix and a rate, one with enabled false.
+    """Starts with parameters: one with a prefix and a rate, one with a slower rate, one with enabled false.
 
-    `woken`: the first message after the latter has had enabled set to true, where it had no publisher to begin with.
+    `woken`: the first message after the last one has had enabled set to true, where it had no publisher to begin with.
     """
 
     prefix: str
     trace: Trace
     rate: Rate | None
     messages: int
+    slow: Trace
+    slow_rate: Rate | None
+    slow_messages: int
     disabled: Trace
     disabled_answer: Parameter | None
     disabled_for_s: float
@@ -67,17 +75,26 @@ class Launched:
 
 @dataclass(frozen=True)
 class Switched:
-    """A plain start on which message_prefix and enabled are set."""
+    """A plain start on which message_prefix and enabled are set: to another prefix, off, to `later`, and on again.
+
+    `before`: the rate until it was off; `again`: what came more than a period after it was on, `rate` the rate of it.
+    """
 
     trace: Trace
     prefix: str
+    later: str
+    base_hz: float = DEFAULT_HZ
     set_prefix: SetAnswer | None = None
     after_prefix: Sample | None = None
     set_off: SetAnswer | None = None
     sent_while_off: tuple[Sample, ...] = ()
     off_for_s: float = 0.0
+    set_later: SetAnswer | None = None
     set_on: SetAnswer | None = None
     resumed: Sample | None = None
+    before: Rate | None = None
+    again: tuple[Sample, ...] = ()
+    rate: Rate | None = None
     stuck: tuple[Frame, ...] = ()
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import Any
 
@@ -15,6 +16,7 @@ from checks.i2_1.facts import (
     LAUNCH_HZ,
     PREFIX,
     RATE,
+    SLOW_LAUNCH_HZ,
     TOPIC,
     TYPE,
     UP_HZ,
@@ -84,13 +86,16 @@ def judge_launch(seen: Launched) -> Verdict:
     if not samples:
         cause = causes.of_silence(seen.trace, TOPIC, TYPE, answers=True)
         return failed(expected, f"with {given}: no message on {TOPIC}", cause, causes.last_words(seen.trace))
-    if not any(seen.prefix in text(sample) for sample in samples):
-        return failed(
-            expected, f'with {given}: "{text(samples[-1])}"', _ignored(PREFIX), [text(s) for s in samples[:3]]
-        )
+    without = [text(sample) for sample in samples[-2:] if seen.prefix not in text(sample)]
+    if without:
+        return failed(expected, f'with {given}: "{without[-1]}"', _ignored(PREFIX), [text(s) for s in samples[:6]])
     if seen.rate is None or not seen.rate.agrees(LAUNCH_HZ):
         observed = f"with {given}: {describe(seen.rate, seen.messages)}, not {LAUNCH_HZ} Hz ±{TOLERANCE:.0%}"
         return failed(expected, observed, causes.same_name(seen.trace) or _why_launch_rate(seen.rate))
+    if seen.slow_rate is None or not seen.slow_rate.agrees(SLOW_LAUNCH_HZ):
+        slow = f"{RATE}:={SLOW_LAUNCH_HZ}: {describe(seen.slow_rate, seen.slow_messages)}"
+        cause = causes.of_process(seen.slow) or _made_whole(seen.slow_rate, SLOW_LAUNCH_HZ) or _other_rate()
+        return failed(expected, f"with {slow}, not {SLOW_LAUNCH_HZ} Hz ±{TOLERANCE:.0%}", cause)
     off = f"with {ENABLED}:=false {RATE}:={LAUNCH_HZ}"
     loud = seen.disabled.on(TOPIC)
     if loud:
@@ -119,7 +124,23 @@ def _why_launch_rate(rate: Rate | None) -> Cause:
         return _ignored(RATE)
     if rate is None or rate.agrees(1 / LAUNCH_HZ):
         return causes.rate_as_period(RATE)
+    return _other_rate()
+
+
+def _other_rate() -> Cause:
     return Cause("wrong rate", f"{RATE} has an effect, but not this one", f"the timer's period is 1.0 / {RATE}")
+
+
+def _made_whole(rate: Rate | None, asked: float) -> Cause | None:
+    """A rate of 1.5 Hz becomes 1 or 2 Hz."""
+    wholes = {math.floor(asked), math.ceil(asked)} - {asked}
+    if rate is None or not any(abs(rate.hz - whole) < 0.1 for whole in wholes):
+        return None
+    return Cause(
+        "rate made a whole number",
+        f"{RATE} {asked} is treated as {rate.hz:.0f}",
+        f"leave it as it is, a float: no int(), round() or //; the timer's period is 1.0 / {RATE}",
+    )
 
 
 def _ignored(name: str) -> Cause:
@@ -132,7 +153,7 @@ def _ignored(name: str) -> Cause:
 
 def judge_runtime(seen: Switched) -> Verdict:
     expected = f"setting {PREFIX} and {ENABLED} on the running node takes effect within one period"
-    for answer in (seen.set_prefix, seen.set_off, seen.set_on):
+    for answer in (seen.set_prefix, seen.set_off, seen.set_later, seen.set_on):
         if answer is None:
             return _not_running(seen.trace, seen.stuck, expected)
         if not answer.answered or not answer.successful:
@@ -163,10 +184,38 @@ def judge_runtime(seen: Switched) -> Verdict:
                 "let the timer run on, and only skip publish() while enabled is false; or make the timer again",
             ),
         )
-    return passed(
+    return _why_not_as_before(seen, expected) or passed(
         expected,
         f'"{text(seen.after_prefix)}"; silence while false; resumed '
         f"{seen.resumed.source_time - seen.set_on.asked_at:.2f} s after true",
+    )
+
+
+def _why_not_as_before(seen: Switched, expected: str) -> Verdict | None:
+    """What is wrong once it sends messages again: with the prefix that was set meanwhile, or with the rate."""
+    off = f"{PREFIX} set to {seen.later} while {ENABLED} was false, then {ENABLED} to true"
+    said = [text(sample) for sample in seen.again]
+    other = next((each for each in said if seen.later not in each), None)
+    if other is not None:
+        return failed(expected, f'{off}: "{other}"', _ignored_later(PREFIX), said)
+    both = next((each for each in said if seen.prefix in each), None)
+    if both is not None:
+        cause = Cause(
+            "old prefix kept", "the new prefix does not replace the old one", "assign it: self.prefix = value"
+        )
+        return failed(expected, f'{off}: "{both}"', cause, said)
+    if seen.rate is not None and (seen.rate.agrees(seen.base_hz) or (seen.before and seen.before.agrees(seen.rate.hz))):
+        return None
+    observed = f"{off}: {describe(seen.rate, len(said))}, not {seen.base_hz:g} Hz ±{TOLERANCE:.0%} as before"
+    return failed(
+        expected,
+        observed,
+        (causes.of_process(seen.trace) if seen.trace.exit else None)
+        or Cause(
+            "rate changed",
+            f"the rate is another one after setting {PREFIX} and {ENABLED}, though {RATE} was not touched",
+            "make a new timer only once the old one is destroyed, and with the period 1.0 / rate",
+        ),
     )
 
 
@@ -275,16 +324,12 @@ def _why_timer(seen: Retimed, asked: float, rate: Rate | None) -> Cause:
     before = DEFAULT_HZ if asked == UP_HZ else UP_HZ
     if rate is not None and rate.agrees(before):
         return causes.timer_not_replaced()
+    if (whole := _made_whole(rate, asked)) is not None:
+        return whole
     if rate is not None and rate.hz > asked:
         return causes.old_timer_kept(rate.hz, asked)
-    if rate is None or rate.hz < DOWN_HZ / 2:
-        return (
-            causes.rate_as_period(RATE)
-            if rate is None or rate.agrees(1 / asked)
-            else Cause(
-                "wrong rate", f"{rate.hz:.1f} Hz instead of {asked:g} Hz", "the timer's period is 1.0 / rate seconds"
-            )
-        )
+    if rate is None or rate.agrees(1 / asked):
+        return causes.rate_as_period(RATE)
     return Cause("wrong rate", f"{rate.hz:.1f} Hz instead of {asked:g} Hz", "the timer's period is 1.0 / rate seconds")
 
 

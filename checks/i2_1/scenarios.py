@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 from checks.i2_1.facts import (
@@ -18,6 +19,8 @@ from checks.i2_1.facts import (
     PREFIX,
     RARE_S,
     RATE,
+    REFUSING_HZ,
+    SLOW_LAUNCH_HZ,
     TOPIC,
     TYPE,
     UP_HZ,
@@ -32,7 +35,7 @@ from checks.i2_1.facts import (
     text,
 )
 from tutor.judge.bench import Bench, Run
-from tutor.judge.rates import Rate
+from tutor.judge.rates import Rate, measure
 from tutor.judge.trace import Parameter, Sample, SetAnswer, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.waiting import START_S, appears, first_message, steady_rate, stuck
@@ -56,13 +59,14 @@ async def launched(bench: Bench) -> Launched:
     """Start it with each parameter given on the command line."""
     prefix = "Ahoy7"
 
-    async def loud() -> tuple[Trace, Rate | None, int]:
-        async with bench.start(FILE, parameters={PREFIX: prefix, RATE: LAUNCH_HZ}, watch={TOPIC: TYPE}) as run:
-            bench.doing(0.2, f"{PREFIX}:={prefix} {RATE}:={LAUNCH_HZ}")
+    async def loud(hz: float, more: Mapping[str, Any]) -> tuple[Trace, Rate | None, int]:
+        parameters = {**more, RATE: hz}
+        async with bench.start(FILE, parameters=parameters, watch={TOPIC: TYPE}) as run:
+            bench.doing(0.2, " ".join(f"{name}:={value}" for name, value in parameters.items()))
             # Longer than the period that LAUNCH_HZ would be, were it taken for one.
             if not await first_message(run, TOPIC, TYPE, rare_s=LAUNCH_HZ + 1):
                 return run.trace(), None, 0
-            rate, messages = await steady_rate(run, TOPIC, LAUNCH_HZ, since=run.on(TOPIC)[0].source_time)
+            rate, messages = await steady_rate(run, TOPIC, hz, since=run.on(TOPIC)[0].source_time)
             return run.trace(), rate, messages
 
     def offered(run: Run) -> bool:
@@ -86,23 +90,28 @@ async def launched(bench: Bench) -> Launched:
                 woken = next(iter(run.on(TOPIC)), None)
             return trace, find(declared or (), ENABLED), quiet_s, woken
 
-    (trace, rate, messages), (disabled, answer, quiet_s, woken) = await asyncio.gather(loud(), silent())
-    return Launched(prefix, trace, rate, messages, disabled, answer, quiet_s, woken)
+    (
+        (trace, rate, messages),
+        (slow, slow_rate, slow_messages),
+        (disabled, answer, quiet_s, woken),
+    ) = await asyncio.gather(loud(LAUNCH_HZ, {PREFIX: prefix}), loud(SLOW_LAUNCH_HZ, {}), silent())
+    return Launched(prefix, trace, rate, messages, slow, slow_rate, slow_messages, disabled, answer, quiet_s, woken)
 
 
 async def switched(bench: Bench) -> Switched:
     """Set message_prefix and enabled while it runs. A change may take one period of the rate to show."""
-    prefix = "Servus7"
+    prefix, later = "Servus7", "Gruezi9"
     async with bench.start(FILE, watch={TOPIC: TYPE}) as run:
         bench.doing(0.05, "waiting for it to publish")
         node = await _publishing(run)
         if node is None:
-            return Switched(trace := run.trace(), prefix, stuck=await _stuck(bench, trace))
-        period = 1 / await _base_hz(run)
+            return Switched(trace := run.trace(), prefix, later, stuck=await _stuck(bench, trace))
+        base_hz = await _base_hz(run)
+        period = 1 / base_hz
         bench.doing(0.2, f"setting {PREFIX} to {prefix}")
         set_prefix = await run.set_parameters(node, {PREFIX: prefix}, limit_s=ANSWER_S)
         if not set_prefix.answered:
-            return Switched(run.trace(), prefix, set_prefix, stuck=await run.stuck_at())
+            return Switched(run.trace(), prefix, later, base_hz, set_prefix, stuck=await run.stuck_at())
         due = set_prefix.answered_at + period + 0.1
 
         def shown() -> Sample | None:
@@ -112,47 +121,91 @@ async def switched(bench: Bench) -> Switched:
             return next((s for s in run.on(TOPIC) if s.source_time > due and prefix not in text(s)), None)
 
         await run.until(lambda: shown() is not None or old() is not None, 2 * period + 2)
-        changed = shown()
+        changed, before = shown(), measure(run.on(TOPIC))
         bench.doing(0.4, f"setting {ENABLED} to false, listening for silence")
         set_off = await run.set_parameters(node, {ENABLED: False}, limit_s=ANSWER_S)
         if not set_off.answered:
-            return Switched(run.trace(), prefix, set_prefix, changed, set_off, stuck=await run.stuck_at())
+            stuck_at = await run.stuck_at()
+            return Switched(run.trace(), prefix, later, base_hz, set_prefix, changed, set_off, stuck=stuck_at)
         quiet_from = set_off.answered_at + period + 0.1
 
         def noise() -> list[Sample]:
             return [s for s in run.on(TOPIC) if s.source_time > quiet_from]
 
         await run.until(lambda: bool(noise()) or run.now() >= quiet_from + 1.5 * period, 3 * period + 2)
-        sent, off_for = tuple(noise()), run.now() - set_off.answered_at
-        bench.doing(0.7, f"setting {ENABLED} to true")
+        sent, off_for_s = tuple(noise()), run.now() - set_off.answered_at
+        bench.doing(0.6, f"setting {PREFIX} to {later}, then {ENABLED} to true")
+        seen = Switched(run.trace(), prefix, later, base_hz, set_prefix, changed, set_off, sent, off_for_s)
+        set_later = await run.set_parameters(node, {PREFIX: later}, limit_s=ANSWER_S)
+        if not set_later.answered:
+            return replace(seen, trace=run.trace(), set_later=set_later, stuck=await run.stuck_at())
         set_on = await run.set_parameters(node, {ENABLED: True}, limit_s=ANSWER_S)
 
         def resumed() -> Sample | None:
             return next((s for s in run.on(TOPIC) if s.source_time > set_on.asked_at), None)
 
         await run.until(lambda: resumed() is not None, 2 * period + 2)
-        return Switched(run.trace(), prefix, set_prefix, changed, set_off, sent, off_for, set_on, resumed())
+        bench.doing(0.8, "listening whether it goes on as before")
+        since = set_on.answered_at + period + 0.1
+        again, rate = await _as_before(run, base_hz, since=since) if (first := resumed()) is not None else ((), None)
+        seen = replace(seen, trace=run.trace(), set_later=set_later, set_on=set_on, resumed=first)
+        return replace(seen, before=before, again=again, rate=rate)
+
+
+async def _as_before(run: Run, hz: float, *, since: float) -> tuple[tuple[Sample, ...], Rate | None]:
+    """The messages from `since` on, and their rate: by little more than two periods of `hz`, if these show it."""
+
+    def heard() -> tuple[Sample, ...]:
+        return tuple(sample for sample in run.on(TOPIC) if sample.source_time >= since)
+
+    await run.until(lambda: run.now() >= since + 2.2 / hz, 3.5 / hz + 2)
+    rate = measure(heard())
+    if rate is None or not rate.agrees(hz):
+        rate, _ = await steady_rate(run, TOPIC, hz, since=run.now())
+    return heard(), rate
 
 
 async def validated(bench: Bench) -> Validated:
-    """Ask for bad rates, which must change nothing."""
+    """Ask for bad rates, which must change nothing: at another rate than the default one, if that can be had."""
+    return await _validated(bench, REFUSING_HZ)
+
+
+async def _validated(bench: Bench, from_hz: float | None) -> Validated:
     async with bench.start(FILE, watch={TOPIC: TYPE}) as run:
         bench.doing(0.05, "waiting for it to publish")
         node = await _publishing(run)
         if node is None:
             return Validated(trace := run.trace(), stuck=await _stuck(bench, trace))
-        base_hz, (before,) = await _base_hz(run), await _held(run, (RATE,))
-        rejected: list[tuple[SetAnswer, Any]] = []
-        for bad in BAD_RATES:
-            bench.doing(0.2, f"setting {RATE} to {bad}")
-            answer = await run.set_parameters(node, {RATE: bad}, limit_s=ANSWER_S)
-            if not answer.answered:
-                rejected.append((answer, None))
-                return Validated(run.trace(), base_hz, before, tuple(rejected), stuck=await run.stuck_at())
-            rejected.append((answer, (await _held(run, (RATE,)))[0]))
-        bench.doing(0.4, "measuring the rate after it")
-        rate, messages = await steady_rate(run, TOPIC, base_hz, since=rejected[-1][0].answered_at)
-        return Validated(run.trace(), base_hz, before, tuple(rejected), rate, messages)
+        base_hz = await _base_hz(run)
+        if from_hz is None or await _takes(run, node, from_hz, base_hz):
+            return await _refusing(bench, run, node, from_hz or base_hz)
+    # Whether it takes a good rate is judged elsewhere: whoever does not shall refuse from where it starts.
+    return await _validated(bench, None)
+
+
+async def _takes(run: Run, node: str, new_hz: float, old_hz: float) -> bool:
+    """Whether the node takes this rate, and publishes at it."""
+    answer = await run.set_parameters(node, {RATE: new_hz}, limit_s=ANSWER_S)
+    if not answer.answered or not answer.successful:
+        return False
+    rate, _ = await _changed_rate(run, answer, new_hz, old_hz)
+    return rate is not None and rate.agrees(new_hz)
+
+
+async def _refusing(bench: Bench, run: Run, node: str, base_hz: float) -> Validated:
+    """Ask this node, which publishes at `base_hz`, for bad rates."""
+    (before,) = await _held(run, (RATE,))
+    rejected: list[tuple[SetAnswer, Any]] = []
+    for bad in BAD_RATES:
+        bench.doing(0.4, f"setting {RATE} to {bad}")
+        answer = await run.set_parameters(node, {RATE: bad}, limit_s=ANSWER_S)
+        if not answer.answered:
+            rejected.append((answer, None))
+            return Validated(run.trace(), base_hz, before, tuple(rejected), stuck=await run.stuck_at())
+        rejected.append((answer, (await _held(run, (RATE,)))[0]))
+    bench.doing(0.7, "measuring the rate after it")
+    rate, messages = await steady_rate(run, TOPIC, base_hz, since=rejected[-1][0].answered_at)
+    return Validated(run.trace(), base_hz, before, tuple(rejected), rate, messages)
 
 
 async def retimed(bench: Bench) -> Retimed:
@@ -169,12 +222,16 @@ async def retimed(bench: Bench) -> Retimed:
             answer = await run.set_parameters(node, {RATE: new_hz}, limit_s=ANSWER_S)
             if not answer.answered:
                 return Retimed(run.trace(), (*steps, (answer, None, 0)), await run.stuck_at())
-            settled = answer.answered_at + 1 / old_hz + 0.05
-            await run.until(lambda settled=settled: run.now() >= settled, 1 / old_hz + 1)  # type: ignore[misc]
-            rate, messages = await steady_rate(run, TOPIC, new_hz, since=settled)
-            steps.append((answer, rate, messages))
+            steps.append((answer, *await _changed_rate(run, answer, new_hz, old_hz)))
             old_hz = new_hz
         return Retimed(run.trace(), tuple(steps))
+
+
+async def _changed_rate(run: Run, answer: SetAnswer, new_hz: float, old_hz: float) -> tuple[Rate | None, int]:
+    """The rate, and how many messages it is taken from, one period of the old rate after it was set to a new one."""
+    settled = answer.answered_at + 1 / old_hz + 0.05
+    await run.until(lambda: run.now() >= settled, 1 / old_hz + 1)
+    return await steady_rate(run, TOPIC, new_hz, since=settled)
 
 
 async def atomic(bench: Bench) -> Atomic:

@@ -16,6 +16,7 @@ from checks.i2_1.facts import (
     LAUNCH_HZ,
     PREFIX,
     RATE,
+    SLOW_LAUNCH_HZ,
     TOPIC,
     TYPE,
     UP_HZ,
@@ -120,19 +121,33 @@ def launched(
     disabled: Trace = SILENT,
     held: object = False,
     woken: Sample | None = None,
+    slow_hz: float | None = SLOW_LAUNCH_HZ,
+    slow: Trace = RUNNING,
 ) -> Launched:
     seen = loud or trace(*samples(TOPIC, LAUNCH_HZ, data=said), graph=PUBLISHING)
     held_now = None if held is None else parameter(ENABLED, "boolean", held)
-    return Launched("Ahoy7", seen, rate(hz) if hz else None, 10, disabled, held_now, 2.2, woken)
+    slow_rate = rate(slow_hz) if slow_hz else None
+    return Launched("Ahoy7", seen, rate(hz) if hz else None, 10, slow, slow_rate, 4, disabled, held_now, 2.2, woken)
 
 
 WOKEN = sample(TOPIC, "Hello 1", 1005.0)
 NO_PUBLISHER = trace(graph=UP)
+SAID = samples(TOPIC, LAUNCH_HZ, data="Ahoy7 1")
+AT_FIRST_WITHOUT = trace(sample(TOPIC, "Hello 0", 1000.5), *SAID, graph=PUBLISHING)
+IN_THE_END_WITHOUT = trace(*SAID, sample(TOPIC, "Hello 11", 1004.0), graph=PUBLISHING)
 
 
 @pytest.mark.parametrize(
     "found",
-    [launched(), launched(4.1), launched(5.9), launched(held=None), launched(disabled=NO_PUBLISHER, woken=WOKEN)],
+    [
+        launched(),
+        launched(4.1),
+        launched(5.9),
+        launched(slow_hz=1.3),
+        launched(held=None),
+        launched(disabled=NO_PUBLISHER, woken=WOKEN),
+        launched(loud=AT_FIRST_WITHOUT),
+    ],
 )
 def test_launch(found: Launched) -> None:
     assert_passed(judge_launch(found))
@@ -145,6 +160,11 @@ def test_launch(found: Launched) -> None:
         (launched(loud=trace(graph=UP)), "no publisher", TOPIC),
         (launched(loud=SILENT), "no messages", TOPIC),
         (launched(said="Hello 1"), "parameter ignored", PREFIX),
+        (launched(loud=IN_THE_END_WITHOUT), "parameter ignored", "Hello 11"),
+        (launched(slow_hz=1.0), "rate made a whole number", "treated as 1"),
+        (launched(slow_hz=2.0), "rate made a whole number", "treated as 2"),
+        (launched(slow_hz=2.5), "wrong rate", "publish_rate:=1.5: 2.50 Hz"),
+        (launched(slow_hz=None, slow=CRASHED), "unhandled exception", "line 12"),
         (launched(1.0), "parameter ignored", RATE),
         (launched(0.2), "rate used as a period", "1.0 / publish_rate"),
         (launched(None), "rate used as a period", "not 5.0 Hz"),
@@ -166,6 +186,9 @@ def test_launch_not(found: Launched, cause: str, word: str) -> None:
 # --- while it runs -----------------------------------------------------------
 
 
+AGAIN = samples(TOPIC, 1.0, count=3, data="Gruezi9 5")
+
+
 def switched(**but: Any) -> Switched:
     facts: dict[str, Any] = {
         "trace": RUNNING,
@@ -173,11 +196,15 @@ def switched(**but: Any) -> Switched:
         "after_prefix": sample(TOPIC, "Servus7 3", 1003.0),
         "set_off": answer({ENABLED: False}),
         "off_for_s": 2.5,
+        "set_later": answer({PREFIX: "Gruezi9"}),
         "set_on": answer({ENABLED: True}),
-        "resumed": sample(TOPIC, "Servus7 4", 1008.0),
+        "resumed": sample(TOPIC, "Gruezi9 4", 1008.0),
+        "before": rate(1.0),
+        "again": AGAIN,
+        "rate": rate(1.0),
         **but,
     }
-    return Switched(prefix="Servus7", **facts)
+    return Switched(prefix="Servus7", later="Gruezi9", **facts)
 
 
 def not_set(reason: str, answered: bool = True) -> SetAnswer:
@@ -190,14 +217,20 @@ WRONG_TYPE = "Wrong parameter type, expected 'Type.STRING' got 'Type.BOOL'"
 def test_runtime() -> None:
     assert_passed(judge_runtime(switched()))
     assert_passed(judge_runtime(switched(after_prefix=sample(TOPIC, "say Servus7", 1003.0))))
+    assert_passed(judge_runtime(switched(again=samples(TOPIC, 1.0, data="Gruezi9: Hello World"))))
+    assert_passed(judge_runtime(switched(rate=rate(2.1), base_hz=2.0)))
+
+
+def test_a_rate_that_was_wrong_before_is_not_the_switchs_fault() -> None:
+    assert_passed(judge_runtime(switched(before=rate(5.2), rate=rate(5.0))))
 
 
 @pytest.mark.parametrize(
     ("found", "cause", "word"),
     [
-        (Switched(CRASHED, ""), "unhandled exception", "to start with"),
-        (Switched(SILENT, ""), "no spin", ""),
-        (Switched(RUNNING, ""), "no spin", "no parameter call"),
+        (Switched(CRASHED, "", ""), "unhandled exception", "to start with"),
+        (Switched(SILENT, "", ""), "no spin", ""),
+        (Switched(RUNNING, "", ""), "no spin", "no parameter call"),
         (switched(set_prefix=not_set("", answered=False)), "blocked executor", "no answer in 5 s"),
         (switched(set_off=not_set("", answered=False), trace=BROKEN_LATER), "unhandled exception", "line 12"),
         (switched(set_off=not_set("Callback returned an invalid type")), "callback returns None", ""),
@@ -206,6 +239,15 @@ def test_runtime() -> None:
         (switched(set_on=not_set("no way")), "rejected", "no way"),
         (switched(after_prefix=None), "parameter ignored", 'still read "Hello"'),
         (switched(sent_while_off=samples(TOPIC, 1.0, count=2)), "parameter ignored", "2 messages"),
+        (switched(set_later=not_set("no way")), "rejected", "no way"),
+        (switched(set_later=not_set("", answered=False), set_on=None), "blocked executor", "no answer in 5 s"),
+        (switched(again=samples(TOPIC, 1.0, data="Hello 5")), "parameter ignored", '"Hello 5"'),
+        (switched(again=(*AGAIN, sample(TOPIC, "Servus7 8", 1012.0))), "parameter ignored", "Servus7 8"),
+        (switched(again=samples(TOPIC, 1.0, data="HelloServus7Gruezi9")), "old prefix kept", "HelloServus7Gruezi9"),
+        (switched(rate=rate(2.0)), "rate changed", "2.00 Hz"),
+        (switched(rate=rate(2.0), before=None), "rate changed", "2.00 Hz"),
+        (switched(rate=None, again=()), "rate changed", "no message"),
+        (switched(rate=None, again=(), trace=BROKEN_LATER), "unhandled exception", "line 12"),
         (switched(resumed=None), "does not resume", ENABLED),
         (switched(resumed=None, trace=BROKEN_LATER), "unhandled exception", "line 12"),
     ],
@@ -230,6 +272,7 @@ def validated(
     [
         validated(),
         validated(hz=1.15),
+        validated(*((answer, 4.0) for answer, _ in REFUSED), hz=4.1, base_hz=4.0, before=4.0),
         validated(*((answer, 2.0) for answer, _ in REFUSED), hz=2.0, base_hz=2.0, before=2.0),
         validated(
             *(
@@ -289,6 +332,11 @@ BAD = {RATE: -1.0}
         (rejected(refused(BAD), -1.0), "value changed all the same", "-1.0 now"),
         (rejected(refused(BAD), None), "value changed all the same", "None"),
         (validated(hz=3.0), "value changed all the same", "3.00 Hz"),
+        (
+            validated(*((answer, 4.0) for answer, _ in REFUSED), hz=1.0, base_hz=4.0, before=4.0),
+            "value changed all the same",
+            "1.00 Hz",
+        ),
         (validated(hz=None), "value changed all the same", "after the rejection"),
         (validated(hz=None, seen=BROKEN_LATER), "unhandled exception", "line 12"),
     ],
@@ -329,7 +377,10 @@ def test_any_other_timer_is_wrong(first: bool, factor: float) -> None:
         (retimed(down=12.1), "old timer kept", "12.1 Hz"),
         (retimed(0.1), "rate used as a period", "1.0 / publish_rate"),
         (retimed(None), "rate used as a period", ""),
-        (retimed(down=0.5), "rate used as a period", ""),
+        (retimed(down=1 / DOWN_HZ), "rate used as a period", ""),
+        (retimed(down=1.0), "rate made a whole number", "no int()"),
+        (retimed(down=2.0), "rate made a whole number", "1.5 is treated as 2"),
+        (retimed(down=2.5), "old timer kept", "2.5 Hz"),
         (retimed(5.0), "wrong rate", "5.0 Hz instead of 10 Hz"),
         (retimed(0.3), "wrong rate", "0.3 Hz"),
         (retimed(None, seen=BROKEN_LATER), "unhandled exception", "line 12"),
