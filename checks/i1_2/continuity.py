@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from itertools import accumulate
 
 from checks.i1_2.facts import LATE_S, OURS, Feeding
 from checks.i1_2.judges import NO_SUMMARY, counts_truly, true_total
@@ -83,9 +84,9 @@ def judge_gaps(jump: Feeding, steady: Feeding) -> Verdict:
     if jump.trace.exit is not None:
         words = causes.last_words(jump.trace)
         return failed(expected, f"the node ended after {len(jump.sent)} messages", _of_end(jump, "a jump of N"), words)
-    at = jump.sent[jump.breaks]
-    told = said(jump, since=at.at, usual=(steady,))
-    observed = f"N jumped from {jump.sent[jump.breaks - 1].number} to {at.number}"
+    told = said(jump, since=jump.sent[jump.breaks].at, usual=(steady,))
+    jumped = [f"from {jump.sent[index - 1].number} to {jump.sent[index].number}" for index in jump.jumps]
+    observed = f"N jumped {', and '.join(jumped)}"
     if told and (again := _goes_on(told, jump)):
         cause = Cause(
             "false alarm",
@@ -93,12 +94,18 @@ def judge_gaps(jump: Feeding, steady: Feeding) -> Verdict:
             "set self.last_number = number for each message, whether there was a gap or not",
         )
         return failed(expected, observed, cause, [line.text for line in again[:6]])
-    if told:
-        return passed(expected, observed, [line.text for line in told[:3]])
-    since = [line for line in jump.lines if line.messages > jump.breaks]
-    return failed(
-        expected, f"{observed}; nothing new was logged", _why_unsaid(jump, steady), [line.text for line in since[:6]]
-    )
+    for index, how in zip(jump.jumps, jumped, strict=True):
+        if not any(_soon(line, index, jump) for line in told):
+            since = [line.text for line in jump.lines if line.messages > index]
+            why = _why_unsaid(index, jump, steady)
+            return failed(expected, f"N jumped {how}; nothing new was logged", why, since[:6])
+    return passed(expected, observed, [line.text for line in told[:3]])
+
+
+def _soon(line: Line, index: int, jump: Feeding) -> bool:
+    """Whether it was logged after this jump and before the next one, or as late as this machine may have made it."""
+    later = [jump.sent[after].at for after in jump.jumps if after > index]
+    return line.at >= jump.sent[index].at and all(line.at < at + jump.late_s - LATE_S for at in later)
 
 
 def _goes_on(told: Sequence[Line], jump: Feeding) -> list[Line]:
@@ -120,10 +127,13 @@ def _of_end(feeding: Feeding, what: str) -> Cause:
     return causes.of_process(feeding.trace) or Cause("exit at once", f"the node does not survive {what}", "let it run")
 
 
-def _why_unsaid(jump: Feeding, steady: Feeding) -> Cause:
-    """A kind of message that came with the jump, but not with every message, was a false alarm elsewhere."""
+def _why_unsaid(index: int, jump: Feeding, steady: Feeding) -> Cause:
+    """Why nothing is said of the jump to the message with this index.
+
+    A kind of message that came with the jump, but not with every message, was a false alarm elsewhere.
+    """
     summaries = {line.kind for report in (*find(steady), *find(jump)) for line in report.lines}
-    with_it = range(jump.breaks + 1, jump.breaks + 3)
+    with_it = range(index + 1, index + 3)
     since = {line.kind for line in jump.lines if line.messages in with_it} - summaries
     calm = [line for fed in (steady, jump) for line in fed.lines if _calm(line, fed)]
     false = [line for line in calm if line.kind in since]
@@ -133,14 +143,15 @@ def _why_unsaid(jump: Feeding, steady: Feeding) -> Cause:
             f"it also says so where N rises by one: {false[0].text}",
             "compare numbers, not texts: int(msg.data.split(':')[1]) must be the last number + 1",
         )
-    missed = [str(jump.missed), str(jump.missed + 1), "gap", "miss", "lost", "skip", "lücke", "jump"]
-    after = [line for line in jump.trace.output if line.at >= jump.sent[jump.breaks].at and line.stream == "stdout"]
-    printed = next((line.text for line in after if any(word in line.text.casefold() for word in missed[2:])), None)
+    words = ("gap", "miss", "lost", "skip", "lücke", "jump")
+    after = [line for line in jump.trace.output if line.at >= jump.sent[index].at and line.stream == "stdout"]
+    printed = next((line.text for line in after if any(word in line.text.casefold() for word in words)), None)
     if printed is not None:
         return Cause("printed, not logged", f"it is only printed: {printed}", "use self.get_logger().warning(...)")
+    missed = jump.missed(index)[-1]
     return Cause(
         "gap not noticed",
-        f"{jump.missed} numbers are missing, and nothing tells this from any other message",
+        f"{missed} number{'s are' if missed > 1 else ' is'} missing, and nothing tells this from any other message",
         "keep the last N; where the next one is not that + 1, self.get_logger().warning(...) how many are missing",
     )
 
@@ -182,12 +193,13 @@ def _counts_up(
     `report`: the summary that the line is of, if any.
     """
     others = [other for lines in (before, *elsewhere) for other in lines]
+    missed = feeding.missed(line.messages)
     if not before or any(len(other.numbers) != len(line.numbers) for other in others):
         return False
     for place, number in enumerate(line.numbers):
         was = {other.numbers[place].value for other in before}
         usually = [{other.numbers[place].value for other in lines} for lines in elsewhere]
-        if report is not None and _should_be(place, line, report, others, feeding):
+        if report is not None and _should_be(place, line, report, others, missed):
             return True
         if len(was) > 1 or any(len(each) > 1 for each in usually):
             continue
@@ -196,45 +208,55 @@ def _counts_up(
         from_zero = any(each == {0.0} for each in usually)
         if report is None:
             # In what is logged with every message, a number speaks for itself if it was 0 until then, and no warning.
-            told = base == 0 and from_zero and line.level < Level.WARN and _counts(grown, feeding)
+            told = base == 0 and from_zero and line.level < Level.WARN and _counts(grown, missed)
         else:
-            told = from_zero and (_counts(grown, feeding) or _is_share(grown, feeding))
-            told = told or (all(each == {base} for each in usually) and _tells_of(grown, base, feeding))
+            told = from_zero and (_counts(grown, missed) or _is_share(grown, missed, feeding))
+            told = told or (all(each == {base} for each in usually) and _tells_of(grown, base, missed, feeding))
         if told:
             return True
     return False
 
 
-def _should_be(place: int, line: Line, report: Report, calm: Iterable[Line], feeding: Feeding) -> bool:
+def _should_be(place: int, line: Line, report: Report, calm: Iterable[Line], missed: Sequence[int]) -> bool:
     """Whether a number that was the count until then is greater by what was missed, while the count itself is there."""
     due = milestone(line.messages)
     followed = all(other.numbers[place].value == milestone(other.messages) > 0 for other in calm)
-    greater = feeding.missed > 0 and line.numbers[place].value == due + feeding.missed
+    greater = line.numbers[place].value - due in [each for each in _amounts(missed) if each > 0]
     return followed and greater and report.states(due)
 
 
-def _counts(grown: float, feeding: Feeding) -> bool:
-    """Whether it is how many jumps there were, or how many messages each left out."""
-    return grown in (1, abs(feeding.missed), abs(feeding.missed) + 1)
+def _amounts(missed: Sequence[int]) -> set[int]:
+    """What each jump left out, and all of them together."""
+    return {*missed, *accumulate(missed)}
 
 
-def _tells_of(grown: float, base: float, feeding: Feeding) -> bool:
+def _counts(grown: float, missed: Sequence[int]) -> bool:
+    """Whether it is how many jumps there were, or how many messages they left out."""
+    return grown in range(1, len(missed) + 1) or _counts_missed(grown, missed)
+
+
+def _counts_missed(grown: float, missed: Sequence[int]) -> bool:
+    """Whether it is how many messages were left out, or by how much N rose instead."""
+    return any(grown in (abs(amount), abs(amount) + 1, abs(amount) + len(missed)) for amount in _amounts(missed))
+
+
+def _tells_of(grown: float, base: float, missed: Sequence[int], feeding: Feeding) -> bool:
     """Whether what was not 0 has changed as it should: the number of a run, what was missed, or the share that came."""
-    if feeding.missed < 0 and grown == 1:
+    if grown == 1 and any(each < 0 for each in missed):
         return True
-    delivered = base in (1, 100) and _is_share(-grown, feeding, scales=(base,))
-    return grown in (abs(feeding.missed), abs(feeding.missed) + 1) or delivered
+    delivered = base in (1, 100) and _is_share(-grown, missed, feeding, scales=(base,))
+    return _counts_missed(grown, missed) or delivered
 
 
-def _is_share(grown: float, feeding: Feeding, *, scales: Sequence[float] = (1, 100)) -> bool:
+def _is_share(grown: float, missed: Sequence[int], feeding: Feeding, *, scales: Sequence[float] = (1, 100)) -> bool:
     """Whether it is a share of lost messages, or of jumps, of 1 or in percent, to two digits at least."""
-    missed, seen = feeding.missed, feeding.breaks + 1
-    if missed < 0 or grown <= 0:
+    if any(each < 0 for each in missed) or grown <= 0:
         return False
-    shares = [
+    jumps = range(1, len(missed) + 1)
+    shares = {
         lost / (whole + more)
-        for lost in (1, missed)
-        for whole in range(seen, len(feeding.sent) + 1)
-        for more in (0, missed, -1)
-    ]
+        for lost in (*jumps, *_amounts(missed))
+        for whole in range(feeding.breaks + 1, len(feeding.sent) + 1)
+        for more in (0, *_amounts(missed), *(-each for each in jumps))
+    }
     return any(abs(grown - scale * share) <= 0.0051 * scale for share in shares for scale in scales)

@@ -33,8 +33,12 @@ MEET_S = 0.4
 
 SOONER_HZ = 8.0
 """The rate where none is judged."""
-JUMP_AFTER, JUMP_MESSAGES = 14, 26
-"""Who begins to count again with the jump has counted ten more, in time to be seen."""
+JUMP_AFTER, AGAIN_AFTER, JUMP_MESSAGES = 14, 24, 35
+"""N jumps twice: far, and then by leaving out one number.
+
+After each jump there is a summary, and time for one that is late. Who begins to count again with the first jump has
+counted ten more, in time to be seen. Three summaries are more than any other start asks for.
+"""
 
 RESTART_AFTER, RESTART_MESSAGES = 13, 25
 AWAY_S = 0.7
@@ -69,8 +73,9 @@ class Feeding:
     """A start of the node, and what it was fed.
 
     `breaks`: how many messages were sent before N jumped or another publisher took over; 0 where neither happened.
-    `gone_at`: when the first publisher went away. `starved_s`: what the machine kept the node, or us, from running
-    until everything was heard. `spins`: whether the node answered a request; if not, `stuck` says where it was.
+    `again`: how many were sent before N jumped once more; 0 where it did not. `gone_at`: when the first publisher went
+    away. `starved_s`: what the machine kept the node, or us, from running until everything was heard. `spins`: whether
+    the node answered a request; if not, `stuck` says where it was.
     """
 
     trace: Trace
@@ -81,6 +86,7 @@ class Feeding:
     spins: bool = True
     stuck: tuple[Frame, ...] = ()
     ending: Ending | None = None
+    again: int = 0
 
     @cached_property
     def lines(self) -> tuple[Line, ...]:
@@ -112,6 +118,11 @@ class Feeding:
         return late
 
     @property
-    def missed(self) -> int:
-        """How many numbers were left out where N jumped."""
-        return self.sent[self.breaks].number - self.sent[self.breaks - 1].number - 1
+    def jumps(self) -> tuple[int, ...]:
+        """How many messages were sent before each jump."""
+        return tuple(before for before in (self.breaks, self.again) if before)
+
+    def missed(self, messages: int) -> tuple[int, ...]:
+        """How many numbers each jump left out, of those jumps that were due when so many messages had been sent."""
+        due = [before for before in self.jumps if before <= messages]
+        return tuple(self.sent[before].number - self.sent[before - 1].number - 1 for before in due)

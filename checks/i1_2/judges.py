@@ -72,10 +72,11 @@ def _made_at(messages: int, report: Report, feeding: Feeding, *, before: int) ->
 
 def _why_miscounted(report: Report, feeding: Feeding) -> Cause:
     sent, last = report.messages, feeding.sent[report.messages - 1].number
-    if feeding.breaks and sent > feeding.breaks and report.states(sent + feeding.missed):
+    missed = sum(feeding.missed(sent - 1))
+    if missed and report.states(sent + missed):
         return Cause(
             "missed messages counted",
-            f"it says {sent + feeding.missed}, but {feeding.missed} of these were never sent",
+            f"it says {sent + missed}, but {missed} of these were never sent",
             "count each call of the callback, and nothing else: self.total_count += 1",
         )
     if feeding.breaks and (report.states(last) or report.states(last + 1)):

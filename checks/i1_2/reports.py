@@ -112,7 +112,7 @@ def find(feeding: Feeding) -> tuple[Report, ...]:
 
 def _complete(report: Report, feeding: Feeding) -> bool:
     """Whether it quotes a first message and a recent one."""
-    firsts = {feeding.sent[0].number} | {each.number for each in feeding.sent[feeding.breaks : feeding.breaks + 1]}
+    firsts = {feeding.sent[index].number for index in (0, *feeding.jumps)}
     oldest = max(0, report.messages - 1 - STALE)
     recent = {each.number for each in feeding.sent[oldest : report.until]}
     quoted = list(report.quoted)
@@ -140,10 +140,12 @@ def _but_of_the_break(complete: Sequence[Report], feeding: Feeding) -> list[Repo
 
 def _at_the_break(report: Report, feeding: Feeding) -> bool:
     """Whether it came right after a break, and quotes nothing newer than the message after that."""
-    if not feeding.breaks or not 0 <= report.at - feeding.sent[feeding.breaks].at <= feeding.late_s:
-        return False
     quoted = [index for index, each in enumerate(feeding.sent[: report.until]) if each.number in report.quoted]
-    return feeding.breaks - 1 <= max(quoted, default=0) <= feeding.breaks
+    newest = max(quoted, default=0)
+    return any(
+        newest in (index - 1, index) and 0 <= report.at - feeding.sent[index].at <= feeding.late_s
+        for index in feeding.jumps
+    )
 
 
 def _like(complete: Sequence[Report], candidates: Iterable[Report]) -> tuple[Report, ...]:

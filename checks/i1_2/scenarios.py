@@ -9,6 +9,7 @@ from dataclasses import replace
 
 from checks.i1_2 import continuity, judges
 from checks.i1_2.facts import (
+    AGAIN_AFTER,
     AWAY_S,
     FILE,
     JUMP_AFTER,
@@ -76,7 +77,7 @@ async def steady(bench: Bench) -> Feeding:
 
 
 async def jump(bench: Bench) -> Feeding:
-    """Feed it from some number on, and leave some out."""
+    """Feed it from some number on, and leave some out; later, leave out one more."""
 
     async def once() -> Feeding:
         async with bench.start(FILE) as run, run.publisher(TOPIC, TYPE) as feed:
@@ -89,10 +90,13 @@ async def jump(bench: Bench) -> Feeding:
             first = random.randint(90, 97)
             skipped = first + JUMP_AFTER + random.randint(4, 8)
             await _send(bench, run, feed, sent, range(first, first + JUMP_AFTER), SOONER_HZ)
-            await _send(bench, run, feed, sent, range(skipped, skipped + JUMP_MESSAGES - JUMP_AFTER), SOONER_HZ)
-            missed = len(sent) > JUMP_AFTER
+            until = skipped + AGAIN_AFTER - JUMP_AFTER
+            await _send(bench, run, feed, sent, range(skipped, until), SOONER_HZ)
+            await _send(bench, run, feed, sent, range(until + 1, until + 1 + JUMP_MESSAGES - AGAIN_AFTER), SOONER_HZ)
+            breaks, again = (after if len(sent) > after else 0 for after in (JUMP_AFTER, AGAIN_AFTER))
             lost = run.starved_s() - starved
-            return await _hear_out(run, Feeding(run.trace(), tuple(sent), JUMP_AFTER * missed, 0.0, lost, spins))
+            fed = Feeding(run.trace(), tuple(sent), breaks, starved_s=lost, spins=spins, again=again)
+            return await _hear_out(run, fed)
 
     async def fair(fed: Feeding) -> bool:
         even = await bench.facts(steady)

@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from checks.i1_2 import continuity, judges
-from checks.i1_2.facts import JUMP_AFTER, JUMP_MESSAGES, RESTART_AFTER, RESTART_MESSAGES, Feeding, Sent
+from checks.i1_2.facts import AGAIN_AFTER, JUMP_AFTER, JUMP_MESSAGES, RESTART_AFTER, RESTART_MESSAGES, Feeding, Sent
 from checks.i1_2.reading import read, values
 from checks.i1_2.reports import find
 from tests.checks.made import CRASH, NO_NODE, START, UP, assert_failed, assert_passed, ending, exited, trace
@@ -97,9 +97,9 @@ def steady(node: Counter, hz: float = 4.95, **more: object) -> Feeding:
 
 
 def jump(node: Counter, missed: int = 5, *, first: int = 95, **more: object) -> Feeding:
-    after = first + JUMP_AFTER + missed
-    numbers = [*range(first, first + JUMP_AFTER), *range(after, after + JUMP_MESSAGES - JUMP_AFTER)]
-    return fed(node, numbers, 8.0, breaks=JUMP_AFTER, **more)  # type: ignore[arg-type]
+    numbers = list(range(first, first + JUMP_MESSAGES))
+    numbers = [n + missed * (n >= numbers[JUMP_AFTER]) + (n >= numbers[AGAIN_AFTER]) for n in numbers]
+    return fed(node, numbers, 8.0, breaks=JUMP_AFTER, again=AGAIN_AFTER, **more)  # type: ignore[arg-type]
 
 
 def restart(node: Counter, **more: object) -> Feeding:
@@ -389,6 +389,28 @@ class NumbersItsRuns(Restarting):
             yield level, f"run {self.run}: {text}"
 
 
+class SinceTheLastSummary(GapCount):
+    """Tells of what is missing since the last summary, and then begins anew."""
+
+    def line(self) -> str:
+        missed, self.missed = self.missed, 0
+        return f"{self.total} at {self.rate():.1f}/s, {missed} lost: {self.first} to {self.last}"
+
+
+class GapsSinceTheLastSummary(GapCount):
+    def line(self) -> str:
+        gaps, self.gaps = self.gaps, 0
+        return f"{self.total} at {self.rate():.1f}/s, {gaps} new gaps: {self.first} to {self.last}"
+
+
+class LatestStep(LargestStep):
+    """States how far N rose where it jumped last."""
+
+    def jumped(self, last: int, number: int) -> Iterator[Log]:
+        self.largest = number - last
+        yield from ()
+
+
 class QuotesBoth(Counter):
     """What it says of a jump quotes the message before and the one after, as a summary quotes two, too."""
 
@@ -428,7 +450,7 @@ RIGHT = (
     MissedCount, LossPercent, LossShare, LargestStep, GapWords, GapAtTheStart, Noisy, OneLineEach, LevelsMixed,
     NoisyAndLong, LastSecond, LastTwoSeconds, LastTen, LastInterval, Intervals, Rounded, Scientific, WithClock,
     WithThousands, Anniversary, QuotesBoth, QuotesBothInThree, QuotesTheFirst, RestartsAndQuotesBoth,
-    QuotesBothAndChangesItsWords,
+    QuotesBothAndChangesItsWords, SinceTheLastSummary, GapsSinceTheLastSummary, LatestStep,
 )  # fmt: skip
 
 
@@ -614,6 +636,43 @@ class GapOnlyBack(Counter):
             yield 30, "sequence went back"
 
 
+class ToleratesOne(Counter):
+    """One message may be missing."""
+
+    def jumped(self, last: int, number: int) -> Iterator[Log]:
+        return super().jumped(last, number) if number > last + 2 else iter(())
+
+
+class OnlyTheFirstGap(Counter):
+    def jumped(self, last: int, number: int) -> Iterator[Log]:
+        return iter(()) if self.missed else super().jumped(last, number)
+
+
+class LargestGapOnly(Counter):
+    """Says so only where more is missing than ever before."""
+
+    largest = 1
+
+    def jumped(self, last: int, number: int) -> Iterator[Log]:
+        if number > last + self.largest:
+            self.largest = number - last
+            yield 30, f"{number - last - 1} missing"
+
+
+class GapInTheNextSummaryOnce(GapCount):
+    """Sets its gap count back, and does not count one again."""
+
+    def line(self) -> str:
+        gaps, self.gaps = self.gaps, -9
+        return f"{self.total} at {self.rate():.1f}/s, {max(gaps, 0)} gaps: {self.first} to {self.last}"
+
+
+class StopsAfterTwo(Counter):
+    def summary(self) -> Iterator[Log]:
+        if self.total <= 20:
+            yield from super().summary()
+
+
 class SilentReset(Restarting):
     def take(self, now: float, data: str) -> Iterator[Log]:
         yield from (log for log in super().take(now, data) if "restarted" not in log[1])
@@ -768,7 +827,8 @@ class AgainAfterASecond(Counter):
         (AlarmedByTens, "gaps", "false alarm"),
         *((node, "gaps", "gap not noticed") for node in (
             GapBlind, GapBlindNoisy, GapBlindAnniversary, GapBlindWithIds, GapBlindRounded, GapBlindWithClock,
-            GapCountStuck, GapCountRising, GapOnlyBack,
+            GapCountStuck, GapCountRising, GapOnlyBack, ToleratesOne, OnlyTheFirstGap, LargestGapOnly,
+            GapInTheNextSummaryOnce,
         )),
         (SilentReset, "restart", "starts over silently"),
         (SilentResetWithGapCount, "restart", "starts over silently"),
@@ -782,6 +842,7 @@ class AgainAfterASecond(Counter):
         (Polled, "summary", "too many summaries"),
         (CountsUpToN, "restart", "wrong count after a restart"),
         (OnlyOnce, "summary", "missing summary"),
+        (StopsAfterTwo, "summary", "missing summary"),
         (FirstOverwritten, "summary", "first message overwritten"),
         (Behind, "summary", "last message missing"),
         (AgainAfterASecond, "summary", "too many summaries"),
