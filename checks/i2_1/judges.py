@@ -31,7 +31,7 @@ from checks.i2_1.facts import (
 )
 from tutor.judge import causes, ending, tracebacks
 from tutor.judge.rates import TOLERANCE, Rate, describe
-from tutor.judge.trace import SetAnswer, Trace
+from tutor.judge.trace import Level, SetAnswer, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Cause, Verdict, failed, passed
 from tutor.judge.wording import shape
@@ -377,6 +377,14 @@ def judge_bad_launch(plain: Survey, seen: Sequence[Trace]) -> Verdict:
         if not any(_wording(line) not in ordinary for line in naming(trace)):
             given = f"{RATE}:={trace.parameters[RATE]}"
             found = tracebacks.last(trace)
+            said = next((str(log) for log in reversed(trace.logs) if log.level >= Level.WARN), "")
+            if said and not found:
+                cause = Cause(
+                    "parameter not named",
+                    f"the message does not name {RATE}, which is what was typed",
+                    f"put {RATE} into the message",
+                )
+                return failed(expected, f"with {given}: {said}", cause)
             observed = f"with {given}: {found.raised if found else 'no message about it'}"
             cause = Cause(
                 "only a traceback" if found else "no validation",

@@ -325,8 +325,8 @@ BAD = {RATE: -1.0}
         ),
         (
             rejected(refused(BAD, "parameter list cannot be empty, this might be due to pre_set_parameters_callback")),
-            "rejected",
-            "",
+            "value dropped",
+            "pre-set",
         ),
         (rejected(refused(BAD, "Trying to set a read-only parameter: publish_rate")), "rejected", "read-only"),
         (rejected(refused(BAD), -1.0), "value changed all the same", "-1.0 now"),
@@ -467,6 +467,7 @@ def test_a_bad_rate_at_start_up_is_named(seen: list[Trace]) -> None:
         (starts(), "no validation", "publish_rate:=0.0"),
         ([start(0.0, err=COMPLAINT), start(-1.0)], "no validation", "publish_rate:=-1.0"),
         (starts(err=crash("publish_rate = 0\n1 / publish_rate"), exit=exited(1)), "only a traceback", "ZeroDivision"),
+        (starts(logs=[log("bad frequency 0.0", 40), log("going on")]), "parameter not named", "bad frequency 0.0"),
         (starts(err=CRASH, exit=exited(1)), "only a traceback", "AttributeError"),
         (starts(logs=[log("publish_rate: 0.0 Hz")]), "no validation", ""),
         (starts(err="[INFO] [7.5] [node]: publish_rate: -1.0 Hz"), "no validation", ""),

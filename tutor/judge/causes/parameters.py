@@ -52,6 +52,12 @@ def of_refusal(reason: str, values: Mapping[str, Any]) -> Cause:
             "the parameter callback does not return a SetParametersResult",
             "end every way through the callback with: return SetParametersResult(successful=True)",
         )
+    if "parameter list cannot be empty" in reason:
+        return Cause(
+            "value dropped",
+            "a pre-set callback takes the value out of the list, and rclpy can only say that nothing is left",
+            "leave it in the list: an on-set callback is the one that says yes, or no with a reason",
+        )
     if _TYPES.search(reason):
         return of_types(reason)
     if "declared" in reason:
