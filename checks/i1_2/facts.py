@@ -119,8 +119,8 @@ class Feeding:
 
     @property
     def jumps(self) -> tuple[int, ...]:
-        """How many messages were sent before each jump."""
-        return tuple(before for before in (self.breaks, self.again) if before)
+        """How many messages were sent before each jump, if one came after it."""
+        return tuple(before for before in (self.breaks, self.again) if 0 < before < len(self.sent))
 
     def missed(self, messages: int) -> tuple[int, ...]:
         """How many numbers each jump left out, of those jumps that were due when so many messages had been sent."""

@@ -27,7 +27,7 @@ from checks.i1_2.facts import (
     Feeding,
     Sent,
 )
-from checks.i1_2.reports import Report, find
+from checks.i1_2.reports import find, milestone
 from tutor.judge.bench import Bench, Feed, MachineTooBusy, Run
 from tutor.judge.tracebacks import Frame
 from tutor.judge.waiting import TRIES, appears, heard_out
@@ -198,17 +198,15 @@ async def _hear_out(run: Run, fed: Feeding) -> Feeding:
     def now() -> Feeding:
         return replace(fed, trace=run.trace())
 
-    def due() -> bool:
-        return any(_of_the_end(report, fed) for report in find(now()))
+    last = milestone(len(fed.sent))
 
-    if len(fed.sent) % 10 == 0:
-        await run.until(due, LATE_S)
+    def told() -> bool:
+        return any(report.messages >= last for report in find(now()))
+
+    if last:
+        await run.until(told, max(fed.sent[last - 1].at + fed.late_s - run.now(), 0.0))
     await heard_out(run, quiet_s=SAID_S, most_s=MOST_SAID_S)
     return now()
-
-
-def _of_the_end(report: Report, fed: Feeding) -> bool:
-    return report.messages == len(fed.sent)
 
 
 async def _stuck(bench: Bench) -> tuple[Frame, ...]:

@@ -953,6 +953,7 @@ def test_a_node_that_ends_when_the_publisher_goes_or_n_jumps() -> None:
     assert_failed(continuity.judge_gaps(replace(jumped, trace=crashed), even), "unhandled exception")
     deaf = replace(restarted, sent=restarted.sent[:RESTART_AFTER], trace=trace(logs=restarted.trace.logs))
     assert_failed(continuity.judge_restart(deaf, even, jumped), "no subscription")
+    assert find(replace(deaf, trace=restarted.trace))[0].messages == 10
 
 
 def test_shutdown() -> None:
