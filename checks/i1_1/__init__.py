@@ -9,7 +9,7 @@ CHECK = Check(
     "i1.1",
     (
         Criterion("publishes", judges.judge_publishes, (scenarios.survey,)),
-        Criterion("range", judges.judge_range, (scenarios.values,), after=("publishes",)),
+        Criterion("range", judges.judge_range, (scenarios.values, scenarios.more_values), after=("publishes",)),
         Criterion("random", judges.judge_random, (scenarios.values,), after=("publishes",)),
         Criterion("echo", judges.judge_echo, (scenarios.survey,), after=("publishes",)),
         Criterion("rate", judges.judge_rate, (scenarios.rates,), after=("publishes",)),

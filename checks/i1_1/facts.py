@@ -59,6 +59,10 @@ class Values:
 
     runs: tuple[tuple[float, ...], ...]
 
+    @property
+    def all(self) -> tuple[float, ...]:
+        return tuple(value for run in self.runs for value in run)
+
 
 @dataclass(frozen=True)
 class RateProbe:
@@ -130,6 +134,11 @@ def units(name: str) -> tuple[str, ...]:
 def numeric_of(declared: Iterable[Parameter]) -> list[Parameter]:
     """The numeric parameters that the learner declared; rclpy declares some of its own for QoS."""
     return [p for p in declared if p.type in ("integer", "double") and not p.name.startswith("qos_overrides")]
+
+
+def outside(values: Iterable[float]) -> list[float]:
+    """Those that are out of range, nan included."""
+    return [value for value in values if not LOWEST <= value <= HIGHEST]
 
 
 def key(probe: RateProbe) -> tuple[str, str]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Sequence
+from dataclasses import replace
 
 from checks.i1_1.facts import (
     HIGHEST,
@@ -22,6 +23,7 @@ from checks.i1_1.facts import (
     agree,
     agreeing,
     groups,
+    outside,
     swapped,
 )
 from tutor.judge import causes, ending, randomness
@@ -47,30 +49,30 @@ def judge_publishes(seen: Survey) -> Verdict:
     return failed(expected, "no such message", cause, causes.last_words(seen.trace))
 
 
-def judge_range(found: Values) -> Verdict:
+def judge_range(found: Values, more: Values) -> Verdict:
     expected = f"every value in [{LOWEST}, {HIGHEST}] °C"
-    all_values = [value for run in found.runs for value in run]
-    if not all_values:
+    if not found.all:
         return failed(expected, "no values at all", _STOPS)
-    outside = [value for value in all_values if not LOWEST <= value <= HIGHEST]
-    if not outside:
-        return passed(expected, f"{len(all_values)} values from {min(all_values):.2f} to {max(all_values):.2f} °C")
+    values = (*found.all, *more.all)
+    wrong = outside(values)
+    if not wrong:
+        return passed(expected, f"{len(values)} values from {min(values):.2f} to {max(values):.2f} °C")
     return failed(
         expected,
-        f"{len(outside)} of {len(all_values)} values outside, such as {outside[0]:g}",
-        _why_outside(outside),
-        [f"data: {value!r}" for value in outside[:5]],
+        f"{len(wrong)} of {len(values)} values outside, such as {wrong[0]:g}",
+        _why_outside(wrong, values),
+        [f"data: {value!r}" for value in wrong[:5]],
     )
 
 
-def _why_outside(outside: Sequence[float]) -> Cause:
-    if all(math.isfinite(value) and 0 < abs(value) < 1e-300 for value in outside):
+def _why_outside(wrong: Sequence[float], values: Sequence[float]) -> Cause:
+    if all(math.isfinite(value) and 0 < abs(value) < 1e-300 for value in wrong):
         return Cause(
             "an int in a float field",
             "a Python int was put into Float64.data: its bits are sent as if they were a float",
             "make it a float first: msg.data = float(value)",
         )
-    if all(60 <= value <= 90 for value in outside):
+    if all(60 <= value <= 90 for value in values):
         return Cause(
             "out of range",
             "these look like degrees Fahrenheit",
@@ -81,7 +83,7 @@ def _why_outside(outside: Sequence[float]) -> Cause:
 
 def judge_random(found: Values) -> Verdict:
     expected = "values that vary at random: not constant, not a ramp, not a short cycle"
-    told = [(run, pattern) for run in found.runs if (pattern := randomness.pattern(run)) is not None]
+    told = [(run, pattern) for run in found.runs if (pattern := _pattern(run)) is not None]
     telling = sum(len(run) >= randomness.ENOUGH for run in found.runs)
     if told and (any(pattern.sure for _, pattern in told) or len(told) >= telling):
         run, pattern = max(told, key=lambda each: (each[1].sure, len(each[0])))
@@ -95,6 +97,24 @@ def judge_random(found: Values) -> Verdict:
     if len(longest) < 3:
         return failed(expected, f"only {len(longest)} values in {LISTEN_S:g} s", _STOPS)
     return passed(expected, f"{len(longest)} values, no pattern", [f"data: {value:g}" for value in longest[:5]])
+
+
+def _pattern(run: Sequence[float]) -> randomness.Pattern | None:
+    """The regularity in these values; coming to rest goes before any other."""
+    found, stuck = randomness.pattern(run), _stuck(run)
+    return replace(stuck, sure=found is not None and found.sure) if stuck else found
+
+
+def _stuck(run: Sequence[float]) -> randomness.Pattern | None:
+    """Different values, and then a new one that stays, for half of `PLENTY` at least.
+
+    Coarse values, of which one is by far the most frequent, have it among the others, too.
+    """
+    same = next((i for i, value in enumerate(reversed(run)) if value != run[-1]), len(run))
+    before = run[: len(run) - same]
+    if same < randomness.PLENTY / 2 or len(before) < 2 or len({*before, run[-1]}) <= len(before):
+        return None
+    return randomness.Pattern("constant value", f"the last {same} values are all {run[-1]:g}")
 
 
 def judge_echo(seen: Survey) -> Verdict:

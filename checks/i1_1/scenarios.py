@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import asyncio
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from contextlib import suppress
 
 from checks.i1_1.facts import (
     ECHO_S,
@@ -27,6 +28,7 @@ from checks.i1_1.facts import (
     agreeing,
     key,
     numeric_of,
+    outside,
     units,
 )
 from tutor.judge import randomness
@@ -54,28 +56,50 @@ async def survey(bench: Bench) -> Survey:
 
 async def values(bench: Bench) -> Values:
     """Collect values from two plain starts; more of them where they look suspicious."""
-
-    async def collect(number: int) -> tuple[Run, list[float]]:
-        async with bench.start(FILE, watch={TOPIC: TYPE}) as run:
-            seen[number] = run
-            if await first_message(run, TOPIC, TYPE):
-                await run.until(lambda: enough(run), LISTEN_S)
-            return run, data(run)
-
-    def data(run: Run) -> list[float]:
-        return [sample.message["data"] for sample in run.on(TOPIC)]
+    seen: set[Run] = set()
 
     def enough(run: Run) -> bool:
-        mine = data(run)
-        others = {value for other in seen.values() if other is not run for value in data(other)}
+        seen.add(run)
+        mine = _data(run)
+        others = {value for other in seen if other is not run for value in _data(other)}
         bench.doing(min(len(mine) / randomness.ENOUGH, 1), f"{len(mine)} temperatures so far")
         # The same values in both starts may be a fixed list: only its second round would tell.
         doubtful = randomness.suspicious(mine) or len(others.intersection(mine)) > len(mine) / 2
         return len(mine) >= randomness.PLENTY or (not doubtful and run.now() >= run.on(TOPIC)[0].source_time + LEAST_S)
 
-    seen: dict[int, Run] = {}
-    collected = await asyncio.gather(collect(0), collect(1))
-    return Values(tuple(tuple(mine) for _, mine in collected))
+    return Values(tuple(await asyncio.gather(_collect(bench, enough), _collect(bench, enough))))
+
+
+async def more_values(bench: Bench) -> Values:
+    """The values of the other plain start; plenty from two more if those of a start with a parameter are out of range.
+
+    What is out of range with a parameter set may be so on purpose: it only says where to look again.
+    """
+    plain = tuple(_data((await bench.facts(survey)).trace))
+    probed: list[float] = []
+    if not outside((*plain, *(await bench.facts(values)).all)):
+        with suppress(MachineTooBusy):
+            probed = [value for probe in (await bench.facts(rates)).probes for value in _data(probe.trace)]
+    if not outside(probed):
+        return Values((plain,))
+    bench.doing(0.6, "listening longer: a start with a parameter gave a temperature that is out of range")
+
+    def enough(run: Run) -> bool:
+        return len(_data(run)) >= randomness.PLENTY or bool(outside(_data(run)))
+
+    return Values((plain, *await asyncio.gather(_collect(bench, enough), _collect(bench, enough))))
+
+
+async def _collect(bench: Bench, enough: Callable[[Run], bool]) -> tuple[float, ...]:
+    """The values of one plain start."""
+    async with bench.start(FILE, watch={TOPIC: TYPE}) as run:
+        if await first_message(run, TOPIC, TYPE):
+            await run.until(lambda: enough(run), LISTEN_S)
+        return tuple(_data(run))
+
+
+def _data(seen: Run | Trace) -> list[float]:
+    return [sample.message["data"] for sample in seen.on(TOPIC)]
 
 
 async def parameters(bench: Bench) -> tuple[Parameter, ...] | None:

@@ -74,7 +74,7 @@ def test_publishes_not(seen: Trace, parameters: Any, cause: str) -> None:
 
 @given(st.lists(st.lists(st.floats(20, 30), min_size=1).map(tuple), min_size=1).map(tuple))
 def test_range(runs: tuple[tuple[float, ...], ...]) -> None:
-    assert_passed(judge_range(Values(runs)))
+    assert_passed(judge_range(Values(runs), Values(())))
 
 
 @given(
@@ -83,7 +83,7 @@ def test_range(runs: tuple[tuple[float, ...], ...]) -> None:
     st.lists(st.floats(20, 30), max_size=5),
 )
 def test_one_value_outside_is_outside(before: list[float], outside: float, after: list[float]) -> None:
-    verdict = judge_range(Values(((25.0,), (*before, outside, *after))))
+    verdict = judge_range(Values(((25.0,), (*before, outside, *after))), Values(()))
     assert verdict.cause.startswith(("out of range", "an int in a float field"))
     assert not verdict.passed
 
@@ -93,6 +93,7 @@ def test_one_value_outside_is_outside(before: list[float], outside: float, after
     [
         ((68.0, 75.5, 86.0), "out of range", "Fahrenheit"),
         ((25.0, 31.0), "out of range", "1 of 2 values"),
+        ((25.0, 85.0, 26.0), "out of range", "values leave the range"),
         ((1.1e-322, 1.2e-322), "an int in a float field", "float(value)"),
         ((0.0, 0.0), "out of range", "0"),
         ((float("nan"), 25.0), "out of range", "nan"),
@@ -100,7 +101,12 @@ def test_one_value_outside_is_outside(before: list[float], outside: float, after
     ],
 )
 def test_range_not(values: tuple[float, ...], cause: str, word: str) -> None:
-    assert_failed(judge_range(Values((values, ()))), cause, word)
+    assert_failed(judge_range(Values((values, ())), Values(())), cause, word)
+
+
+def test_the_values_of_other_starts_count_too() -> None:
+    verdict = judge_range(Values(((25.0,), (24.0,))), Values(((21.0, 19.5),)))
+    assert_failed(verdict, "out of range", "1 of 4 values outside, such as 19.5")
 
 
 def drawn(count: int = 24) -> tuple[float, ...]:
@@ -108,7 +114,17 @@ def drawn(count: int = 24) -> tuple[float, ...]:
     return tuple(chance.uniform(20, 30) for _ in range(count))
 
 
-@pytest.mark.parametrize("runs", [(drawn(), drawn(8)), (drawn(8), ()), ((), drawn(3)), (drawn(8), drawn(8))])
+@pytest.mark.parametrize(
+    "runs",
+    [
+        (drawn(), drawn(8)),
+        (drawn(8), ()),
+        ((), drawn(3)),
+        (drawn(8), drawn(8)),
+        (drawn(3) + (25.0,) * 21, drawn()),
+        ((25.0, 26.0, 24.0) + (25.0,) * 21,) * 2,
+    ],
+)
 def test_random(runs: tuple[tuple[float, ...], ...]) -> None:
     assert_passed(judge_random(Values(runs)))
 
@@ -122,6 +138,7 @@ def test_random(runs: tuple[tuple[float, ...], ...]) -> None:
         ((tuple(20.0 + i % 7 for i in range(24)), drawn()), "short cycle"),
         ((tuple(20.0 + i % 10 for i in range(10)),) * 2, "ramp"),
         ((drawn(5) * 5, drawn(5) * 5), "short cycle"),
+        ((drawn(3) + (25.0,) * 21,) * 2, "constant value"),
         ((drawn(2), drawn(1)), "no messages"),
         (((), ()), "no messages"),
     ],
