@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from itertools import accumulate
 
-from checks.i1_2.facts import LATE_S, OURS, Feeding
-from checks.i1_2.judges import NO_SUMMARY, counts_truly, true_total
+from checks.i1_2.facts import EVERY, LATE_S, OURS, Feeding
+from checks.i1_2.judges import NO_SUMMARY, counts_truly, judge_summary, true_total
 from checks.i1_2.reading import Line
 from checks.i1_2.reports import Report, find, milestone
 from tutor.judge import causes
@@ -73,7 +73,38 @@ def judge_restart(restart: Feeding, steady: Feeding, jump: Feeding) -> Verdict:
             )
         )
         return failed(expected, f"{observed}; {report}", cause, evidence)
+    if judge_summary(steady, jump).passed and (changed := _sums_up_otherwise(after, restart)):
+        return failed(expected, observed, changed, evidence)
     return passed(expected, observed, [*evidence, *told[:2]])
+
+
+def _sums_up_otherwise(after: Sequence[Report], restart: Feeding) -> Cause | None:
+    """What is wrong with the summaries since the restart, wherever the node has begun to count: no more is judged."""
+    before = restart.breaks
+    new = len(restart.sent) - before
+    if len(after) >= 0.7 * new:
+        return Cause(
+            "summary for every message",
+            f"{len(after)} summaries for {new} messages of the new publisher",
+            "once N has fallen, go on as before: a summary for every ten messages",
+        )
+    own = [report for report in after if report.messages > before + 1]  # not of what came before
+    if own and not any(_quotes_new(report, restart) for report in own):
+        return Cause(
+            "last message missing",
+            "no summary quotes what the new publisher has sent last",
+            "self.last_message = msg.data for each message, whatever its N",
+        )
+    return None
+
+
+def _quotes_new(report: Report, restart: Feeding) -> bool:
+    """Whether it quotes a recent message of the new publisher, besides a first one."""
+    quoted = list(report.quoted)
+    for first in {restart.sent[0].number, restart.sent[restart.breaks].number}.intersection(quoted):
+        quoted.remove(first)
+    recent = restart.sent[max(restart.breaks, report.messages - EVERY) : report.until]
+    return any(each.number in quoted for each in recent)
 
 
 def judge_gaps(jump: Feeding, steady: Feeding) -> Verdict:

@@ -115,7 +115,7 @@ def judge_rate(steady: Feeding, jump: Feeding) -> Verdict:
         return failed(
             expected,
             f"after {wrong.messages} messages it states {', '.join(n.text for n in wrong.numbers) or 'no number'}",
-            rates.why_wrong(reports, steady),
+            rates.why_wrong(wrong, reports, steady),
             evidence,
         )
     if rates.doubtful(stated, reports, steady):

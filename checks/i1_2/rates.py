@@ -132,10 +132,9 @@ def _close(report: Report, feeding: Feeding) -> Iterator[Range]:
         yield Range((1 - CLOSE) * low, (1 + CLOSE) * high)
 
 
-def why_wrong(reports: Sequence[Report], feeding: Feeding) -> Cause:
-    """What kind of mistake leads to the numbers in reports without a true rate."""
+def why_wrong(report: Report, reports: Sequence[Report], feeding: Feeding) -> Cause:
+    """What kind of mistake leads to the numbers in this one of the reports, which states no true rate."""
     hint = "self.total_count / (time.time() - self.start_time), where start_time is when the first message came"
-    report = reports[0]
     true = true_rates(report, feeding)
     found = _but_the_count(report)
     for number in found:
@@ -151,14 +150,14 @@ def why_wrong(reports: Sequence[Report], feeding: Feeding) -> Cause:
         if any(number.value * by in true for by in (1e-3, 1e3, 1e6, 1e9)):
             return Cause("rate in another unit", f"{number.text} is off by a factor of a thousand, or of several", hint)
     waited = [_waited_s(each, feeding) for each in reports]
-    for number, before in waited[0] if waited else ():
+    for number, before in _waited_s(report, feeding):
         if before > 0.7 and all(any(abs(before - same) < 0.2 for _, same in each) for each in waited):
             return Cause(
                 "counted from the node's start",
                 f"{number.text} is right if the clock starts {before:.1f} s before the first message",
                 "set self.start_time in the callback, when the first message comes, not in __init__",
             )
-    for number, before in waited[0] if waited else ():
+    for number, before in _waited_s(report, feeding):
         elapsed = report.at - feeding.sent[0].at
         if abs(elapsed + before - max(int(elapsed), 1)) < 0.01:
             return Cause(

@@ -564,6 +564,36 @@ def test_summaries_that_state_something_else(breaks: str, node: type[Counter]) -
     assert_breaks(judged(node), criterion, cause)
 
 
+class LastIsTheHighest(Counter):
+    """Takes the highest N for the last one, and after a restart N is low."""
+
+    highest: int = -1
+
+    def heard(self, data: str) -> Iterator[Log]:
+        self.highest = max(self.highest, int(data.split(":")[1]))
+        yield from ()
+
+    def summary(self) -> Iterator[Log]:
+        rate = self.rate()
+        yield 20, f"{self.total} at {rate:.2f}, first={self.first} last=Hello World: {self.highest}"
+
+
+class EachAfterRestart(Counter):
+    """Sums up each message when N has fallen once."""
+
+    def jumped(self, last: int, number: int) -> Iterator[Log]:
+        yield from super().jumped(last, number)
+        if number < last:
+            self.every = 1
+
+
+class PerMinuteLater(Counter):
+    """Its second summary states another rate than the first."""
+
+    def rate(self) -> float:
+        return super().rate() * (60 if self.total > 10 else 1)
+
+
 class CountsFromOne(Counter):
     def take(self, now: float, data: str) -> Iterator[Log]:
         self.total = self.total or 1
@@ -823,6 +853,9 @@ class AgainAfterASecond(Counter):
     ("node", "criterion", "cause"),
     [
         (CountsFromOne, "count", "off by one"),
+        (LastIsTheHighest, "restart", "last message missing"),
+        (EachAfterRestart, "restart", "summary for every message"),
+        (PerMinuteLater, "rate", "rate per minute"),
         (Alarmed, "gaps", "gap not noticed"),
         (AlarmedByTens, "gaps", "false alarm"),
         *((node, "gaps", "gap not noticed") for node in (
