@@ -187,11 +187,15 @@ def _likeliest(candidates: Sequence[Report], feeding: Feeding) -> tuple[Report, 
 
 
 def _together(lines: Sequence[Line], feeding: Feeding) -> tuple[Report, ...]:
-    """Lines that were logged at once, or between the same two messages; and groups that only together are complete."""
+    """Lines that were logged at once, or between the same two messages; and groups that only together are complete.
+
+    What was said just before a summary was due is none of it.
+    """
     groups: list[Report] = []
     for line in lines:
         before = groups[-1].lines[-1] if groups else None
-        if before and (line.messages == before.messages or line.at - before.at <= AT_ONCE_S):
+        at_once = before and line.at - before.at <= AT_ONCE_S and milestone(line.messages) == milestone(before.messages)
+        if before and (line.messages == before.messages or at_once):
             groups[-1] = Report((*groups[-1].lines, line))
         else:
             groups.append(Report((line,)))

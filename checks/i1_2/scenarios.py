@@ -16,6 +16,7 @@ from checks.i1_2.facts import (
     JUMP_MESSAGES,
     LATE_S,
     MEET_S,
+    MOST_LATE_S,
     QUIET_S,
     RESTART_AFTER,
     RESTART_MESSAGES,
@@ -204,7 +205,8 @@ async def _hear_out(run: Run, fed: Feeding) -> Feeding:
         return any(report.messages >= last for report in find(now()))
 
     if last:
-        await run.until(told, max(fed.sent[last - 1].at + fed.late_s - run.now(), 0.0))
+        late_s = max(fed.late_s, MOST_LATE_S) if last > STEADY_MESSAGES else fed.late_s
+        await run.until(told, max(fed.sent[last - 1].at + late_s - run.now(), 0.0))
     await heard_out(run, quiet_s=SAID_S, most_s=MOST_SAID_S)
     return now()
 

@@ -587,6 +587,27 @@ class EachAfterRestart(Counter):
             self.every = 1
 
 
+class ByASlowTimer(Counter):
+    """A timer sums up, once there are ten messages more: the third time it is late."""
+
+    summed: int = 0
+
+    def heard(self, data: str) -> Iterator[Log]:
+        if self.total // 10 > self.summed and (self.total > 33 or self.total < 30):
+            self.summed = self.total // 10
+            yield from super().summary()
+
+    def summary(self) -> Iterator[Log]:
+        yield from ()
+
+
+def test_the_third_summary_may_wait_for_a_slow_timer() -> None:
+    jumped = jump(ByASlowTimer())
+    assert [report.messages for report in find(jumped)] == [11, 21, 35]
+    assert_passed(judges.judge_summary(steady(Counter()), jumped))
+    assert_passed(judges.judge_count(steady(Counter()), jumped))
+
+
 class PerMinuteLater(Counter):
     """Its second summary states another rate than the first."""
 
@@ -1063,6 +1084,14 @@ def test_an_alarm_beside_a_summary_is_no_part_of_the_next_one() -> None:
 
     assert [report.messages for report in find(steady(Beside()))] == [10, 20]
     assert [len(report.lines) for report in find(steady(Beside()))] == [1, 1]
+
+
+def test_what_is_said_just_before_a_summary_is_due_is_no_part_of_it() -> None:
+    jumped = jump(Counter())
+    early = jumped.sent[29].at - 0.01
+    logs = (*jumped.trace.logs, LogRecord(40, "node", "1 lost in the last second", early, early))
+    jumped = replace(jumped, trace=replace(jumped.trace, logs=logs))
+    assert [report.messages for report in find(jumped)] == [10, 20, 30]
 
 
 def test_how_much_later_than_due_a_message_was_sent() -> None:
