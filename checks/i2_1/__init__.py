@@ -10,7 +10,7 @@ CHECK = Check(
     (
         Criterion("defaults", judges.judge_defaults, (scenarios.survey,)),
         Criterion("launch-params", judges.judge_launch, (scenarios.launched,)),
-        Criterion("runtime-params", judges.judge_runtime, (scenarios.switched,)),
+        Criterion("runtime-params", judges.judge_runtime, (scenarios.switched, scenarios.retimed)),
         Criterion("validation", judges.judge_validation, (scenarios.validated,)),
         Criterion("timer", judges.judge_timer, (scenarios.retimed,)),
         Criterion("atomic", judges.judge_atomic, (scenarios.atomic,), bonus=True),

@@ -151,7 +151,7 @@ def _ignored(name: str) -> Cause:
     )
 
 
-def judge_runtime(seen: Switched) -> Verdict:
+def judge_runtime(seen: Switched, retimed: Retimed) -> Verdict:
     expected = f"setting {PREFIX} and {ENABLED} on the running node takes effect within one period"
     for answer in (seen.set_prefix, seen.set_off, seen.set_later, seen.set_on):
         if answer is None:
@@ -184,14 +184,15 @@ def judge_runtime(seen: Switched) -> Verdict:
                 "let the timer run on, and only skip publish() while enabled is false; or make the timer again",
             ),
         )
-    return _why_not_as_before(seen, expected) or passed(
+    # A timer that is left behind, whatever is set, is what `timer` tells of.
+    return _why_not_as_before(seen, expected, any_rate=not judge_timer(retimed).passed) or passed(
         expected,
         f'"{text(seen.after_prefix)}"; silence while false; resumed '
         f"{seen.resumed.source_time - seen.set_on.asked_at:.2f} s after true",
     )
 
 
-def _why_not_as_before(seen: Switched, expected: str) -> Verdict | None:
+def _why_not_as_before(seen: Switched, expected: str, *, any_rate: bool) -> Verdict | None:
     """What is wrong once it sends messages again: with the prefix that was set meanwhile, or with the rate."""
     off = f"{PREFIX} set to {seen.later} while {ENABLED} was false, then {ENABLED} to true"
     said = [text(sample) for sample in seen.again]
@@ -204,6 +205,8 @@ def _why_not_as_before(seen: Switched, expected: str) -> Verdict | None:
             "old prefix kept", "the new prefix does not replace the old one", "assign it: self.prefix = value"
         )
         return failed(expected, f'{off}: "{both}"', cause, said)
+    if said and any_rate:
+        return None
     if seen.rate is not None and (seen.rate.agrees(seen.base_hz) or (seen.before and seen.before.agrees(seen.rate.hz))):
         return None
     observed = f"{off}: {describe(seen.rate, len(said))}, not {seen.base_hz:g} Hz ±{TOLERANCE:.0%} as before"

@@ -60,6 +60,7 @@ from tests.checks.made import (
 from tests.judge.real import crash
 from tutor.judge.rates import Rate
 from tutor.judge.trace import Parameter, Sample, SetAnswer, Trace
+from tutor.judge.verdict import Verdict
 
 PUBLISHING = graph(publishers={TOPIC: TYPE})
 RUNNING = trace(*samples(TOPIC, 1.0), graph=PUBLISHING)
@@ -214,15 +215,26 @@ def not_set(reason: str, answered: bool = True) -> SetAnswer:
 WRONG_TYPE = "Wrong parameter type, expected 'Type.STRING' got 'Type.BOOL'"
 
 
+def runtime(seen: Switched, timer: Retimed | None = None) -> Verdict:
+    return judge_runtime(seen, timer or retimed())
+
+
 def test_runtime() -> None:
-    assert_passed(judge_runtime(switched()))
-    assert_passed(judge_runtime(switched(after_prefix=sample(TOPIC, "say Servus7", 1003.0))))
-    assert_passed(judge_runtime(switched(again=samples(TOPIC, 1.0, data="Gruezi9: Hello World"))))
-    assert_passed(judge_runtime(switched(rate=rate(2.1), base_hz=2.0)))
+    assert_passed(runtime(switched()))
+    assert_passed(runtime(switched(after_prefix=sample(TOPIC, "say Servus7", 1003.0))))
+    assert_passed(runtime(switched(again=samples(TOPIC, 1.0, data="Gruezi9: Hello World"))))
+    assert_passed(runtime(switched(rate=rate(2.1), base_hz=2.0)))
 
 
 def test_a_rate_that_was_wrong_before_is_not_the_switchs_fault() -> None:
-    assert_passed(judge_runtime(switched(before=rate(5.2), rate=rate(5.0))))
+    assert_passed(runtime(switched(before=rate(5.2), rate=rate(5.0))))
+
+
+def test_a_timer_that_is_left_behind_by_a_rate_as_well_is_told_of_once() -> None:
+    twice = retimed(UP_HZ + 1.0, DOWN_HZ + 11.0)
+    assert_passed(runtime(switched(rate=rate(2.0)), twice))
+    assert_failed(runtime(switched(rate=None, again=()), twice), "rate changed")
+    assert_failed(runtime(switched(again=samples(TOPIC, 1.0, data="Hello 5")), twice), "parameter ignored")
 
 
 @pytest.mark.parametrize(
@@ -253,7 +265,7 @@ def test_a_rate_that_was_wrong_before_is_not_the_switchs_fault() -> None:
     ],
 )
 def test_runtime_not(found: Switched, cause: str, word: str) -> None:
-    assert_failed(judge_runtime(found), cause, word)
+    assert_failed(runtime(found), cause, word)
 
 
 # --- bad rates ---------------------------------------------------------------
