@@ -291,7 +291,7 @@ async def test_a_flood_neither_hangs_nor_grows_without_bound(scene: Scene, monke
 async def test_ctrl_c_reaches_what_a_launch_started_once(scene: Scene) -> None:
     (scene.folder / "counts.py").write_text(COUNTS)
     async with scene.bench(LAUNCHES).launch(FILE) as run:
-        assert await run.until(lambda: any("up" in line.text for line in run.output), UP_S), run.output
+        assert await run.until(lambda: any(line.text.endswith("] up") for line in run.output), UP_S), run.output
         ending = await run.interrupt()
         assert ending.exit is not None, run.output
         assert sum(line.text.endswith("] interrupted") for line in run.output) == 1, run.output
