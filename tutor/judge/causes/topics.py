@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 
 from tutor.judge.causes import names
 from tutor.judge.causes.process import node_names, of_no_answer, of_process
+from tutor.judge.qos import Policy, unmet
 from tutor.judge.trace import Endpoint, Service, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Cause
@@ -62,10 +63,10 @@ def of_deafness(trace: Trace, ours: Endpoint, *, answers: bool, stuck: Sequence[
 
 def incompatible_qos(publisher: Endpoint, subscription: Endpoint) -> Cause | None:
     """Whether the subscription asks for more than the publisher offers: then they are not matched at all."""
-    unmet = _unmet(publisher, subscription)
-    if unmet is None:
+    first = next(unmet(publisher, subscription), None)
+    if first is None:
         return None
-    policy, offered, asked = unmet
+    policy, offered, asked = _values(first, publisher, subscription)
     return Cause(
         names.INCOMPATIBLE_QOS,
         f"on {publisher.topic} the publisher offers {policy} {offered}, the subscription asks for {asked}: "
@@ -74,23 +75,19 @@ def incompatible_qos(publisher: Endpoint, subscription: Endpoint) -> Cause | Non
     )
 
 
-def _unmet(offered: Endpoint, asked: Endpoint) -> tuple[str, str, str] | None:
-    """The policy of which more is asked than offered, and both values."""
-    if offered.reliability == "best_effort" and asked.reliability == "reliable":
-        return "reliability", offered.reliability, asked.reliability
-    if offered.durability == "volatile" and asked.durability == "transient_local":
-        return "durability", offered.durability, asked.durability
-    if _longer(offered.deadline_s, asked.deadline_s):
-        return "deadline", _duration(offered.deadline_s), _duration(asked.deadline_s)
-    if (offered.liveliness, asked.liveliness) == ("automatic", "manual_by_topic"):
-        return "liveliness", offered.liveliness, asked.liveliness
-    if _longer(offered.lease_s, asked.lease_s):
-        return "liveliness lease duration", _duration(offered.lease_s), _duration(asked.lease_s)
-    return None
-
-
-def _longer(offered_s: float | None, asked_s: float | None) -> bool:
-    return asked_s is not None and (offered_s is None or offered_s > asked_s)
+def _values(policy: Policy, offered: Endpoint, asked: Endpoint) -> tuple[str, str, str]:
+    """The policy and both values, in words."""
+    match policy:
+        case "reliability":
+            return policy, offered.reliability, asked.reliability
+        case "durability":
+            return policy, offered.durability, asked.durability
+        case "liveliness":
+            return policy, offered.liveliness, asked.liveliness
+        case "deadline":
+            return policy, _duration(offered.deadline_s), _duration(asked.deadline_s)
+        case "lease":
+            return "liveliness lease duration", _duration(offered.lease_s), _duration(asked.lease_s)
 
 
 def _duration(seconds: float | None) -> str:
