@@ -148,18 +148,13 @@ def heard(pair: Pair, logs: Sequence[LogRecord], samples: Sequence[Sample]) -> l
     """
     name = pair[1].node.strip("/").replace("/", ".")
     own = [log for log in logs if log.name == name or log.name.startswith(f"{name}.")]
-    found: list[LogRecord] = []
-    weak: set[str] = set()
-    strong = False
-    for log in own:
-        said = {
-            text for sample in samples if sample.source_time <= log.stamp + 0.01 for text in _said(log.text, sample)
-        }
-        if said:
-            found.append(log)
-            weak |= said
-            strong = strong or any(len(text) >= _TELLING and not _NUMBER.fullmatch(text) for text in said)
-    return found if strong or len(weak) > 1 else []
+    said = {
+        log: {text for sample in samples if sample.source_time <= log.stamp + 0.01 for text in _said(log.text, sample)}
+        for log in own
+    }
+    texts = set().union(*said.values())
+    telling = any(len(text) >= _TELLING and not _NUMBER.fullmatch(text) for text in texts)
+    return [log for log in own if said[log]] if telling or len(texts) > 1 else []
 
 
 def _said(text: str, sample: Sample) -> Iterator[str]:
