@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
+
+# What a key changes waits for the next frame: half as long as by default. Textual reads this when it is imported.
+os.environ.setdefault("TEXTUAL_FPS", "120")
 
 
 def run(workspace: Path, lessons: Path | None = None) -> int:

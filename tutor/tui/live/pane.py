@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import gc
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
@@ -104,6 +105,7 @@ class LivePane(Vertical):
         """Start the child process that watches, unless it runs."""
         if self._worker is None:
             self._command, self._broken = command, ""
+            _spare_the_collector()
             watch: Callable[[], Any] = partial(self._watch, command)
             self._worker = self.run_worker(watch, group="live", exit_on_error=False)
             if self._composed:
@@ -297,6 +299,7 @@ class LivePane(Vertical):
     def _turned(self, message: TabStrip.Turned) -> None:
         message.stop()
         self.query_one("#live-panels", ContentSwitcher).current = message.tab
+        self.query_one(TabStrip).refresh()
         if self.has_focus_within and not self.query_one(TabStrip).has_focus:
             self.focus_content()
 
@@ -315,6 +318,16 @@ class LivePane(Vertical):
     def _attend(self, seen: bool) -> None:
         self._seen = seen
         self._send(Attend(seen))
+
+
+def _spare_the_collector() -> None:
+    """Leave what is there now out of Python's garbage collections: going through all of it, they hold a key up.
+
+    What becomes garbage of it is found the next time that this is called.
+    """
+    gc.unfreeze()
+    gc.collect()
+    gc.freeze()
 
 
 def _advice(head: str, text: str) -> Content:

@@ -6,7 +6,7 @@ import bisect
 import itertools
 import math
 import statistics
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 Point = tuple[float, float]
@@ -39,36 +39,47 @@ def draw(points: Sequence[Point], width: int, height: int, now: float, span_s: f
     first, end_of = (
         bisect.bisect_left(points, t, key=lambda point: point[0]) for t in (now - span_s, math.nextafter(now, math.inf))
     )
-    seen = points[first:end_of]
-    low, high, step = _scale(value for _, value in seen)
+    times = [t for t, _ in itertools.islice(points, first, end_of)]
+    values = [value for _, value in itertools.islice(points, first, end_of)]
+    low, high, step = _scale(values)
     labels = _labels(low, high, step, max(1, height - 1))
     margin = max(len(label) for label in labels)
     cells = max(1, width - margin - 1)
-    grid = _Grid(cells, max(1, height - 1))
-    usual = statistics.median([b[0] - a[0] for a, b in itertools.pairwise(seen)]) if len(seen) > 1 else 0.0
-    across, up = grid.width / span_s, (grid.height - 1) / (high - low)
-    begin, before, last_t = now - span_s, None, 0.0
-    for t, value in seen:
-        x, y = min(grid.width - 1, int((t - begin) * across)), int((value - low) * up + 0.5)
-        hole = before is not None and t - last_t > _HOLE * usual and x - before[0] > 2
-        grid.join((x, y) if before is None or hole else before, (x, y))
-        before, last_t = (x, y), t
+    grid = _Grid(cells, max(1, height - 1), (now - span_s, span_s), (low, high - low))
+    _line(grid, times, values)
     edge = [f"{label:>{margin}}" + ("┤" if label else "│") for label in labels]
     return Plot(tuple(zip(edge, grid.rows(), strict=True)), _below(margin, cells, span_s, end))
 
 
-def limits(values: Iterable[float]) -> tuple[float, float]:
+def _line(grid: _Grid, times: Sequence[float], values: Sequence[float]) -> None:
+    """Draw the points, a column at a time: many cost little more than few."""
+    before, place = (0, 0), 0
+    while place < len(times):
+        x, y = grid.column(times[place]), grid.row(values[place])
+        alone = place == 0 or (x - before[0] > 2 and times[place] - times[place - 1] > _HOLE * _usual(times))
+        grid.join((x, y) if alone else before, (x, y))
+        following = bisect.bisect_left(times, grid.end_of(x), place + 1)
+        column = values[place:following]
+        grid.stroke(x, grid.row(min(column)), grid.row(max(column)))
+        before, place = (x, grid.row(column[-1])), following
+
+
+def _usual(times: Sequence[float]) -> float:
+    """The usual time between two of them."""
+    return statistics.median(b - a for a, b in itertools.pairwise(times))
+
+
+def limits(values: Sequence[float]) -> tuple[float, float]:
     """Round numbers around all values, so that the axis holds still while they vary a little."""
     low, high, _ = _scale(values)
     return low, high
 
 
-def _scale(values: Iterable[float]) -> tuple[float, float, float]:
+def _scale(values: Sequence[float]) -> tuple[float, float, float]:
     """The axis: its ends, and the step between its labels."""
-    known = list(values)
-    if not known:
+    if not values:
         return 0.0, 1.0, 0.5
-    low, high = min(known), max(known)
+    low, high = min(values), max(values)
     if high - low < 1e-9 * max(1.0, abs(high)):
         around = abs(high) * 0.1 if abs(high) > _LEAST else 1.0
         low, high = low - around, high + around
@@ -109,26 +120,40 @@ def _below(margin: int, cells: int, span_s: float, right: str) -> str:
 
 
 class _Grid:
-    """Dots, four rows and two columns of them to a cell; y goes up.
+    """Dots, four rows and two columns of them to a cell; y goes up. Each column is one stroke.
 
-    Each column is one stroke from its lowest to its highest dot: a thousand points cost little more than the columns.
+    `across` and `up` are what its width and its height stand for: where they begin, and how long they are.
     """
 
-    def __init__(self, cells: int, rows: int) -> None:
+    def __init__(self, cells: int, rows: int, across: tuple[float, float], up: tuple[float, float]) -> None:
         self.width, self.height = cells * 2, rows * 4
+        self._begin, self._low_value = across[0], up[0]
+        self._across, self._up = self.width / across[1], (self.height - 1) / up[1]
         self._low = [self.height] * self.width
         self._high = [-1] * self.width
+
+    def column(self, t: float) -> int:
+        """Where this time is."""
+        return min(self.width - 1, int((t - self._begin) * self._across))
+
+    def end_of(self, column: int) -> float:
+        """The first time that is right of a column."""
+        return self._begin + (column + 1) / self._across
+
+    def row(self, value: float) -> int:
+        """Where this value is."""
+        return int((value - self._low_value) * self._up + 0.5)
 
     def join(self, start: tuple[int, int], end: tuple[int, int]) -> None:
         """Draw a line; `end` is not to the left of `start`."""
         (x0, y0), (x1, y1) = start, end
         if x1 - x0 <= 1:
-            self._stroke(x1, y0, y1)
+            self.stroke(x1, y0, y1)
             return
         before = y0
         for x in range(x0 + 1, x1 + 1):
             y = round(y0 + (y1 - y0) * (x - x0) / (x1 - x0))
-            self._stroke(x, before + (y > before) - (y < before), y)
+            self.stroke(x, before + (y > before) - (y < before), y)
             before = y
 
     def rows(self) -> list[str]:
@@ -143,7 +168,8 @@ class _Grid:
             drawn.append("".join(chr(_BRAILLE | one) if one else " " for one in bits))
         return drawn
 
-    def _stroke(self, x: int, y0: int, y1: int) -> None:
+    def stroke(self, x: int, y0: int, y1: int) -> None:
+        """Draw a column from the one dot to the other."""
         low, high = (y0, y1) if y0 < y1 else (y1, y0)
         if low < self._low[x]:
             self._low[x] = low

@@ -27,7 +27,8 @@ class TabStrip(Widget, can_focus=True):
         Binding("left", "step(-1)", "Previous tab", show=False),
         Binding("right", "step(1)", "Next tab", show=False),
     ]
-    active = reactive("")
+    active = reactive("", repaint=False)
+    """Repainted by whoever turns the page on `Turned`: a strip that is drawn first makes the page wait a frame."""
     labels: reactive[dict[str, str]] = reactive({})
 
     class Turned(Message):
