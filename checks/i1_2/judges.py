@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from checks.i1_2 import rates
 from checks.i1_2.facts import EVERY, OURS, STEADY_MESSAGES, Feeding
-from checks.i1_2.reading import read
+from checks.i1_2.reading import labelled, read
 from checks.i1_2.reports import Report, find, in_time, milestone, totals
 from tutor.judge import causes, ending
 from tutor.judge.bench import MachineTooBusy
@@ -198,6 +198,14 @@ def _why_incomplete(report: Report, feeding: Feeding) -> Cause | None:
             "last message missing",
             f"“{recent[0].content}” is not in it",
             "self.last_message = msg.data for each message, before you write the summary",
+        )
+    called = {(name, number) for line in report.lines for name, number in labelled(line.text)}
+    swapped = [("first", each.number) for each in recent if each.number != first.number]
+    if ("last", first.number) in called and called.intersection(swapped) and ("first", first.number) not in called:
+        return Cause(
+            "first and last swapped",
+            f"it calls “{first.content}” the last one, and the last one the first",
+            "put self.first_message after “first”, and the message that has just come after “last”",
         )
     return None
 

@@ -16,8 +16,15 @@ from tutor.judge.trace import LogRecord
 _COLOUR = re.compile(r"\x1b\[[0-9;]*[A-Za-z]")
 _CONTENT = re.compile(r"Hello World:\s*(\d+)", re.IGNORECASE)
 _CLOCK = re.compile(r"\d{4}-\d\d-\d\d(?:[T ]\d\d:\d\d(?::\d\d(?:[.,]\d+)?)?)?|\d+:\d\d:\d\d(?:[.,]\d+)?")
-_NUMBER = re.compile(r"(?:(?<![\w.,)\]])[-\u2212])?\d+(?:[.,'\u2019_\u00a0\u202f]\d+)*(?:[eE][-+]?\d+)?")
-_THOUSANDS = re.compile(r"['\u2019_\u00a0\u202f](?=\d{3})")
+_NUMBER = re.compile(r"(?:(?<![\w.,)\]])[-\u2212])?\d+(?:[.,]\d+|['\u2019_]\d{3}(?!\d))*(?:[eE][-+]?\d+)?")
+_THOUSANDS = re.compile(r"['\u2019_]")
+_IN_ENGLISH = re.compile(r"-?\d{1,3}(,\d{3})+(\.\d+)?")
+_IN_GERMAN = re.compile(r"-?\d{1,3}(\.\d{3})+,\d+")
+_LABEL = re.compile(
+    r"\b(?:(?P<first>first|erste[rns]?|premi[eè]re?|primer[ao]?|prim[ao])|(?:last|latest|letzte[rns]?|derni[eè]re?|[uú]ltim[ao]))"
+    r"[\s_-]*(?:[^\W\d]+\s*)?[\"']?\s*[:=]\s*[^\w\s]*$",
+    re.IGNORECASE,
+)
 _DIGITS = re.compile(r"[0-9A-Za-z#]*#[0-9A-Za-z#]*")  # of an identifier, such as 0x5f3a
 _REPEATED = re.compile(r"(.)\1+")
 
@@ -66,17 +73,46 @@ def read(log: LogRecord, messages: int) -> Line:
     text = unicodedata.normalize("NFKC", _COLOUR.sub("", log.text))
     quoted = tuple(int(found[1]) for found in _CONTENT.finditer(text))
     plain = _CLOCK.sub("@", _CONTENT.sub("“”", text))
-    numbers = tuple(Number(found[0], tuple(values(found[0]))) for found in _NUMBER.finditer(plain))
+    numbers = tuple(number for found in _NUMBER.finditer(plain) for number in _listed(found[0]))
     shape = _REPEATED.sub(r"\1", re.sub(r"\s+", " ", _DIGITS.sub("#", _NUMBER.sub("#", plain)))).strip()
     return Line(log.level, shape, text, log.stamp, messages, quoted, numbers)
 
 
+def labelled(text: str) -> Iterator[tuple[str, int]]:
+    """The quotations with "first" or "last" right before them, such as last message: "...": which, and the N."""
+    end = 0
+    for found in _CONTENT.finditer(text):
+        if label := _LABEL.search(text[end : found.start()]):
+            yield "first" if label["first"] else "last", int(found[1])
+        end = found.end()
+
+
+def _listed(written: str) -> Iterator[Number]:
+    """The numbers of a list without blanks, such as 10,4.95,0, each alone and with a decimal comma after it.
+
+    What may be a single number is one.
+    """
+    parts = _plainly(written).split(",")
+    one = len(parts) < 3 and "." not in written
+    if one or _IN_ENGLISH.fullmatch(written) or _IN_GERMAN.fullmatch(written):
+        yield Number(written, tuple(values(written)))
+        return
+    for part, decimals in pairwise([*parts, "."]):
+        more = () if "." in part + decimals else (float(f"{part}.{decimals}"),)
+        yield Number(part, (*values(part), *more))
+
+
+def _plainly(written: str) -> str:
+    """With a hyphen for a minus sign, and nothing between the thousands."""
+    return _THOUSANDS.sub("", written.replace("\u2212", "-"))
+
+
 def values(written: str) -> Iterator[float]:
     """All values that a number may be meant as, the likeliest first. A comma may be a decimal point, or an end."""
-    text = _THOUSANDS.sub("", written.replace("\u2212", "-"))
-    if re.fullmatch(r"-?\d{1,3}(,\d{3})+(\.\d+)?", text):
+    text = _plainly(written)
+    if _IN_ENGLISH.fullmatch(text):
         yield float(text.replace(",", ""))
-    if re.fullmatch(r"-?\d{1,3}(\.\d{3})+,\d+", text):
+    if _IN_GERMAN.fullmatch(text):
         yield float(text.replace(".", "").replace(",", "."))
     parts = text.split(",")
     if len(parts) > 1:

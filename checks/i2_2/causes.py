@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from checks.i2_2.facts import ARGUMENTS, FILE, NAMESPACE, Launched, publishers, shared, subscriptions, used
+from checks.i2_2.facts import ARGUMENTS, FILE, NAMESPACE, Launched, is_twice, publishers, shared, subscriptions, used
 from checks.i2_2.processes import Gone, by_stream, gone, writers, written_by
 from tutor.judge import causes, tracebacks
 from tutor.judge.bench import OnlyWithRos
@@ -180,6 +180,13 @@ def of_namespace(usual: Launched, seen: Launched) -> Cause:
     space = seen.arguments.get("namespace", NAMESPACE)
     graph, under = seen.trace.graph, f"/{space}/"
     ends = [*publishers(graph), *subscriptions(graph)]
+    twice = next((name for each in ends for name in (each.node, each.topic) if is_twice(name, space)), None)
+    if twice is not None:
+        return Cause(
+            "namespace applied twice",
+            f"{twice} is in {under[:-1]} of {under[:-1]}",
+            "use one of the two: namespace=LaunchConfiguration('namespace') for each node, or a PushRosNamespace",
+        )
     within = [each for each in ends if each.node.startswith(under)]
     outside = [each for each in ends if not each.node.startswith(under)]
     if not within:

@@ -116,24 +116,31 @@ def called(graph: Graph, name: str) -> list[Pair]:
 
 def in_namespace(graph: Graph, name: str | None = None, *, space: str = NAMESPACE) -> list[Pair]:
     """The pairs of which both nodes and the topic (called `name`, if given) are under the namespace."""
-    under = f"/{space}/"
     return [
         (one, other)
         for one, other in pairs(graph)
-        if all(each.startswith(under) for each in (one.topic, one.node, other.node))
+        if all(_is_under(each, space) for each in (one.topic, one.node, other.node))
         and (name is None or one.topic.endswith(f"/{name}"))
     ]
 
 
 def two_in_namespace(graph: Graph) -> bool:
     """Whether a publisher and a subscription of two nodes are under the namespace, on whatever topics there."""
-    under = f"/{NAMESPACE}/"
     return any(
         _of_two_nodes(graph, one.node, other.node)
         for one in publishers(graph)
         for other in subscriptions(graph)
-        if all(name.startswith(under) for each in (one, other) for name in (each.node, each.topic))
+        if all(_is_under(name, NAMESPACE) for each in (one, other) for name in (each.node, each.topic))
     )
+
+
+def _is_under(name: str, space: str) -> bool:
+    return name.startswith(f"/{space}/") and not is_twice(name, space)
+
+
+def is_twice(name: str, space: str) -> bool:
+    """Whether the namespace was put before this name twice, as in /robot1/robot1/talker."""
+    return name.startswith(f"/{space}/{space}/")
 
 
 def size(graph: Graph) -> tuple[int, int, int]:

@@ -19,7 +19,7 @@ CHECK = Check(
             after=("blocks", "concurrent"),
             bonus=True,
         ),
-        Criterion("shutdown-busy", judges.judge_shutdown_busy, (scenarios.interrupted,), bonus=True),
+        Criterion("shutdown-busy", judges.judge_shutdown_busy, (scenarios.interrupted, scenarios.lone), bonus=True),
     ),
     asks_s=8.0,  # lone: two calls of 3 s, each until the message of the next tenth tick, 4 s and 8 s after the start
 )

@@ -171,7 +171,10 @@ def judge_shutdown(seen: Quiet) -> Verdict:
     return ending.judge(seen.trace, seen.ending)
 
 
-def judge_shutdown_busy(seen: Interrupted) -> Verdict:
+def judge_shutdown_busy(seen: Interrupted, lone: Lone) -> Verdict:
     if not seen.called and seen.ending is not None and is_there(seen.trace.graph.services) is False:
         return skipped(f"not judged, because there is no {SERVICE} to call: `blocks` did not pass")
-    return ending.judge(seen.trace, seen.ending)
+    verdict = ending.judge(seen.trace, seen.ending)
+    if verdict.passed and lone.quickest is None:
+        return skipped("not judged, because no call is answered, so none may have been under way: see `blocks`")
+    return verdict

@@ -445,7 +445,23 @@ class QuotesBothAndChangesItsWords(QuotesBoth, GapWords):
         yield from GapWords.jumped(self, last, number)
 
 
+class LabelsElsewhere(Counter):
+    """Has the words first and last before the other message each, but does not mean it."""
+
+    def summary(self) -> Iterator[Log]:
+        rate = f"{self.rate():.2f}"
+        yield 20, f"{self.total} at {rate}/s, the last 10 messages: {self.first} (first) to {self.last} (last)"
+
+
+class Row(GapCount):
+    """A row of CSV."""
+
+    def line(self) -> str:
+        return f"{self.total},{self.rate():.2f},{self.missed},{self.first},{self.last}"
+
+
 RIGHT = (
+    LabelsElsewhere, Row,
     AllOfThem, Delivered, OfExpected, LostSoFar, NumbersItsRuns, Counter, Restarting, RestartsInTheSummary, GapCount,
     MissedCount, LossPercent, LossShare, LargestStep, GapWords, GapAtTheStart, Noisy, OneLineEach, LevelsMixed,
     NoisyAndLong, LastSecond, LastTwoSeconds, LastTen, LastInterval, Intervals, Rounded, Scientific, WithClock,
@@ -850,6 +866,11 @@ class FirstOverwritten(Counter):
         yield from super().take(now, data)
 
 
+class Swapped(Counter):
+    def summary(self) -> Iterator[Log]:
+        yield 20, f"{self.total} at {self.rate():.2f}/s, first message: '{self.last}', last message: '{self.first}'"
+
+
 class Behind(Counter):
     """Quotes the message before the last one."""
 
@@ -899,6 +920,7 @@ class AgainAfterASecond(Counter):
         (StopsAfterTwo, "summary", "missing summary"),
         (FirstOverwritten, "summary", "first message overwritten"),
         (Behind, "summary", "last message missing"),
+        (Swapped, "summary", "first and last swapped"),
         (AgainAfterASecond, "summary", "too many summaries"),
         (lambda: Counter(every=5), "summary", "too many summaries"),
         (lambda: Counter(every=3), "summary", "too many summaries"),
@@ -1065,6 +1087,21 @@ def test_what_is_a_number_and_what_is_not() -> None:
     assert said("\x1b[31m7\x1b[0m apples, -3 pears, 2-3 plums, \uff15") == ("7", "-3", "2", "3", "5")
     assert said("合計10件") == ("10",)
     assert said("no number at all") == ()
+    assert said("10'5 and 1_2") == ("10", "5", "1", "2")
+
+
+def test_a_list_without_blanks_is_several_numbers() -> None:
+    numbers = read(LogRecord(20, "node", "20,4.95,5,Hello World: 0", START, START), 1).numbers
+    assert [number.values for number in numbers] == [(20,), (4.95,), (5,)]
+    numbers = read(LogRecord(20, "node", "10,4,93,0", START, START), 1).numbers
+    assert [number.value for number in numbers] == [10, 4, 93, 0]
+    assert 4.93 in numbers[1].values
+    assert said("1,234.5 of 1.234,5") == ("1,234.5", "1.234,5")
+
+
+@given(st.text(alphabet="0123456789.,'_-+eE \u2212\u2019\u202f\u00a0"))
+def test_any_text_can_be_read(text: str) -> None:
+    assert all(number.values for number in read(LogRecord(20, "node", text, START, START), 1).numbers)
 
 
 def test_messages_of_one_wording_are_of_one_kind() -> None:

@@ -249,6 +249,14 @@ def test_a_deeper_namespace_is_under_it_too() -> None:
     assert_passed(judges.judge_namespace(USUAL, ELSEWHERE, alone, BOTH))
 
 
+def test_the_namespace_is_there_twice() -> None:
+    alone = in_robot1(pair("/robot1/robot1/chatter", namespace="/robot1/robot1"))
+    both = with_both(pair("/robot1/robot1/news", namespace="/robot1/robot1"))
+    assert_failed(judges.judge_namespace(USUAL, ELSEWHERE, alone, both), "namespace applied twice", "/robot1/robot1")
+    topic_only = with_both(pair("/robot1/robot1/news", namespace="/robot1"))
+    assert_failed(judges.judge_namespace(USUAL, ELSEWHERE, ALONE, topic_only), "namespace applied twice")
+
+
 def test_one_node_has_no_namespace() -> None:
     seen = graph([end("/robot1/chatter", "/robot1/talker")], [end("/chatter", HEARS)])
     assert_failed(

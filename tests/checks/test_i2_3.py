@@ -468,9 +468,16 @@ def test_parallel() -> None:
 def test_shutdown() -> None:
     assert_passed(judge_shutdown(quiet([], ending=ending())))
     assert_failed(judge_shutdown(quiet([], ending=ending(1, err=KEYBOARD_INTERRUPT))), "traceback on exit")
-    assert_passed(judge_shutdown_busy(Interrupted(trace(graph=SERVING), True, ending(130))))
-    assert_failed(
-        judge_shutdown_busy(Interrupted(trace(graph=SERVING), True, ending(still_there=True))), "SIGINT ignored"
-    )
-    assert_failed(judge_shutdown_busy(Interrupted(CRASHED, False)), "unhandled exception")
-    assert judge_shutdown_busy(Interrupted(trace(graph=UP), False, ending())).status is Status.SKIPPED
+
+
+def test_shutdown_busy() -> None:
+    clean = Interrupted(trace(graph=SERVING), True, ending(130))
+    assert_passed(judge_shutdown_busy(clean, lone()))
+    stays = Interrupted(trace(graph=SERVING), True, ending(still_there=True))
+    assert_failed(judge_shutdown_busy(stays, lone()), "SIGINT ignored")
+    assert_failed(judge_shutdown_busy(Interrupted(CRASHED, False), Lone(trace())), "unhandled exception")
+    gone = Interrupted(trace(graph=UP), False, ending())
+    assert judge_shutdown_busy(gone, Lone(trace())).status is Status.SKIPPED
+    unanswered = lone([], answer(sum_=None))
+    assert judge_shutdown_busy(clean, unanswered).status is Status.SKIPPED
+    assert_failed(judge_shutdown_busy(stays, unanswered), "SIGINT ignored")

@@ -222,6 +222,19 @@ def test_any_values_can_be_judged(values: list[float]) -> None:
     suspicious(values)
 
 
+def test_what_is_no_number_neither_makes_a_pattern_nor_hides_one() -> None:
+    lost = [math.nan, math.inf, -math.inf]
+    for trial in range(200):
+        chance = random.Random(trial)
+        values = [chance.choice(lost) if i % 3 == 2 else chance.uniform(20, 30) for i in range(PLENTY)]
+        assert pattern(values) is None
+    ramp = [math.nan if i % 5 == 4 else 20 + i / 10 for i in range(PLENTY)]
+    assert pattern(ramp) is not None
+    assert pattern([20.0, math.nan] * 12) is not None
+    assert pattern([math.nan] * 8) is not None
+    assert suspicious([math.nan] * 4 + [21.5, 27.25, 24.0, 29.1])
+
+
 def test_ints_sent_as_the_bits_of_a_float_vary_all_the_same() -> None:
     # What an int in a float field looks like on the wire: numbers below any rounding.
     values = [chance.randint(20, 30) * 5e-324 for _ in range(PLENTY)]

@@ -48,17 +48,26 @@ class Pattern:
 def pattern(values: Sequence[float]) -> Pattern | None:
     """The regularity in `values` (in order of time), or None where they vary as random ones do.
 
-    Fewer than three values show nothing either way.
+    Fewer than three values show nothing either way. What is no number is left out, unless there is nothing else.
     """
-    if len(values) < 3:
+    numbers = _finite(values)
+    if len(values) >= 3 and not numbers:
+        return Pattern("constant value", f"none of {len(values)} values is a number")
+    if len(numbers) < 3:
         return None
     return (
-        _constant(values) or _cycle(values) or _ramp(values) or _zigzag(values) or _sawtooth(values) or _curve(values)
+        _constant(numbers)
+        or _cycle(numbers)
+        or _ramp(numbers)
+        or _zigzag(numbers)
+        or _sawtooth(numbers)
+        or _curve(numbers)
     )
 
 
 def suspicious(values: Sequence[float]) -> bool:
     """Whether more values are needed before `pattern` can be trusted to have found nothing, or something."""
+    values = _finite(values)
     if len(values) < ENOUGH or pattern(values) is not None:
         return True
     again = max(Counter(step for step in _steps(values) if step != 0).values(), default=0)
@@ -70,6 +79,10 @@ def suspicious(values: Sequence[float]) -> bool:
         or any(_comes_again(values, period, ALIKE * _span(values)) for period in range(2, len(values) - 1))
         or min(_unexplained(values, 2), _unexplained(_unfolded(values), 2)) < 0.02
     )
+
+
+def _finite(values: Sequence[float]) -> Sequence[float]:
+    return [value for value in values if math.isfinite(value)]
 
 
 def _constant(values: Sequence[float]) -> Pattern | None:
@@ -245,7 +258,7 @@ def _unexplained(values: Sequence[float], order: int) -> float:
         return 1.0
     import numpy as np
 
-    if not all(abs(value) < 1e150 for value in values):  # nor a NaN: there is nothing to calculate with
+    if not all(abs(value) < 1e150 for value in values):
         return 1.0
     series = np.asarray(values, dtype=float)
     target = series[order:]
