@@ -9,7 +9,7 @@ from tutor.judge.causes import names
 from tutor.judge.trace import OutputLine, Trace
 from tutor.judge.verdict import Cause
 
-_LOGGED = re.compile(r"^(?:\x1b\[\d+m)?\[(?:DEBUG|INFO|WARN|ERROR|FATAL)\] \[\d+\.\d+\] \[")
+_LOGGED = re.compile(r"^(?:\x1b\[\d+m)?\[(?:DEBUG|INFO|WARN|ERROR|FATAL)\] \[\d+\.\d+\] \[(?P<logger>[^\]]*)\]")
 """How the line begins that rclpy writes for a log message, beside sending it to /rosout."""
 
 
@@ -30,11 +30,19 @@ def of_printed(
             "holds them back",
         )
     seen = {log.text for log in trace.logs}
-    logged = [line.text for line in trace.output if _LOGGED.match(line.text) and says(line.text)]
-    if logged and not any(text.endswith(each) for text in logged for each in seen):
+    logged = [(line.text, found["logger"]) for line in trace.output if (found := _LOGGED.match(line.text))]
+    logged = [(text, logger) for text, logger in logged if says(text)]
+    if logged and not any(text.endswith(each) for text, _ in logged for each in seen):
+        own = {node.strip("/").replace("/", ".") for node in trace.graph.nodes}
+        if not trace.logs and any(logger in own for _, logger in logged):
+            return Cause(
+                "rosout switched off",
+                f"{what} is logged by the node, but nothing that it logs reaches /rosout: {logged[0][0]}",
+                "leave out enable_rosout=False, and --disable-rosout-logs among the arguments",
+            )
         return Cause(
             "not the node's logger",
-            f"{what} is logged by a logger that belongs to no node, so it does not reach /rosout: {logged[0]}",
+            f"{what} is logged by a logger that belongs to no node, so it does not reach /rosout: {logged[0][0]}",
             "use self.get_logger(): rclpy.logging.get_logger(...) writes to the terminal only",
         )
     late = [line.text for line in after if _is_print(line) and says(line.text)]
