@@ -53,11 +53,13 @@ def draw(points: Sequence[Point], width: int, height: int, now: float, span_s: f
 
 def _line(grid: _Grid, times: Sequence[float], values: Sequence[float]) -> None:
     """Draw the points, a column at a time: many cost little more than few."""
-    before, place = (0, 0), 0
+    before, place, usual = (0, 0), 0, 0.0
     while place < len(times):
         x, y = grid.column(times[place]), grid.row(values[place])
-        alone = place == 0 or (x - before[0] > 2 and times[place] - times[place - 1] > _HOLE * _usual(times))
-        grid.join((x, y) if alone else before, (x, y))
+        if apart := place > 0 and x - before[0] > 2:
+            usual = usual or _usual(times)
+        hole = apart and times[place] - times[place - 1] > _HOLE * usual
+        grid.join((x, y) if place == 0 or hole else before, (x, y))
         following = bisect.bisect_left(times, grid.end_of(x), place + 1)
         column = values[place:following]
         grid.stroke(x, grid.row(min(column)), grid.row(max(column)))
