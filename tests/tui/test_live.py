@@ -47,6 +47,12 @@ class Watcher:
 
     async def turn_to(self, tab: str) -> None:
         await self.pilot.click("#live-tabs", offset=(self.screen().splitlines()[0].index(tab) + 1, 0))
+        await self.until(lambda: tab in self.marked(), f"{tab} marked among the tabs")
+
+    def marked(self) -> str:
+        """What is written in bold in the line of the tabs."""
+        line = self.app.screen._compositor.render_strips()[0]
+        return "".join(segment.text for segment in line if segment.style and segment.style.bold)
 
     def topics(self) -> TopicsPanel:
         return self.app.pane.query_one(TopicsPanel)
