@@ -79,7 +79,9 @@ async def calculation(bench: Bench) -> Calls:
         there = [name for name in SIGNS if name not in missing_of(run.graph.services)]
         bench.doing(0.3, "calculating with positive and negative numbers")
         chosen = operands()
-        answers = await _ask(run, [(name, a, b) for name in there for a, b in chosen])
+        a, b = chosen[0]  # in the other order, too, which makes no whole quotient
+        swapped = [(name, b, a) for name in there if name != "/divide"]
+        answers = await _ask(run, [*((name, a, b) for name in there for a, b in chosen), *swapped])
         return Calls(run.trace(), answers)
 
 

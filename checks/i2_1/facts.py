@@ -23,7 +23,7 @@ DEFAULTS: Mapping[str, tuple[str, Any]] = {
 }
 DEFAULT_HZ = 1.0
 LAUNCH_HZ, SLOW_LAUNCH_HZ = 5.0, 1.5
-UP_HZ, DOWN_HZ = 10.0, 1.5
+UP_HZ, DOWN_HZ = 10.0, 0.7
 """The slower ones show a rate that is made a whole number: 1 and 2 Hz are both beyond the tolerance."""
 
 REFUSING_HZ = 4.0
@@ -32,6 +32,9 @@ REFUSING_HZ = 4.0
 BAD_RATES = (0.0, -1.0)
 ANSWER_S = 5.0
 """A parameter call is answered within this time, else it is not answered."""
+
+BURST = 3
+"""So many messages in half a period were held back until then: a node sends two at most, if it sends one at once."""
 
 RARE_S = 3.0
 """At 1 Hz or more, a publisher that exists sends something within this time, late as it may be."""

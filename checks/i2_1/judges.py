@@ -9,6 +9,7 @@ from typing import Any
 from checks.i2_1.facts import (
     ANSWER_S,
     BAD_RATES,
+    BURST,
     DEFAULT_HZ,
     DEFAULTS,
     DOWN_HZ,
@@ -207,6 +208,14 @@ def _why_not_as_before(seen: Switched, expected: str, *, any_rate: bool) -> Verd
         return failed(expected, f'{off}: "{both}"', cause, said)
     if said and any_rate:
         return None
+    burst = _held_back(seen)
+    if len(burst) >= BURST:
+        cause = Cause(
+            "messages held back",
+            f"what was due while {ENABLED} was false is kept, and sent when it is true again",
+            f"only skip publish() while {ENABLED} is false, and keep nothing for later",
+        )
+        return failed(expected, f"{off}: {len(burst)} messages at once", cause, burst)
     if seen.rate is not None and (seen.rate.agrees(seen.base_hz) or (seen.before and seen.before.agrees(seen.rate.hz))):
         return None
     observed = f"{off}: {describe(seen.rate, len(said))}, not {seen.base_hz:g} Hz ±{TOLERANCE:.0%} as before"
@@ -220,6 +229,14 @@ def _why_not_as_before(seen: Switched, expected: str, *, any_rate: bool) -> Verd
             "make a new timer only once the old one is destroyed, and with the period 1.0 / rate",
         ),
     )
+
+
+def _held_back(seen: Switched) -> list[str]:
+    """What came with the first message after `enabled` had been set to true again."""
+    assert seen.resumed is not None
+    begin = seen.resumed.source_time
+    hz = max(seen.base_hz, seen.before.hz if seen.before else 0.0)
+    return [text(s) for s in seen.trace.on(TOPIC) if begin <= s.source_time < begin + 0.5 / hz]
 
 
 def _ignored_later(name: str) -> Cause:
@@ -325,7 +342,9 @@ def _why_timer(seen: Retimed, asked: float, rate: Rate | None) -> Cause:
     if rate is not None and rate.in_bursts:
         return causes.in_bursts(RATE)
     before = DEFAULT_HZ if asked == UP_HZ else UP_HZ
-    if rate is not None and rate.agrees(before):
+    faster = seen.steps[0][1]
+    left_behind = asked == DOWN_HZ and faster is not None and faster.hz > UP_HZ + DEFAULT_HZ / 2
+    if rate is not None and rate.agrees(before) and not left_behind:
         return causes.timer_not_replaced()
     if (whole := _made_whole(rate, asked)) is not None:
         return whole

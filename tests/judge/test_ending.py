@@ -30,6 +30,11 @@ CLEAN_UP = f"""Exception ignored in: <function Node.__del__ at 0x7f0>
   File "{RCLPY}/node.py", line 20, in __del__
     self.destroy()
 ValueError: gone"""
+AT_EXIT = f"""Exception ignored in atexit callback: <function shutdown at 0x7f0>
+{HEADER}
+  File "{RCLPY}/context.py", line 127, in shutdown
+    raise RuntimeError('Context must be initialized before it can be shutdown')
+RuntimeError: Context must be initialized before it can be shutdown"""
 PUBLISH_AFTER = f"""{HEADER}
 {OWN_FRAME.replace("rclpy.shutdown()", "self.publisher.publish(msg)")}
 rclpy._rclpy_pybind11.RCLError: Failed to publish: publisher's context is invalid, at ./rcl/publisher.c:423"""
@@ -69,6 +74,7 @@ def test_clean(end: Ending) -> None:
             "shutdown() after Ctrl+C",
             "",
         ),
+        (ended(0, err=AT_EXIT), "shutdown() after Ctrl+C", "try_shutdown"),
         (ended(0, err=CLEAN_UP.replace(RCLPY, FOLDER)), "traceback on exit", "line 20"),
         (ended(1), "non-zero exit", "exit code 1"),
         (ended(1, err=CLEAN_UP), "non-zero exit", "exit code 1"),

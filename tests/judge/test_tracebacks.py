@@ -164,6 +164,12 @@ def test_an_ignored_exception_is_told_apart() -> None:
     assert [each.ignored for each in found] == [True, False, True]
 
 
+def test_an_exception_at_exit_is_told_apart() -> None:
+    at_exit = IGNORED.replace("in: <function Node.__del__", "in atexit callback: <function goodbye")
+    found = find(lines(f"{IGNORED}\n{at_exit}\n{CRASH}"))
+    assert [(each.ignored, each.at_exit) for each in found] == [(True, False), (True, True), (False, False)]
+
+
 def test_an_ignored_one_does_not_make_the_next_without_header_ignored() -> None:
     assert [each.ignored for each in find(lines(f"{IGNORED}\n{crash('if x')}"))] == [True, False]
 

@@ -6,6 +6,7 @@ from tutor.judge import causes, tracebacks
 from tutor.judge.trace import Ending, Trace
 from tutor.judge.verdict import Cause, Verdict, failed, passed
 
+_SHUT_DOWN_TWICE = "rcl_shutdown already called", "Context must be initialized before it can be shutdown"
 EXPECTED = "on Ctrl+C the process ends within {limit:g} s, without a traceback, with exit code 0 or 130"
 
 
@@ -48,7 +49,7 @@ def _of_rclpys_clean_up(found: tracebacks.Traceback, trace: Trace) -> bool:
 
     Seen once in 200 runs with a fast timer (rclpy 7.1.6).
     """
-    return found.ignored and found.own(trace.folder) is None
+    return found.ignored and not found.at_exit and found.own(trace.folder) is None
 
 
 def _race_in_rclpy(found: tracebacks.Traceback) -> bool:
@@ -61,7 +62,7 @@ def _race_in_rclpy(found: tracebacks.Traceback) -> bool:
 
 
 def _of_traceback(found: tracebacks.Traceback, trace: Trace) -> Cause:
-    if found.type.endswith("RCLError") and "already called" in found.message:
+    if any(words in found.message for words in _SHUT_DOWN_TWICE):
         return Cause(
             "shutdown() after Ctrl+C",
             "rclpy has shut its context down already when Ctrl+C arrives, so rclpy.shutdown() raises RCLError",

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from tutor.judge.trace import OutputLine, Trace
 
+_AT_EXIT = "Exception ignored in atexit callback"
 _HEADER = "Traceback (most recent call last):"
 _FRAME = re.compile(r'^\s*File "(?P<path>[^"]+)", line (?P<line>\d+)(?:, in (?P<function>.+))?$')
 _RAISED = re.compile(r"^(?P<type>[^\W\d][\w.]*(?:\.<locals>\.[\w.]+)*)(?:: (?P<message>.*))?$")
@@ -38,8 +39,9 @@ class Frame:
 class Traceback:
     """One traceback: the exception's type name, its message, and its frames, outermost first.
 
-    `ignored`: Python reports it as "Exception ignored in", from an object's clean-up; it ends nothing. `follows`: the
-    exception that it was raised from, or while handling.
+    `ignored`: Python reports it as "Exception ignored in", from an object's clean-up; it ends nothing. `at_exit`: so
+    does one from a function that the program has registered with atexit. `follows`: the exception that it was raised
+    from, or while handling.
     """
 
     type: str
@@ -47,6 +49,7 @@ class Traceback:
     frames: tuple[Frame, ...]
     ignored: bool = False
     follows: Traceback | None = None
+    at_exit: bool = False
 
     @property
     def origin(self) -> Traceback:
@@ -117,13 +120,14 @@ def without(output: Sequence[OutputLine]) -> tuple[str, ...]:
 def _tracebacks(written: Sequence[str]) -> Iterable[Traceback]:
     lines = _without_margins([_COLOUR.sub("", text) for text in written])
     frames: list[Frame] = []
-    headed = ignored = chained = False
+    headed = ignored = at_exit = chained = False
     previous: Traceback | None = None
     for number, text in enumerate(lines):
         frame = _FRAME.match(text)
         if text.strip() == _HEADER:
             frames, headed = [], True
-            ignored = number > 0 and lines[number - 1].startswith("Exception ignored")
+            before = lines[number - 1] if number else ""
+            ignored, at_exit = before.startswith("Exception ignored"), before.startswith(_AT_EXIT)
         elif text.strip() in _CHAINED:
             chained = True
         elif frame:
@@ -131,9 +135,9 @@ def _tracebacks(written: Sequence[str]) -> Iterable[Traceback]:
             frames.append(Frame(frame["path"], int(frame["line"]), frame["function"] or "", code))
         elif frames and (raised := _RAISED.match(text)):
             follows = previous if chained else None
-            previous = Traceback(raised["type"], raised["message"] or "", tuple(frames), ignored, follows)
+            previous = Traceback(raised["type"], raised["message"] or "", tuple(frames), ignored, follows, at_exit)
             yield previous
-            frames, headed, ignored, chained = [], False, False, False
+            frames, headed, ignored, at_exit, chained = [], False, False, False, False
         elif text and not text[0].isspace() and not headed:
             frames = []  # after a header, it is another thread's line, such as a log message
 
