@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import gc
+import sys
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
@@ -32,6 +33,9 @@ from tutor.tui.live.services_panel import ServicesPanel
 from tutor.tui.live.state import LiveState, is_plumbing, is_plumbing_service
 from tutor.tui.live.strip import TabStrip
 from tutor.tui.live.topics_panel import Order, TopicsPanel
+
+SWITCH_S = 0.0005
+"""How long a thread of the app may keep the others waiting."""
 
 TABS = {"topics": "Topics", "parameters": "Parameters", "services": "Services", "graph": "Graph"}
 
@@ -105,7 +109,7 @@ class LivePane(Vertical):
         """Start the child process that watches, unless it runs."""
         if self._worker is None:
             self._command, self._broken = command, ""
-            _spare_the_collector()
+            _answer_keys_sooner()
             watch: Callable[[], Any] = partial(self._watch, command)
             self._worker = self.run_worker(watch, group="live", exit_on_error=False)
             if self._composed:
@@ -320,14 +324,17 @@ class LivePane(Vertical):
         self._send(Attend(seen))
 
 
-def _spare_the_collector() -> None:
-    """Leave what is there now out of Python's garbage collections: going through all of it, they hold a key up.
+def _answer_keys_sooner() -> None:
+    """Keep Python's own affairs out of the way between a key and the screen, for as long as much is painted.
 
-    What becomes garbage of it is found the next time that this is called.
+    What is there now is left out of garbage collections, each of which would go through all of it; what becomes garbage
+    of it is found the next time that this is called. The thread that writes to the terminal need not wait for the one
+    that paints for the default 5 ms.
     """
     gc.unfreeze()
     gc.collect()
     gc.freeze()
+    sys.setswitchinterval(SWITCH_S)
 
 
 def _advice(head: str, text: str) -> Content:
