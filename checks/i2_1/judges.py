@@ -133,7 +133,7 @@ def _other_rate() -> Cause:
 
 
 def _made_whole(rate: Rate | None, asked: float) -> Cause | None:
-    """A rate of 1.5 Hz becomes 1 or 2 Hz."""
+    """A rate of 1.5 Hz becomes 1 or 2 Hz, one of 0.7 Hz becomes 1 Hz."""
     wholes = {math.floor(asked), math.ceil(asked)} - {asked}
     if rate is None or not any(abs(rate.hz - whole) < 0.1 for whole in wholes):
         return None
