@@ -17,6 +17,7 @@ from checks.i2_1.facts import (
     LAUNCH_HZ,
     PREFIX,
     RATE,
+    REFUSING_HZ,
     SLOW_LAUNCH_HZ,
     TOPIC,
     TYPE,
@@ -92,7 +93,7 @@ def judge_launch(seen: Launched) -> Verdict:
         return failed(expected, f'with {given}: "{without[-1]}"', _ignored(PREFIX), [text(s) for s in samples[:6]])
     if seen.rate is None or not seen.rate.agrees(LAUNCH_HZ):
         observed = f"with {given}: {describe(seen.rate, seen.messages)}, not {LAUNCH_HZ} Hz ±{TOLERANCE:.0%}"
-        return failed(expected, observed, causes.same_name(seen.trace) or _why_launch_rate(seen.rate))
+        return failed(expected, observed, causes.same_name(seen.trace) or _why_launch_rate(seen))
     if seen.slow_rate is None or not seen.slow_rate.agrees(SLOW_LAUNCH_HZ):
         slow = f"{RATE}:={SLOW_LAUNCH_HZ}: {describe(seen.slow_rate, seen.slow_messages)}"
         cause = causes.of_process(seen.slow) or _made_whole(seen.slow_rate, SLOW_LAUNCH_HZ) or _other_rate()
@@ -118,14 +119,20 @@ def judge_launch(seen: Launched) -> Verdict:
     )
 
 
-def _why_launch_rate(rate: Rate | None) -> Cause:
+def _why_launch_rate(seen: Launched) -> Cause:
+    rate = seen.rate
     if rate is not None and rate.in_bursts:
         return causes.in_bursts(RATE)
-    if rate is not None and rate.agrees(DEFAULT_HZ):
+    if rate is not None and (rate.agrees(DEFAULT_HZ) or _are_alike(rate, seen.slow_rate)):
         return _ignored(RATE)
     if rate is None or rate.agrees(1 / LAUNCH_HZ):
         return causes.rate_as_period(RATE)
     return _other_rate()
+
+
+def _are_alike(rate: Rate, other: Rate | None) -> bool:
+    """Whether two rates are the same one, though others were asked for."""
+    return other is not None and max(rate.hz, other.hz) < 1.1 * min(rate.hz, other.hz)
 
 
 def _other_rate() -> Cause:
@@ -216,7 +223,7 @@ def _why_not_as_before(seen: Switched, expected: str, *, any_rate: bool) -> Verd
             f"only skip publish() while {ENABLED} is false, and keep nothing for later",
         )
         return failed(expected, f"{off}: {len(burst)} messages at once", cause, burst)
-    if seen.rate is not None and (seen.rate.agrees(seen.base_hz) or (seen.before and seen.before.agrees(seen.rate.hz))):
+    if _goes_on(seen.rate, seen.base_hz, seen):
         return None
     observed = f"{off}: {describe(seen.rate, len(said))}, not {seen.base_hz:g} Hz ±{TOLERANCE:.0%} as before"
     return failed(
@@ -273,7 +280,7 @@ def _not_set(expected: str, answer: SetAnswer, trace: Trace, stuck: Sequence[Fra
     return failed(expected, f'setting {what}: rejected, "{answer.reason}"', cause)
 
 
-def judge_validation(seen: Validated) -> Verdict:
+def judge_validation(seen: Validated, switched: Switched) -> Verdict:
     expected = f"{RATE} 0.0 and -1.0 are rejected with a reason; the value and the rate stay at {seen.base_hz} Hz"
     if not seen.rejected:
         return _not_running(seen.trace, seen.stuck, expected)
@@ -309,7 +316,7 @@ def judge_validation(seen: Validated) -> Verdict:
                 f"{bad} was rejected, but {RATE} is {_show(value)} now",
                 Cause("value changed all the same", "the value is not what it was", "change nothing when you reject"),
             )
-    if seen.rate is None or not seen.rate.agrees(seen.base_hz):
+    if not _goes_on(seen.rate, seen.base_hz, switched):
         cause = (causes.of_process(seen.trace) if seen.trace.exit else None) or Cause(
             "value changed all the same",
             "the rate changes although the value was rejected",
@@ -346,6 +353,8 @@ def _why_timer(seen: Retimed, asked: float, rate: Rate | None) -> Cause:
     left_behind = asked == DOWN_HZ and faster is not None and faster.hz > UP_HZ + DEFAULT_HZ / 2
     if rate is not None and rate.agrees(before) and not left_behind:
         return causes.timer_not_replaced()
+    if rate is not None and rate.hz < UP_HZ and all(_are_alike(rate, other) for _, other, _ in seen.steps):
+        return causes.timer_not_replaced()
     if (whole := _made_whole(rate, asked)) is not None:
         return whole
     if rate is not None and rate.hz > asked:
@@ -355,7 +364,15 @@ def _why_timer(seen: Retimed, asked: float, rate: Rate | None) -> Cause:
     return Cause("wrong rate", f"{rate.hz:.1f} Hz instead of {asked:g} Hz", "the timer's period is 1.0 / rate seconds")
 
 
-def judge_atomic(seen: Atomic) -> Verdict:
+def _goes_on(rate: Rate | None, hz: float, switched: Switched) -> bool:
+    """Whether the rate stays what it was: this one, or what the node sends at from the start, whatever it declares."""
+    if rate is None or rate.agrees(hz):
+        return rate is not None
+    # At the rate that bad ones are asked for, it has just been seen.
+    return hz != REFUSING_HZ and switched.before is not None and switched.before.agrees(rate.hz)
+
+
+def judge_atomic(seen: Atomic, switched: Switched) -> Verdict:
     expected = f"an atomic set of a good {PREFIX} and a bad {RATE}, in either order, changes nothing at all"
     if not seen.answers:
         return _not_running(seen.trace, seen.stuck, expected)
@@ -383,7 +400,7 @@ def judge_atomic(seen: Atomic) -> Verdict:
             f"rejected, but {now}",
             Cause("partial change", "the callback applies the first parameter before it looks at the second", partial),
         )
-    if seen.rate is None or not seen.rate.agrees(seen.base_hz):
+    if not _goes_on(seen.rate, seen.base_hz, switched):
         return failed(
             expected,
             f"rejected, but then {describe(seen.rate, seen.messages)}",

@@ -16,6 +16,7 @@ from checks.i2_1.facts import (
     LAUNCH_HZ,
     PREFIX,
     RATE,
+    REFUSING_HZ,
     SLOW_LAUNCH_HZ,
     TOPIC,
     TYPE,
@@ -164,6 +165,7 @@ def test_launch(found: Launched) -> None:
         (launched(loud=IN_THE_END_WITHOUT), "parameter ignored", "Hello 11"),
         (launched(slow_hz=1.0), "rate made a whole number", "treated as 1"),
         (launched(slow_hz=2.0), "rate made a whole number", "treated as 2"),
+        (launched(hz=2.0, slow_hz=2.0), "parameter ignored", "publish_rate"),
         (launched(slow_hz=2.5), "wrong rate", "publish_rate:=1.5: 2.50 Hz"),
         (launched(slow_hz=None, slow=CRASHED), "unhandled exception", "line 12"),
         (launched(1.0), "parameter ignored", RATE),
@@ -206,6 +208,9 @@ def switched(**but: Any) -> Switched:
         **but,
     }
     return Switched(prefix="Servus7", later="Gruezi9", **facts)
+
+
+UNHEARD = switched(before=None)
 
 
 def not_set(reason: str, answered: bool = True) -> SetAnswer:
@@ -305,7 +310,7 @@ def validated(
     ],
 )
 def test_validation(found: Validated) -> None:
-    assert_passed(judge_validation(found))
+    assert_passed(judge_validation(found, UNHEARD))
 
 
 @pytest.mark.parametrize(
@@ -318,7 +323,8 @@ def test_validation(found: Validated) -> None:
     ],
 )
 def test_a_reason_of_their_own_may_have_words_of_rclpys(reason: str) -> None:
-    assert_passed(judge_validation(validated(*((refused({RATE: bad}, reason), 1.0) for bad in BAD_RATES))))
+    refusing = validated(*((refused({RATE: bad}, reason), 1.0) for bad in BAD_RATES))
+    assert_passed(judge_validation(refusing, UNHEARD))
 
 
 def rejected(which: SetAnswer, held: Any = 1.0) -> Validated:
@@ -364,7 +370,7 @@ BAD = {RATE: -1.0}
     ],
 )
 def test_validation_not(found: Validated, cause: str, word: str) -> None:
-    assert_failed(judge_validation(found), cause, word)
+    assert_failed(judge_validation(found, UNHEARD), cause, word)
 
 
 # --- the timer ---------------------------------------------------------------
@@ -398,6 +404,7 @@ def test_any_other_timer_is_wrong(first: bool, factor: float) -> None:
         (retimed(13.0), "old timer kept", "13.0 Hz"),
         (retimed(down=12.1), "old timer kept", "12.1 Hz"),
         (retimed(11.0, 11.7), "old timer kept", "11.7 Hz"),
+        (retimed(2.0, 2.0), "timer not replaced", "cancel()"),
         (retimed(0.1), "rate used as a period", "1.0 / publish_rate"),
         (retimed(None), "rate used as a period", ""),
         (retimed(down=1.0), "rate made a whole number", "no int()"),
@@ -429,9 +436,21 @@ def atomic(**but: Any) -> Atomic:
     return Atomic(messages=4, **facts)
 
 
+def test_a_rate_that_is_another_one_from_the_start_stays() -> None:
+    # Whoever never looks at publish_rate breaks other criteria.
+    fixed = switched(before=rate(2.05))
+    assert_passed(judge_validation(validated(hz=2.0), fixed))
+    assert_passed(judge_atomic(atomic(rate=rate(2.0)), fixed))
+    assert_failed(judge_validation(validated(hz=5.0), fixed), "value changed all the same")
+    assert_failed(judge_validation(validated(hz=None), fixed), "value changed all the same")
+    refused_at = [(answer, REFUSING_HZ) for answer, _ in REFUSED]
+    fallen = validated(*refused_at, hz=1.0, base_hz=REFUSING_HZ, before=REFUSING_HZ)
+    assert_failed(judge_validation(fallen, switched()), "value changed all the same")
+
+
 def test_atomic() -> None:
-    assert_passed(judge_atomic(atomic()))
-    assert_passed(judge_atomic(atomic(rate=rate(2.1), base_hz=2.0)))
+    assert_passed(judge_atomic(atomic(), UNHEARD))
+    assert_passed(judge_atomic(atomic(rate=rate(2.1), base_hz=2.0), UNHEARD))
 
 
 ACCEPTED, NO_ANSWER = answer({RATE: -1.0}), answer({RATE: -1.0}, answered=False)
@@ -455,7 +474,7 @@ NO = refused({RATE: -1.0})
     ],
 )
 def test_atomic_not(found: Atomic, cause: str, word: str) -> None:
-    assert_failed(judge_atomic(found), cause, word)
+    assert_failed(judge_atomic(found, UNHEARD), cause, word)
 
 
 COMPLAINT = "publish_rate must be > 0"
