@@ -30,19 +30,18 @@ def of_printed(
             "holds them back",
         )
     seen = {log.text for log in trace.logs}
-    logged = [(line.text, found["logger"]) for line in trace.output if (found := _LOGGED.match(line.text))]
-    logged = [(text, logger) for text, logger in logged if says(text)]
-    if logged and not any(text.endswith(each) for text, _ in logged for each in seen):
+    logged = [found for line in trace.output if (found := _LOGGED.match(line.text)) and says(line.text)]
+    if logged and not any(found.string.endswith(each) for found in logged for each in seen):
         own = {node.strip("/").replace("/", ".") for node in trace.graph.nodes}
-        if not trace.logs and any(logger in own for _, logger in logged):
+        if not trace.logs and any(found["logger"] in own for found in logged):
             return Cause(
                 "rosout switched off",
-                f"{what} is logged by the node, but nothing that it logs reaches /rosout: {logged[0][0]}",
+                f"{what} is logged by the node, but nothing that it logs reaches /rosout: {logged[0].string}",
                 "leave out enable_rosout=False, and --disable-rosout-logs among the arguments",
             )
         return Cause(
             "not the node's logger",
-            f"{what} is logged by a logger that belongs to no node, so it does not reach /rosout: {logged[0][0]}",
+            f"{what} is logged by a logger that belongs to no node, so it does not reach /rosout: {logged[0].string}",
             "use self.get_logger(): rclpy.logging.get_logger(...) writes to the terminal only",
         )
     late = [line.text for line in after if _is_print(line) and says(line.text)]
