@@ -2,10 +2,11 @@
 
     uv run python -m tests.benchmarks.live [--rates 1000 10000] [--seconds 20]
 
-The app runs in a terminal of its own (a pty); a key is written to it, and the clock stops when the bytes that show its
-effect have come out. Three keys take turns: pause, zoom, turn a tab. The machine's load is printed beside: on a busy
-one the figures are those of a busy one, and the time for which no core was free is told apart. Where `ros2` is
-installed, `ros2 topic hz` is run on the same topic.
+The whole app runs in a terminal of its own (a pty), with a lesson, its criteria and the list of lessons around the live
+page. A key is written to it, and the clock stops when the bytes that show its effect have come out. Three keys take
+turns: pause, zoom, turn a tab. The machine's load is printed beside: on a busy one the figures are those of a busy one,
+and the time for which no core was free is told apart. Where `ros2` is installed, `ros2 topic hz` is run on the same
+topic.
 """
 
 from __future__ import annotations
@@ -24,9 +25,12 @@ import time
 from pathlib import Path
 
 from tests.benchmarks.terminal import Terminal, child_of, kept_waiting, use_of
-from tests.live.world import LiveApp, World, world
-from tutor.tui.live.state import LiveState
-from tutor.tui.live.topics_panel import TopicsPanel
+from tests.live.world import World, world
+from tutor.content import load_course
+from tutor.live.facts import TopicNews
+from tutor.tui.app import TutorApp
+from tutor.tui.desk import Desk
+from tutor.workspace import Workspace, start
 
 METRONOME = Path(__file__).parent.parent / "live" / "metronome.py"
 TARGETS_MS = {1000: 50.0, 10000: 100.0}
@@ -44,11 +48,24 @@ KEYS = (
 
 def measure(around: World, rate: int, seconds: float) -> bool:
     """One rate; whether the target was met and every message was counted."""
-    report = Path(tempfile.mkstemp(suffix=".json")[1])
-    env = {**around.environ, "ROS_TUTOR_BENCHMARK": str(around.domain)}
-    app = Terminal([sys.executable, "-m", "tests.benchmarks.live", "--app", str(report)], env)
+    with tempfile.TemporaryDirectory() as folder:
+        return measure_in(Path(folder), around, rate, seconds)
+
+
+def measure_in(folder: Path, around: World, rate: int, seconds: float) -> bool:
+    """The same, with a folder to be untidy in."""
+    report, workspace = folder / "counts.json", Workspace(folder / "ws")
+    start(load_course().lessons[0], workspace)
+    run = [sys.executable, "-m", "tests.benchmarks.live", "--app", str(report), str(workspace.root)]
+    app = Terminal(run, around.environ)
+    app.until(b"not checked yet")
+    app.press(b"4")
     app.until(b"No node runs")
     publisher = around.run(METRONOME, str(rate), str(int(rate * (seconds + 5))))
+    app.until(b"/ticks")
+    app.press(b"\x1b[B")  # from the topic of the lesson
+    app.until(b"Not followed")
+    app.press(b"\r")
     app.until(b"jitter")
     app.drain(1.0)
     pids = app.pid, child_of(app.pid)
@@ -69,7 +86,6 @@ def measure(around: World, rate: int, seconds: float) -> bool:
     app.drain(1.5)
     app.close()
     found = json.loads(report.read_text())
-    report.unlink()
     around.end(publisher)
     p95 = statistics.quantiles(took, n=20)[-1]
     own = [max(0.0, whole - wait) for whole, wait in zip(took, waits, strict=True)]
@@ -109,21 +125,24 @@ def topic_hz(around: World) -> str:
     return f"ros2 topic hz: {said}, {used.cpu_s:.1f} s CPU until then, {used.memory_mb:.0f} MB"
 
 
-def run_app(report: Path) -> None:
-    """The app that is measured: the live page, with the topic followed."""
-    app = LiveApp(World(int(os.environ["ROS_TUTOR_BENCHMARK"])))
+class WatchedApp(TutorApp):
+    """The app, and what it has counted when it is left."""
 
-    def follow() -> None:
-        app.pane.query_one(TopicsPanel).follow("/ticks")
+    counted: TopicNews | None = None
 
-        known.append(app.pane.state)
+    def leave(self) -> None:
+        """Keep the count, and begin to leave."""
+        if self.main is not None and (live := self.main.pages.live) is not None:
+            self.counted = live.state.topics["/ticks"].news if "/ticks" in live.state.topics else None
+        super().leave()
 
-    known: list[LiveState] = []
-    app.call_later(follow)
+
+def run_app(report: Path, workspace: Path) -> None:
+    """The app that is measured."""
+    app = WatchedApp(Desk(load_course(), Workspace(workspace)))
     app.run()
-    news = known[0].topics["/ticks"].news
-    assert news is not None
-    report.write_text(json.dumps({"count": news.count, "lost": news.lost}))
+    assert app.counted is not None
+    report.write_text(json.dumps({"count": app.counted.count, "lost": app.counted.lost}))
 
 
 def main() -> int:
@@ -131,10 +150,10 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--rates", type=int, nargs="+", default=[1000, 10000])
     parser.add_argument("--seconds", type=float, default=20.0)
-    parser.add_argument("--app", type=Path, help=argparse.SUPPRESS)
+    parser.add_argument("--app", type=Path, nargs=2, help=argparse.SUPPRESS)
     arguments = parser.parse_args()
     if arguments.app is not None:
-        run_app(arguments.app)
+        run_app(*arguments.app)
         return 0
     with world() as around:
         met = [measure(around, rate, arguments.seconds) for rate in arguments.rates]

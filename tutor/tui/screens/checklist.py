@@ -12,10 +12,11 @@ from textual.binding import Binding, BindingType
 from textual.containers import ItemGrid, VerticalScroll
 from textual.content import Content
 from textual.screen import Screen
-from textual.widgets import Footer, Static
+from textual.widgets import Static
 
 from tutor.report.assessment import Assessment
 from tutor.tui.widgets.checklist import GroupCard, ItemRow, bar
+from tutor.tui.widgets.key_footer import KeyFooter
 
 TWO_COLUMNS = 110
 """From this width on the cards are in two columns."""
@@ -55,7 +56,7 @@ class ChecklistScreen(Screen[None]):
             for group in self._assessment.groups:
                 yield GroupCard(group)
         yield Static(id="checklist-ready")
-        yield Footer(compact=True, show_command_palette=False)
+        yield KeyFooter(compact=True)
 
     def on_mount(self) -> None:
         self._show()

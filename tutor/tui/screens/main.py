@@ -12,7 +12,8 @@ from textual.app import ComposeResult
 from textual.binding import BindingType
 from textual.command import Provider
 from textual.containers import Container, Horizontal, Vertical
-from textual.widgets import ContentSwitcher, Footer, ListView, Tab, Tabs, TextArea
+from textual.widget import Widget
+from textual.widgets import ContentSwitcher, ListView, Tab, Tabs, TextArea
 
 from tutor.content import Lesson
 from tutor.tui import messages
@@ -36,6 +37,7 @@ from tutor.tui.session import Session
 from tutor.tui.widgets.code_pane import CodePane
 from tutor.tui.widgets.criteria import CriteriaPanel
 from tutor.tui.widgets.diagnosis import Diagnosis
+from tutor.tui.widgets.key_footer import KeyFooter
 from tutor.tui.widgets.lesson_list import LessonList, LessonRow
 from tutor.tui.widgets.lesson_view import LessonView
 from tutor.tui.widgets.log_pane import LogPane
@@ -92,7 +94,7 @@ class MainScreen(Stage):
                         yield self._log
                         yield Container(id="live")
                 yield CriteriaPanel(id="criteria")
-        yield Footer(compact=True, show_command_palette=False)
+        yield KeyFooter(compact=True)
 
     async def on_mount(self) -> None:
         self.query_one(LessonList).border_title = "Lessons"
@@ -188,6 +190,17 @@ class MainScreen(Stage):
     @on(Tabs.TabActivated, "#tabs")
     def _tab_chosen(self, event: Tabs.TabActivated) -> None:
         self.pages.tab_chosen((event.tab.id or "").removeprefix("tab-"))
+
+    def watch_focused(self, focused: Widget | None) -> None:
+        """Frame the panel that has the focus.
+
+        `:focus-within` would say the same; with it, each step of the focus styles every widget in the panel anew, and
+        a lesson's text has hundreds.
+        """
+        around = focused.ancestors if focused is not None else []
+        for panel in (*self.query("#pages"), *self.query(CriteriaPanel)):
+            panel.set_class(panel in around, "-focused", update=False)
+            self.app.stylesheet.update_nodes([panel])
 
     def on_resize(self, event: events.Resize) -> None:
         """Lay the panels out for the new size."""

@@ -15,10 +15,11 @@ from textual.binding import Binding, BindingType
 from textual.containers import Middle, Vertical
 from textual.content import Content
 from textual.screen import Screen
-from textual.widgets import Button, Footer, Input, Static
+from textual.widgets import Button, Input, Static
 
 from tutor.tui import words
 from tutor.tui.desk import Desk
+from tutor.tui.widgets.key_footer import KeyFooter
 from tutor.workspace import StorageError, Workspace, WorkspaceError
 
 _BANNER = """\
@@ -55,7 +56,7 @@ class WelcomeScreen(Screen[bool]):
                 yield Input(words.short(self._desk.workspace.root), id="welcome-folder", compact=True)
                 yield Static(id="welcome-about")
             yield Button("Press Enter to begin", id="begin")
-        yield Footer(show_command_palette=False)
+        yield KeyFooter()
 
     def on_mount(self) -> None:
         self.query_one("#begin", Button).focus()

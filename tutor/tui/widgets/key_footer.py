@@ -1,0 +1,30 @@
+"""The keys at the foot of a screen."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from textual.screen import Screen
+from textual.widgets import Footer
+
+
+class KeyFooter(Footer):
+    """A footer that is composed anew only where another key, or another word, is to be read.
+
+    Textual's own is whenever the focus moves, though most moves change none of it: two more layouts of the whole
+    screen between a key and what it shows.
+    """
+
+    def __init__(self, *, compact: bool = False) -> None:
+        super().__init__(show_command_palette=False, compact=compact)
+        self._read: list[tuple[str, str, bool]] = []
+
+    def bindings_changed(self, screen: Screen[Any]) -> None:
+        """Compose it anew where it would read otherwise."""
+        if not screen.app.app_focus:
+            return
+        shown = [active for active in screen.active_bindings.values() if active.binding.show]
+        read = [(screen.app.get_key_display(each.binding), each.binding.description, each.enabled) for each in shown]
+        if read != self._read:
+            self._read = read
+            super().bindings_changed(screen)
