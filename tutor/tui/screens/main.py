@@ -75,6 +75,7 @@ class MainScreen(Stage):
             "quit": Deed(lambda: self.app.run_action("quit")),
             "evidence": Deed(self._evidence, lambda: self.query_one(Diagnosis).has_evidence),
         }
+        self._framed: tuple[Widget, ...] = ()
         self._phases: list[tuple[str, Phase]] = []
         self._deeds: dict[str, Deed] = dict(own)
         controllers = (self.pages, self.records, self.files, self.views, self.nodes, self.checks, self.checklist, logs)
@@ -97,6 +98,7 @@ class MainScreen(Stage):
         yield KeyFooter(compact=True)
 
     async def on_mount(self) -> None:
+        self._framed = (self.query_one("#pages"), self.query_one(CriteriaPanel))
         self.query_one(LessonList).border_title = "Lessons"
         self.query_one(StatusBar).show_nodes((), domain_id())
         self.query_one(StatusBar).show_check(None)
@@ -198,9 +200,10 @@ class MainScreen(Stage):
         a lesson's text has hundreds.
         """
         around = focused.ancestors if focused is not None else []
-        for panel in (*self.query("#pages"), *self.query(CriteriaPanel)):
-            panel.set_class(panel in around, "-focused", update=False)
-            self.app.stylesheet.update_nodes([panel])
+        for panel in self._framed:
+            if panel.has_class("-focused") != (panel in around):
+                panel.set_class(panel in around, "-focused", update=False)
+                self.app.stylesheet.update_nodes([panel])
 
     def on_resize(self, event: events.Resize) -> None:
         """Lay the panels out for the new size."""

@@ -7,7 +7,9 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
+from textual.reactive import Reactive
 from textual.screen import Screen
+from textual.widget import Widget
 
 from tutor.tui import messages
 from tutor.tui.session import Session
@@ -30,6 +32,8 @@ class Stage(Screen[None]):
     """A screen with a session, and pages to turn to."""
 
     session: Session
+    focused = Reactive[Widget | None](None, repaint=False)
+    """Painted by the widgets that lose and get the focus. Textual's own paints the whole screen anew."""
 
     @property
     def page(self) -> str:

@@ -39,6 +39,10 @@ class LessonView(VerticalScroll):
         yield Static(id="lesson-head")
         yield Markdown(id="lesson-body", open_links=False)
 
+    def watch_has_focus(self, _has_focus: bool) -> None:
+        """Style itself anew, not its hundreds of children: the focus changes nothing of the text."""
+        self.app.stylesheet.update_nodes([self])
+
     async def show_lesson(self, lesson: Lesson) -> None:
         """Show another lesson from its top."""
         files = ", ".join(file.name for file in lesson.files)
