@@ -8,11 +8,15 @@ from typing import Any
 
 import pytest
 from textual.color import Color
+from textual.css.stylesheet import Stylesheet
 from textual.events import Paste
+from textual.widgets._footer import FooterKey
+from textual.widgets.markdown import MarkdownBlock
 
 from tests.tui import made
 from tutor.tui.screens.layout import Criteria, Layout, layout_for
 from tutor.tui.themes import DARK, GROUNDS, INKS, LIGHT
+from tutor.tui.widgets.criteria import CriteriaPanel
 
 SIZES = [(120, 36), (80, 24)]
 
@@ -111,6 +115,33 @@ def test_the_layout_follows_the_size() -> None:
     assert layout_for(120, 24) == Layout(True, Criteria.FOLDED)
     assert layout_for(120, 36) == Layout(True, Criteria.STACKED)
     assert layout_for(200, 50) == Layout(True, Criteria.BESIDE)
+
+
+async def test_the_focus_moves_its_frame_and_leaves_the_text_and_the_keys_alone(
+    learner: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    styled: list[object] = []
+    apply = Stylesheet.apply
+
+    def noted(sheet: Stylesheet, node: Any, **options: Any) -> None:
+        styled.append(node)
+        apply(sheet, node, **options)
+
+    async with learner() as me:
+        await me.sees("Objective")
+        pages, criteria = me.main.query_one("#pages"), me.main.query_one(CriteriaPanel)
+        texts, keys = [*me.main.query(MarkdownBlock)], [*me.main.query(FooterKey)]
+        frame = pages.styles.border_bottom
+        assert texts
+        assert keys
+        monkeypatch.setattr(Stylesheet, "apply", noted)
+        while not criteria.has_focus_within:
+            await me.press("tab")
+        await me.until(lambda: criteria.styles.border_bottom == frame)
+        assert pages.styles.border_bottom != frame
+        assert styled
+        assert not {*texts} & {*styled}
+        assert [*me.main.query(FooterKey)] == keys
 
 
 async def test_help_names_every_key(learner: Any) -> None:

@@ -99,6 +99,7 @@ class MainScreen(Stage):
 
     async def on_mount(self) -> None:
         self._framed = (self.query_one("#pages"), self.query_one(CriteriaPanel))
+        self.watch_focused(self.focused)
         self.query_one(LessonList).border_title = "Lessons"
         self.query_one(StatusBar).show_nodes((), domain_id())
         self.query_one(StatusBar).show_check(None)
