@@ -17,14 +17,17 @@ class KeyFooter(Footer):
 
     def __init__(self, *, compact: bool = False) -> None:
         super().__init__(show_command_palette=False, compact=compact)
-        self._read: list[tuple[str, str, bool]] = []
+        self._read: list[tuple[str, str, str, bool]] = []
 
     def bindings_changed(self, screen: Screen[Any]) -> None:
         """Compose it anew where it would read otherwise."""
         if not screen.app.app_focus:
             return
-        shown = [active for active in screen.active_bindings.values() if active.binding.show]
-        read = [(screen.app.get_key_display(each.binding), each.binding.description, each.enabled) for each in shown]
+        read = [
+            (screen.app.get_key_display(binding), binding.description, binding.action, enabled)
+            for _, binding, enabled, _ in screen.active_bindings.values()
+            if binding.show
+        ]
         if read != self._read:
             self._read = read
             super().bindings_changed(screen)
