@@ -17,6 +17,7 @@ from tutor.live.forms import parse_parameter, shown
 from tutor.live.protocol import Refresh, SetParameter
 from tutor.tui.live import words
 from tutor.tui.live.history import HistoryView, set_rows
+from tutor.tui.live.row_table import RowTable
 from tutor.tui.live.state import LiveState
 from tutor.tui.live.strip import ActionBar
 from tutor.tui.live.topics_panel import Order
@@ -45,7 +46,7 @@ class ParametersPanel(Vertical):
         self._listed: tuple[Parameter, ...] = ()
 
     def compose(self) -> ComposeResult:
-        yield DataTable(id="parameters-table", cursor_type="row", cell_padding=1)
+        yield RowTable(id="parameters-table")
         yield Static(id="parameters-silent")
         with Horizontal(id="parameter-edit"):
             yield Static(id="parameter-name")
@@ -61,9 +62,9 @@ class ParametersPanel(Vertical):
         self._show_actions()
 
     @property
-    def table(self) -> DataTable[Text]:
+    def table(self) -> RowTable:
         """The table of parameters."""
-        return self.query_one("#parameters-table", DataTable)
+        return self.query_one("#parameters-table", RowTable)
 
     # --- what is shown ---
 

@@ -19,6 +19,7 @@ from tutor.live.protocol import Call, Cancel, Describe
 from tutor.tui.live import words
 from tutor.tui.live.history import HistoryView, call_rows, waiting_row
 from tutor.tui.live.request_form import ServiceForm
+from tutor.tui.live.row_table import RowTable
 from tutor.tui.live.state import LiveState, is_plumbing_service
 from tutor.tui.live.strip import Action, ActionBar
 from tutor.tui.live.topics_panel import Order
@@ -49,7 +50,7 @@ class ServicesPanel(Vertical):
         self._listed: tuple[Service, ...] = ()
 
     def compose(self) -> ComposeResult:
-        yield DataTable(id="services-table", cursor_type="row", cell_padding=1)
+        yield RowTable(id="services-table")
         yield Static(id="service-head")
         with Horizontal(id="service-body"):
             yield ServiceForm(id="service-form")
@@ -64,9 +65,9 @@ class ServicesPanel(Vertical):
         self._show_actions()
 
     @property
-    def table(self) -> DataTable[Text]:
+    def table(self) -> RowTable:
         """The list of services."""
-        return self.query_one("#services-table", DataTable)
+        return self.query_one("#services-table", RowTable)
 
     # --- what is shown ---
 

@@ -19,6 +19,7 @@ from tutor.live.facts import Topic
 from tutor.live.protocol import Clear, Command, Follow, Plot, Unfollow
 from tutor.tui.live import words
 from tutor.tui.live.plot_view import PlotView
+from tutor.tui.live.row_table import RowTable
 from tutor.tui.live.state import LiveState, TopicView, is_plumbing
 from tutor.tui.live.strip import Action, ActionBar
 from tutor.tui.widgets.line_view import LineView
@@ -56,7 +57,7 @@ class TopicsPanel(Vertical):
         self._list_again_at = 0.0
 
     def compose(self) -> ComposeResult:
-        yield DataTable(id="topics-table", cursor_type="row", cell_padding=1)
+        yield RowTable(id="topics-table")
         yield Static(id="topic-head")
         with Horizontal(id="topic-body"):
             yield LineView(id="topic-echo")
@@ -72,9 +73,9 @@ class TopicsPanel(Vertical):
         self.set_interval(1.0, self._tick)  # silence is told by the clock, not by news
 
     @property
-    def table(self) -> DataTable[Text]:
+    def table(self) -> RowTable:
         """The list of topics."""
-        return self.query_one("#topics-table", DataTable)
+        return self.query_one("#topics-table", RowTable)
 
     @property
     def view(self) -> TopicView | None:
