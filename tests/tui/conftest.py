@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import AsyncIterator, Callable
-from contextlib import asynccontextmanager
+from contextlib import AbstractAsyncContextManager, asynccontextmanager
 from pathlib import Path
 
 import pytest
@@ -18,6 +18,7 @@ from tests.patience import seen_within
 from tests.tui import made
 from tutor.judge.events import Event
 from tutor.tui.app import TutorApp
+from tutor.tui.desk import Desk
 from tutor.tui.node import Node
 from tutor.tui.screens.main import MainScreen
 from tutor.tui.widgets.code_pane import CodePane
@@ -31,7 +32,7 @@ LIMIT_S = 15.0
 class Learner:
     """Uses the app by key and mouse."""
 
-    def __init__(self, app: TutorApp, pilot: Pilot[int], desk: made.MadeDesk) -> None:
+    def __init__(self, app: TutorApp, pilot: Pilot[int], desk: Desk) -> None:
         self.app, self.pilot, self.desk = app, pilot, desk
 
     @property
@@ -73,8 +74,8 @@ class Learner:
         """Wait until every text is on the screen, in one line each."""
         await self.until(lambda: all(text in self.screen() for text in texts), texts)
 
-    async def until(self, seen: Callable[[], bool], what: object = "") -> None:
-        if not await seen_within(seen, LIMIT_S):
+    async def until(self, seen: Callable[[], bool], what: object = "", *, limit_s: float = LIMIT_S) -> None:
+        if not await seen_within(seen, limit_s):
             pytest.fail(f"not seen: {what}\n{self.screen()}")
 
     def screen(self) -> str:
@@ -104,28 +105,34 @@ class Learner:
 
     async def told(self, *lines: Event | str) -> None:
         """Have the engine say this. In a daemon thread: opening the pipe waits for the child."""
+        assert isinstance(self.desk, made.MadeDesk)
         thread = threading.Thread(target=self.desk.engine.say, args=lines, daemon=True)
         thread.start()
         await self.until(lambda: not thread.is_alive(), "the engine listens")
 
 
+@asynccontextmanager
+async def at(desk: Desk, size: tuple[int, int] = (120, 36)) -> AsyncIterator[Learner]:
+    """Open the app for a learner; when they leave, nothing runs any more."""
+    app = TutorApp(desk)
+    app.animation_level = "none"
+    async with app.run_test(size=size, notifications=True) as pilot:
+        try:
+            if desk.workspace.exists:
+                await made.opened(app, pilot)
+            yield Learner(app, pilot, desk)
+        finally:
+            if isinstance(desk, made.MadeDesk):
+                desk.engine.close()
+            if app.main is not None:
+                await app.main.close_down()
+
+
 @pytest.fixture
 def learner(tmp_path: Path) -> Callable[..., object]:
-    """Open the app for a learner; when they leave, nothing runs any more."""
+    """A learner with a made course, an engine that says what it is told, and nodes without ROS."""
 
-    @asynccontextmanager
-    async def opened(size: tuple[int, int] = (120, 36), *, started: bool = True) -> AsyncIterator[Learner]:
-        desk = made.MadeDesk(tmp_path / "learner", started=started)
-        app = TutorApp(desk)
-        app.animation_level = "none"
-        async with app.run_test(size=size, notifications=True) as pilot:
-            try:
-                if desk.workspace.exists:
-                    await made.opened(app, pilot)
-                yield Learner(app, pilot, desk)
-            finally:
-                desk.engine.close()
-                if app.main is not None:
-                    await app.main.close_down()
+    def opened(size: tuple[int, int] = (120, 36), *, started: bool = True) -> AbstractAsyncContextManager[Learner]:
+        return at(made.MadeDesk(tmp_path / "learner", started=started), size)
 
     return opened

@@ -1,0 +1,113 @@
+"""Whole lessons: the real course, the real engine, and real nodes on a domain of their own."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import AsyncIterator, Iterator
+from contextlib import asynccontextmanager
+from pathlib import Path
+
+import pytest
+
+from tests.tui.conftest import Learner, at
+from tutor.content import load_course
+from tutor.process.warden import processes
+from tutor.ros.domain import reserve_domain
+from tutor.tui.desk import Desk
+from tutor.workspace import AppState, Workspace
+
+pytestmark = pytest.mark.timeout(300)
+CHECK_S = 60.0
+"""A check may take that long where the machine has much else to do."""
+
+
+@pytest.fixture
+def desk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Desk]:
+    """A workspace in which nothing has been done yet, on a domain that nobody else uses."""
+    with reserve_domain() as domain:
+        monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
+        monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
+        yield Desk(load_course(), Workspace(tmp_path / "ws"))
+
+
+@asynccontextmanager
+async def doing(desk: Desk, exercise: str) -> AsyncIterator[Learner]:
+    """A learner who has written our solution of this exercise."""
+    lesson = desk.course.find(exercise)
+    desk.start(lesson)
+    for file in lesson.files:
+        desk.path(file).write_bytes(file.solution.read_bytes())
+    desk.keep(AppState(lesson=lesson.id))
+    async with at(desk) as me:
+        await me.sees(f"{lesson.id.upper()}  {lesson.title}", "Objective")
+        yield me
+
+
+def runs(file: Path) -> bool:
+    """Whether a process has been started with this file."""
+    commands = (Path(f"/proc/{pid}/cmdline") for pid in processes())
+    return any(str(file).encode() in command.read_bytes() for command in commands if command.exists())
+
+
+async def test_i_run_my_node_as_i_like_and_watch_and_change_it_live(desk: Desk) -> None:
+    async with doing(desk, "i1.1") as me:
+        await me.press("o")
+        await me.sees("F5 runs")
+        me.app.screen.query_one("#run-parameters").text = "publish_rate:=5.0"  # type: ignore[attr-defined]
+        me.app.screen.query_one("#run-remaps").text = "/sensor/temperature:=/greenhouse"  # type: ignore[attr-defined]
+        await me.press("f5")
+        await me.sees("INFO", "thermometer_1 publishes 5.0 readings")
+
+        await me.press("4")
+        await me.sees("/greenhouse", "std_msgs/Float64", "Parameters 2", "1 node")
+        await me.press("up")
+        await me.sees("Not followed: press Enter")
+        await me.press("enter")
+        await me.sees("data: 2", "reliable, volatile")
+        await me.until(lambda: re.search(r"\b(4\.9\d|5\.0\d) Hz · jitter", me.screen()) is not None, "5 Hz")
+
+        await me.press("right_square_bracket")
+        await me.sees("publish_rate", "5.0", "sensor_name", "thermometer_1", "Enter Set")
+        await me.press("down", "enter")
+        await me.sees("sensor_name (string)")
+        await me.press("ctrl+u", *"roof", "enter")
+        await me.sees("sensor_name = roof  accepted")
+
+        assert runs(me.file)
+        await me.press("r")
+        await me.sees("No node runs in domain")
+        await me.press("3")
+        await me.sees("stopped")
+        assert not runs(me.file)
+
+
+async def test_i_check_i_mend_and_what_i_have_passed_stands_in_my_checklist(desk: Desk) -> None:
+    async with doing(desk, "i1.3") as me:
+        right = me.file.read_text()
+        me.file.write_text(right.replace("request.a - request.b", "request.b - request.a"))
+        await me.press("c")
+        await me.until(lambda: "✗ failed  operations" in me.screen(), "a failure", limit_s=CHECK_S)
+        await me.sees("Expected   /subtract: ", "Observed   -", "wrong result: the operands are the", "3 of 4 passed")
+
+        await me.press("w")
+        await me.sees("a save checks")
+        editor = await me.edits()
+        line = next(n for n, text in enumerate(editor.text.splitlines()) if "request.b - request.a" in text)
+        editor.move_cursor((line, editor.document.get_line(line).index("request.b")))
+        await me.press(*["delete"] * len("request.b - request.a"))
+        await me.types("request.a - request.b")
+        await me.press("ctrl+s")
+        await me.until(lambda: "I1.3 Calculator Service passed" in me.screen(), "a pass", limit_s=CHECK_S)
+        assert me.file.read_text() == right
+        await me.sees("Next: press n for", "4 of 4 passed")
+
+        await me.press("escape", "6")
+        await me.sees("0 of 15 ticked", "✓ i1.3 services, operations and client passed")
+        await me.press("space", "x")
+        await me.sees("(•) Markdown", "checklist.md")
+        await me.press("enter")
+        exported = desk.workspace.root / "checklist.md"
+        await me.until(exported.exists, "the export")
+        assert exported.read_text().count("- [x] ") == 1
+        await me.press("escape", "n")
+        await me.sees("I2.1  Parameterized Publisher")
