@@ -10,23 +10,13 @@ from pathlib import Path
 
 import pytest
 
+from tests.running import runs
 from tests.serve.chromium import LIMIT_S, PROGRAM, browser, until
 from tutor.content import load_course
 from tutor.judge.verdict import Status
 from tutor.workspace import Workspace
 
 SERVE = "import sys; from tutor.cli import main; sys.exit(main(['serve', '--port', '0', '--workspace', sys.argv[1]]))"
-
-
-def runs(file: Path) -> bool:
-    """Whether a process has been started with this file."""
-    for folder in Path("/proc").glob("[0-9]*"):
-        try:
-            if str(file).encode() in (folder / "cmdline").read_bytes().split(b"\0"):
-                return True
-        except OSError:
-            continue
-    return False
 
 
 @pytest.mark.skipif(PROGRAM is None, reason="there is no chromium on this machine")
