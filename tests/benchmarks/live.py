@@ -25,14 +25,13 @@ import time
 from pathlib import Path
 
 from tests.benchmarks.terminal import Terminal, child_of, kept_waiting, use_of
-from tests.live.world import World, world
+from tests.live.world import METRONOME, World, world
 from tutor.content import load_course
 from tutor.live.facts import TopicNews
 from tutor.tui.app import TutorApp
 from tutor.tui.desk import Desk
 from tutor.workspace import Workspace, start
 
-METRONOME = Path(__file__).parent.parent / "live" / "metronome.py"
 TARGETS_MS = {1000: 50.0, 10000: 100.0}
 
 KEYS = (

@@ -10,15 +10,13 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator
-from pathlib import Path
 
 import pytest
 
-from tests.live.world import World, world
+from tests.live.world import METRONOME, World, world
 from tutor.live.facts import TopicNews
 from tutor.live.protocol import Attend, Command, Follow, News, Ready, decode_news, encode
 
-METRONOME = Path(__file__).with_name("metronome.py")
 LIMIT_S = 30.0
 
 

@@ -21,6 +21,7 @@ from tutor.tui.live.command import LiveCommand, live_command
 from tutor.tui.live.pane import LivePane
 from tutor.tui.themes import DARK, LIGHT
 
+METRONOME = Path(__file__).with_name("metronome.py")
 THERMOMETER = Path(__file__).with_name("thermometer.py")
 
 

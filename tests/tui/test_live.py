@@ -8,9 +8,10 @@ from contextlib import asynccontextmanager
 from itertools import pairwise
 
 import pytest
+from textual.color import Color
 from textual.pilot import Pilot
 
-from tests.live.world import THERMOMETER, LiveApp, World, world
+from tests.live.world import METRONOME, THERMOMETER, LiveApp, World, world
 from tests.patience import seen_within
 from tutor.content import load_course
 from tutor.live.facts import TopicNews
@@ -125,6 +126,44 @@ async def test_a_paused_topic_stands_still_and_is_counted_all_the_same(
         await me.sees_no("paused")
         await me.press("x")
         await me.until(lambda: counts[-1] > 0 and any(after < former for former, after in pairwise(counts)), "anew")
+
+
+async def test_what_comes_while_another_tab_is_open_is_in_the_list_when_i_am_back(cold: World) -> None:
+    async with watching(cold) as me:
+        await me.sees("No node runs")
+        me.topics().follow("/ticks")
+        cold.run(METRONOME, "100", "150")
+        await me.sees("/ticks", " messages · ")
+        await me.press("right_square_bracket")
+        await me.sees("Allowed")
+        assert me.count() < 150, "it goes on unseen"
+        await me.until(lambda: me.count() == 150, "all have come")
+        await me.press("left_square_bracket")
+        await me.sees("150 messages · ")
+        await me.until(lambda: any("/ticks" in line and " 150 " in line for line in me.screen().splitlines()))
+
+
+async def test_the_cursor_of_a_list_shows_whether_the_keys_go_to_it_also_when_that_changed_unseen(warm: World) -> None:
+    async with watching(warm) as me:
+        blurred, focused = (
+            Color.parse(me.app.theme_variables[name]).rich_color.triplet
+            for name in ("block-cursor-blurred-background", "block-cursor-background")
+        )
+
+        def cursor() -> object:
+            line = next(strip for strip in me.app.screen._compositor.render_strips() if "/cmd_vel" in strip.text)
+            segment = next(segment for segment in line if "/cmd_vel" in segment.text)
+            return segment.style and segment.style.bgcolor and segment.style.bgcolor.triplet
+
+        await me.sees("Topics 3", "/cmd_vel")
+        await me.press("down")
+        await me.until(lambda: cursor() == focused, "the list has the focus")
+        await me.press("right_square_bracket")
+        await me.sees("Allowed")
+        await me.turn_to("Topics")
+        await me.until(lambda: cursor() == blurred, "the tabs have it")
+        await me.press("tab")
+        await me.until(lambda: cursor() == focused, "the list has it again")
 
 
 async def test_any_numeric_field_can_be_plotted(warm: World) -> None:

@@ -6,7 +6,7 @@ import time
 from typing import ClassVar
 
 from rich.text import Text
-from textual import on
+from textual import events, on
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import Horizontal, Vertical
@@ -72,6 +72,10 @@ class TopicsPanel(Vertical):
             table.add_column(name, key=name or "mark")
         self.set_interval(1.0, self._tick)  # silence is told by the clock, not by news
 
+    def on_show(self, _event: events.Show) -> None:
+        """Follow what has come meanwhile, a frame later: what is painted already is shown at once."""
+        self.call_after_refresh(self._tick)
+
     @property
     def table(self) -> RowTable:
         """The list of topics."""
@@ -104,6 +108,8 @@ class TopicsPanel(Vertical):
 
     def show_news(self, name: str) -> None:
         """Something has come on a topic. Where much comes, the list follows now and then: it costs more to paint."""
+        if not self.display:
+            return
         if time.monotonic() >= self._list_again_at:
             self._update_all()
         if name == self.chosen:

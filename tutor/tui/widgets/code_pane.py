@@ -254,8 +254,8 @@ class CodePane(Vertical):
         if self.editor is not None:
             parts.append(("not saved yet  ", "$warn") if self.editor.changed else ("✓ saved  ", "$good"))
         parts.append((words.short(path.parent), "$quiet"))
-        self.query_one("#code-head", Static).update(Content.assemble(*parts))
-        self.query_one("#code-looks", Static).update(self._looks())
+        self.query_one("#code-head", Static).update(Content.assemble(*parts), layout=False)
+        self.query_one("#code-looks", Static).update(self._looks(), layout=False)
 
     def _looks(self) -> Content:
         parts: list[Content | str | tuple[str, str]] = []
