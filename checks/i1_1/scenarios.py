@@ -151,6 +151,7 @@ async def rates(bench: Bench) -> Rates:
 async def names(bench: Bench) -> Names:
     """Start it once for each string parameter, with a value that nothing else would log."""
     declared = await bench.facts(parameters)
+    known = {p.name for p in declared or ()}
     wanted = [p.name for p in declared or () if p.type == "string"]
     if SUGGESTED_NAME not in wanted:
         wanted.append(SUGGESTED_NAME)  # it may answer nothing, or take parameters that it does not declare
@@ -160,8 +161,12 @@ async def names(bench: Bench) -> Names:
         async with bench.start(FILE, parameters={name: value}, watch={TOPIC: TYPE}) as run:
             bench.doing(0.3, f"{name}:={value}, reading its log")
 
+            def bears(text: str) -> bool:
+                # Who logs the command line has no parameter yet; who has declared one may write it like that.
+                return value in (text if name in known else text.replace(f":={value}", ""))
+
             def logged() -> str:
-                return next((str(log) for log in run.logs if value in str(log).casefold()), "")
+                return next((str(log) for log in run.logs if bears(str(log).casefold())), "")
 
             await appears(run, lambda: bool(logged()), promised=lambda: True)
             found, trace = logged(), run.trace()
