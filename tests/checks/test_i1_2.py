@@ -710,6 +710,17 @@ class ToleratesOne(Counter):
         return super().jumped(last, number) if number > last + 2 else iter(())
 
 
+class SkipsTheFirstGap(Counter):
+    """Takes the first one for a false alarm."""
+
+    alarms = 0
+
+    def jumped(self, last: int, number: int) -> Iterator[Log]:
+        self.alarms += number > last + 1
+        if self.alarms > 1:
+            yield from super().jumped(last, number)
+
+
 class OnlyTheFirstGap(Counter):
     def jumped(self, last: int, number: int) -> Iterator[Log]:
         return iter(()) if self.missed else super().jumped(last, number)
@@ -902,7 +913,7 @@ class AgainAfterASecond(Counter):
         (AlarmedByTens, "gaps", "false alarm"),
         *((node, "gaps", "gap not noticed") for node in (
             GapBlind, GapBlindNoisy, GapBlindAnniversary, GapBlindWithIds, GapBlindRounded, GapBlindWithClock,
-            GapCountStuck, GapCountRising, GapOnlyBack, ToleratesOne, OnlyTheFirstGap, LargestGapOnly,
+            GapCountStuck, GapCountRising, GapOnlyBack, ToleratesOne, OnlyTheFirstGap, SkipsTheFirstGap, LargestGapOnly,
             GapInTheNextSummaryOnce,
         )),
         (SilentReset, "restart", "starts over silently"),
@@ -939,6 +950,24 @@ def test_wrong_ones(node: Callable[[], Counter], criterion: str, cause: str) -> 
     if cause == "summary for every message":  # no time has passed at the first message
         verdicts.pop("rate")
     assert_breaks(verdicts, criterion, cause)
+
+
+@pytest.mark.parametrize("starved_s", [0.0, 0.02, 2.0])
+def test_what_tells_of_one_gap_does_not_tell_of_the_other(starved_s: float) -> None:
+    jumped = jump(SkipsTheFirstGap(), starved_s=starved_s)
+    assert_failed(continuity.judge_gaps(jumped, steady(SkipsTheFirstGap())), "gap not noticed")
+
+
+@pytest.mark.parametrize(("text", "told"), [("2 gaps", True), ("6 numbers are missing", True), ("a gap", False)])
+def test_one_message_tells_of_both_gaps_where_the_node_was_kept_from_running(text: str, told: bool) -> None:
+    jumped, even = jump(Counter()), steady(Counter())
+    logs = [log for log in jumped.trace.logs if "missing" not in log.text]
+    assert len(logs) == len(jumped.trace.logs) - 2
+    at = jumped.sent[AGAIN_AFTER].at + 0.1
+    both = replace(jumped, trace=replace(jumped.trace, logs=(*logs, LogRecord(30, "node", text, at, at))))
+    assert_failed(continuity.judge_gaps(both, even), "gap not noticed")
+    verdict = continuity.judge_gaps(replace(both, starved_s=0.5), even)
+    assert verdict.passed == told, verdict
 
 
 @pytest.mark.parametrize("starved_s", [0.0, 2.0])
