@@ -205,7 +205,9 @@ async def _hear_out(run: Run, fed: Feeding) -> Feeding:
         return any(report.messages >= last for report in find(now()))
 
     if last:
-        late_s = max(fed.late_s, MOST_LATE_S) if last > STEADY_MESSAGES else fed.late_s
+        # A third one, or one for a new publisher, only shows that they go on: it may wait for a slow timer.
+        slow_s = MOST_LATE_S - LATE_S if last > STEADY_MESSAGES or fed.gone_at else 0.0
+        late_s = fed.late_s + slow_s
         await run.until(told, max(fed.sent[last - 1].at + late_s - run.now(), 0.0))
     await heard_out(run, quiet_s=SAID_S, most_s=MOST_SAID_S)
     return now()
