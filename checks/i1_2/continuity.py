@@ -125,7 +125,7 @@ def judge_gaps(jump: Feeding, steady: Feeding) -> Verdict:
             "set self.last_number = number for each message, whether there was a gap or not",
         )
         return failed(expected, observed, cause, [line.text for line in again[:6]])
-    unused = sorted(told, key=lambda line: line.at)
+    unused = list(told)
     for index, how in zip(jump.jumps, jumped, strict=True):
         own = next((line for line in unused if _soon(line, index, jump)), None)
         if own is not None:
@@ -146,10 +146,7 @@ def _soon(line: Line, index: int, jump: Feeding) -> bool:
 def _of_all(line: Line, jump: Feeding) -> bool:
     """Whether one message tells of every jump so far: how many there were, or how many numbers were left out."""
     missed = jump.missed(line.messages)
-    return (
-        line.messages > jump.again > 0
-        and {len(missed), sum(missed)}.intersection(each.value for each in line.numbers) != set()
-    )
+    return len(missed) > 1 and any(each.value in (len(missed), sum(missed)) for each in line.numbers)
 
 
 def _goes_on(told: Sequence[Line], jump: Feeding) -> list[Line]:
