@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from itertools import accumulate
 
-from checks.i1_2.facts import EVERY, LATE_S, OURS, Feeding
+from checks.i1_2.facts import EVERY, OURS, SOON_S, Feeding
 from checks.i1_2.judges import NO_SUMMARY, counts_truly, judge_summary, true_total
 from checks.i1_2.reading import Line
 from checks.i1_2.reports import Report, find, milestone
@@ -140,7 +140,7 @@ def judge_gaps(jump: Feeding, steady: Feeding) -> Verdict:
 def _soon(line: Line, index: int, jump: Feeding) -> bool:
     """Whether it was logged after this jump and before the next one, or as late as this machine may have made it."""
     later = [jump.sent[after].at for after in jump.jumps if after > index]
-    return line.at >= jump.sent[index].at and all(line.at < at + jump.late_s - LATE_S for at in later)
+    return line.at >= jump.sent[index].at and all(line.at < at + jump.excused_s for at in later)
 
 
 def _of_all(line: Line, jump: Feeding) -> bool:
@@ -223,7 +223,7 @@ def _calm(line: Line, feeding: Feeding) -> bool:
 
 
 def _of_the_first(line: Line, feeding: Feeding) -> bool:
-    return line.at < feeding.sent[0].at + LATE_S
+    return line.at < feeding.sent[0].at + SOON_S
 
 
 def _counts_up(
@@ -235,10 +235,10 @@ def _counts_up(
     """
     others = [other for lines in (before, *elsewhere) for other in lines]
     missed = feeding.missed(line.messages)
-    if not before or any(len(other.numbers) != len(line.numbers) for other in others):
+    if not others or any(len(other.numbers) != len(line.numbers) for other in others):
         return False
     for place, number in enumerate(line.numbers):
-        was = {other.numbers[place].value for other in before}
+        was = {other.numbers[place].value for other in before or others}
         usually = [{other.numbers[place].value for other in lines} for lines in elsewhere]
         if report is not None and _should_be(place, line, report, others, missed):
             return True

@@ -33,7 +33,7 @@ MEET_S = 0.4
 
 SOONER_HZ = 8.0
 """The rate where none is judged."""
-JUMP_AFTER, AGAIN_AFTER, JUMP_MESSAGES = 14, 24, 35
+JUMP_AFTER, AGAIN_AFTER, JUMP_MESSAGES = 17, 27, 37
 """N jumps twice: far, and then by leaving out one number.
 
 After each jump there is a summary, and time for one that is late. Who begins to count again with the first jump has
@@ -44,11 +44,14 @@ RESTART_AFTER, RESTART_MESSAGES = 13, 25
 AWAY_S = 0.7
 """Nobody restarts a talker in less time."""
 
-LATE_S = 0.5
-"""A summary comes so soon after its message."""
+LATE_S = 1.1
+"""A summary comes so soon after its message: it may wait for a timer of one second, as people choose."""
 
-MOST_LATE_S = 1.0
-"""However busy the machine: one that comes later belongs to no message."""
+SOON_S = 0.5
+"""What is logged of a message at once is there within this time."""
+
+MOST_STARVED_S = 1.0
+"""However busy the machine: what comes later than this excuses belongs to no message."""
 
 STALL_S = 0.1
 """Who was kept from running for so long between two messages may not have been back in time for the second."""
@@ -97,9 +100,14 @@ class Feeding:
         return tuple(read(log, messages) for log, messages in numbered if messages)
 
     @property
+    def excused_s(self) -> float:
+        """How much later than usual anything may be logged on this machine."""
+        return min(max(self.starved_s, 0.0), MOST_STARVED_S)
+
+    @property
     def late_s(self) -> float:
         """How long after its message a summary may come on this machine."""
-        return LATE_S + min(max(self.starved_s, 0.0), MOST_LATE_S)
+        return LATE_S + self.excused_s
 
     @cached_property
     def held_up_s(self) -> float:

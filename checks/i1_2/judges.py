@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from checks.i1_2 import rates
-from checks.i1_2.facts import EVERY, OURS, STEADY_MESSAGES, Feeding
+from checks.i1_2.facts import EVERY, OURS, Feeding
 from checks.i1_2.reading import labelled, read
 from checks.i1_2.reports import Report, find, in_time, milestone, totals
 from tutor.judge import causes, ending
@@ -160,8 +160,7 @@ def _why_not_every_ten(reports: Sequence[Report], feeding: Feeding, messages: in
         )
     for number in due:
         of_it = [each for each in reports if milestone(each.messages) == number]
-        # A third one only shows that they go on: it may wait for a slow timer.
-        if not any(in_time(each, feeding) or number > STEADY_MESSAGES for each in of_it):
+        if not any(in_time(each, feeding) for each in of_it):
             early = [each for each in when if number - EVERY < each < number]
             late = [each for each in when if number < each < number + EVERY]
             said = f"it comes after {(early or late)[-1]}" if early or late else "and none comes later"

@@ -7,7 +7,7 @@ from collections.abc import Container, Iterable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
-from checks.i1_2.facts import EVERY, LATE_S, Feeding
+from checks.i1_2.facts import EVERY, SOON_S, Feeding
 from checks.i1_2.reading import Line, Number
 
 AT_ONCE_S = 0.05
@@ -17,7 +17,7 @@ ORDINARY = 0.5
 """A kind of line that comes with this share of all messages is no summary's, unless the summaries come as often."""
 
 STALE = 4
-"""A summary's last message is at most so many messages old."""
+"""A summary's last message is at most so many messages old, or the one that it is due for."""
 
 
 @dataclass(frozen=True)
@@ -91,7 +91,7 @@ def totals(report: Report, feeding: Feeding, *, before: int = 0) -> range:
     earliest = counted
     if milestone(counted) > 0 and (report.at - feeding.sent[before + milestone(counted) - 1].at <= feeding.late_s):
         earliest = milestone(counted)
-    elif report.at - feeding.sent[report.messages - 1].at <= AT_ONCE_S + feeding.late_s - LATE_S:
+    elif report.at - feeding.sent[report.messages - 1].at <= AT_ONCE_S + feeding.excused_s:
         earliest = counted - 1
     return range(max(earliest, 1), report.until - before + 1)
 
@@ -113,8 +113,8 @@ def find(feeding: Feeding) -> tuple[Report, ...]:
 def _complete(report: Report, feeding: Feeding) -> bool:
     """Whether it quotes a first message and a recent one."""
     firsts = {feeding.sent[index].number for index in (0, *feeding.jumps)}
-    oldest = max(0, report.messages - 1 - STALE)
-    recent = {each.number for each in feeding.sent[oldest : report.until]}
+    oldest = min(report.messages - STALE, milestone(report.messages)) - 1
+    recent = {each.number for each in feeding.sent[max(oldest, 0) : report.until]}
     quoted = list(report.quoted)
     return any(
         first in quoted and any(last in quoted and (last != first or quoted.count(first) > 1) for last in recent)
@@ -174,12 +174,12 @@ def _without(report: Report, kinds: Container[tuple[int, str]], feeding: Feeding
 
 
 def _likeliest(candidates: Sequence[Report], feeding: Feeding) -> tuple[Report, ...]:
-    """No candidate is a complete summary: those of a family that state a total, or quote a message, most often."""
+    """No candidate is complete: those of a family that most often state a total, or quote a message, when it is due."""
 
     def worth(family: Sequence[Report]) -> tuple[int, int]:
         due = [each for each in family if in_time(each, feeding)]
         telling = [each for each in due if each.quoted or any(map(each.states, totals(each, feeding)))]
-        return len(telling), -len(family)
+        return len({milestone(each.messages) for each in telling}), -len(family)
 
     families = [_like([each], candidates) for each in candidates if each.kinds]
     best = max(families, key=worth, default=())
@@ -211,7 +211,7 @@ def _together(lines: Sequence[Line], feeding: Feeding) -> tuple[Report, ...]:
 def _joined(one: Report, other: Report, feeding: Feeding) -> Report | None:
     """One summary that was interrupted by a message; None where these are none."""
     whole = Report(one.lines + other.lines)
-    soon = other.at - one.at <= LATE_S and milestone(other.messages) == milestone(one.messages) > 0
+    soon = other.at - one.at <= SOON_S and milestone(other.messages) == milestone(one.messages) > 0
     apart = not _complete(one, feeding) and not _complete(other, feeding) and not one.kinds & other.kinds
     return whole if soon and apart and _complete(whole, feeding) else None
 

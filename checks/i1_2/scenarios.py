@@ -14,12 +14,11 @@ from checks.i1_2.facts import (
     FILE,
     JUMP_AFTER,
     JUMP_MESSAGES,
-    LATE_S,
     MEET_S,
-    MOST_LATE_S,
     QUIET_S,
     RESTART_AFTER,
     RESTART_MESSAGES,
+    SOON_S,
     SOONER_HZ,
     STEADY_HZ,
     STEADY_MESSAGES,
@@ -121,7 +120,7 @@ async def restart(bench: Bench) -> Feeding:
                 # So low that the second publisher sends again what has come before: who takes that for repeated, fails.
                 first = random.randint(3, 6)
                 await _send(bench, run, feed, sent, range(first, first + RESTART_AFTER), SOONER_HZ)
-                await _pause(run, LATE_S / 2)
+                await _pause(run, SOON_S / 2)
                 gone_at = run.now()  # before it goes: the node may tell of that at once
             await _pause(run, AWAY_S)
             async with run.publisher(TOPIC, TYPE) as feed:
@@ -205,10 +204,8 @@ async def _hear_out(run: Run, fed: Feeding) -> Feeding:
         return any(report.messages >= last for report in find(now()))
 
     if last:
-        # A third one, or one for a new publisher, only shows that they go on: it may wait for a slow timer.
-        slow_s = MOST_LATE_S - LATE_S if last > STEADY_MESSAGES or fed.gone_at else 0.0
-        late_s = fed.late_s + slow_s
-        await run.until(told, max(fed.sent[last - 1].at + late_s - run.now(), 0.0))
+        # From the last message on: who counts anew for a new publisher is due later than others.
+        await run.until(told, max(fed.sent[-1].at + fed.late_s - run.now(), 0.0))
     await heard_out(run, quiet_s=SAID_S, most_s=MOST_SAID_S)
     return now()
 

@@ -74,19 +74,32 @@ def fed(
     breaks: int = 0,
     away_s: float = 0.0,
     late_s: float = 0.0005,
+    slow_s: float = 0.0,
     between_s: float = 0.0002,
     more: Sequence[LogRecord] = (),
     **facts: object,
 ) -> Feeding:
-    """What is seen when messages with these numbers are sent to the node. `late_s`: until it logs something of one."""
+    """What is seen when messages with these numbers are sent to the node.
+
+    `late_s`: until it logs something of one. `slow_s`: how much later the summaries come.
+    """
+    summaries: list[Log] = []
+    summary = node.summary
+
+    def noted() -> Iterator[Log]:
+        summaries[:] = summary()
+        yield from summaries
+
+    node.summary = noted  # type: ignore[method-assign]
     sent: list[Sent] = []
     logs: list[LogRecord] = list(more)
     for index, number in enumerate(numbers):
         at = START + 1 + index / hz + (away_s if breaks and index >= breaks else 0.0)
         sent.append(Sent(number, at))
-        for order, (level, text) in enumerate(node.take(at + 0.0004, f"Hello World: {number}")):
-            stamp = at + late_s + order * between_s
-            logs.append(LogRecord(level, "node", text, stamp, stamp))
+        summaries.clear()
+        for order, log in enumerate(list(node.take(at + 0.0004, f"Hello World: {number}"))):
+            stamp = at + late_s + order * between_s + slow_s * (log in summaries)
+            logs.append(LogRecord(log[0], "node", log[1], stamp, stamp))
     gone_at = sent[breaks - 1].at + 0.2 if away_s else 0.0
     seen = Feeding(trace(graph=LISTENING, logs=logs), tuple(sent), breaks, gone_at)
     return replace(seen, **facts)  # type: ignore[arg-type]
@@ -321,7 +334,7 @@ class Anniversary(Counter):
     def heard(self, data: str) -> Iterator[Log]:
         if self.total == 0:
             yield 20, f"first message: {data}"
-        if self.total % 7 == 3:
+        if self.total % 7 == 2:
             yield 20, f"still alive after {self.total + 1}"
 
 
@@ -474,6 +487,12 @@ RIGHT = (
 @pytest.mark.parametrize("late_s", [0.0005, 0.03, 0.15, 0.3])
 def test_right_ones(node: type[Counter], late_s: float) -> None:
     assert_all_passed(judged(node, late_s=late_s))
+
+
+@pytest.mark.parametrize("node", RIGHT)
+@pytest.mark.parametrize("slow_s", [0.3, 0.6, 0.9])
+def test_summaries_by_a_slow_timer(node: type[Counter], slow_s: float) -> None:
+    assert_all_passed(judged(node, slow_s=slow_s))
 
 
 @pytest.mark.parametrize("between_s", [0.01, 0.04])
