@@ -40,7 +40,7 @@ from tutor.judge.waiting import START_S, TRIES, appears, excused, first_message,
 
 async def survey(bench: Bench) -> Survey:
     """Start it plainly: does it publish, does echo show it, does Ctrl+C end it cleanly?"""
-    async with bench.start(FILE, watch={TOPIC: TYPE}) as run:
+    async with bench.start(FILE, watch={TOPIC: TYPE}, asks_s=1.5) as run:
         bench.doing(0.1, f"waiting for the first message on {TOPIC}")
         echo = None
         if await first_message(run, TOPIC, TYPE):
@@ -104,7 +104,7 @@ def _data(seen: Run | Trace) -> list[float]:
 
 async def parameters(bench: Bench) -> tuple[Parameter, ...] | None:
     """Which parameters does it declare? None where it never answers."""
-    async with bench.start(FILE, watch={TOPIC: TYPE}) as run:
+    async with bench.start(FILE, watch={TOPIC: TYPE}, asks_s=7.0) as run:  # the rates wait for it
         bench.doing(0.1, "asking for its parameters")
         if not await run.until(lambda: any(s.name.endswith("/list_parameters") for s in run.graph.services), START_S):
             return None
@@ -158,7 +158,7 @@ async def names(bench: Bench) -> Names:
 
     async def probe(number: int, name: str) -> NameProbe:
         value = f"probe_{number}_kx7"
-        async with bench.start(FILE, parameters={name: value}, watch={TOPIC: TYPE}) as run:
+        async with bench.start(FILE, parameters={name: value}, watch={TOPIC: TYPE}, asks_s=0.5) as run:
             bench.doing(0.3, f"{name}:={value}, reading its log")
 
             def bears(text: str) -> bool:
@@ -179,7 +179,8 @@ async def names(bench: Bench) -> Names:
 async def _probe_rate(bench: Bench, name: str, unit: str, value: float, whole: bool) -> RateProbe:
     asked_hz = UNITS[unit](value)
     window = window_s(asked_hz)
-    async with bench.start(FILE, parameters={name: int(value) if whole else value}, watch={TOPIC: TYPE}) as run:
+    given, asks_s = {name: int(value) if whole else value}, 1 / asked_hz + window
+    async with bench.start(FILE, parameters=given, watch={TOPIC: TYPE}, asks_s=asks_s) as run:
         bench.doing(0.2, f"{name}:={value:g}, measuring the rate")
 
         def heard() -> RateProbe:

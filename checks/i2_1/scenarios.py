@@ -43,7 +43,7 @@ from tutor.judge.waiting import START_S, appears, first_message, steady_rate, st
 
 async def survey(bench: Bench) -> Survey:
     """A plain start: which parameters has it, and does Ctrl+C end it cleanly?"""
-    async with bench.start(FILE, watch={TOPIC: TYPE}) as run:
+    async with bench.start(FILE, watch={TOPIC: TYPE}, asks_s=1.5) as run:
         bench.doing(0.2, "asking for its parameters")
         node = await _node(run)
         declared = await run.parameters(ANSWER_S) if node else None
@@ -61,7 +61,7 @@ async def launched(bench: Bench) -> Launched:
 
     async def loud(hz: float, more: Mapping[str, Any]) -> tuple[Trace, Rate | None, int]:
         parameters = {**more, RATE: hz}
-        async with bench.start(FILE, parameters=parameters, watch={TOPIC: TYPE}) as run:
+        async with bench.start(FILE, parameters=parameters, watch={TOPIC: TYPE}, asks_s=5 / hz) as run:
             bench.doing(0.2, " ".join(f"{name}:={value}" for name, value in parameters.items()))
             # Longer than the period that LAUNCH_HZ would be, were it taken for one.
             if not await first_message(run, TOPIC, TYPE, rare_s=LAUNCH_HZ + 1):
@@ -73,7 +73,8 @@ async def launched(bench: Bench) -> Launched:
         return any(p.topic == TOPIC for p in run.graph.publishers)
 
     async def silent() -> tuple[Trace, Parameter | None, float, Sample | None]:
-        async with bench.start(FILE, parameters={ENABLED: False, RATE: LAUNCH_HZ}, watch={TOPIC: TYPE}) as run:
+        parameters = {ENABLED: False, RATE: LAUNCH_HZ}
+        async with bench.start(FILE, parameters=parameters, watch={TOPIC: TYPE}, asks_s=2.5) as run:
             bench.doing(0.3, f"{ENABLED}:=false, listening for silence")
             node = await _node(run)
             declared = await run.parameters(ANSWER_S) if node else None
@@ -171,7 +172,7 @@ async def validated(bench: Bench) -> Validated:
 
 
 async def _validated(bench: Bench, from_hz: float | None) -> Validated:
-    async with bench.start(FILE, watch={TOPIC: TYPE}) as run:
+    async with bench.start(FILE, watch={TOPIC: TYPE}, asks_s=5.0) as run:
         bench.doing(0.05, "waiting for it to publish")
         node = await _publishing(run)
         if node is None:
@@ -236,7 +237,7 @@ async def _changed_rate(run: Run, answer: SetAnswer, new_hz: float, old_hz: floa
 
 async def atomic(bench: Bench) -> Atomic:
     """Set a good prefix and a bad rate in one atomic request, in either order."""
-    async with bench.start(FILE, watch={TOPIC: TYPE}) as run:
+    async with bench.start(FILE, watch={TOPIC: TYPE}, asks_s=5.0) as run:
         node = await _publishing(run)
         if node is None:
             return Atomic(trace := run.trace(), stuck=await _stuck(bench, trace))
@@ -260,7 +261,7 @@ async def bad_launches(bench: Bench) -> tuple[Trace, ...]:
     """Start it with a bad rate: does it say which parameter is wrong?"""
 
     async def one(bad: float) -> Trace:
-        async with bench.start(FILE, parameters={RATE: bad}, watch={TOPIC: TYPE}) as run:
+        async with bench.start(FILE, parameters={RATE: bad}, watch={TOPIC: TYPE}, asks_s=0.5) as run:
             bench.doing(0.3, f"starting with {RATE}:={bad}")
             await appears(run, lambda: run.exit is not None or bool(naming(run.trace())))
             await run.until(lambda: run.exit is not None, 1.0)  # what it says may come in more than one message

@@ -56,7 +56,7 @@ BUSY_S = 0.1
 
 async def quiet(bench: Bench) -> Quiet:
     """Listen to the node while nobody calls, then press Ctrl+C."""
-    async with bench.start(FILE) as run:
+    async with bench.start(FILE) as run:  # first, like `lone`, which waits for it
         bench.doing(0.1, "waiting for the timer's log messages")
         await appears(run, lambda: bool(run.graph.nodes))
         await _spins(run)
@@ -155,7 +155,7 @@ async def _stuck(bench: Bench, before: CallAnswer) -> tuple[tuple[Frame, ...], b
 
 async def trio(bench: Bench) -> Trio:
     """Three calls at once, each with its own sum."""
-    async with bench.start(FILE) as run:
+    async with bench.start(FILE, asks_s=3.5) as run:
         bench.doing(0.1, f"waiting for {SERVICE}")
         if not await _serves(run):
             return Trio(run.trace())
@@ -200,7 +200,7 @@ def _done(calls: Sequence[asyncio.Task[CallAnswer]]) -> int:
 
 async def interrupted(bench: Bench) -> Interrupted:
     """Press Ctrl+C during a call."""
-    async with bench.start(FILE) as run:
+    async with bench.start(FILE, asks_s=2.0) as run:
         bench.doing(0.1, f"waiting for {SERVICE}")
         called = await _serves(run)
         call = asyncio.create_task(run.call(SERVICE, TYPE, _operands(), limit_s=ANSWER_S))

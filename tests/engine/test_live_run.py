@@ -5,11 +5,12 @@ from __future__ import annotations
 import asyncio
 import time
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 import pytest
 
-from tests.engine.made import FILE, PUBLISHES, Scene, node
+from tests.engine.made import FILE, PUBLISHES, WAITS, Scene, node
 from tutor.engine.errors import EngineError
 from tutor.judge import tracebacks
 from tutor.judge.bench import Run
@@ -295,3 +296,21 @@ async def test_ctrl_c_reaches_what_a_launch_started_once(scene: Scene) -> None:
         ending = await run.interrupt()
         assert ending.exit is not None, run.output
         assert sum(line.text.endswith("] interrupted") for line in run.output) == 1, run.output
+
+
+async def test_of_those_that_wait_the_one_that_asks_for_longer_starts_first(scene: Scene) -> None:
+    from tutor.engine.admission import Admission
+
+    began: list[float] = []
+    bench = replace(scene.bench(WAITS), admission=Admission(slots=1), asks_s=2.0)
+
+    async def start(asks_s: float | None) -> None:
+        async with bench.start(FILE, asks_s=asks_s):
+            began.append(bench.asks_s if asks_s is None else asks_s)
+
+    async with bench.admission.start(0.0) as up:
+        waiting = [asyncio.create_task(start(asks_s)) for asks_s in (0.5, None, 7.0)]
+        await asyncio.sleep(0)  # all three ask for their turn
+        up()
+        await asyncio.gather(*waiting)
+    assert began == [7.0, 2.0, 0.5]

@@ -41,7 +41,8 @@ LAUNCH_S = 3.0
 class LiveBench:
     """The `Bench` of `tutor.judge.bench` for one scenario.
 
-    `asks_s`: how many seconds of the clock its check asks for; where several are to start, the longest goes first.
+    `asks_s`: how many seconds of the clock its check asks for; where several are to start, the longest goes first (a
+    start may say how many it asks for itself).
     """
 
     submission: Submission
@@ -59,6 +60,7 @@ class LiveBench:
         parameters: Mapping[str, Any] | None = None,
         watch: Mapping[str, str] | None = None,
         serve: Mapping[str, tuple[str, Handler]] | None = None,
+        asks_s: float | None = None,
     ) -> AsyncIterator[Run]:
         path = self.submission.files[file].resolve()
         program = [str(self.ros.python), str(path), *ros_arguments(parameters or {})]
@@ -66,7 +68,8 @@ class LiveBench:
         def command(env: dict[str, str], log_dir: Path) -> list[str]:
             return program
 
-        async with self._start(path, command, parameters or {}, watch or {}, serve or {}) as run:
+        given = (parameters or {}, watch or {}, serve or {})
+        async with self._start(path, command, *given, asks_s=self.asks_s if asks_s is None else asks_s) as run:
             yield run
 
     @asynccontextmanager
@@ -79,7 +82,7 @@ class LiveBench:
                 overlay.make(log_dir / "overlay", path, env, python=str(self.ros.python))
             return [*ros2(self.ros, env), "launch", str(path), *given]
 
-        async with self._start(path, command, {}, {}, {}, terminal=True, nodes=2, longer_s=LAUNCH_S) as run:
+        async with self._start(path, command, {}, {}, {}, terminal=True, nodes=2, asks_s=self.asks_s + LAUNCH_S) as run:
             yield run
 
     @asynccontextmanager
@@ -90,11 +93,11 @@ class LiveBench:
         *given: Any,
         terminal: bool = False,
         nodes: int = 1,
-        longer_s: float = 0.0,
+        asks_s: float,
     ) -> AsyncIterator[Run]:
         """Run a command as `_run` does, when it is its turn: others may start when it has so many nodes."""
         async with (
-            self.admission.start(self.asks_s + longer_s) as up,
+            self.admission.start(asks_s) as up,
             self._run(path, command, *given, terminal=terminal) as run,
             _told_when_up(run, nodes, up),
         ):

@@ -93,7 +93,6 @@ class LiveRun:
         self._graph: tuple[float, Graph] = (0.0, Graph())
         self._meter = CpuMeter(process.pid)
         self._cpu_time: tuple[float, CpuTime] = (0.0, CpuTime())
-        self._late: tuple[float, float] = (0.0, 0.0)
 
     @property
     def started_at(self) -> float:
@@ -145,12 +144,7 @@ class LiveRun:
         return self._cpu().waited_s
 
     def late_s(self) -> float:
-        asked, waited_s = self._late
-        now = time.monotonic()
-        if now - asked >= LOOK_EVERY_S:
-            waited_s = cpu_time_here().waited_s
-            self._late = (now, waited_s)
-        return waited_s
+        return cpu_time_here().waited_s
 
     def _cpu(self) -> CpuTime:
         if self.exit is not None:

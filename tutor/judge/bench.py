@@ -155,11 +155,14 @@ class Bench(Protocol):
         parameters: Mapping[str, Any] | None = None,
         watch: Mapping[str, str] | None = None,
         serve: Mapping[str, tuple[str, Handler]] | None = None,
+        asks_s: float | None = None,
     ) -> AbstractAsyncContextManager[Run]:
         """Start one of the submission's files; nothing of it is left when the context ends.
 
         `parameters` are given as `--ros-args -p name:=value`; `watch` maps topics to types and is subscribed before the
         process starts; `serve` maps service names to a type and a handler, ready before the process starts.
+        `asks_s`: about how many seconds of the clock this start, and what waits for it, ask for when it is our own
+        solution; without it, the check's `asks_s`. It only says who goes first where many are to start.
         """
 
     def launch(self, file: str, *, arguments: Mapping[str, str] | None = None) -> AbstractAsyncContextManager[Run]:
