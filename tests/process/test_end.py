@@ -178,7 +178,10 @@ async def test_a_fork_storm(bench: Any) -> None:
 for n in range(50):
     if os.fork() == 0:
         if n % 2: os.setsid()
-        if n % 3 == 0 and os.fork(): os._exit(0)
+        if n % 3 == 0:
+            between = os.getpid()
+            if os.fork(): os._exit(0)
+            while os.getppid() == between: time.sleep(0.001)
         note(f'child{n}'); forever()
 note('main'); forever()
 """)

@@ -81,11 +81,11 @@ def not_declared(name: str, default: Any) -> Cause:
 
 
 def in_bursts(name: str) -> Cause:
-    """As many messages as asked for, but several at once."""
+    """Several messages at once: of a loop in one callback, or of two timers that run together."""
     return Cause(
         "messages in bursts",
         "several messages are sent at once, then none for a while: that is no rate",
-        f"publish one message in each callback, and let the timer's period be 1.0 / {name}",
+        f"publish one message in each callback of one timer, whose period is 1.0 / {name}",
     )
 
 
