@@ -296,6 +296,11 @@ def test_a_loop_that_is_torn_down(bench_sync: Any) -> None:
     assert bench_sync.left() == []
 
 
+def alive(pid: int) -> bool:
+    found = processes().get(pid)
+    return found is not None and found.alive
+
+
 async def warden_of(learner: LearnerProcess) -> int:
     return processes()[learner.pid].parent
 
@@ -387,6 +392,7 @@ async def test_what_cannot_be_ended_is_said(bench: Any, monkeypatch: pytest.Monk
     learner = await bench.start(DAEMON.format(before="pass"))
     child = await bench.noted_pid("child")
     os.kill(await warden_of(learner), signal.SIGKILL)
+    await bench.until(lambda: not alive(learner.pid), "the program itself, which goes with its warden, has gone")
     with pytest.raises(EndError, match=rf"could not be ended: {child} \(.*learner_.*\)\.$"):
         await learner.end()
     os.kill(child, signal.SIGKILL)
