@@ -24,7 +24,9 @@ DAEMON = """
 def daemon():
     if os.fork(): return
     os.setsid()
+    between = os.getpid()
     if os.fork(): os._exit(0)
+    while os.getppid() == between: time.sleep(0.001)
     {before}
     note('child'); forever()
 daemon()
