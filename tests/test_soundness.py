@@ -23,7 +23,7 @@ from tutor.content.submissions import Case, Expected
 from tutor.judge.result import CriterionResult, ExerciseResult
 from tutor.judge.verdict import Status, Verdict
 
-JOBS = 4
+JOBS = 6
 EVERY, BROKEN = find()
 ALL = [case for case in sample(EVERY) if holds_here(case)]
 
