@@ -26,8 +26,9 @@ LAUNCH_HZ, SLOW_LAUNCH_HZ = 5.0, 1.5
 UP_HZ, DOWN_HZ = 10.0, 0.7
 """The slower ones show a rate that is made a whole number: 1 and 2 Hz are both beyond the tolerance."""
 
-REFUSING_HZ = 4.0
-"""Bad rates are asked for at this rate, so that falling back to the default one shows."""
+REFUSING_HZ = 3.0
+"""Bad rates are asked for at this rate, so that falling back to the default one shows. A forgotten timer of 1 Hz beside
+it is well beyond the tolerance: at 4 Hz it would be just beyond, and heard as within it now and then."""
 
 BAD_RATES = (0.0, -1.0)
 ANSWER_S = 5.0

@@ -178,25 +178,23 @@ async def _validated(bench: Bench, from_hz: float | None) -> Validated:
         if node is None:
             return Validated(trace := run.trace(), stuck=await _stuck(bench, trace))
         base_hz = await _base_hz(run)
-        if from_hz is None:
-            return await _refusing(bench, run, node, base_hz)
-        if (taken := await _taken(run, node, from_hz, base_hz)) is not None:
-            return await _refusing(bench, run, node, from_hz, taken)
+        if from_hz is None or await _takes(run, node, from_hz, base_hz):
+            return await _refusing(bench, run, node, from_hz or base_hz)
     # Whether it takes a good rate is judged elsewhere: whoever does not shall refuse from where it starts.
     return await _validated(bench, None)
 
 
-async def _taken(run: Run, node: str, new_hz: float, old_hz: float) -> Rate | None:
-    """The rate measured once the node has taken this one; None where it does not, or publishes at another."""
+async def _takes(run: Run, node: str, new_hz: float, old_hz: float) -> bool:
+    """Whether the node takes this rate, and publishes at it."""
     answer = await run.set_parameters(node, {RATE: new_hz}, limit_s=ANSWER_S)
     if not answer.answered or not answer.successful:
-        return None
+        return False
     rate, _ = await _changed_rate(run, answer, new_hz, old_hz)
-    return rate if rate is not None and rate.agrees(new_hz) else None
+    return rate is not None and rate.agrees(new_hz)
 
 
-async def _refusing(bench: Bench, run: Run, node: str, base_hz: float, measured: Rate | None = None) -> Validated:
-    """Ask this node, which publishes at `base_hz`, for bad rates; `measured`: what that is, where it was measured."""
+async def _refusing(bench: Bench, run: Run, node: str, base_hz: float) -> Validated:
+    """Ask this node, which publishes at `base_hz`, for bad rates."""
     (before,) = await _held(run, (RATE,))
     rejected: list[tuple[SetAnswer, Any]] = []
     for bad in BAD_RATES:
@@ -208,8 +206,6 @@ async def _refusing(bench: Bench, run: Run, node: str, base_hz: float, measured:
         rejected.append((answer, (await _held(run, (RATE,)))[0]))
     bench.doing(0.7, "measuring the rate after it")
     rate, messages = await steady_rate(run, TOPIC, base_hz, since=rejected[-1][0].answered_at)
-    if rate is not None and measured is not None and not rate.agrees(base_hz) and rate.agrees(measured.hz):
-        base_hz = round(measured.hz, 2)  # at the edge of the tolerance it was before already, so nothing has changed it
     return Validated(run.trace(), base_hz, before, tuple(rejected), rate, messages)
 
 
