@@ -52,11 +52,14 @@ async def survey(bench: Bench) -> Calls:
         bench.doing(0.4, "calling each service")
         answers = await _ask(run, [(name, *EASY) for name in there])
         unanswered = next((answer for answer in answers if answer.response is None), None)
-        if unanswered and not run.graph.nodes:  # a call has killed it: it is about to end
+
+        def lost() -> bool:  # a call has killed it, and it takes its services along, one by one
+            gone = set(missing_of(run.graph.services)) - set(missing_of(met.services))
+            return run.exit is not None or not run.graph.nodes or bool(gone)
+
+        if unanswered and lost():
             await run.ends(DYING_S)
-        trace = run.trace()
-        if trace.exit is not None or not trace.graph.nodes:  # it takes its services along, one by one
-            trace = replace(trace, graph=met)
+        trace = replace(run.trace(), graph=met) if lost() else run.trace()
         bench.doing(0.8, "pressing Ctrl+C")
         ended = await run.interrupt() if run.exit is None else None
     stuck = await _stuck(bench, unanswered) if unanswered and trace.exit is None else ()

@@ -9,6 +9,8 @@ import pytest
 
 from tests.tui import made
 from tutor.tui.node import Phase
+from tutor.tui.widgets.line_view import Row
+from tutor.tui.widgets.log_view import _wrapped
 
 
 def alive(pid: int) -> bool:
@@ -166,3 +168,12 @@ async def test_a_server_and_its_client_run_side_by_side(learner: Any) -> None:
         await me.sees("● running  client.py", "running server.py and client.py")
         await me.press("r")
         await me.sees("■ ended  client.py", "running server.py")
+
+
+def test_the_hint_behind_a_line_of_a_traceback_is_never_broken() -> None:
+    for length in range(1, 240):
+        line: Row = ((" stderr ", "warn"), ("x" * length, "link"), ("  ← g or click", "quiet"))
+        rows = ["".join(text for text, _ in row) for row in _wrapped(line, 80)]
+        assert any("← g or click" in row for row in rows)
+        assert all(len(row) <= 80 for row in rows)
+        assert sum(row.count("x") for row in rows) == length

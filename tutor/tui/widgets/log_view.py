@@ -17,6 +17,9 @@ from tutor.tui.loglines import LogLine
 from tutor.tui.messages import GoToLine
 from tutor.tui.widgets.line_view import LineView, Piece, Row
 
+UNBROKEN = 16
+"""A piece of a line that is not longer than this (cells) is not broken where the line is folded."""
+
 
 class LogView(LineView):
     """Follows the end of the log, unless the learner has scrolled up or has paused it."""
@@ -102,7 +105,7 @@ def _coloured(line: LogLine, *, linked: bool) -> Row:
 
 
 def _wrapped(pieces: Row, width: int) -> Iterable[Row]:
-    """Fold one line into rows; the second and further ones are set in."""
+    """Fold one line into rows; the second and further ones are set in. A short piece moves on whole."""
     if sum(cell_len(text) for text, _ in pieces) <= width:
         return [pieces]
     indent = 8
@@ -114,7 +117,8 @@ def _wrapped(pieces: Row, width: int) -> Iterable[Row]:
                 rows[-1].append((text, kind))
                 room -= cell_len(text)
                 break
-            head = chop_cells(text, room)[0] if room > 1 else ""
+            whole = room < width - indent and cell_len(text) <= UNBROKEN
+            head = chop_cells(text, room)[0] if room > 1 and not whole else ""
             if head:
                 rows[-1].append((head, kind))
             text = text[len(head) :]
