@@ -27,12 +27,12 @@ from checks.i1_3.facts import (
     right_result,
 )
 from tutor.judge.bench import Bench, Run
-from tutor.judge.trace import CallAnswer, Service
+from tutor.judge.trace import CallAnswer, Graph, Service, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.waiting import appears, heard_out
 
-DYING_S = 3.0
-"""A process whose node has gone ends within this time."""
+DYING_S = 10.0
+"""A process whose node is going ends within this time."""
 
 SAID_S = 0.3
 """What a node has to say of a call is logged within this time, each line after the other."""
@@ -52,18 +52,27 @@ async def survey(bench: Bench) -> Calls:
         bench.doing(0.4, "calling each service")
         answers = await _ask(run, [(name, *EASY) for name in there])
         unanswered = next((answer for answer in answers if answer.response is None), None)
-
-        def lost() -> bool:  # a call has killed it, and it takes its services along, one by one
-            gone = set(missing_of(run.graph.services)) - set(missing_of(met.services))
-            return run.exit is not None or not run.graph.nodes or bool(gone)
-
-        if unanswered and lost():
-            await run.ends(DYING_S)
-        trace = replace(run.trace(), graph=met) if lost() else run.trace()
+        trace = await _as_met(run, met)
         bench.doing(0.8, "pressing Ctrl+C")
         ended = await run.interrupt() if run.exit is None else None
     stuck = await _stuck(bench, unanswered) if unanswered and trace.exit is None else ()
     return Calls(trace, answers, spins, stuck, ended)
+
+
+async def _as_met(run: Run, met: Graph) -> Trace:
+    """The facts after the calls; where one has killed the node, with the graph as met before.
+
+    A node that goes takes its services along, one by one.
+    """
+
+    def going() -> bool:
+        gone = set(missing_of(run.graph.services)) - set(missing_of(met.services))
+        return run.exit is not None or not run.graph.nodes or bool(gone)
+
+    if not going():
+        return run.trace()
+    await run.ends(DYING_S)
+    return replace(run.trace(), graph=met)
 
 
 async def _stuck(bench: Bench, unanswered: CallAnswer) -> tuple[Frame, ...]:
@@ -79,13 +88,14 @@ async def calculation(bench: Bench) -> Calls:
     """Calculate with operands by chance."""
     async with bench.start(SERVER) as run:
         await appears(run, lambda: not missing_of(run.graph.services))
-        there = [name for name in SIGNS if name not in missing_of(run.graph.services)]
+        met = run.graph
+        there = [name for name in SIGNS if name not in missing_of(met.services)]
         bench.doing(0.3, "calculating with positive and negative numbers")
         chosen = operands()
         a, b = chosen[0]  # in the other order, too, which makes no whole quotient
         swapped = [(name, b, a) for name in there if name != "/divide"]
         answers = await _ask(run, [*((name, a, b) for name in there for a, b in chosen), *swapped])
-        return Calls(run.trace(), answers)
+        return Calls(await _as_met(run, met), answers)
 
 
 async def _ask(run: Run, questions: Sequence[tuple[str, int, int]]) -> tuple[CallAnswer, ...]:
