@@ -121,9 +121,11 @@ def test_learner_environment_is_clean(tmp_path: Path) -> None:
         "RMW_IMPLEMENTATION": "rmw_fastrtps_cpp",
         "PYTHONUNBUFFERED": "1",
         "PYTHONDONTWRITEBYTECODE": "1",
+        "OPENBLAS_NUM_THREADS": "1",
         "EDITOR": "vi",
     }
     assert expected.items() <= env.items()
+    assert env_for(detect(PLAIN), {**PLAIN, "OPENBLAS_NUM_THREADS": "4"}, tmp_path)["OPENBLAS_NUM_THREADS"] == "4"
 
 
 def test_run_keeps_the_users_own_discovery(tmp_path: Path) -> None:

@@ -12,7 +12,7 @@ from pathlib import Path
 from types import ModuleType
 
 from tutor.ros import prefixes
-from tutor.ros.environment import RosEnvironment, tutor_env
+from tutor.ros.environment import QUIET_NUMPY, RosEnvironment, tutor_env
 
 _NOT_ANEW = "_ROS_TUTOR_STARTED_ANEW"
 _NOT_ROS = ("ros_tutor", "ros_wheels_bootstrapper")
@@ -41,6 +41,8 @@ def use(ros: RosEnvironment, *, isolated: bool) -> None:
         if name.startswith(_OF_ROS):
             del os.environ[name]
     os.environ.update({name: value for name, value in env.items() if name.startswith(_OF_ROS)})
+    for name, value in QUIET_NUMPY.items():
+        os.environ.setdefault(name, value)
     if ros.kind == "system":
         if not any(isinstance(finder, _NoBundledRos) for finder in sys.meta_path):
             sys.meta_path.insert(0, _NoBundledRos())
