@@ -64,13 +64,10 @@ async def _as_met(run: Run, met: Graph) -> Trace:
 
     A node that goes takes its services along, one by one.
     """
-
-    def going() -> bool:
-        gone = set(missing_of(run.graph.services)) - set(missing_of(met.services))
-        return run.exit is not None or not run.graph.nodes or bool(gone)
-
-    if not going():
-        return run.trace()
+    trace = run.trace()
+    gone = set(missing_of(trace.graph.services)) - set(missing_of(met.services))
+    if trace.exit is None and trace.graph.nodes and not gone:
+        return trace
     await run.ends(DYING_S)
     return replace(run.trace(), graph=met)
 
