@@ -72,7 +72,12 @@ class Learner:
 
     async def sees(self, *texts: str) -> None:
         """Wait until every text is on the screen, in one line each."""
-        await self.until(lambda: all(text in self.screen() for text in texts), texts)
+
+        def seen() -> bool:
+            screen = self.screen()
+            return all(text in screen for text in texts)
+
+        await self.until(seen, texts)
 
     async def until(self, seen: Callable[[], bool], what: object = "", *, limit_s: float = LIMIT_S) -> None:
         if not await seen_within(seen, limit_s):

@@ -37,7 +37,11 @@ class Watcher:
         await self.pilot.press(*keys)
 
     async def sees(self, *texts: str) -> None:
-        await self.until(lambda: all(text in self.screen() for text in texts), texts)
+        def seen() -> bool:
+            screen = self.screen()
+            return all(text in screen for text in texts)
+
+        await self.until(seen, texts)
 
     async def sees_no(self, text: str) -> None:
         await self.until(lambda: text not in self.screen(), f"no {text}")
