@@ -66,7 +66,7 @@ async def _as_met(run: Run, met: Graph) -> Trace:
     """
     trace = run.trace()
     gone = set(missing_of(trace.graph.services)) - set(missing_of(met.services))
-    if trace.exit is None and trace.graph.nodes and not gone:
+    if trace.exit is None and not gone and (trace.graph.nodes or not met.nodes):
         return trace
     await run.ends(DYING_S)
     return replace(run.trace(), graph=met)
