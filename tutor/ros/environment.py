@@ -23,8 +23,6 @@ DISTRO = "jazzy"
 RMW = "rmw_fastrtps_cpp"
 # The wheels' start-up hook starts the interpreter anew to set LD_LIBRARY_PATH, unless this is set.
 BOOTSTRAP_DONE = "_ROS_WHEELS_BOOTSTRAP_COMPLETE"
-# Messages import numpy, whose threads spin for a while when it is loaded: a quarter of the CPU time of a node's start.
-QUIET_NUMPY = {"OPENBLAS_NUM_THREADS": "1"}
 
 # What a learner's node must not inherit: it would change its Python, its output or its discovery.
 _ALWAYS_DROPPED = ("RCUTILS_", "PYTEST_", "COV_", "COVERAGE_", "PYTHON", "VIRTUAL_ENV", "__PYVENV_LAUNCHER__")
@@ -187,8 +185,8 @@ def _ros_env(ros: RosEnvironment, environ: Mapping[str, str], first_on_path: lis
     env["PYTHONUNBUFFERED"] = "1"  # a piped print would be held back
     env["PYTHONDONTWRITEBYTECODE"] = "1"  # no __pycache__ beside a learner's files
     env["PYTHONIOENCODING"] = "utf-8"
-    for name, value in QUIET_NUMPY.items():
-        env.setdefault(name, value)
+    # Messages import numpy, whose threads spin for a while when it is loaded: a quarter of a node's start, in CPU time.
+    env.setdefault("OPENBLAS_NUM_THREADS", "1")
     return env
 
 

@@ -12,11 +12,11 @@ from pathlib import Path
 from types import ModuleType
 
 from tutor.ros import prefixes
-from tutor.ros.environment import QUIET_NUMPY, RosEnvironment, tutor_env
+from tutor.ros.environment import RosEnvironment, tutor_env
 
 _NOT_ANEW = "_ROS_TUTOR_STARTED_ANEW"
 _NOT_ROS = ("ros_tutor", "ros_wheels_bootstrapper")
-_OF_ROS = ("ROS_", "RMW_", "AMENT_", "FASTRTPS_", "FASTDDS_", "RCUTILS_")
+_OF_ROS = ("ROS_", "RMW_", "AMENT_", "FASTRTPS_", "FASTDDS_", "RCUTILS_", "OPENBLAS_")
 
 _in_use: tuple[object, ...] | None = None
 """The ROS that this process was prepared for: once rclpy is imported, it can be no other."""
@@ -41,8 +41,6 @@ def use(ros: RosEnvironment, *, isolated: bool) -> None:
         if name.startswith(_OF_ROS):
             del os.environ[name]
     os.environ.update({name: value for name, value in env.items() if name.startswith(_OF_ROS)})
-    for name, value in QUIET_NUMPY.items():
-        os.environ.setdefault(name, value)
     if ros.kind == "system":
         if not any(isinstance(finder, _NoBundledRos) for finder in sys.meta_path):
             sys.meta_path.insert(0, _NoBundledRos())
