@@ -33,11 +33,13 @@ from checks.i1_1.facts import (
 )
 from tutor.judge import randomness
 from tutor.judge.bench import Bench, MachineTooBusy, Run
+from tutor.judge.ending import confirmed
 from tutor.judge.rates import measure
 from tutor.judge.trace import Parameter, Trace
 from tutor.judge.waiting import START_S, TRIES, appears, excused, first_message, stuck, window_s
 
 
+@confirmed
 async def survey(bench: Bench) -> Survey:
     """Start it plainly: does it publish, does echo show it, does Ctrl+C end it cleanly?"""
     async with bench.start(FILE, watch={TOPIC: TYPE}, asks_s=1.5) as run:

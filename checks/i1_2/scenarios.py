@@ -29,6 +29,7 @@ from checks.i1_2.facts import (
 )
 from checks.i1_2.reports import find, milestone
 from tutor.judge.bench import Bench, Feed, MachineTooBusy, Run
+from tutor.judge.ending import confirmed
 from tutor.judge.tracebacks import Frame
 from tutor.judge.waiting import TRIES, appears, heard_out
 
@@ -46,6 +47,7 @@ ROUGH_S = 0.15
 """A node kept from running for longer may have lost messages, and one that was fed so unevenly measured no one rate."""
 
 
+@confirmed
 async def steady(bench: Bench) -> Feeding:
     """Feed it evenly from 0 on, then press Ctrl+C."""
 

@@ -27,6 +27,7 @@ from checks.i1_3.facts import (
     right_result,
 )
 from tutor.judge.bench import Bench, Run
+from tutor.judge.ending import confirmed
 from tutor.judge.trace import CallAnswer, Graph, Service, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.waiting import appears, heard_out
@@ -41,6 +42,7 @@ MOST_SAID_S = 2.0
 """A node that goes on logging for ever is not heard out longer than this."""
 
 
+@confirmed
 async def survey(bench: Bench) -> Calls:
     """Call every service once as `ros2 service call` does, then press Ctrl+C."""
     async with bench.start(SERVER) as run:

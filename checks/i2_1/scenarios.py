@@ -35,12 +35,14 @@ from checks.i2_1.facts import (
     text,
 )
 from tutor.judge.bench import Bench, Run
+from tutor.judge.ending import confirmed
 from tutor.judge.rates import Rate, measure
 from tutor.judge.trace import Parameter, Sample, SetAnswer, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.waiting import START_S, appears, first_message, steady_rate, stuck
 
 
+@confirmed
 async def survey(bench: Bench) -> Survey:
     """A plain start: which parameters has it, and does Ctrl+C end it cleanly?"""
     async with bench.start(FILE, watch={TOPIC: TYPE}, asks_s=1.5) as run:

@@ -31,6 +31,7 @@ from checks.i2_3.facts import (
 from checks.i2_3.listening import listen, may_be_10_hz, next_tick, said_since
 from checks.i2_3.ticks import all_series, likely
 from tutor.judge.bench import Bench, Run
+from tutor.judge.ending import confirmed
 from tutor.judge.trace import CallAnswer
 from tutor.judge.tracebacks import Frame
 from tutor.judge.waiting import STARVED, appears
@@ -54,6 +55,7 @@ BUSY_S = 0.1
 """A machine that has kept the node from running for less than this has not disturbed it."""
 
 
+@confirmed
 async def quiet(bench: Bench) -> Quiet:
     """Listen to the node while nobody calls, then press Ctrl+C."""
     async with bench.start(FILE) as run:  # first, like `lone`, which waits for it
@@ -198,6 +200,7 @@ def _done(calls: Sequence[asyncio.Task[CallAnswer]]) -> int:
     return sum(call.done() for call in calls)
 
 
+@confirmed
 async def interrupted(bench: Bench) -> Interrupted:
     """Press Ctrl+C during a call."""
     async with bench.start(FILE, asks_s=2.0) as run:

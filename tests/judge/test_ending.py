@@ -6,7 +6,7 @@ import pytest
 
 from tests.checks.made import CRASH, FOLDER, KEYBOARD_INTERRUPT, NO_NODE, assert_failed, assert_passed, exited, trace
 from tests.checks.made import ending as ended
-from tutor.judge.ending import judge
+from tutor.judge.ending import crashed, judge
 from tutor.judge.trace import Ending, Trace
 
 RCLPY = "/venv/lib/python3.12/site-packages/rclpy"
@@ -35,6 +35,11 @@ AT_EXIT = f"""Exception ignored in atexit callback: <function shutdown at 0x7f0>
   File "{RCLPY}/context.py", line 127, in shutdown
     raise RuntimeError('Context must be initialized before it can be shutdown')
 RuntimeError: Context must be initialized before it can be shutdown"""
+FATAL = f"""Fatal Python error: Segmentation fault
+
+Current thread 0x00007f16a3a3e740 (most recent call first):
+  File "{RCLPY}/node.py", line 1899 in destroy_node
+  File "{FOLDER}/node.py", line 30 in main"""
 PUBLISH_AFTER = f"""{HEADER}
 {OWN_FRAME.replace("rclpy.shutdown()", "self.publisher.publish(msg)")}
 rclpy._rclpy_pybind11.RCLError: Failed to publish: publisher's context is invalid, at ./rcl/publisher.c:423"""
@@ -81,6 +86,7 @@ def test_clean(end: Ending) -> None:
         (ended(2, err=TRY_SHUTDOWN_RACE), "non-zero exit", "exit code 2"),
         (ended(signal=15), "non-zero exit", "signal 15"),
         (ended(signal=11), "non-zero exit", "signal 11"),
+        (ended(signal=11, err=FATAL), "non-zero exit", "crashes with signal 11, at node.py, line 30"),
         (ended(143), "non-zero exit", "exit code 143"),
         (ended(signal=6), "non-zero exit", "signal 6"),
         (ended(signal=6, err="terminate called without an active exception"), "thread still running", "join"),
@@ -113,3 +119,26 @@ def test_the_limit_is_named() -> None:
 def test_the_last_words_are_shown() -> None:
     verdict = judge(trace(err="one\n\ntwo"), ended(still_there=True))
     assert verdict.evidence == ("one", "two")
+
+
+@pytest.mark.parametrize("end", [ended(signal=11), ended(signal=7), ended(signal=6), ended(signal=11, err=FATAL)])
+def test_a_crash_is_to_be_seen_again(end: Ending) -> None:
+    assert crashed(end)
+
+
+@pytest.mark.parametrize(
+    "end",
+    [
+        None,
+        ended(0),
+        ended(139),
+        ended(signal=2),
+        ended(signal=9),
+        ended(signal=15),
+        ended(still_there=True),
+        ended(signal=6, err=KEYBOARD_INTERRUPT),
+        ended(signal=6, err="terminate called without an active exception"),
+    ],
+)
+def test_what_the_learner_has_done_is_told_at_once(end: Ending | None) -> None:
+    assert not crashed(end)

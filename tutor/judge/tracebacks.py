@@ -32,7 +32,7 @@ class Frame:
     code: str
 
     def __str__(self) -> str:
-        return f"{self.path.rsplit('/', 1)[-1]}, line {self.line}: {self.code}"
+        return f"{self.path.rsplit('/', 1)[-1]}, line {self.line}" + (f": {self.code}" if self.code else "")
 
 
 @dataclass(frozen=True, slots=True)
