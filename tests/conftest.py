@@ -6,5 +6,6 @@ import signal
 
 
 def pytest_configure() -> None:
-    # What a script starts with `&` ignores Ctrl+C, and what it starts itself would inherit that.
+    # The processes among which pytest-xdist divides the tests ignore Ctrl+C, as does what a script starts with `&`;
+    # what they start themselves would inherit that.
     signal.signal(signal.SIGINT, signal.default_int_handler)
