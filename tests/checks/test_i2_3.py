@@ -126,6 +126,14 @@ def test_a_busy_machine_may_take_longer_but_never_less() -> None:
         blocks(lone((), answer(4.2), starved_s=1.0))
 
 
+def test_one_late_call_on_a_calm_machine_is_enough() -> None:
+    busy, calm = lone((), answer(4.05), starved_s=0.9), lone((), answer(4.2), starved_s=0.3)
+    for calls in (busy.calls + calm.calls, calm.calls + busy.calls):
+        assert_failed(blocks(replace(busy, calls=calls)), "too slow", "4.0 s")
+    with pytest.raises(MachineTooBusy):
+        blocks(replace(busy, calls=busy.calls * 2))
+
+
 def test_one_wrong_sum_is_wrong() -> None:
     assert_failed(blocks(lone((), answer(3.6), answer(3.0, sum_=9))), "wrong sum", "9 instead of 8")
 
