@@ -95,7 +95,7 @@ def _of_crash(ended: Exit, ending: Ending, trace: Trace) -> Cause:
     return Cause(
         "non-zero exit",
         f"after Ctrl+C the process crashes with {ended}" + (f", at {own}" if own else ""),
-        "stop the timers and threads that use the node before you destroy it, and destroy it once only",
+        "return normally from main() after Ctrl+C; end what uses the node, such as threads, before you destroy it",
     )
 
 
