@@ -121,7 +121,16 @@ def test_the_last_words_are_shown() -> None:
     assert verdict.evidence == ("one", "two")
 
 
-@pytest.mark.parametrize("end", [ended(signal=11), ended(signal=7), ended(signal=6), ended(signal=11, err=FATAL)])
+@pytest.mark.parametrize(
+    "end",
+    [
+        ended(signal=11),
+        ended(signal=7),
+        ended(signal=6),
+        ended(signal=11, err=FATAL),
+        ended(signal=6, err="terminate called without an active exception"),
+    ],
+)
 def test_a_crash_is_to_be_seen_again(end: Ending) -> None:
     assert crashed(end)
 
@@ -137,7 +146,6 @@ def test_a_crash_is_to_be_seen_again(end: Ending) -> None:
         ended(signal=15),
         ended(still_there=True),
         ended(signal=6, err=KEYBOARD_INTERRUPT),
-        ended(signal=6, err="terminate called without an active exception"),
     ],
 )
 def test_what_the_learner_has_done_is_told_at_once(end: Ending | None) -> None:
