@@ -12,8 +12,9 @@ from tutor.judge.trace import Ending, Exit, Trace
 from tutor.judge.verdict import Cause, Verdict, failed, passed
 
 _CRASHES = signal.SIGSEGV, signal.SIGBUS, signal.SIGABRT
+_CONTEXT_GONE = "the given context is not valid"
 _AGAIN = 2
-"""So many more starts are looked at, at most, where a process crashed on Ctrl+C."""
+"""So many more starts are looked at, at most, where it may be chance that a process did not end cleanly on Ctrl+C."""
 
 _SHUT_DOWN_TWICE = "rcl_shutdown already called", "Context must be initialized before it can be shutdown"
 EXPECTED = "on Ctrl+C the process ends within {limit:g} s, without a traceback, with exit code 0 or 130"
@@ -25,34 +26,47 @@ class _Ended(Protocol):
 
 
 def confirmed[T: _Ended](scenario: Scenario[T]) -> Scenario[T]:
-    """The scenario, whose process ends on Ctrl+C; where that was a crash, seen on more starts.
+    """The scenario, whose process ends on Ctrl+C; where it ended as a right program may by chance, seen on more starts.
 
-    Gives the facts of one that crashed again, or else of one that did not. A mistake of the learner's crashes each
-    time. What was seen once in some hundred runs on a busy machine, where the learner's code is right: when Ctrl+C
-    arrives, a thread of rclpy's own walks its list of guard conditions, which `executor.shutdown()` may be freeing
-    (signal_handler.cpp of rclpy 7.1.6); and a `thread.join(timeout)` that KeyboardInterrupt ends takes the thread for
-    stopped, so that a second `join()` does not wait for it (threading.py of CPython 3.12).
+    Gives the facts of one that ended so again, or else of one that did not. A mistake of the learner's shows each time.
+    What was seen once in some hundred runs, most of them on a busy machine, where the learner's code is right:
+
+    - a crash: a thread of rclpy's own walks its list of guard conditions, which `executor.shutdown()` may be freeing
+      (signal_handler.cpp of rclpy 7.1.6);
+    - an abort: a `thread.join(timeout)` that KeyboardInterrupt ends takes the thread for stopped, so that a second
+      `join()` does not wait for it (threading.py of CPython 3.12);
+    - an RCLError from `spin()` in a thread: the context is shut down after it has asked for it, and before it waits.
     """
 
     @wraps(scenario)
     async def look(bench: Bench) -> T:
         seen = await scenario(bench)
-        if crashed(seen.ending):
+        if doubtful(seen.ending):
             for _ in range(_AGAIN):
-                bench.doing(0.9, "it crashed on Ctrl+C: looking whether it does so again")
+                bench.doing(0.9, "it did not end cleanly on Ctrl+C: looking whether it does so again")
                 seen = await scenario(bench)
-                if crashed(seen.ending):
+                if doubtful(seen.ending):
                     break
         return seen
 
     return look
 
 
-def crashed(ending: Ending | None) -> bool:
-    """Whether the process died within C or C++ code, and wrote no traceback."""
-    if ending is None or ending.exit is None or ending.exit.signal not in _CRASHES:
-        return False
-    return not tracebacks.find(ending.output)
+def doubtful(ending: Ending | None) -> bool:
+    """Whether the process ended as a right program may by chance (see `confirmed`)."""
+    found = tracebacks.find(ending.output) if ending is not None else []
+    return all(map(_spun_on, found)) if found else _crashed(ending)
+
+
+def _spun_on(found: tracebacks.Traceback) -> bool:
+    """Whether an executor of rclpy's was about to wait when the context was shut down."""
+    executing = any(frame.path.endswith("rclpy/executors.py") for frame in found.frames)
+    return executing and _CONTEXT_GONE in found.message
+
+
+def _crashed(ending: Ending | None) -> bool:
+    """Whether the process died within C or C++ code."""
+    return ending is not None and ending.exit is not None and ending.exit.signal in _CRASHES
 
 
 def judge(trace: Trace, ending: Ending | None) -> Verdict:
@@ -85,7 +99,7 @@ def judge(trace: Trace, ending: Ending | None) -> Verdict:
         f"the process ended with {ending.exit}",
         "return normally from main() after Ctrl+C; call no sys.exit() with another code",
     )
-    crash = _of_crash(ending.exit, ending, trace) if crashed(ending) else None
+    crash = _of_crash(ending.exit, ending, trace) if _crashed(ending) else None
     cause = causes.of_torn_thread(ending.exit, ending.output) or crash or other
     return failed(expected, observed, cause, causes.last_words(trace))
 

@@ -1,4 +1,4 @@
-"""A crash on Ctrl+C is seen on further starts: it fails whoever crashes each time, not whom rclpy let crash once."""
+"""A bad end that may be chance is seen on further starts: it fails whom it meets each time, not whom it meets once."""
 
 from __future__ import annotations
 
@@ -16,15 +16,25 @@ from tutor.judge.submission import Submission
 from tutor.ros.environment import RosEnvironment
 from tutor.workspace import solution
 
-# After all is shut down, as a crash in rclpy's C++ code may come. {} holds which of the ends are such.
+# After all is shut down, as a crash in rclpy's C++ code may come: which of the ends are such, and what it then does.
 CRASHES = """
 import os, pathlib, signal
+import rclpy
+from rclpy.executors import SingleThreadedExecutor
+def spin_on():
+    context = rclpy.Context()
+    context.init()
+    executor = SingleThreadedExecutor(context=context)
+    context.shutdown()
+    executor.spin_once()
 ends = pathlib.Path(__file__).with_name("ends")
 with ends.open("a") as file:
     file.write(".")
 if len(ends.read_text()) in {}:
-    os.kill(os.getpid(), signal.SIGSEGV)
+    {}
 """
+CRASH = "os.kill(os.getpid(), signal.SIGSEGV)"
+SPIN_ON = "spin_on()"
 SCENARIOS = [
     ("i1.1", "survey"),
     ("i1.2", "steady"),
@@ -35,14 +45,16 @@ SCENARIOS = [
 ]
 
 
-async def ends(ros: RosEnvironment, folder: Path, exercise: str, scenario: str, crashes: tuple[int, ...]) -> Any:
-    """The facts of a scenario of this exercise, done to its solution, the given ends of which (from 1) are crashes."""
+async def ends(
+    ros: RosEnvironment, folder: Path, exercise: str, scenario: str, which: tuple[int, ...], does: str
+) -> Any:
+    """The facts of a scenario of this exercise, done to its solution, which at these ends (from 1) does this."""
     from tutor.engine.bench import LiveBench
 
     files = {}
     for name, path in solution(load_course().find(exercise)).files.items():
         files[name] = folder / name
-        files[name].write_text(path.read_text() + CRASHES.format(crashes))
+        files[name].write_text(path.read_text() + CRASHES.format(which, does))
     bench = LiveBench(Submission(exercise, files), ros, _nothing_shared, lambda fraction, text: None)
     scenarios = importlib.import_module(f"checks.{exercise.replace('.', '_')}.scenarios")
     return await getattr(scenarios, scenario)(bench)
@@ -52,11 +64,11 @@ async def _nothing_shared(scenario: Any) -> Any:
     raise AssertionError("no other scenario")
 
 
-async def test_one_crash_is_forgiven(ros: RosEnvironment, scene: Scene) -> None:
+async def test_one_bad_end_is_forgiven(ros: RosEnvironment, scene: Scene) -> None:
     async def one(number: int, exercise: str, scenario: str) -> None:
         folder = scene.folder / str(number)
         folder.mkdir()
-        seen = await ends(ros, folder, exercise, scenario, (1,))
+        seen = await ends(ros, folder, exercise, scenario, (1,), SPIN_ON if scenario == "quiet" else CRASH)
         verdict = judge(seen.trace, seen.ending)
         assert verdict.passed, (exercise, scenario, verdict)
         assert (folder / "ends").read_text() == "...", (exercise, scenario)  # the crash, and two more
@@ -68,14 +80,21 @@ async def test_one_crash_is_forgiven(ros: RosEnvironment, scene: Scene) -> None:
 
 @pytest.mark.parametrize(("crashes", "starts"), [((1, 2), 2), ((1, 3), 3)])
 async def test_a_second_crash_is_not(scene: Scene, crashes: tuple[int, ...], starts: int) -> None:
-    seen = await ends(scene.ros, scene.folder, "i1.3", "survey", crashes)
+    seen = await ends(scene.ros, scene.folder, "i1.3", "survey", crashes, CRASH)
     verdict = judge(seen.trace, seen.ending)
     assert verdict.cause is not None
     assert "signal 11, at calculator_server.py, line" in str(verdict.cause), verdict
     assert len((scene.folder / "ends").read_text()) == starts
 
 
+async def test_a_second_spin_after_the_end_is_not(scene: Scene) -> None:
+    seen = await ends(scene.ros, scene.folder, "i1.3", "survey", (1, 2), SPIN_ON)
+    verdict = judge(seen.trace, seen.ending)
+    assert "RCLError: failed to initialize wait set" in str(verdict.cause), verdict
+    assert (scene.folder / "ends").read_text() == ".."
+
+
 async def test_who_does_not_crash_is_started_once(scene: Scene) -> None:
-    seen = await ends(scene.ros, scene.folder, "i1.3", "survey", ())
+    seen = await ends(scene.ros, scene.folder, "i1.3", "survey", (), CRASH)
     assert judge(seen.trace, seen.ending).passed
     assert (scene.folder / "ends").read_text() == "."
