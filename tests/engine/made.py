@@ -100,7 +100,7 @@ class Scene:
         """A bench on which this script is node.py."""
         from tutor.engine.bench import LiveBench
 
-        return LiveBench(self.submission(node=source), self.ros, _nothing_shared, lambda fraction, text: None)
+        return LiveBench(self.submission(node=source), self.ros, nothing_shared, lambda fraction, text: None)
 
     async def judge(
         self,
@@ -126,7 +126,8 @@ class Scene:
         return sorted(pid for pid, p in processes().items() if p.alive and pid != os.getpid() and mark in _environ(pid))
 
 
-async def _nothing_shared(scenario: Scenario[Any]) -> Any:
+async def nothing_shared(scenario: Scenario[Any]) -> Any:
+    """For a bench whose scenario asks for the facts of no other one."""
     raise AssertionError("no other scenario")
 
 

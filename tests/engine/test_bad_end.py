@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from tests.engine.made import Scene
+from tests.engine.made import Scene, nothing_shared
 from tutor.content import load_course
 from tutor.judge.ending import judge
 from tutor.judge.submission import Submission
@@ -55,13 +55,9 @@ async def ends(
     for name, path in solution(load_course().find(exercise)).files.items():
         files[name] = folder / name
         files[name].write_text(path.read_text() + CRASHES.format(which, does))
-    bench = LiveBench(Submission(exercise, files), ros, _nothing_shared, lambda fraction, text: None)
+    bench = LiveBench(Submission(exercise, files), ros, nothing_shared, lambda fraction, text: None)
     scenarios = importlib.import_module(f"checks.{exercise.replace('.', '_')}.scenarios")
     return await getattr(scenarios, scenario)(bench)
-
-
-async def _nothing_shared(scenario: Any) -> Any:
-    raise AssertionError("no other scenario")
 
 
 async def test_one_bad_end_is_forgiven(ros: RosEnvironment, scene: Scene) -> None:
