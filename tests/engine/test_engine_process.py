@@ -144,7 +144,8 @@ def test_interrupted_it_cleans_up(tmp_path: Path, number: int) -> None:
         assert not any(isinstance(event, CheckFinished) for event in events)
 
 
-def test_killed_it_leaves_nothing(tmp_path: Path) -> None:
+def test_killed_it_leaves_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("TMPDIR", str(tmp_path))  # nobody is left to clear away the folders of its logs
     (tmp_path / "temperature_publisher.py").write_text(WAITS)
     with engine("i1.1", tmp_path) as started:
         started.until(CheckStarted)

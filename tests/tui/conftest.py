@@ -10,12 +10,11 @@ from pathlib import Path
 import pytest
 from textual.keys import _character_to_key
 from textual.pilot import Pilot
-from textual.screen import Screen
 from textual.widget import Widget
 from textual.widgets import Static
 
-from tests.patience import seen_within
 from tests.tui import made
+from tests.tui.person import Person
 from tutor.judge.events import Event
 from tutor.tui.app import TutorApp
 from tutor.tui.desk import Desk
@@ -26,14 +25,13 @@ from tutor.tui.widgets.criteria import CriteriaPanel
 from tutor.tui.widgets.editor import CodeEditor
 from tutor.tui.widgets.line_view import LineView
 
-LIMIT_S = 15.0
 
-
-class Learner:
-    """Uses the app by key and mouse."""
+class Learner(Person[TutorApp]):
+    """Somebody with a workspace."""
 
     def __init__(self, app: TutorApp, pilot: Pilot[int], desk: Desk) -> None:
-        self.app, self.pilot, self.desk = app, pilot, desk
+        super().__init__(app, pilot)
+        self.desk = desk
 
     @property
     def main(self) -> MainScreen:
@@ -58,9 +56,6 @@ class Learner:
         """The file that is shown."""
         return self.main.session.path
 
-    async def press(self, *keys: str) -> None:
-        await self.pilot.press(*keys)
-
     async def types(self, text: str) -> None:
         await self.pilot.press(*("enter" if c == "\n" else _character_to_key(c) for c in text))
 
@@ -69,30 +64,6 @@ class Learner:
         await self.press("e")
         await self.until(lambda: isinstance(self.app.focused, CodeEditor), "the editor has the focus")
         return self.editor
-
-    async def sees(self, *texts: str) -> None:
-        """Wait until every text is on the screen, in one line each."""
-
-        def seen() -> bool:
-            screen = self.screen()
-            return all(text in screen for text in texts)
-
-        await self.until(seen, texts)
-
-    async def until(self, seen: Callable[[], bool], what: object = "", *, limit_s: float = LIMIT_S) -> None:
-        if not await seen_within(seen, limit_s):
-            pytest.fail(f"not seen: {what}\n{self.screen()}")
-
-    def screen(self) -> str:
-        """What is drawn, as text: the top screen over whatever is below."""
-        width, height = self.app.size
-        screen: Screen[object] = self.app.screen
-        if screen._compositor.size != (width, height):  # just opened, or just resized: not laid out yet
-            return ""
-        lines = screen._compositor.render_strips()
-        assert len(lines) == height
-        assert all(line.cell_length <= width for line in lines)
-        return "\n".join(line.text for line in lines)
 
     def diagnosis(self) -> str:
         """The diagnosis that is shown, whole: on the screen it is folded."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import AsyncIterator, Callable, Iterator
+from collections.abc import AsyncIterator, Iterator
 from contextlib import asynccontextmanager
 from itertools import pairwise
 
@@ -12,7 +12,7 @@ from textual.color import Color
 from textual.pilot import Pilot
 
 from tests.live.world import METRONOME, THERMOMETER, LiveApp, World, world
-from tests.patience import seen_within
+from tests.tui.person import Person
 from tutor.content import load_course
 from tutor.live.facts import TopicNews
 from tutor.tui.live import services_panel
@@ -21,34 +21,15 @@ from tutor.tui.live.services_panel import ServicesPanel
 from tutor.tui.live.state import TopicView
 from tutor.tui.live.topics_panel import TopicsPanel
 
-LIMIT_S = 30.0
 
-
-class Watcher:
+class Watcher(Person[LiveApp]):
     """Somebody in front of the live page."""
 
+    limit_s = 30.0
+
     def __init__(self, app: LiveApp, pilot: Pilot[int], around: World) -> None:
-        self.app, self.pilot, self.around = app, pilot, around
-
-    def screen(self) -> str:
-        return "\n".join(line.text for line in self.app.screen._compositor.render_strips())
-
-    async def press(self, *keys: str) -> None:
-        await self.pilot.press(*keys)
-
-    async def sees(self, *texts: str) -> None:
-        def seen() -> bool:
-            screen = self.screen()
-            return all(text in screen for text in texts)
-
-        await self.until(seen, texts)
-
-    async def sees_no(self, text: str) -> None:
-        await self.until(lambda: text not in self.screen(), f"no {text}")
-
-    async def until(self, seen: Callable[[], bool], what: object = "") -> None:
-        if not await seen_within(seen, LIMIT_S):
-            pytest.fail(f"not seen: {what}\n{self.screen()}")
+        super().__init__(app, pilot)
+        self.around = around
 
     async def turn_to(self, tab: str) -> None:
         await self.pilot.click("#live-tabs", offset=(self.screen().splitlines()[0].index(tab) + 1, 0))

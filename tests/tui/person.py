@@ -1,0 +1,54 @@
+"""Somebody in front of an app: what they press, and what they see."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, ClassVar
+
+import pytest
+from textual.app import App
+from textual.pilot import Pilot
+from textual.screen import Screen
+
+from tests.patience import seen_within
+
+
+class Person[A: App[Any]]:
+    """Uses an app by key and mouse."""
+
+    limit_s: ClassVar[float] = 15.0
+    """How long they wait for what they want to see."""
+
+    def __init__(self, app: A, pilot: Pilot[int]) -> None:
+        self.app, self.pilot = app, pilot
+
+    async def press(self, *keys: str) -> None:
+        await self.pilot.press(*keys)
+
+    async def sees(self, *texts: str) -> None:
+        """Wait until every text is on the screen, in one line each."""
+
+        def seen() -> bool:
+            screen = self.screen()
+            return all(text in screen for text in texts)
+
+        await self.until(seen, texts)
+
+    async def sees_no(self, text: str) -> None:
+        """Wait until the text is not on the screen, once there is one."""
+        await self.until(lambda: bool(screen := self.screen()) and text not in screen, f"no {text}")
+
+    async def until(self, seen: Callable[[], bool], what: object = "", *, limit_s: float | None = None) -> None:
+        if not await seen_within(seen, self.limit_s if limit_s is None else limit_s):
+            pytest.fail(f"not seen: {what}\n{self.screen()}")
+
+    def screen(self) -> str:
+        """What is drawn, as text: the top screen over whatever is below."""
+        width, height = self.app.size
+        screen: Screen[object] = self.app.screen
+        if screen._compositor.size != (width, height):  # just opened, or just resized: not laid out yet
+            return ""
+        lines = screen._compositor.render_strips()
+        assert len(lines) == height
+        assert all(line.cell_length <= width for line in lines)
+        return "\n".join(line.text for line in lines)
