@@ -10,11 +10,13 @@ from dataclasses import replace
 
 from checks.i2_3.facts import (
     ANSWER_S,
+    BUSY_S,
     CALLS,
     FILE,
     IN_TURN,
-    LONGEST_S,
+    MOST_TRIES,
     SERVICE,
+    TRIES,
     TYPE,
     WORK_S,
     Call,
@@ -24,9 +26,9 @@ from checks.i2_3.facts import (
     Three,
     Trio,
     disturbed,
-    doubtful,
     excused,
     is_there,
+    to_be_repeated,
 )
 from checks.i2_3.listening import listen, may_be_10_hz, next_tick, said_since
 from checks.i2_3.ticks import all_series, likely
@@ -48,11 +50,8 @@ SPINS_S = 2.5
 APART_S = 0.1
 """Of three calls at once, the last comes this much later, so that answers in another order are told from chance."""
 
-TRIES = 4
-"""What only a busy machine can explain is looked at again, at most this often."""
-
-BUSY_S = 0.1
-"""A machine that has kept the node from running for less than this has not disturbed it."""
+CALLS_AT_ONCE_TRIES = 3
+"""Three calls that a busy machine may have held up are made again, at most this often."""
 
 
 @confirmed
@@ -83,11 +82,11 @@ async def lone(bench: Bench) -> Lone:
         if not await _serves(run):
             return Lone(run.trace())
         bench.doing(0.2, f"calling {SERVICE}")
-        calls, well = await _call(bench, run, _operands)
+        calls, well = await _call(bench, run, _operands, MOST_TRIES)
         later: Sequence[Call] = ()
         if well and run.exit is None:
             bench.doing(0.6, f"calling {SERVICE} once more, with large numbers")
-            later, _ = await _call(bench, run, _large)
+            later, _ = await _call(bench, run, _large, TRIES)  # no more of them: without a word they take nothing back
         seen = Lone(run.trace(), tuple(calls), later=tuple(later))
     if seen.trace.exit is None and not well:
         stuck, spins = await _stuck(bench, calls[-1].answer)
@@ -95,22 +94,22 @@ async def lone(bench: Bench) -> Lone:
     return seen
 
 
-async def _call(bench: Bench, run: Run, operands: Callable[[], Mapping[str, int]]) -> tuple[list[Call], bool]:
+async def _call(
+    bench: Bench, run: Run, operands: Callable[[], Mapping[str, int]], most: int
+) -> tuple[list[Call], bool]:
     """Make a call, and again where a busy machine leaves it in doubt; and whether there was nothing wrong with it."""
     calls: list[Call] = []
-    for tried in range(1, TRIES + 1):
+    again = True
+    while again:
         lost_s = _lost_s(run)
         answer = await run.call(SERVICE, TYPE, operands(), limit_s=ANSWER_S)
         lost_s = _lost_s(run) - lost_s
         series = (await bench.facts(quiet)).series
         await next_tick(run, series, answer)
         calls.append(Call(answer, run.now(), lost_s))
-        still = disturbed(run.logs, calls[-1], series)
-        may_be_ours = still and excused(run.logs, calls[-1], series)
-        again = _again(calls[-1], still, may_be_ours, tried) or doubtful(run.logs, calls[-1], series)
-        if answer.response is None or run.exit is not None or not again:
-            break
-    return calls, answer.response is not None and (not still or may_be_ours)
+        again = run.exit is None and to_be_repeated(run.logs, calls, series, most)
+    still = disturbed(run.logs, calls[-1], series)
+    return calls, answer.response is not None and (not still or excused(run.logs, calls[-1], series))
 
 
 async def _serves(run: Run) -> bool:
@@ -135,14 +134,6 @@ def _lost_s(run: Run) -> float:
     return run.starved_s() + run.late_s()
 
 
-def _again(call: Call, still: bool, may_be_ours: bool, tried: int) -> bool:
-    """Whether another call is to tell what the machine, or the first connection, has done from what the node does."""
-    late = call.answer.took_s > LONGEST_S
-    if tried == 1:
-        return still or late
-    return may_be_ours or (late and call.near and call.starved_s > BUSY_S)
-
-
 async def _stuck(bench: Bench, before: CallAnswer) -> tuple[tuple[Frame, ...], bool]:
     """Call once more, only to see where the node is while it works on the call, and whether it spins at all."""
     async with bench.start(FILE) as run:
@@ -163,7 +154,7 @@ async def trio(bench: Bench) -> Trio:
             return Trio(run.trace())
         bench.doing(0.3, f"calling {SERVICE} three times at once")
         made: list[Three] = []
-        for tried in range(1, TRIES):
+        for tried in range(1, CALLS_AT_ONCE_TRIES + 1):
             lost_s = _lost_s(run)
             made.append(Three(await _ask_at_once(run, _different()), _lost_s(run) - lost_s))
             if made[-1].right < CALLS or not _held_up(made[-1]) or (tried > 1 and made[-1].starved_s <= BUSY_S):

@@ -11,7 +11,19 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checks.i2_3.facts import SERVICE, TYPE, Call, Interrupted, Lone, Quiet, Three, Trio
+from checks.i2_3.facts import (
+    MOST_TRIES,
+    SERVICE,
+    TRIES,
+    TYPE,
+    Call,
+    Interrupted,
+    Lone,
+    Quiet,
+    Three,
+    Trio,
+    to_be_repeated,
+)
 from checks.i2_3.judges import (
     judge_blocks,
     judge_concurrent,
@@ -132,6 +144,29 @@ def test_one_late_call_on_a_calm_machine_is_enough() -> None:
         assert_failed(blocks(replace(busy, calls=calls)), "too slow", "4.0 s")
     with pytest.raises(MachineTooBusy):
         blocks(replace(busy, calls=busy.calls * 2))
+
+
+def calls_made(each: Call, logs: Sequence[LogRecord] = (), *, most: int = MOST_TRIES, calm_at: int = 99) -> int:
+    """How often it is called, if every call is like this one; on a calm machine only from the one numbered so on."""
+    made: list[Call] = []
+    while not made or to_be_repeated(logs, made, seen_in(ticking(every=1)), most):
+        made.append(each if len(made) + 1 < calm_at else replace(each, starved_s=0.0))
+    return len(made)
+
+
+def test_calls_go_on_until_one_tells_something() -> None:
+    (good,), (late,) = lone((), starved_s=1.0).calls, lone((), answer(4.1), starved_s=1.0).calls
+    ticks, gap = ticking(every=1, until_s=5.5), ticking(every=1, until_s=5.5, stands_still=(0.5, 2))
+    assert calls_made(replace(good, starved_s=0.0), ticks) == 1
+    assert calls_made(replace(late, starved_s=0.0), ticks) == 2
+    assert calls_made(late, ticks) == calls_made(replace(good, starved_s=0.7), gap) == MOST_TRIES
+    assert calls_made(late, ticks, most=TRIES) == TRIES
+    assert calls_made(late, ticks, calm_at=3) == 3
+    assert calls_made(late, ticks, calm_at=6) == 6
+    assert calls_made(replace(good, starved_s=0.7), gap, calm_at=6) == 6
+    assert calls_made(replace(late, starved_s=0.3), ticks) == TRIES  # each of them tells, another might be in time
+    assert calls_made(replace(late, answer=answer(5.0)), ticks) == 2
+    assert calls_made(replace(late, answer=answer(sum_=None)), ticks) == 1
 
 
 def test_one_wrong_sum_is_wrong() -> None:
