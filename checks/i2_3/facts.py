@@ -27,15 +27,6 @@ LITTLE_S = 0.2
 MOST_EXCUSED_S = 1.0
 """A timer may pause this much longer on a busy machine. With more, one that stands still for 3 s looks like another."""
 
-BUSY_S = 0.1
-"""A machine that has kept the node from running for less than this has not disturbed it."""
-
-TRIES = 4
-"""What only a busy machine can explain is looked at again, at most this often."""
-
-MOST_TRIES = 8
-"""The same, as long as no call has told anything yet. A machine is seldom so busy for all of half a minute."""
-
 ANSWER_S = 12.0
 """A service that answers after some other time than 3 s is told so, up to this one."""
 
@@ -138,6 +129,10 @@ class Three:
         """Seconds from the first request to the last answer."""
         return max(a.answered_at for a in self.answers) - min(a.asked_at for a in self.answers)
 
+    def held_up(self, one_s: float) -> bool:
+        """Whether a busy machine alone may be why they took longer than one call, which takes `one_s` seconds."""
+        return self.took_s < IN_TURN * one_s and self.took_s - self.starved_s < BESIDE * one_s
+
 
 @dataclass(frozen=True)
 class Trio:
@@ -145,6 +140,13 @@ class Trio:
 
     trace: Trace
     made: tuple[Three, ...] = ()
+
+    def tells(self, one_s: float) -> bool:
+        """Whether they show how the node serves calls at once, however busy the machine was.
+
+        What held up the first time only may have been the first connection.
+        """
+        return not all(three.held_up(one_s) for three in self.made[1:] or self.made)
 
 
 @dataclass(frozen=True)
@@ -177,23 +179,6 @@ def doubtful(logs: Sequence[LogRecord], call: Call, series: Sequence[Series]) ->
     if call.starved_s <= LITTLE_S or disturbed(logs, call, series):
         return False
     return disturbed(logs, replace(call, starved_s=LITTLE_S), series)
-
-
-def to_be_repeated(logs: Sequence[LogRecord], calls: Sequence[Call], series: Sequence[Series], most: int) -> bool:
-    """Whether another call is to tell what the machine, or the first connection, has done from what the node does.
-
-    Of more than `TRIES` calls, up to `most`, only where none of them has told anything.
-    """
-    call, tried = calls[-1], len(calls)
-    if call.answer.response is None:
-        return False
-    still, late = disturbed(logs, call, series), call.answer.took_s > LONGEST_S
-    if tried == 1:
-        return still or late or doubtful(logs, call, series)
-    may_be_ours = still and excused(logs, call, series)
-    if tried < TRIES:
-        return may_be_ours or (late and call.near and call.starved_s > BUSY_S) or doubtful(logs, call, series)
-    return tried < most and (may_be_ours or (late and call.near and all(each.busy for each in calls)))
 
 
 def excused(logs: Sequence[LogRecord], call: Call, series: Sequence[Series]) -> bool:

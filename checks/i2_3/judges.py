@@ -10,10 +10,8 @@ from functools import partial
 from checks.i2_3 import causes as why
 from checks.i2_3.facts import (
     ANSWER_S,
-    BESIDE,
     CALLS,
     EXCUSED_S,
-    IN_TURN,
     LONGEST_S,
     PARALLEL,
     SERVICE,
@@ -156,8 +154,7 @@ def judge_parallel(one: Lone, several: Trio) -> Verdict:
     observed = f"one call {one_s:.2f} s, three at once {best.took_s:.2f} s ({best.took_s / one_s:.1f} times)"
     if any(three.took_s < PARALLEL * one_s + min(three.starved_s, EXCUSED_S) for three in several.made):
         return passed(expected, observed)
-    not_in_turn = [three for three in several.made if three.took_s < IN_TURN * one_s]
-    if any(three.took_s - three.starved_s < BESIDE * one_s for three in not_in_turn):
+    if not several.tells(one_s):
         raise MachineTooBusy("this machine is too busy to time three calls at once")
     cause = Cause(
         "one call at a time",

@@ -10,13 +10,9 @@ from dataclasses import replace
 
 from checks.i2_3.facts import (
     ANSWER_S,
-    BUSY_S,
     CALLS,
     FILE,
-    IN_TURN,
-    MOST_TRIES,
     SERVICE,
-    TRIES,
     TYPE,
     WORK_S,
     Call,
@@ -28,10 +24,10 @@ from checks.i2_3.facts import (
     disturbed,
     excused,
     is_there,
-    to_be_repeated,
 )
 from checks.i2_3.listening import listen, may_be_10_hz, next_tick, said_since
-from checks.i2_3.ticks import all_series, likely
+from checks.i2_3.repeats import MOST_TRIES, TRIES, again, again_at_once
+from checks.i2_3.ticks import Series, all_series, likely
 from tutor.judge.bench import Bench, Run
 from tutor.judge.ending import confirmed
 from tutor.judge.trace import CallAnswer
@@ -49,9 +45,6 @@ SPINS_S = 2.5
 
 APART_S = 0.1
 """Of three calls at once, the last comes this much later, so that answers in another order are told from chance."""
-
-CALLS_AT_ONCE_TRIES = 3
-"""Three calls that a busy machine may have held up are made again, at most this often."""
 
 
 @confirmed
@@ -99,17 +92,17 @@ async def _call(
 ) -> tuple[list[Call], bool]:
     """Make a call, and again where a busy machine leaves it in doubt; and whether there was nothing wrong with it."""
     calls: list[Call] = []
-    again = True
-    while again:
+    series: Sequence[Series] = ()
+    while not calls or (run.exit is None and again(run.logs, calls, series, most)):
         lost_s = _lost_s(run)
         answer = await run.call(SERVICE, TYPE, operands(), limit_s=ANSWER_S)
         lost_s = _lost_s(run) - lost_s
         series = (await bench.facts(quiet)).series
         await next_tick(run, series, answer)
         calls.append(Call(answer, run.now(), lost_s))
-        again = run.exit is None and to_be_repeated(run.logs, calls, series, most)
-    still = disturbed(run.logs, calls[-1], series)
-    return calls, answer.response is not None and (not still or excused(run.logs, calls[-1], series))
+    last = calls[-1]
+    well = not disturbed(run.logs, last, series) or excused(run.logs, last, series)
+    return calls, last.answer.response is not None and well
 
 
 async def _serves(run: Run) -> bool:
@@ -154,17 +147,10 @@ async def trio(bench: Bench) -> Trio:
             return Trio(run.trace())
         bench.doing(0.3, f"calling {SERVICE} three times at once")
         made: list[Three] = []
-        for tried in range(1, CALLS_AT_ONCE_TRIES + 1):
+        while not made or again_at_once(Trio(run.trace(), tuple(made))):
             lost_s = _lost_s(run)
             made.append(Three(await _ask_at_once(run, _different()), _lost_s(run) - lost_s))
-            if made[-1].right < CALLS or not _held_up(made[-1]) or (tried > 1 and made[-1].starved_s <= BUSY_S):
-                break
         return Trio(run.trace(), tuple(made))
-
-
-def _held_up(three: Three) -> bool:
-    """Whether they took longer than calls that run in parallel do, and less than calls one after another."""
-    return 1.4 < three.took_s / min(answer.took_s for answer in three.answers) < IN_TURN
 
 
 async def _ask_at_once(run: Run, requests: Sequence[Mapping[str, int]]) -> tuple[CallAnswer, ...]:

@@ -12,9 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from checks.i2_3.facts import (
-    MOST_TRIES,
     SERVICE,
-    TRIES,
     TYPE,
     Call,
     Interrupted,
@@ -22,7 +20,6 @@ from checks.i2_3.facts import (
     Quiet,
     Three,
     Trio,
-    to_be_repeated,
 )
 from checks.i2_3.judges import (
     judge_blocks,
@@ -34,6 +31,7 @@ from checks.i2_3.judges import (
 )
 from checks.i2_3.listening import said_since
 from checks.i2_3.pace import Fault, during
+from checks.i2_3.repeats import MOST_AT_ONCE_TRIES, MOST_TRIES, TRIES, again, again_at_once
 from checks.i2_3.ticks import Series, all_series, likely
 from tests.checks.made import (
     CRASHED,
@@ -149,7 +147,7 @@ def test_one_late_call_on_a_calm_machine_is_enough() -> None:
 def calls_made(each: Call, logs: Sequence[LogRecord] = (), *, most: int = MOST_TRIES, calm_at: int = 99) -> int:
     """How often it is called, if every call is like this one; on a calm machine only from the one numbered so on."""
     made: list[Call] = []
-    while not made or to_be_repeated(logs, made, seen_in(ticking(every=1)), most):
+    while not made or again(logs, made, seen_in(ticking(every=1)), most):
         made.append(each if len(made) + 1 < calm_at else replace(each, starved_s=0.0))
     return len(made)
 
@@ -173,7 +171,7 @@ def test_one_wrong_sum_is_wrong() -> None:
     assert_failed(blocks(lone((), answer(3.6), answer(3.0, sum_=9))), "wrong sum", "9 instead of 8")
 
 
-def again(*called: CallAnswer, starved_s: float = 0.0) -> Lone:
+def called_again(*called: CallAnswer, starved_s: float = 0.0) -> Lone:
     """A first call with nothing wrong, and these as the second one."""
     return replace(lone(), later=lone((), *called, starved_s=starved_s).calls)
 
@@ -182,19 +180,21 @@ def again(*called: CallAnswer, starved_s: float = 0.0) -> Lone:
     ("called", "cause"), [(answer(sum_=9), "wrong sum"), (answer(0.01), "too quick"), (answer(5.0), "too slow")]
 )
 def test_the_second_call_counts_too(called: CallAnswer, cause: str) -> None:
-    assert_passed(blocks(again(answer())))
-    assert_failed(blocks(again(called)), cause)
-    assert blocks(again(called)).observed.startswith("the second call: ")
+    assert_passed(blocks(called_again(answer())))
+    assert_failed(blocks(called_again(called)), cause)
+    assert blocks(called_again(called)).observed.startswith("the second call: ")
 
 
 def test_what_calls_at_once_show_as_well_is_not_told_twice() -> None:
     for called in (answer(sum_=9), answer(sum_=None)):
-        assert_failed(blocks(again(called), three(1005, 2005, 3005)), "wrong sum" if called.response else "no answer")
-        assert_passed(blocks(again(called), three(1005, None, 3005)))
+        assert_failed(
+            blocks(called_again(called), three(1005, 2005, 3005)), "wrong sum" if called.response else "no answer"
+        )
+        assert_passed(blocks(called_again(called), three(1005, None, 3005)))
 
 
 def test_a_second_call_on_a_busy_machine_takes_nothing_back() -> None:
-    assert_passed(blocks(again(answer(4.2), starved_s=1.0)))
+    assert_passed(blocks(called_again(answer(4.2), starved_s=1.0)))
 
 
 @pytest.mark.parametrize(
@@ -506,6 +506,41 @@ def test_parallel() -> None:
     with pytest.raises(MachineTooBusy):
         judge_parallel(lone(), three(*sums, took_s=(3.0, 3.0, 6.0), starved_s=2.6))
     assert_failed(judge_parallel(lone(), three(*sums, took_s=(3.0, 6.0, 9.0), starved_s=5.0)), "one call at a time")
+
+
+def test_three_on_a_calm_machine_are_enough_to_tell() -> None:
+    (calm,), (busy,) = two_at_a_time(0.3).made, two_at_a_time(3.0).made
+    for made in ((calm,), (calm, calm), (busy, calm), (busy, calm, busy)):
+        assert_failed(judge_parallel(lone(), Trio(trace(graph=SERVING), made)), "one call at a time", "2.0 times")
+    for made in ((busy,), (busy, busy), (calm, busy, busy)):  # the first may have been held up by the connection
+        with pytest.raises(MachineTooBusy):
+            judge_parallel(lone(), Trio(trace(graph=SERVING), made))
+
+
+def two_at_a_time(starved_s: float) -> Trio:
+    return three(1005, 2005, 3005, took_s=(3.0, 3.0, 6.0), starved_s=starved_s)
+
+
+@pytest.mark.parametrize(
+    ("starved_s", "times"),
+    [
+        ((0.0, 0.0), 2),
+        ((3.0, 0.0), 2),
+        ((0.3, 0.3, 0.3), 3),
+        ((3.0, 3.0, 0.3), 3),
+        ((3.0, 3.0, 3.0, 0.3), 4),
+        ((0.3, 3.0, 3.0, 3.0, 0.3), 5),
+        ((3.0,) * 6, MOST_AT_ONCE_TRIES),
+    ],
+)
+def test_calls_at_once_go_on_until_they_tell_something(starved_s: Sequence[float], times: int) -> None:
+    made = tuple(three_ for each in starved_s for three_ in two_at_a_time(each).made)
+    repeated = [again_at_once(Trio(trace(graph=SERVING), made[:n])) for n in range(1, len(made) + 1)]
+    assert repeated == [True] * (times - 1) + [False]
+    good, serial = three(1005, 2005, 3005, starved_s=3.0), three(1005, 2005, 3005, took_s=(3, 6, 9), starved_s=3.0)
+    assert not again_at_once(good)
+    assert not again_at_once(serial)
+    assert not again_at_once(three(1005, None, 3005, took_s=(3.0, 3.0, 6.0), starved_s=3.0))
 
 
 def test_shutdown() -> None:
