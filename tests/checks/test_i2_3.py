@@ -11,16 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checks.i2_3.facts import (
-    SERVICE,
-    TYPE,
-    Call,
-    Interrupted,
-    Lone,
-    Quiet,
-    Three,
-    Trio,
-)
+from checks.i2_3.facts import SERVICE, TYPE, Call, Interrupted, Lone, Quiet, Three, Trio
 from checks.i2_3.judges import (
     judge_blocks,
     judge_concurrent,
