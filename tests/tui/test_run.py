@@ -9,6 +9,7 @@ import pytest
 
 from tests.tui import made
 from tutor.tui.node import Phase
+from tutor.tui.widgets.code_pane import CodePane
 from tutor.tui.widgets.line_view import Row
 from tutor.tui.widgets.log_view import _wrapped
 
@@ -108,7 +109,10 @@ async def test_a_node_is_run_with_the_parameters_and_remaps_of_the_learners_choi
 
 async def test_a_save_restarts_the_node_where_that_is_wanted(learner: Any) -> None:
     async with learner() as me:
-        me.file.write_text(ECHO + made.NODE)
+        me.file.write_text(text := ECHO + made.NODE)
+        pane = me.main.query_one(CodePane)
+        # Else the node is started anew for it, and the log is shown, while we edit.
+        await me.until(lambda: pane.knows(me.file) and pane.text(me.file) == text, "the new text is noticed")
         await me.press("W")
         await me.sees("a save restarts")
         await me.press("r")
