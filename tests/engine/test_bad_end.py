@@ -27,14 +27,21 @@ def spin_on():
     executor = SingleThreadedExecutor(context=context)
     context.shutdown()
     executor.spin_once()
+def try_shutdown():
+    raise RuntimeError("failed to shutdown: rcl_shutdown already called on the given context")
 ends = pathlib.Path(__file__).with_name("ends")
 with ends.open("a") as file:
     file.write(".")
 if len(ends.read_text()) in {}:
     {}
+{}
 """
 CRASH = "os.kill(os.getpid(), signal.SIGSEGV)"
 SPIN_ON = "spin_on()"
+RACE = "try_shutdown()"
+# By chance it raises, as `try_shutdown` does above, and what we add to the file would not be reached.
+TRIES = "rclpy.try_shutdown()"
+TRIES_SAFELY = "with __import__('contextlib').suppress(RuntimeError): rclpy.try_shutdown()"
 SCENARIOS = [
     ("i1.1", "survey"),
     ("i1.2", "steady"),
@@ -46,7 +53,13 @@ SCENARIOS = [
 
 
 async def ends(
-    ros: RosEnvironment, folder: Path, exercise: str, scenario: str, which: tuple[int, ...], does: str
+    ros: RosEnvironment,
+    folder: Path,
+    exercise: str,
+    scenario: str,
+    which: tuple[int, ...],
+    does: str,
+    else_does: str = "",
 ) -> Any:
     """The facts of a scenario of this exercise, done to its solution, which at these ends (from 1) does this."""
     from tutor.engine.bench import LiveBench
@@ -54,7 +67,9 @@ async def ends(
     files = {}
     for name, path in solution(load_course().find(exercise)).files.items():
         files[name] = folder / name
-        files[name].write_text(path.read_text() + CRASHES.format(which, does))
+        text = path.read_text()
+        assert text.count(TRIES) == 1, path
+        files[name].write_text(text.replace(TRIES, TRIES_SAFELY) + CRASHES.format(which, does, else_does))
     bench = LiveBench(Submission(exercise, files), ros, nothing_shared, lambda fraction, text: None)
     scenarios = importlib.import_module(f"checks.{exercise.replace('.', '_')}.scenarios")
     return await getattr(scenarios, scenario)(bench)
@@ -87,6 +102,19 @@ async def test_a_second_spin_after_the_end_is_not(scene: Scene) -> None:
     seen = await ends(scene.ros, scene.folder, "i1.3", "survey", (1, 2), SPIN_ON)
     verdict = judge(seen.trace, seen.ending)
     assert "RCLError: failed to initialize wait set" in str(verdict.cause), verdict
+    assert (scene.folder / "ends").read_text() == ".."
+
+
+async def test_what_a_race_in_rclpy_hid_is_seen(scene: Scene) -> None:
+    seen = await ends(scene.ros, scene.folder, "i1.3", "survey", (1,), RACE, "raise SystemExit(3)")
+    verdict = judge(seen.trace, seen.ending)
+    assert "exit code 3" in str(verdict.cause), verdict
+    assert (scene.folder / "ends").read_text() == "..."
+
+
+async def test_a_race_in_rclpy_each_time_is_forgiven(scene: Scene) -> None:
+    seen = await ends(scene.ros, scene.folder, "i1.3", "survey", (1, 2), RACE)
+    assert judge(seen.trace, seen.ending).passed
     assert (scene.folder / "ends").read_text() == ".."
 
 

@@ -139,6 +139,8 @@ def test_the_last_words_are_shown() -> None:
         ended(0, err=SPUN_ON),
         ended(1, err=SPUN_ON),
         ended(1, err=SPUN_ON.replace("initialize wait set", "create timer")),
+        ended(1, err=TRY_SHUTDOWN_RACE),
+        ended(1, err=f"{SPUN_ON}\n{TRY_SHUTDOWN_RACE}"),
     ],
 )
 def test_what_may_be_chance_is_to_be_seen_again(end: Ending) -> None:
@@ -157,6 +159,7 @@ def test_what_may_be_chance_is_to_be_seen_again(end: Ending) -> None:
         ended(still_there=True),
         ended(signal=6, err=KEYBOARD_INTERRUPT),
         ended(1, err=f"{SPUN_ON}\n{KEYBOARD_INTERRUPT}"),
+        ended(1, err=f"{TRY_SHUTDOWN_RACE}\n{KEYBOARD_INTERRUPT}"),
         ended(1, err=SHUTDOWN_TWICE),
         ended(1, err=PUBLISH_AFTER),
         ended(1, err=SPUN_ON.replace("executors.py", "publisher.py")),
