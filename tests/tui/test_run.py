@@ -111,7 +111,7 @@ async def test_a_save_restarts_the_node_where_that_is_wanted(learner: Any) -> No
     async with learner() as me:
         me.file.write_text(text := ECHO + made.NODE)
         pane = me.main.query_one(CodePane)
-        # Else the node is started anew for it, and the log is shown, while we edit.
+        # Else the node is started anew for it, once more than this test looks for.
         await me.until(lambda: pane.knows(me.file) and pane.text(me.file) == text, "the new text is noticed")
         await me.press("W")
         await me.sees("a save restarts")
@@ -123,6 +123,22 @@ async def test_a_save_restarts_the_node_where_that_is_wanted(learner: Any) -> No
         await me.until(lambda: me.node is not before and me.node.state.phase is Phase.RUNNING, "run anew")
         assert before.over.is_set()
         await me.until(lambda: "the sensor is warm" in me.screen())
+
+
+async def test_a_change_from_outside_restarts_the_node_and_leaves_who_types_at_their_line(learner: Any) -> None:
+    async with learner() as me:
+        await me.press("W", "r")
+        await me.sees("the sensor is warm")
+        before = me.node
+        await me.edits()
+        me.file.write_text(ECHO + made.NODE)
+        await me.until(lambda: me.node is not before and me.node.state.phase is Phase.RUNNING, "run anew")
+        await me.until(lambda: any("pid" in line.text for line in me.node.state.lines), "the new file's")
+        assert me.main.page == "code"
+        assert me.app.focused is me.editor
+        await me.press("escape", "1")
+        me.file.write_text(made.NODE)
+        await me.sees("the sensor is warm")
 
 
 async def test_the_log_is_filtered_paused_and_cleared(learner: Any) -> None:

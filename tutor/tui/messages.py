@@ -31,11 +31,15 @@ class CheckOver(Message):
 
 @dataclass
 class NodeChanged(Message):
-    """A node of the learner's has said something, or its state has changed. `first`: it was started just now."""
+    """A node of the learner's has said something, or its state has changed.
+
+    `first`: it was started just now. `unasked`: not by a key of theirs, but because its file was changed outside.
+    """
 
     path: Path
     state: NodeState
     first: bool = False
+    unasked: bool = False
 
 
 @dataclass
@@ -55,9 +59,10 @@ class FileTouched(Message):
 
 @dataclass
 class FileSaved(Message):
-    """A file has new content on the disk, on purpose: saved by the learner here, or in an editor of theirs."""
+    """A file has new content on the disk, on purpose: saved by the learner, here or (`outside`) in another editor."""
 
     path: Path
+    outside: bool = False
 
 
 @dataclass

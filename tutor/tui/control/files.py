@@ -111,7 +111,7 @@ class Files:
         self._disk[path] = text
         if known is not None:
             self._stage.say(f"{path.name} was changed outside: this is the new version.")
-            self._stage.post_message(messages.FileSaved(path))
+            self._stage.post_message(messages.FileSaved(path, outside=True))
         self._stage.refresh_bindings()
 
     async def _conflict(self, path: Path, theirs: str) -> None:

@@ -83,7 +83,7 @@ class Nodes:
             return
         for file in session.lesson.files:
             if self._alive(session.desk.path(file)):
-                self._start(session.lesson, file)
+                self._start(session.lesson, file, unasked=message.outside)
 
     def switch_restart(self) -> None:
         """Switch restarting on save."""
@@ -92,12 +92,12 @@ class Nodes:
         self._stage.say("Each save now restarts your node." if on else "A save no longer restarts your node.")
         self._stage.refresh_bindings()
 
-    def _start(self, lesson: Lesson, file: LessonFile) -> None:
+    def _start(self, lesson: Lesson, file: LessonFile, *, unasked: bool = False) -> None:
         path = self._stage.session.desk.path(file)
         self._wanted[path] = self._wanted.get(path, 0) + 1
-        self._stage.work(self._run, lesson, file, path, self._wanted[path], group="node")
+        self._stage.work(self._run, lesson, file, path, self._wanted[path], unasked, group="node")
 
-    async def _run(self, lesson: Lesson, file: LessonFile, path: Path, number: int) -> None:
+    async def _run(self, lesson: Lesson, file: LessonFile, path: Path, number: int, unasked: bool) -> None:
         session = self._stage.session
         others = [node for other, node in self.known.items() if node.state.alive and other not in session.paths]
         for node in others:
@@ -123,7 +123,7 @@ class Nodes:
                 return
             node = Node(command, lambda state: self._stage.post_message(messages.NodeChanged(path, state)))
             self.known[path], self.latest = node, path
-            self._stage.post_message(messages.NodeChanged(path, node.state, first=True))
+            self._stage.post_message(messages.NodeChanged(path, node.state, first=True, unasked=unasked))
             await node.run()
 
     # --- how it is run ---

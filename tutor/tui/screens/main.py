@@ -37,6 +37,7 @@ from tutor.tui.session import Session
 from tutor.tui.widgets.code_pane import CodePane
 from tutor.tui.widgets.criteria import CriteriaPanel
 from tutor.tui.widgets.diagnosis import Diagnosis
+from tutor.tui.widgets.editor import CodeEditor
 from tutor.tui.widgets.key_footer import KeyFooter
 from tutor.tui.widgets.lesson_list import LessonList, LessonRow
 from tutor.tui.widgets.lesson_view import LessonView
@@ -248,7 +249,8 @@ class MainScreen(Stage):
 
     @on(messages.NodeChanged)
     def _node_changed(self, message: messages.NodeChanged) -> None:
-        if message.first:
+        typing = isinstance(self.focused, CodeEditor)
+        if message.first and not (message.unasked and typing):  # who types is not taken away from their line
             self.show_page("log")
         if message.path == self.nodes.shown:
             self._log.show(message.state, domain_id(), self.session.paths)
