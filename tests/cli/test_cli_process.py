@@ -86,24 +86,34 @@ def env(home: Path) -> dict[str, str]:
     return {**{key: value for key, value in os.environ.items() if key not in quiet}, "TERM": "xterm-256color"}
 
 
+# As much of the standard library as takes the processor 0.17 s where `list` takes as long.
+YARDSTICK = "import unittest.mock, http.server, xml.dom.minidom, concurrent.futures, logging.config"
+
+
+def used_s(program: str) -> tuple[float, str]:
+    """The seconds of the processor that this Python program uses, and what it prints."""
+    process = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, text=True)
+    assert process.stdout is not None
+    output = process.stdout.read()
+    process.stdout.close()
+    _, status, used = os.wait4(process.pid, 0)
+    process.returncode = os.waitstatus_to_exitcode(status)  # it is waited for: the object must not do so again
+    assert process.returncode == 0
+    return used.ru_utime + used.ru_stime, output
+
+
 def test_list_needs_neither_ros_nor_the_terminal_app_and_is_quick() -> None:
     program = (
         "import sys; from tutor.cli import main; code = main(['list']); "
         "print(sorted({'rclpy', 'textual', 'rich', 'asyncio', 'tutor.ros', 'tutor.engine'} & set(sys.modules))); "
         "sys.exit(code)"
     )
-    used_s: list[float] = []
-    while not used_s or (used_s[-1] >= 0.3 and len(used_s) < 5):  # a busy machine only ever makes it more
-        process = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, text=True)
-        assert process.stdout is not None
-        output = process.stdout.read()
-        process.stdout.close()
-        _, status, used = os.wait4(process.pid, 0)
-        process.returncode = os.waitstatus_to_exitcode(status)  # it is waited for: the object must not do so again
-        assert process.returncode == 0
+    shares: list[float] = []
+    while not shares or (shares[-1] >= 1.7 and len(shares) < 5):  # what runs beside it may meet the one only
+        took_s, output = used_s(program)
         assert output.splitlines()[-1] == "[]"
-        used_s.append(used.ru_utime + used.ru_stime)
-    assert min(used_s) < 0.3  # seconds of the processor
+        shares.append(took_s / used_s(YARDSTICK)[0])
+    assert min(shares) < 1.7  # 0.3 s of this machine's processor where it is calm; the same work takes twice that else
 
 
 def test_without_a_terminal_nothing_is_coloured_or_drawn() -> None:
