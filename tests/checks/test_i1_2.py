@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+from bisect import bisect_right
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 
@@ -969,6 +970,17 @@ def test_wrong_ones(node: Callable[[], Counter], criterion: str, cause: str) -> 
     if cause == "summary for every message":  # no time has passed at the first message
         verdicts.pop("rate")
     assert_breaks(verdicts, criterion, cause)
+
+
+def test_a_late_summary_of_a_wrong_count_is_no_missing_one() -> None:
+    even = steady(CountsFromOne())
+    after_9, *others = even.trace.logs
+    assert bisect_right([each.at for each in even.sent], after_9.stamp) == 9
+    late = replace(after_9, stamp=even.sent[9].at + 0.01)
+    seen = replace(even, trace=replace(even.trace, logs=(late, *others)))
+    assert_failed(judges.judge_count(seen, jump(CountsFromOne())), "off by one")
+    verdict = judges.judge_summary(seen, jump(CountsFromOne()))
+    assert verdict.status is Status.SKIPPED, verdict
 
 
 @pytest.mark.parametrize("starved_s", [0.0, 0.02, 2.0])
