@@ -42,32 +42,33 @@ def counts_truly(*feedings: Feeding) -> bool:
 def true_total(report: Report, feeding: Feeding, *, before: int = 0) -> int:
     """The true total that a summary states, when the first `before` messages do not count; 0 where it states none.
 
-    One that comes later than its message must also quote the message that it has counted last. Then it may be as late
-    as it likes: that is no matter of the count.
+    One that comes later than its message must quote no newer one: which of the older ones it quotes as the last is no
+    matter of the count. One that also quotes the message that it has counted last may be as late as it likes.
     """
     true = totals(report, feeding, before=before)
     for total in true:
-        late = report.messages > before + total
-        if report.states(total) and (not late or _made_at(before + total, report, feeding, before=before) is not False):
+        if report.states(total) and not _newer(before + total, feeding, report.until).intersection(report.quoted):
             return total
     before_that = {*range(EVERY, true.start, EVERY), *range(max(1, true.start - EVERY), true.start)}
     held_back = [total for total in sorted(before_that) if report.states(total)]
     return next((t for t in held_back if _made_at(before + t, report, feeding, before=before)), 0)
 
 
-def _made_at(messages: int, report: Report, feeding: Feeding, *, before: int) -> bool | None:
-    """Whether what it quotes had come by then, the last of so many messages too; None where it quotes nothing recent.
+def _newer(messages: int, feeding: Feeding, until: int) -> set[int]:
+    """The numbers that came after so many messages, until so many had been sent.
 
     A new publisher sends some numbers once more: what was there before is none of the newer ones.
     """
+    old = {each.number for each in feeding.sent[:messages]}
+    return {each.number for each in feeding.sent[messages:until]} - old
+
+
+def _made_at(messages: int, report: Report, feeding: Feeding, *, before: int) -> bool:
+    """Whether what it quotes had come by then, the last of so many messages too."""
     sent, quoted = feeding.sent, list(report.quoted)
-    old = {each.number for each in sent[:messages]}
-    newer = {each.number for each in sent[messages : report.until]} - old
     for first in {sent[0].number, sent[before].number}.intersection(quoted):
         quoted.remove(first)
-    if not {each.number for each in sent[before + 1 : report.until]}.intersection(quoted):
-        return None
-    return sent[messages - 1].number in quoted and not newer.intersection(quoted)
+    return sent[messages - 1].number in quoted and not _newer(messages, feeding, report.until).intersection(quoted)
 
 
 def _why_miscounted(report: Report, feeding: Feeding) -> Cause:

@@ -657,6 +657,17 @@ class CountsFromOne(Counter):
         yield from super().take(now, data)
 
 
+class ForgetsOne(Counter):
+    """Says 10 when the eleventh message comes."""
+
+    def take(self, now: float, data: str) -> Iterator[Log]:
+        self.total -= not self.first
+        yield from super().take(now, data)
+
+    def summary(self) -> Iterator[Log]:
+        yield from super().summary() if self.total else ()
+
+
 class Alarmed(Counter):
     """An alarm with each message."""
 
@@ -981,6 +992,17 @@ def test_a_late_summary_of_a_wrong_count_is_no_missing_one() -> None:
     assert_failed(judges.judge_count(seen, jump(CountsFromOne())), "off by one")
     verdict = judges.judge_summary(seen, jump(CountsFromOne()))
     assert verdict.status is Status.SKIPPED, verdict
+
+
+@pytest.mark.parametrize("late_s", [0.0005, 0.15, 0.24, 0.3])
+def test_a_late_summary_with_an_older_last_message_counts_truly(late_s: float) -> None:
+    assert_breaks(judged(Behind, late_s=late_s), "summary", "last message missing")
+
+
+@pytest.mark.parametrize("late_s", [0.0005, 0.15, 0.24, 0.3])
+def test_a_late_summary_with_a_newer_last_message_counts_too_few(late_s: float) -> None:
+    verdict = judges.judge_count(steady(ForgetsOne(), late_s=late_s), jump(ForgetsOne(), late_s=late_s))
+    assert verdict.status is Status.FAILED, verdict
 
 
 @pytest.mark.parametrize("starved_s", [0.0, 0.02, 2.0])
