@@ -8,7 +8,7 @@ from math import inf
 
 from checks.i1_2.facts import EVERY, STALL_S, Feeding
 from checks.i1_2.reading import Number
-from checks.i1_2.reports import Report, find, milestone, slots
+from checks.i1_2.reports import Report, find, milestone, slots, totals
 from tutor.judge.rates import TOLERANCE
 from tutor.judge.verdict import Cause
 
@@ -21,6 +21,12 @@ SLOWEST_S = 1.97
 
 FEW = 5
 """The shortest window, in messages, over which a rate is taken."""
+
+CUT_S = 0.01
+"""A rate is one by whole seconds if it makes them whole by so much: it is often written with two digits."""
+
+SAME_S = 0.2
+"""Two times that are measured from here are the same if they differ by less."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,7 +142,7 @@ def why_wrong(report: Report, reports: Sequence[Report], feeding: Feeding) -> Ca
     """What kind of mistake leads to the numbers in this one of the reports, which states no true rate."""
     hint = "self.total_count / (time.time() - self.start_time), where start_time is when the first message came"
     true = true_rates(report, feeding)
-    found = _but_the_count(report)
+    found = _but_the_count(report, feeding)
     for number in found:
         if number.value > 0 and 1 / number.value in true:
             return Cause(
@@ -149,35 +155,64 @@ def why_wrong(report: Report, reports: Sequence[Report], feeding: Feeding) -> Ca
             return Cause("rate per minute", f"{number.text} is messages per minute", hint)
         if any(number.value * by in true for by in (1e-3, 1e3, 1e6, 1e9)):
             return Cause("rate in another unit", f"{number.text} is off by a factor of a thousand, or of several", hint)
-    waited = [_waited_s(each, feeding) for each in reports]
-    for number, before in _waited_s(report, feeding):
-        if before > 0.7 and all(any(abs(before - same) < 0.2 for _, same in each) for each in waited):
+    waited = [_waited(each, feeding) for each in reports]
+    for number, span in _waited(report, feeding):
+        if span.high > 0.7 and all(any(span.meets(same) for _, same in each) for each in waited):
             return Cause(
                 "counted from the node's start",
-                f"{number.text} is right if the clock starts {before:.1f} s before the first message",
+                f"{number.text} is right if the clock starts {span.high:.1f} s before the first message",
                 "set self.start_time in the callback, when the first message comes, not in __init__",
             )
-    for number, before in _waited_s(report, feeding):
-        elapsed = report.at - feeding.sent[0].at
-        if abs(elapsed + before - max(int(elapsed), 1)) < 0.01:
-            return Cause(
-                "seconds cut off",
-                f"{number.text} is {report.messages} messages in {int(elapsed)} s, but it took {elapsed:.1f} s",
-                "keep the elapsed time as a float: no int(), and no //",
-            )
+    if all(_cut(each, feeding) for each in reports):
+        number, whole_s = _cut(report, feeding)[0]
+        return Cause(
+            "seconds cut off",
+            f"{number.text} is {_count(report, feeding)} messages in {whole_s} s, but it took longer",
+            "keep the elapsed time as a float: no int(), and no //",
+        )
     if not found:
         return Cause("no rate", "there is no other number than the count in it", hint)
     return Cause("wrong rate", f"none of {', '.join(number.text for number in found)} is the rate", hint)
 
 
-def _waited_s(report: Report, feeding: Feeding) -> list[tuple[Number, float]]:
-    """For each number, if it were a rate: how long before the first message the clock was started, in seconds."""
-    elapsed = report.at - feeding.sent[0].at
-    positive = [number for number in _but_the_count(report) if number.value > 0]
-    return [(number, report.messages / number.value - elapsed) for number in positive]
+def _cut(report: Report, feeding: Feeding) -> list[tuple[Number, int]]:
+    """The numbers that are its messages by whole seconds, and how many these are."""
+    count, since = _count(report, feeding), feeding.sent[0].at
+    spans = {max(int(at - since), 1) for at in (feeding.sent[count - 1].at, report.at)}
+    positive = [number for number in _but_the_count(report, feeding) if number.value > 0]
+    return [(number, span) for number in positive for span in spans if abs(count / number.value - span) < CUT_S]
 
 
-def _but_the_count(report: Report) -> list[Number]:
+@dataclass(frozen=True, slots=True)
+class _Span:
+    """A time in seconds, as far as it is known."""
+
+    low: float
+    high: float
+
+    def meets(self, other: _Span) -> bool:
+        """Whether both may be the same."""
+        return self.low - other.high < SAME_S and other.low - self.high < SAME_S
+
+
+def _waited(report: Report, feeding: Feeding) -> list[tuple[Number, _Span]]:
+    """For each number, if it were a rate: how long before the first message the clock was started.
+
+    The node stopped it when the last message that it counts came, or when it wrote the summary, or in between.
+    """
+    count, since = _count(report, feeding), feeding.sent[0].at
+    soonest, latest = feeding.sent[count - 1].at - since, report.at - since
+    spans = ((number, count / number.value) for number in _but_the_count(report, feeding) if number.value > 0)
+    return [(number, _Span(span - latest, span - soonest)) for number, span in spans]
+
+
+def _count(report: Report, feeding: Feeding) -> int:
+    """How many messages it is made of: the true total that it states, or all that had come."""
+    return next((total for total in totals(report, feeding) if report.states(total)), report.messages)
+
+
+def _but_the_count(report: Report, feeding: Feeding) -> list[Number]:
     """The numbers in the report, without the one that is its count."""
-    count = next((number for number in report.numbers if number.value == report.messages), None)
+    made_of = _count(report, feeding)
+    count = next((number for number in report.numbers if number.value == made_of), None)
     return [number for number in report.numbers if number is not count]

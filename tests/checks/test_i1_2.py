@@ -600,6 +600,18 @@ def test_summaries_that_state_something_else(breaks: str, node: type[Counter]) -
     assert_breaks(judged(node), criterion, cause)
 
 
+@pytest.mark.parametrize("wrong", [each for each in STATES_WRONG if each.startswith("rate: ")])
+@pytest.mark.parametrize("late", [slice(0, 1), slice(1, 2)])
+def test_what_is_wrong_with_the_rate_of_a_late_summary(wrong: str, late: slice) -> None:
+    for node in STATES_WRONG[wrong]:
+        even = steady(node())
+        assert len(even.trace.logs) == 2
+        logs = list(even.trace.logs)
+        logs[late] = [replace(log, stamp=log.stamp + 0.25) for log in logs[late]]
+        seen = replace(even, trace=replace(even.trace, logs=tuple(logs)))
+        assert_failed(judges.judge_rate(seen, jump(node())), wrong.removeprefix("rate: "))
+
+
 class LastIsTheHighest(Counter):
     """Takes the highest N for the last one, and after a restart N is low."""
 
