@@ -47,28 +47,37 @@ def true_total(report: Report, feeding: Feeding, *, before: int = 0) -> int:
     """
     true = totals(report, feeding, before=before)
     for total in true:
-        if report.states(total) and not _newer(before + total, feeding, report.until).intersection(report.quoted):
+        late = report.messages > before + total
+        if report.states(total) and (not late or _may_be_of(before + total, report, feeding, before=before)):
             return total
     before_that = {*range(EVERY, true.start, EVERY), *range(max(1, true.start - EVERY), true.start)}
     held_back = [total for total in sorted(before_that) if report.states(total)]
-    return next((t for t in held_back if _made_at(before + t, report, feeding, before=before)), 0)
+    return next((t for t in held_back if _is_of(before + t, report, feeding, before=before)), 0)
 
 
-def _newer(messages: int, feeding: Feeding, until: int) -> set[int]:
-    """The numbers that came after so many messages, until so many had been sent.
+def _may_be_of(messages: int, report: Report, feeding: Feeding, *, before: int) -> bool:
+    """Whether nothing that it quotes tells against its being made when so many messages had come."""
+    newer = {each.number for each in feeding.sent[messages : report.until]}
+    later = newer.intersection(_quoted_but_first(report, feeding, before=before))
+    return not later or _is_of(messages, report, feeding, before=before)
+
+
+def _is_of(messages: int, report: Report, feeding: Feeding, *, before: int) -> bool:
+    """Whether it quotes the last of so many messages, and what it quotes had come by then.
 
     A new publisher sends some numbers once more: what was there before is none of the newer ones.
     """
-    old = {each.number for each in feeding.sent[:messages]}
-    return {each.number for each in feeding.sent[messages:until]} - old
+    sent, quoted = feeding.sent, _quoted_but_first(report, feeding, before=before)
+    newer = {each.number for each in sent[messages : report.until]} - {each.number for each in sent[:messages]}
+    return sent[messages - 1].number in quoted and not newer.intersection(quoted)
 
 
-def _made_at(messages: int, report: Report, feeding: Feeding, *, before: int) -> bool:
-    """Whether what it quotes had come by then, the last of so many messages too."""
-    sent, quoted = feeding.sent, list(report.quoted)
-    for first in {sent[0].number, sent[before].number}.intersection(quoted):
+def _quoted_but_first(report: Report, feeding: Feeding, *, before: int) -> list[int]:
+    """What it quotes, without a first message."""
+    quoted = list(report.quoted)
+    for first in {feeding.sent[0].number, feeding.sent[before].number}.intersection(quoted):
         quoted.remove(first)
-    return sent[messages - 1].number in quoted and not _newer(messages, feeding, report.until).intersection(quoted)
+    return quoted
 
 
 def _why_miscounted(report: Report, feeding: Feeding) -> Cause:

@@ -799,6 +799,17 @@ class SilentReset(Restarting):
         yield from (log for log in super().take(now, data) if "restarted" not in log[1])
 
 
+class DropsTheFirstAfterRestart(Restarting):
+    """Starts over, and says so, but does not count the message that told it."""
+
+    def take(self, now: float, data: str) -> Iterator[Log]:
+        number = int(data.split(":")[1])
+        fallen = self.number is not None and number < self.number
+        yield from super().take(now, data)
+        if fallen:
+            self.total, self.first = 0, ""
+
+
 class SilentResetWithGapCount(SilentReset):
     """The gap count stays what it is, and is no word of a restart."""
 
@@ -1009,6 +1020,12 @@ def test_a_late_summary_of_a_wrong_count_is_no_missing_one() -> None:
 @pytest.mark.parametrize("late_s", [0.0005, 0.15, 0.24, 0.3])
 def test_a_late_summary_with_an_older_last_message_counts_truly(late_s: float) -> None:
     assert_breaks(judged(Behind, late_s=late_s), "summary", "last message missing")
+
+
+@pytest.mark.parametrize("late_s", [0.0005, 0.05, 0.1])
+def test_who_drops_the_first_message_after_a_restart_counts_too_few(late_s: float) -> None:
+    verdicts = judged(DropsTheFirstAfterRestart, late_s=late_s)
+    assert_breaks(verdicts, "restart", "wrong count after a restart")
 
 
 @pytest.mark.parametrize("late_s", [0.0005, 0.15, 0.24, 0.3])
