@@ -11,7 +11,7 @@ from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
 from typing import Any
 
-from tutor.ros.isolation import ports_of_checks
+from tutor.ros.isolation import ports_of_checks, ports_of_this_process
 
 FIRST, LAST = 1, 100
 _UDP_TABLES = (Path("/proc/net/udp"), Path("/proc/net/udp6"))
@@ -57,9 +57,22 @@ def reserve_domain() -> Iterator[int]:
 def busy_domains() -> frozenset[int]:
     """The domain ids of which something on this machine has bound a UDP port that a check would use."""
     first, per_domain = ports_of_checks()
-    ports = (port for table in _UDP_TABLES if table.exists() for port in _bound_ports(table.read_text()))
-    ids = ((port - first) // per_domain for port in ports)
+    ids = ((port - first) // per_domain for port in _all_bound_ports())
     return frozenset(domain for domain in ids if 0 <= domain <= LAST)
+
+
+def participants_here(domain_id: int) -> int | None:
+    """How many DDS participants of a domain there are on this machine, by the ports that they have bound.
+
+    A participant is a process, mostly; one that this process has counts, too. None where the ports cannot be known.
+    """
+    layout = ports_of_this_process()
+    if layout is None or not any(table.exists() for table in _UDP_TABLES):
+        return None
+    first, per_domain = layout
+    offsets = {port - first - per_domain * domain_id for port in _all_bound_ports()}
+    # The ports of participant i for discovery and for data, as RTPS numbers them.
+    return sum(10 + 2 * i in offsets and 11 + 2 * i in offsets for i in range((per_domain - 10) // 2))
 
 
 def free_domains() -> frozenset[int]:
@@ -105,6 +118,10 @@ def _next_round() -> list[int]:
 def _users_domain() -> frozenset[int]:
     given = os.environ.get("ROS_DOMAIN_ID", "")
     return frozenset({int(given)}) if given.isdecimal() else frozenset()
+
+
+def _all_bound_ports() -> Iterator[int]:
+    return (port for table in _UDP_TABLES if table.exists() for port in _bound_ports(table.read_text()))
 
 
 def _bound_ports(table: str) -> Iterator[int]:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import os
 import secrets
 import socket
 import time
+from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 
@@ -13,6 +15,7 @@ _GROUP = "239.255.0.1"  # the multicast group of DDS discovery
 _LOOPBACK = "127.0.0.1"
 _OWN_PORTS = (17425, 150)  # as in isolated.xml, which says why
 _DDS_PORTS = (7400, 250)
+_PROFILE_VARIABLES = ("FASTRTPS_DEFAULT_PROFILES_FILE", "FASTDDS_DEFAULT_PROFILES_FILE")
 
 
 def isolated_discovery() -> dict[str, str]:
@@ -25,14 +28,23 @@ def isolated_discovery() -> dict[str, str]:
         return {"ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
     return {
         "ROS_AUTOMATIC_DISCOVERY_RANGE": "SYSTEM_DEFAULT",  # else the RMW layer writes over the profile's transports
-        "FASTRTPS_DEFAULT_PROFILES_FILE": str(PROFILE),
-        "FASTDDS_DEFAULT_PROFILES_FILE": str(PROFILE),
+        **dict.fromkeys(_PROFILE_VARIABLES, str(PROFILE)),
     }
 
 
 def ports_of_checks() -> tuple[int, int]:
     """The first UDP port that a check may use on domain 0, and how many ports there are to a domain."""
     return _OWN_PORTS if loopback_multicast_works() else _DDS_PORTS
+
+
+def ports_of_this_process(environ: Mapping[str, str] = os.environ) -> tuple[int, int] | None:
+    """As `ports_of_checks`, for what this process joins; None where a DDS profile of the user's may say otherwise."""
+    named = {environ[name] for name in _PROFILE_VARIABLES if environ.get(name)}
+    if Path("DEFAULT_FASTRTPS_PROFILES.xml").exists():  # Fast DDS reads it from the current folder
+        return None
+    if not named:
+        return _DDS_PORTS
+    return _OWN_PORTS if named == {str(PROFILE)} else None
 
 
 @cache

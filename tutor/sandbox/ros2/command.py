@@ -1,77 +1,86 @@
-"""The command line of `ros2`: its verbs, and how it says what is wrong."""
+"""The command line of `ros2`: its commands, and how it ends."""
 
 from __future__ import annotations
 
-import argparse
-import atexit
 import os
-import shutil
+import signal
 import sys
-import tempfile
-from collections.abc import Callable, Sequence
-from pathlib import Path
+from collections.abc import Sequence
+from types import FrameType
+from typing import Any, NoReturn
 
-from tutor.sandbox.ros2 import launch, overlay, run
 from tutor.sandbox.ros2.errors import CommandError
+from tutor.sandbox.ros2.parsing import PACKAGE, LazyParser, add_choices
 
-_VERBS: dict[str, tuple[str, Callable[[argparse.ArgumentParser], None], Callable[[argparse.Namespace], int]]] = {
-    "launch": ("Run a launch file", launch.add_arguments, launch.main),
-    "run": ("Run a package specific executable", run.add_arguments, run.main),
+COMMANDS = {
+    "daemon": "Ask about the daemon, which this ros2 does without",
+    "launch": "Start the nodes of a launch file",
+    "run": "Start a program of a package",
+    "topic": "See and publish messages on topics",
 }
-_ELSEWHERE = (
-    "action bag component control daemon doctor interface lifecycle multicast node param pkg security service topic wtf"
-)
-_OVERLAY = "ROS_TUTOR_OVERLAY"
+"""Each command and what it is for; it is the module (or the package of verbs) of this name in this package."""
+
+_ELSEWHERE = ("bag", "component", "control", "lifecycle", "multicast", "security")
 
 
 def main(argv: Sequence[str]) -> int:
-    """Run `ros2 ARGV...`; gives its exit code. What is wrong is told in one line on stderr."""
-    if argv and not argv[0].startswith("-") and argv[0] not in _VERBS:
-        return _say(_unknown(argv[0]), 2)
-    parser = argparse.ArgumentParser(prog="ros2", description="ros2, as far as the exercises need it.")
-    verbs = parser.add_subparsers(metavar="COMMAND", required=True)
-    for name, (help, add_arguments, run_verb) in _VERBS.items():
-        verb = verbs.add_parser(name, help=help, description=help)
-        add_arguments(verb)
-        verb.set_defaults(run=run_verb, near=_place_of(argv))
-    arguments = parser.parse_args(argv)
-    _use_overlay(arguments.near)
+    """Run `ros2 ARGV...`; gives its exit code: 0, 1 where it cannot be done, 2 for wrong usage and after Ctrl+C."""
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # a job in the background has inherited an ignored one
+    signal.signal(signal.SIGTERM, _terminated)
     try:
-        code: int = arguments.run(arguments)
-    except (CommandError, LookupError) as error:
-        return _say(str(error), 1)
+        return _run(argv)
     except KeyboardInterrupt:
-        return 130
-    return code
+        return int(signal.SIGINT)
+    except _Terminated:
+        return int(signal.SIGTERM)
+    except BrokenPipeError:  # as in `ros2 topic echo ... | head`
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 1
 
 
-def _place_of(argv: Sequence[str]) -> Path:
-    """Where to look for packages: the launch file, where one is named by its path; else the current folder."""
-    named = next((Path(word) for word in argv[1:] if not word.startswith("-")), None)
-    is_file = argv[:1] == ["launch"] and named is not None and named.is_file()
-    return Path(os.path.abspath(named)) if is_file and named is not None else Path.cwd()
+def build_parser() -> LazyParser:
+    """The parser of the whole command line; that of a command or a verb is filled when it is reached."""
+    parser = LazyParser(prog="ros2", description="The ros2 command, where no ROS 2 is installed.")
+    parser.add_argument(
+        "--use-python-default-buffering",
+        action="store_true",
+        help="write to a pipe or a file in blocks, not line by line",
+    )
+    add_choices(parser, COMMANDS, lambda command: f"{PACKAGE}.{command}")
+    return parser
 
 
-def _use_overlay(near: Path) -> None:
-    """Have the packages found that are there as sources only, by us and by what we start."""
-    if Path(os.environ.get(_OVERLAY, "/nowhere")).is_dir():
-        return  # of the `ros2` that started us
-    logs = os.environ.get("ROS_LOG_DIR")  # a check's is a folder of its own, which goes when the check is over
-    folder = Path(tempfile.mkdtemp(prefix="ros2-overlay-", dir=logs if logs and Path(logs).is_dir() else None))
-    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+def _run(argv: Sequence[str]) -> int:
+    if argv and argv[0] in _ELSEWHERE:
+        return _say(f"ros2: `ros2 {argv[0]}` needs an installed ROS 2; this ros2 knows: {', '.join(COMMANDS)}", 2)
+    parser = build_parser()
+    arguments = parser.parse_args(argv)
+    if not arguments.use_python_default_buffering:
+        _write_by_lines(sys.stdout)
     try:
-        overlay.make(folder / "prefix", near, os.environ)
-    except OSError as error:
-        raise CommandError(f"the packages cannot be read: {error}") from error
-    os.environ[_OVERLAY] = str(folder / "prefix")
+        code = arguments.run(arguments)
+    except CommandError as error:
+        return _say(str(error), error.code)
+    except LookupError as error:
+        return _say(str(error), 1)
+    sys.stdout.flush()
+    return int(code or 0)
 
 
-def _unknown(verb: str) -> str:
-    if verb in _ELSEWHERE.split():
-        return f"`ros2 {verb}` needs an installed ROS 2; this ros2 knows: {', '.join(_VERBS)}"
-    return f"there is no command '{verb}' (this ros2 knows: {', '.join(_VERBS)})"
+def _write_by_lines(stream: Any) -> None:
+    if hasattr(stream, "reconfigure"):
+        stream.reconfigure(line_buffering=True)
+
+
+class _Terminated(BaseException):
+    """SIGTERM has come."""
+
+
+def _terminated(_number: int, _frame: FrameType | None) -> NoReturn:
+    raise _Terminated
 
 
 def _say(text: str, code: int) -> int:
-    print(f"ros2: {text}", file=sys.stderr)
+    sys.stdout.flush()
+    print(text, file=sys.stderr)
     return code

@@ -4,4 +4,8 @@ from __future__ import annotations
 
 
 class CommandError(Exception):
-    """The command cannot be done; the text is one line that says why."""
+    """The command cannot be done; the text says why, and goes to stderr as it stands. `code` is the exit code."""
+
+    def __init__(self, text: str, code: int = 1) -> None:
+        super().__init__(text)
+        self.code = code

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from tutor.sandbox import packages
+from tutor.sandbox.ros2 import overlaying
 from tutor.sandbox.ros2.errors import CommandError
 
 
@@ -29,6 +30,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def main(arguments: argparse.Namespace) -> int:
     """Launch, and give launch's own exit code. Raises CommandError."""
+    overlaying.use(_place(arguments))
     given = list(arguments.arguments)
     if _by_path(arguments):
         path = Path(arguments.package)
@@ -56,6 +58,12 @@ def check_arguments(given: Sequence[str]) -> None:
         name, sign, value = argument.partition(":=")
         if not (name and sign and value):
             raise CommandError(f"malformed launch argument '{argument}', expected format '<name>:=<value>'")
+
+
+def _place(arguments: argparse.Namespace) -> Path:
+    """Where to look for packages: the launch file, where one is named by its path; else the current folder."""
+    named = Path(arguments.package)
+    return Path(os.path.abspath(named)) if named.is_file() else Path.cwd()
 
 
 def _by_path(arguments: argparse.Namespace) -> bool:

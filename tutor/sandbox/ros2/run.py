@@ -5,8 +5,10 @@ from __future__ import annotations
 import argparse
 import signal
 import subprocess
+from pathlib import Path
 
 from tutor.sandbox import packages
+from tutor.sandbox.ros2 import overlaying
 from tutor.sandbox.ros2.errors import CommandError
 
 
@@ -19,6 +21,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def main(arguments: argparse.Namespace) -> int:
     """Run the program to its end, and give its exit code (128 + N after signal N). Raises LookupError, CommandError."""
+    overlaying.use(Path.cwd())
     command = [*packages.find_executable(arguments.package, arguments.executable), *arguments.rest]
     # Ctrl+C reaches the program by itself; we only have to be there still when it has ended.
     signal.signal(signal.SIGINT, signal.SIG_IGN)

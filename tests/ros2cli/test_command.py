@@ -1,0 +1,41 @@
+"""The grammar of ros2, and how it ends."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.ros2cli.bench import Bench
+
+USAGE = """\
+usage: ros2 [-h] [--use-python-default-buffering]
+            Call `ros2 <command> -h` for more detailed usage. ...
+"""
+TOPIC_USAGE = """\
+usage: ros2 topic [-h] [--include-hidden-topics]
+                  Call `ros2 topic <command> -h` for more detailed usage. ...
+"""
+
+
+@pytest.mark.parametrize("words", [[], ["topic"], ["topic", "-h"], ["topic", "list", "--help"]])
+def test_help_is_on_stdout(bench: Bench, words: list[str]) -> None:
+    ran = bench.ros2(*words)
+    assert ran.stdout.startswith("usage: ros2 ")
+    assert (ran.stderr, ran.code) == ("", 0)
+
+
+def test_a_wrong_word_is_told_as_ros2cli_does(bench: Bench) -> None:
+    wrong_command, wrong_verb = bench.ros2("topik", "list"), bench.ros2("topic", "frobnicate")
+    assert (wrong_command.code, wrong_verb.code) == (2, 2)
+    assert wrong_command.stderr.startswith(
+        f"{USAGE}ros2: error: argument Call `ros2 <command> -h` for more detailed usage.: invalid choice: 'topik' "
+    )
+    assert wrong_verb.stderr.startswith(
+        f"{TOPIC_USAGE}ros2 topic: error: argument Call `ros2 topic <command> -h` for more detailed usage.: "
+        "invalid choice: 'frobnicate' (choose from "
+    )
+    unknown_option = bench.ros2("topic", "list", "--bogus")
+    assert (unknown_option.stderr, unknown_option.code) == (f"{USAGE}ros2: error: unrecognized arguments: --bogus\n", 2)
+
+
+def test_there_is_no_daemon(bench: Bench) -> None:
+    assert bench.ros2("daemon", "status").stdout == "The daemon is not running\n"

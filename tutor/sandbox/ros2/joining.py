@@ -1,0 +1,153 @@
+"""A node of ours on the user's domain, and when it has seen all that is there.
+
+There is no daemon that has watched the domain before. Fast DDS gives each participant (a process, mostly) UDP ports
+of its own, so that those of this machine can be counted without asking; a list is complete when as many have been met.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, TypeVar
+
+from tutor.ros.domain import participants_here
+from tutor.sandbox.ros2.errors import CommandError
+
+if TYPE_CHECKING:
+    from rclpy.node import Node
+
+T = TypeVar("T")
+
+LIMIT_S = 3.0
+"""The longest wait for participants whose ports are there, but who do not answer."""
+
+_POLL_S = 0.01
+_QUIET_S = 0.05  # what belongs together arrives within milliseconds
+_LONG_QUIET_S = 0.5  # a DDS program that is no ROS node never gets a node's name
+_UNKNOWN = "_NODE_NAME_UNKNOWN_"
+_BOOKKEEPING = "ros_discovery_info"  # the DDS topic on which each participant says which nodes it has
+
+
+def add_direct_arguments(parser: argparse.ArgumentParser) -> None:
+    """The options of each verb that joins the domain."""
+    parser.add_argument(
+        "--spin-time",
+        type=float,
+        help=f"the longest wait for others to be found, in seconds (default: {LIMIT_S:g}; mostly it takes far less)",
+    )
+    parser.add_argument("-s", "--use-sim-time", action="store_true", help="use the time of a simulation (/clock)")
+
+
+def add_strategy_arguments(parser: argparse.ArgumentParser) -> None:
+    """The options of each verb for which ros2cli would ask its daemon."""
+    add_direct_arguments(parser)
+    parser.add_argument("--no-daemon", action="store_true", help="always so here: there is no daemon")
+
+
+@contextmanager
+def joined(arguments: argparse.Namespace, *, name: str | None = None) -> Iterator[Domain]:
+    """Join the domain with a node, for as long as the block lasts.
+
+    The node is hidden, as those of ros2cli are, unless it is given a name. Nothing spins it: a verb that has
+    subscriptions, timers or clients does. Raises CommandError where ROS cannot be joined.
+    """
+    import rclpy
+    from rclpy.context import Context
+    from rclpy.exceptions import InvalidNodeNameException
+    from rclpy.parameter import Parameter
+    from rclpy.signals import SignalHandlerOptions
+
+    context = Context()
+    # Python's own handler raises KeyboardInterrupt; rclpy's would end the context under whatever is going on.
+    rclpy.init(args=[], context=context, signal_handler_options=SignalHandlerOptions.NO)
+    try:
+        node = rclpy.create_node(
+            name or f"_ros2cli_{os.getpid()}",
+            context=context,
+            use_global_arguments=False,
+            start_parameter_services=False,
+            parameter_overrides=[
+                Parameter("use_sim_time", value=bool(getattr(arguments, "use_sim_time", False))),
+                Parameter("start_type_description_service", value=False),
+            ],
+        )
+        spin_time = getattr(arguments, "spin_time", None)
+        yield Domain(node, LIMIT_S if spin_time is None else spin_time)
+        node.destroy_node()
+    except InvalidNodeNameException as error:
+        raise CommandError(str(error)) from error
+    finally:
+        context.try_shutdown()
+
+
+@dataclass(slots=True)
+class Domain:
+    """The domain as `node` sees it. `limit_s` bounds each wait for what is there to be seen."""
+
+    node: Node
+    limit_s: float = LIMIT_S
+
+    def complete(self) -> None:
+        """Wait until everything that is on the domain has been seen."""
+        self.find(lambda: None)
+
+    def find(self, look: Callable[[], T | None]) -> T | None:
+        """What `look` gives, as soon as it is not None; None where it is not there, which all has been seen for."""
+        start = changed = polled = time.monotonic()
+        seen: object = None
+        longest_poll = _POLL_S
+        while True:
+            if (found := look()) is not None:
+                return found
+            now = time.monotonic()
+            # Where we are kept from running, so are those threads of ours to which the others talk.
+            longest_poll, polled = max(longest_poll, now - polled), now
+            if (sees := self._view()) != seen:
+                seen, changed = sees, now
+            quiet_s = now - changed
+            if quiet_s >= max(_QUIET_S, 2 * longest_poll) and self._all_are_met(quiet_s):
+                return look()
+            if now - start >= self.limit_s:
+                return look()
+            time.sleep(_POLL_S)
+
+    def _view(self) -> object:
+        return (
+            self.node.get_node_names_and_namespaces(),
+            [
+                (name, types, self.node.count_publishers(name), self.node.count_subscribers(name))
+                for name, types in self.node.get_topic_names_and_types()
+            ],
+            self.node.get_service_names_and_types(),
+        )
+
+    def _all_are_met(self, quiet_s: float) -> bool:
+        met = self._participants()
+        expected = participants_here(self.node.context.get_domain_id())
+        if expected is None:
+            return quiet_s >= _LONG_QUIET_S
+        if len(met) < expected:
+            return False
+        return quiet_s >= _LONG_QUIET_S or self._all_have_names()
+
+    def _participants(self) -> set[bytes]:
+        """Those of this machine, ourselves included: the first half of a participant's id tells its machine."""
+        ids = [
+            bytes(info.endpoint_gid[:12])
+            for info in self.node.get_publishers_info_by_topic(_BOOKKEEPING, no_mangle=True)
+        ]
+        own = self.node.get_publishers_info_by_topic("/rosout")
+        host = next((bytes(info.endpoint_gid[:4]) for info in own if info.node_name == self.node.get_name()), None)
+        return {each for each in ids if host is None or each[:4] == host}
+
+    def _all_have_names(self) -> bool:
+        return not any(
+            info.node_name == _UNKNOWN
+            for topic, _ in self.node.get_topic_names_and_types()
+            for ask in (self.node.get_publishers_info_by_topic, self.node.get_subscriptions_info_by_topic)
+            for info in ask(topic)
+        )

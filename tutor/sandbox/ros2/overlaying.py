@@ -1,0 +1,31 @@
+"""Has the packages found that are there as sources only, for as long as this process lives."""
+
+from __future__ import annotations
+
+import atexit
+import os
+import shutil
+import tempfile
+from pathlib import Path
+
+from tutor.sandbox.ros2 import overlay
+from tutor.sandbox.ros2.errors import CommandError
+
+_OVERLAY = "ROS_TUTOR_OVERLAY"
+
+
+def use(near: Path) -> None:
+    """Add the packages of the workspace around `near` (a file or folder), for us and for what we start.
+
+    Raises CommandError where they cannot be read.
+    """
+    if Path(os.environ.get(_OVERLAY, "/nowhere")).is_dir():
+        return  # of the `ros2` that started us
+    logs = os.environ.get("ROS_LOG_DIR")  # a check's is a folder of its own, which goes when the check is over
+    folder = Path(tempfile.mkdtemp(prefix="ros2-overlay-", dir=logs if logs and Path(logs).is_dir() else None))
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    try:
+        overlay.make(folder / "prefix", near, os.environ)
+    except OSError as error:
+        raise CommandError(f"the packages cannot be read: {error}") from error
+    os.environ[_OVERLAY] = str(folder / "prefix")
