@@ -81,42 +81,82 @@ def test_a_folder_named_launch_is_no_real_launch(stage: Stage) -> None:
 # --- what they refuse
 
 
+NAMED_ELSEWHERE = """\
+import importlib
+from launch import _real_names
+for module, (is_package, names) in _real_names._modules().items():
+    loaded = importlib.import_module(module)
+    assert hasattr(loaded, "__path__") == is_package, module
+    for name in names:
+        if not hasattr(loaded, name):
+            print(module, name)
+"""
+
+
+def test_every_name_of_the_real_ones_can_be_imported_from_every_module_that_has_it(stage: Stage) -> None:
+    ran = stage.run(write(stage, f"{NAMED_ELSEWHERE}{EMPTY}"))
+    assert ran.lines[2:] == ()
+    assert ran.code == 0
+
+
+IMPORTED = """\
+from launch.launch_description import DeclareLaunchArgument
+from launch import LaunchIntrospector
+from launch_ros.actions import ComposableNodeContainer, LifecycleNode, ROSTimer
+from launch_ros.actions.composable_node_container import ComposableNodeContainer as Same
+from launch_ros.descriptions import ComposableNode
+from launch.frontend import Parser
+from launch.substitutions import LaunchLogDir, PathSubstitution
+from launch_ros.substitutions import Parameter
+from launch_ros.event_handlers import OnStateTransition
+from launch_ros.events.lifecycle import ChangeState
+"""
+
+
+def test_a_name_is_one_thing_wherever_it_is_imported_from(stage: Stage) -> None:
+    says = [
+        "import launch.actions, typing",
+        "from launch.launch_context import Dict",
+        "print(DeclareLaunchArgument is launch.actions.DeclareLaunchArgument, ComposableNodeContainer is Same,"
+        " Dict is typing.Dict)",
+        "def made() -> ComposableNodeContainer | None: ...",
+    ]
+    ran = stage.run(write(stage, "\n".join([IMPORTED, *says, EMPTY])))
+    assert "True True True" in ran.lines, ran.lines
+    assert ran.code == 0
+
+
 @pytest.mark.parametrize(
     ("statement", "named"),
     [
-        ("from launch.actions import OpaqueCoroutine", "launch.actions.OpaqueCoroutine"),
-        ("import launch.actions; launch.actions.ForLoop", "launch.actions.ForLoop"),
-        ("import launch; launch.LaunchIntrospector", "launch.LaunchIntrospector"),
-        ("from launch.substitutions import LaunchLogDir", "launch.substitutions.LaunchLogDir"),
-        ("from launch.frontend import Parser", "launch.frontend"),
         (
-            "from launch.launch_description_sources import FrontendLaunchDescriptionSource",
-            "launch.launch_description_sources.FrontendLaunchDescriptionSource",
+            "from launch.actions import OpaqueCoroutine\nOpaqueCoroutine()",
+            "launch.actions.opaque_coroutine.OpaqueCoroutine",
         ),
-        ("from launch_xml.launch_description_sources import XMLLaunchDescriptionSource", "launch_xml"),
-        ("import launch_yaml", "launch_yaml"),
-        ("import launch_testing", "launch_testing"),
-        ("from launch_ros.actions import LifecycleNode", "launch_ros.actions.LifecycleNode"),
-        ("from launch_ros.actions import ComposableNodeContainer", "launch_ros.actions.ComposableNodeContainer"),
-        ("from launch_ros.actions import SetROSLogDir", "launch_ros.actions.SetROSLogDir"),
+        ("import launch\nlaunch.LaunchIntrospector()", "launch.launch_introspector.LaunchIntrospector"),
         (
-            "from launch_ros.actions.composable_node_container import ComposableNodeContainer",
-            "launch_ros.actions.composable_node_container",
+            "import launch_testing.actions\nlaunch_testing.actions.ReadyToTest()",
+            "launch_testing.actions.ready.ReadyToTest",
         ),
-        ("from launch_ros.descriptions import ComposableNode", "launch_ros.descriptions.ComposableNode"),
-        ("from launch_ros.event_handlers import OnStateTransition", "launch_ros.event_handlers"),
-        ("from launch_ros.events.lifecycle import ChangeState", "launch_ros.events"),
-        ("from launch_ros.substitutions import Parameter", "launch_ros.substitutions.Parameter"),
+        (
+            "from launch_ros.ros_adapters import get_ros_node\nget_ros_node(None)",
+            "launch_ros.ros_adapters.get_ros_node",
+        ),
+        (
+            "from launch_ros.actions import LifecycleTransition\nclass Mine(LifecycleTransition): ...\nMine()",
+            "launch_ros.actions.lifecycle_transition.LifecycleTransition",
+        ),
     ],
 )
-def test_what_only_the_real_one_has_is_named(stage: Stage, statement: str, named: str) -> None:
+def test_what_only_the_real_one_has_is_named_when_it_is_used(stage: Stage, statement: str, named: str) -> None:
     ran = stage.run(write(stage, f"{statement}\n{EMPTY}"))
     errors = [line for line in ran.log if line.startswith("[ERROR]")]
     assert errors == [
         f"[ERROR] [launch]: Caught exception in launch (see debug for traceback): {named} {REFUSED}; "
         "it works where ROS 2 is installed and sourced"
     ]
-    assert '  File "$DIR/main.launch.py", line 1, in <module>' in ran.lines
+    line = statement.count("\n") + 1
+    assert f'  File "$DIR/main.launch.py", line {line}, in <module>' in ran.lines
     assert ran.code == 1
 
 

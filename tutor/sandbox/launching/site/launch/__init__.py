@@ -1,8 +1,10 @@
 """The part of ROS 2's `launch` that launch files for the exercises use, where no real one is installed."""
 
-from . import _unsupported
+import sys
 
-_unsupported.install()
+from . import _real_names
+
+_real_names.install()
 
 # The order is that of their dependence on each other.
 from . import (  # noqa: E402
@@ -57,4 +59,4 @@ __all__ = [
     "utilities",
 ]
 
-__getattr__ = _unsupported.lazily_refusing(__name__, frozenset({"LaunchIntrospector", "frontend"}))
+_real_names.complete(sys.modules[__name__])

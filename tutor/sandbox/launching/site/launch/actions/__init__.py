@@ -1,6 +1,5 @@
 """The actions."""
 
-from .._unsupported import lazily_refusing
 from .append_environment_variable import AppendEnvironmentVariable
 from .declare_launch_argument import DeclareLaunchArgument
 from .emit_event import EmitEvent
@@ -50,7 +49,3 @@ __all__ = [
     "UnsetEnvironmentVariable",
     "UnsetLaunchConfiguration",
 ]
-
-__getattr__ = lazily_refusing(
-    __name__, frozenset({"ForEach", "ForLoop", "LogDebug", "LogError", "LogWarning", "Log", "OpaqueCoroutine"})
-)

@@ -1,6 +1,5 @@
 """The conditions."""
 
-from .._unsupported import lazily_refusing
 from .evaluate_condition_expression_impl import evaluate_condition_expression
 from .if_condition import IfCondition
 from .invalid_condition_expression_error import InvalidConditionExpressionError
@@ -16,5 +15,3 @@ __all__ = [
     "UnlessCondition",
     "evaluate_condition_expression",
 ]
-
-__getattr__ = lazily_refusing(__name__, frozenset())

@@ -1,6 +1,5 @@
 """The event handlers."""
 
-from .._unsupported import lazily_refusing
 from .event_named import event_named
 from .on_action_event_base import OnActionEventBase
 from .on_execution_complete import OnExecutionComplete
@@ -20,5 +19,3 @@ __all__ = [
     "OnShutdown",
     "event_named",
 ]
-
-__getattr__ = lazily_refusing(__name__, frozenset())

@@ -1,6 +1,5 @@
 """The events."""
 
-from .._unsupported import lazily_refusing
 from . import process
 from .execution_complete import ExecutionComplete
 from .include_launch_description import IncludeLaunchDescription
@@ -16,5 +15,3 @@ __all__ = [
     "matches_action",
     "process",
 ]
-
-__getattr__ = lazily_refusing(__name__, frozenset())

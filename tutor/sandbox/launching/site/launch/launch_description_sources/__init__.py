@@ -1,6 +1,5 @@
 """The kinds of launch files that can be read: those in Python."""
 
-from .._unsupported import lazily_refusing
 from .any_launch_description_source import AnyLaunchDescriptionSource
 from .any_launch_file_utilities import get_launch_description_from_any_launch_file
 from .frontend_launch_file_utilities import InvalidFrontendLaunchFileError
@@ -20,15 +19,3 @@ __all__ = [
     "get_launch_description_from_python_launch_file",
     "load_python_launch_file_as_module",
 ]
-
-__getattr__ = lazily_refusing(
-    __name__,
-    frozenset(
-        {
-            "FrontendLaunchDescriptionSource",
-            "XMLLaunchDescriptionSource",
-            "YAMLLaunchDescriptionSource",
-            "get_launch_description_from_frontend_launch_file",
-        }
-    ),
-)

@@ -1,6 +1,5 @@
 """The substitutions."""
 
-from .._unsupported import lazily_refusing
 from .anon_name import AnonName
 from .boolean_substitution import AllSubstitution, AndSubstitution, AnySubstitution, NotSubstitution, OrSubstitution
 from .command import Command
@@ -42,16 +41,3 @@ __all__ = [
     "ThisLaunchFile",
     "ThisLaunchFileDir",
 ]
-
-__getattr__ = lazily_refusing(
-    __name__,
-    frozenset(
-        {
-            "ForEachVar",
-            "ForLoopIndex",
-            "LaunchLogDir",
-            "PathSubstitution",
-            "StringJoinSubstitution",
-        }
-    ),
-)

@@ -1,6 +1,5 @@
 """Small helps that launch files import, too."""
 
-from .._unsupported import lazily_refusing
 from .class_tools_impl import is_a, is_a_subclass
 from .ensure_argument_type_impl import ensure_argument_type
 from .normalize_to_list_of_entities_impl import normalize_to_list_of_entities
@@ -17,5 +16,3 @@ __all__ = [
     "perform_substitutions",
     "visit_all_entities_and_collect_futures",
 ]
-
-__getattr__ = lazily_refusing(__name__, frozenset({"AsyncSafeSignalManager", "isclassinstance"}))

@@ -1,7 +1,5 @@
 """The actions that know ROS."""
 
-from launch._unsupported import lazily_refusing
-
 from .node import Node
 from .push_ros_namespace import PushROSNamespace
 from .push_ros_namespace import PushROSNamespace as PushRosNamespace
@@ -19,18 +17,3 @@ __all__ = [
     "SetRemap",
     "SetUseSimTime",
 ]
-
-__getattr__ = lazily_refusing(
-    __name__,
-    frozenset(
-        {
-            "ComposableNodeContainer",
-            "LifecycleNode",
-            "LifecycleTransition",
-            "LoadComposableNodes",
-            "ROSTimer",
-            "RosTimer",
-            "SetROSLogDir",
-        }
-    ),
-)

@@ -1,7 +1,5 @@
 """Small helps for the actions."""
 
-from launch._unsupported import lazily_refusing
-
 from .evaluate_parameters import evaluate_parameter_dict, evaluate_parameters
 from .names import validate_namespace, validate_node_name
 from .namespace_utils import is_namespace_absolute, is_root_namespace, make_namespace_absolute, prefix_namespace
@@ -22,5 +20,3 @@ __all__ = [
     "validate_namespace",
     "validate_node_name",
 ]
-
-__getattr__ = lazily_refusing(__name__, frozenset({"add_node_name", "get_node_name_count", "to_parameters_list"}))
