@@ -65,6 +65,7 @@ def test_this_machine_is_well_and_nothing_is_left_behind(tmp_path: Path) -> None
         "Discovery",
         "Temporary files",
         "Workspace",
+        "ROS domain",
         "Terminal",
     ]
     assert took < 30

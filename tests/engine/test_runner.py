@@ -139,7 +139,7 @@ async def test_no_free_domain_is_the_machines_fault_with_its_mend(
     import tutor.engine.bench as live
     from tutor.ros.domain import NoFreeDomain
 
-    def none() -> Any:
+    def none(others: object) -> Any:
         raise NoFreeDomain
 
     monkeypatch.setattr(live, "reserve_domain", none)

@@ -141,7 +141,7 @@ from tutor.tui.live.child import LiveChild
 from tutor.tui.live.command import live_command
 
 async def main():
-    child = await LiveChild.start(live_command())
+    child = await LiveChild.start(live_command(int(os.environ["ROS_DOMAIN_ID"])))
     async for news in child.news():
         print(child.pid, flush=True)
         break

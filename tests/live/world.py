@@ -79,7 +79,7 @@ class World:
 
     def command(self) -> LiveCommand:
         """How the app watches this domain."""
-        return live_command(self.environ)
+        return live_command(self.domain, self.environ)
 
 
 @contextmanager

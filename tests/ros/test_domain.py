@@ -172,3 +172,10 @@ def test_threads_get_an_id_each() -> None:
     for thread in threads:
         thread.join()
     assert len(set(got)) == len(got) == 8
+
+
+def test_ids_of_workspaces_are_the_last_to_be_taken() -> None:
+    with reserve_domain(range(0, 101, 2)) as first, reserve_domain(range(1, 100, 2)) as second:
+        assert (first % 2, second % 2) == (1, 0)
+    with reserve_domain(range(102)) as any_of_them:
+        assert 1 <= any_of_them <= 100

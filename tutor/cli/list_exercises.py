@@ -22,7 +22,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Print one line for each exercise, and what to do next."""
+    """Print one line for each exercise, what to do next, and the workspace's ROS domain."""
+    from tutor.workspace import domain_of
+
     course = context.load_course(arguments)
     workspace = context.workspace(arguments)
     progress = context.read_progress(workspace)
@@ -32,6 +34,8 @@ def run(arguments: argparse.Namespace) -> int:
     lines = [_line(lesson, progress.of(lesson.id), words[lesson.id], width) for lesson in course.lessons]
     passed = sum(word == "passed" for word in words.values())
     lines += ["", f"{passed} of {len(lines)} passed.{_next(course.lessons, words)}"]
+    if workspace.exists:
+        lines += [f"Your nodes run in ROS domain {domain_of(workspace)}."]
     terminal.out("\n".join(lines) + "\n")
     if not workspace.exists:
         terminal.say(f"there is no workspace yet; `ros-tutor start` makes one at {workspace.root}")

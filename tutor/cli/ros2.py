@@ -28,20 +28,22 @@ def run(arguments: argparse.Namespace) -> int:
     from tutor.ros.environment import detect, learner_env
     from tutor.sandbox.ros2.errors import CommandError
     from tutor.sandbox.ros2.starting import ros2
+    from tutor.workspace import domain_of
 
     ros = detect()
-    env = dict(os.environ)
+    workspace = context.place(arguments)
+    domain = domain_of(workspace)
+    env = {**os.environ, "ROS_DOMAIN_ID": str(domain)}
     if ros.kind == "bundled":
-        domain = os.environ.get("ROS_DOMAIN_ID", "").strip()
         log_dir = Path(os.environ.get("ROS_LOG_DIR") or Path(tempfile.gettempdir()) / "ros-tutor-log")
         env = learner_env(
             ros,
-            domain_id=int(domain) if domain.isdecimal() else 0,
+            domain_id=domain,
             log_dir=log_dir,
             package_root=None,
             isolated=False,
         )
-        env["ROS_TUTOR_WORKSPACE"] = str(context.place(arguments).root)
+        env["ROS_TUTOR_WORKSPACE"] = str(workspace.root)
     try:
         command = [*ros2(ros, env), *(arguments.words or ["--help"])]
     except CommandError as error:

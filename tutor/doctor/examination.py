@@ -17,8 +17,8 @@ Examination = Callable[[], Finding]
 def examine(workspace: Path | None, environ: Mapping[str, str] = os.environ) -> tuple[Finding, ...]:
     """Examine this machine; findings come in the order to show them. Takes a few seconds.
 
-    `workspace` is where the learner's files are, or will be; None leaves that out. Nothing is changed, and no process
-    is left behind.
+    `workspace` is where the learner's files are, or will be; None leaves that out. Nothing is changed (but that the
+    workspace gets its ROS domain, where it has none yet), and no process is left behind.
     """
     ros = detect(environ)
     examinations: list[tuple[str, Examination]] = [
@@ -36,7 +36,10 @@ def examine(workspace: Path | None, environ: Mapping[str, str] = os.environ) -> 
         ("Terminal", lambda: terminal.capabilities(environ)),
     ]
     if workspace is not None:
-        examinations.insert(-1, ("Workspace", lambda: machine.workspace(workspace)))
+        examinations[-1:-1] = [
+            ("Workspace", lambda: machine.workspace(workspace)),
+            ("ROS domain", lambda: ros2.own_domain(workspace, environ)),
+        ]
     with ThreadPoolExecutor(len(examinations)) as pool:
         return tuple(pool.map(lambda examination: _guarded(*examination), examinations))
 

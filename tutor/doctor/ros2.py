@@ -5,11 +5,13 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from importlib.metadata import Distribution, distributions
+from pathlib import Path
 
 from tutor.doctor import child
 from tutor.doctor.finding import Finding
 from tutor.ros.domain import NoFreeDomain, free_domains
 from tutor.ros.environment import RosEnvironment
+from tutor.workspace import Workspace, domain_of, given_domain
 
 REQUIRED_WHEELS = (
     "ros-jazzy-rclpy",
@@ -89,6 +91,22 @@ def domain_ids() -> Finding:
         f"{free} of 100 are free",
         "" if free >= _FEW_DOMAINS else NoFreeDomain.mend,
     )
+
+
+def own_domain(workspace: Path, environ: Mapping[str, str]) -> Finding:
+    """In which ROS domain the nodes of `workspace` run, and how another terminal gets there."""
+    name, domain, said = (
+        "ROS domain",
+        domain_of(Workspace(workspace), environ),
+        environ.get("ROS_DOMAIN_ID", "").strip(),
+    )
+    if given_domain(environ) is not None:
+        return Finding(name, True, f"your nodes run in domain {domain}, as ROS_DOMAIN_ID says")
+    own = f"your nodes run in domain {domain}, which is your workspace's own"
+    if said:
+        mend = f"export ROS_DOMAIN_ID={domain}, or unset ROS_DOMAIN_ID"
+        return Finding(name, None, f"ROS_DOMAIN_ID is {said!r}, which is no number from 0 to 232; {own}", mend)
+    return Finding(name, True, f"{own} (in another terminal: export ROS_DOMAIN_ID={domain})")
 
 
 def discovery(ros: RosEnvironment, environ: Mapping[str, str]) -> Finding:

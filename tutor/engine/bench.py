@@ -25,6 +25,7 @@ from tutor.ros.observer import Observer
 from tutor.sandbox.ros2 import overlay
 from tutor.sandbox.ros2.errors import CommandError
 from tutor.sandbox.ros2.starting import ros2
+from tutor.workspace.claims import claimed_domains
 
 T = TypeVar("T")
 
@@ -116,7 +117,11 @@ class LiveBench:
     ) -> AsyncIterator[Run]:
         """Run a command, made from its environment and a folder for its logs, on a domain of its own."""
         facts = Facts()
-        with _faults(), reserve_domain() as domain_id, tempfile.TemporaryDirectory(prefix="ros-tutor-") as log_dir:
+        with (
+            _faults(),
+            reserve_domain(claimed_domains()) as domain_id,
+            tempfile.TemporaryDirectory(prefix="ros-tutor-") as log_dir,
+        ):
             observer = Observer(domain_id, facts.change)
             try:
                 observer.watch_logs()

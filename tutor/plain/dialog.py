@@ -92,7 +92,7 @@ class Dialog:
         root = short(self._desk.workspace.root)
         self._say(f"ROS Tutor in plain lines. {counted(len(lessons), 'lesson')}, {passed} passed.")
         if self._desk.workspace.exists:
-            self._say(f"Your workspace is {root}")
+            self._say(f"Your workspace is {root}; its ROS domain is {self._desk.domain}.")
         else:
             self._say(f"Your workspace will be {root}: start creates it.")
         self._say(f"You are at {self._here.about(self._here.lesson, progress)}")

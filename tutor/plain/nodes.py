@@ -10,7 +10,6 @@ from tutor.plain.here import Command, Here, Refused
 from tutor.plain.speech import counted
 from tutor.report.plain import one_line
 from tutor.sandbox.ros2.errors import CommandError
-from tutor.tui.desk import domain_id
 from tutor.tui.node import Node, NodeState, Phase
 
 FIRST_LINE_S = 5.0
@@ -61,7 +60,7 @@ class Nodes:
         await self._until(lambda: node.state.phase is not Phase.STARTING, None)
         if node.state.alive:
             self._untold.append(node)
-            self._here.say(f"Running in ROS domain {domain_id()}: {command.typed}")
+            self._here.say(f"Running in ROS domain {self._here.desk.domain}: {command.typed}")
             self._here.say("log reads what it writes, stop ends it.")
         else:
             self._here.say(f"It could not be started: {node.state.note}")

@@ -6,12 +6,12 @@ import importlib
 import os
 import random
 import socket
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
 from typing import Any
 
-from tutor.ros.isolation import ports_of_checks, ports_of_this_process
+from tutor.ros.isolation import DDS_PORTS, ports_of_checks, ports_of_this_process
 
 FIRST, LAST = 1, 100
 _UDP_TABLES = (Path("/proc/net/udp"), Path("/proc/net/udp6"))
@@ -34,14 +34,14 @@ class NoFreeDomain(Exception):
 
 
 @contextmanager
-def reserve_domain() -> Iterator[int]:
+def reserve_domain(others: Collection[int] = ()) -> Iterator[int]:
     """Hold a domain id (1 to 100) that nothing else on this machine uses; it is given back at the end of the block.
 
-    Safe among threads and processes, and among other programs that use ROS's domain_coordinator; a process that dies
-    gives its ids back. Raises NoFreeDomain.
+    `others` are ids to be left to somebody else, as long as another is free. Safe among threads and processes, and
+    among other programs that use ROS's domain_coordinator; a process that dies gives its ids back. Raises NoFreeDomain.
     """
     global _last_used
-    claim = _claim()
+    claim = _claim(others)
     try:
         domain = claim.__enter__()
     except RuntimeError:  # the coordinator tried as often as it does
@@ -56,9 +56,12 @@ def reserve_domain() -> Iterator[int]:
 
 def busy_domains() -> frozenset[int]:
     """The domain ids of which something on this machine has bound a UDP port that a check would use."""
-    first, per_domain = ports_of_checks()
-    ids = ((port - first) // per_domain for port in _all_bound_ports())
-    return frozenset(domain for domain in ids if 0 <= domain <= LAST)
+    return frozenset(domain for domain in _with_ports(*ports_of_checks()) if 0 <= domain <= LAST)
+
+
+def domains_in_use() -> frozenset[int]:
+    """The domain ids of which something on this machine has bound a UDP port that an ordinary ROS node would use."""
+    return _with_ports(*DDS_PORTS)
 
 
 def participants_here(domain_id: int) -> int | None:
@@ -94,11 +97,12 @@ def _lock_is_free(domain: int) -> bool:
     return True
 
 
-def _claim() -> AbstractContextManager[int]:
+def _claim(others: Collection[int]) -> AbstractContextManager[int]:
     # Late, as all of ROS is; the sourced ROS's own, where there is one. It is plain Python, and brings no rclpy.
     coordinator: Any = importlib.import_module("domain_coordinator")
     avoided = busy_domains() | _users_domain()
-    candidates = iter([domain for domain in _next_round() if domain not in avoided])
+    left = [domain for domain in _next_round() if domain not in avoided]
+    candidates = iter(sorted(left, key=lambda domain: domain in others))
 
     def select() -> int:
         domain = next((domain for domain in candidates if domain not in busy_domains()), None)
@@ -118,6 +122,10 @@ def _next_round() -> list[int]:
 def _users_domain() -> frozenset[int]:
     given = os.environ.get("ROS_DOMAIN_ID", "")
     return frozenset({int(given)}) if given.isdecimal() else frozenset()
+
+
+def _with_ports(first: int, per_domain: int) -> frozenset[int]:
+    return frozenset((port - first) // per_domain for port in _all_bound_ports())
 
 
 def _all_bound_ports() -> Iterator[int]:

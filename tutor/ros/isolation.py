@@ -14,7 +14,8 @@ PROFILE = Path(__file__).resolve().with_name("isolated.xml")
 _GROUP = "239.255.0.1"  # the multicast group of DDS discovery
 _LOOPBACK = "127.0.0.1"
 _OWN_PORTS = (17425, 150)  # as in isolated.xml, which says why
-_DDS_PORTS = (7400, 250)
+DDS_PORTS = (7400, 250)
+"""The first UDP port of domain 0 where nothing else is set, and how many ports there are to a domain."""
 _PROFILE_VARIABLES = ("FASTRTPS_DEFAULT_PROFILES_FILE", "FASTDDS_DEFAULT_PROFILES_FILE")
 
 
@@ -34,7 +35,7 @@ def isolated_discovery() -> dict[str, str]:
 
 def ports_of_checks() -> tuple[int, int]:
     """The first UDP port that a check may use on domain 0, and how many ports there are to a domain."""
-    return _OWN_PORTS if loopback_multicast_works() else _DDS_PORTS
+    return _OWN_PORTS if loopback_multicast_works() else DDS_PORTS
 
 
 def ports_of_this_process(environ: Mapping[str, str] = os.environ) -> tuple[int, int] | None:
@@ -43,7 +44,7 @@ def ports_of_this_process(environ: Mapping[str, str] = os.environ) -> tuple[int,
     if Path("DEFAULT_FASTRTPS_PROFILES.xml").exists():  # Fast DDS reads it from the current folder
         return None
     if not named:
-        return _DDS_PORTS
+        return DDS_PORTS
     return _OWN_PORTS if named == {str(PROFILE)} else None
 
 

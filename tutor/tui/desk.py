@@ -22,6 +22,7 @@ from tutor.workspace import (
     RunOptions,
     StorageError,
     Workspace,
+    domain_of,
     place,
     start,
     write_atomically,
@@ -38,6 +39,7 @@ class Desk:
         self.course = course
         self.workspace = workspace
         self.extra = extra
+        self._domain: tuple[Path, int] | None = None
         self.notify: Notify = lambda text: None
         """Told in one line, from any thread, what the learner should know (damaged progress was set aside)."""
 
@@ -45,6 +47,14 @@ class Desk:
     def lessons(self) -> tuple[Lesson, ...]:
         """All lessons, in the order to do them."""
         return self.course.lessons
+
+    @property
+    def domain(self) -> int:
+        """The id of the ROS domain in which the learner's nodes run. Asked for the first time, it reads the disk."""
+        root = self.workspace.root
+        if self._domain is None or self._domain[0] != root:
+            self._domain = (root, domain_of(self.workspace))
+        return self._domain[1]
 
     def path(self, file: LessonFile) -> Path:
         """Where the learner's file is, or will be."""
@@ -147,7 +157,7 @@ class Desk:
         launch = starting.is_launch_file(path)
         package = path.parent.parent if (path.parent / "__init__.py").is_file() else None
         log_dir = Path(os.environ.get("ROS_LOG_DIR") or Path(tempfile.gettempdir()) / "ros-tutor-log")
-        env = learner_env(ros, domain_id=domain_id(), log_dir=log_dir, package_root=package, isolated=False)
+        env = learner_env(ros, domain_id=self.domain, log_dir=log_dir, package_root=package, isolated=False)
         first = [*starting.ros2(ros, env), "launch"] if launch else [str(ros.python)]
         given = run_options.arguments(options, launch=launch)
         typed = self.command_line(file, options)
@@ -160,9 +170,3 @@ class Desk:
     def editor(self) -> str:
         """The learner's editor, as a command."""
         return os.environ.get("VISUAL") or os.environ.get("EDITOR") or "nano"
-
-
-def domain_id() -> int:
-    """The user's own ROS domain: what `ROS_DOMAIN_ID` says, else 0."""
-    text = os.environ.get("ROS_DOMAIN_ID", "").strip()
-    return int(text) if text.isdecimal() else 0

@@ -2,6 +2,7 @@
 
 from tutor.workspace.app_state import AppState, AppStateFile, RunOptions
 from tutor.workspace.atomic import write_atomically
+from tutor.workspace.domain import domain_of, given_domain
 from tutor.workspace.errors import StorageError, SubmissionError, WorkspaceError
 from tutor.workspace.place import Workspace, find_workspace
 from tutor.workspace.placing import Placed, place
@@ -27,8 +28,10 @@ __all__ = [
     "SubmissionError",
     "Workspace",
     "WorkspaceError",
+    "domain_of",
     "find_submission",
     "find_workspace",
+    "given_domain",
     "is_own",
     "is_started",
     "keep_aside",

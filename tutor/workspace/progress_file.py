@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import fcntl
 import os
 import sys
-import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from datetime import UTC, datetime
@@ -13,10 +11,10 @@ from pathlib import Path
 
 from tutor.workspace.atomic import write_atomically
 from tutor.workspace.errors import StorageError
+from tutor.workspace.locking import lock
 from tutor.workspace.progress import Progress, decode, encode
 
 _LOCK_LIMIT_S = 10.0
-_LOCK_RETRY_S = 0.01
 
 
 def to_stderr(message: str) -> None:
@@ -95,33 +93,28 @@ class ProgressFile:
     @contextmanager
     def _locked(self) -> Iterator[None]:
         """Hold the lock. It has a file of its own, because the progress file itself is replaced at each write."""
-        lock = self.path.with_suffix(".lock")
+        file = self.path.with_suffix(".lock")
         try:
-            lock.parent.mkdir(parents=True, exist_ok=True)
-            handle = os.open(lock, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o666)
+            file.parent.mkdir(parents=True, exist_ok=True)
+            handle = os.open(file, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o666)
         except OSError as error:
-            raise StorageError.of(f"write to {lock.parent}", error) from error
+            raise StorageError.of(f"write to {file.parent}", error) from error
         try:
-            self._wait_for(handle)
+            self._lock(handle)
             self._sweep()
             yield
         finally:
             os.close(handle)
 
-    def _wait_for(self, handle: int) -> None:
-        """Take the lock within a limit: flock knows none of its own, and its holder may be stopped."""
-        limit = time.monotonic() + _LOCK_LIMIT_S
-        while True:
-            try:
-                return fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            except BlockingIOError:
-                if time.monotonic() > limit:
-                    raise StorageError(
-                        f"cannot write {self.path}: another ros-tutor has kept it locked for {_LOCK_LIMIT_S:.0f} s"
-                    ) from None
-                time.sleep(_LOCK_RETRY_S)
-            except OSError as error:
-                raise StorageError.of(f"lock {self.path}", error) from error
+    def _lock(self, handle: int) -> None:
+        try:
+            locked = lock(handle, _LOCK_LIMIT_S)
+        except OSError as error:
+            raise StorageError.of(f"lock {self.path}", error) from error
+        if not locked:
+            raise StorageError(
+                f"cannot write {self.path}: another ros-tutor has kept it locked for {_LOCK_LIMIT_S:.0f} s"
+            )
 
     def _sweep(self) -> None:
         """Remove what a writer that was killed left behind: under the lock, nobody else is writing."""

@@ -8,6 +8,7 @@ from textual.containers import Container
 from textual.widgets import ContentSwitcher, Tabs
 
 from tutor.tui.control.remember import Memory
+from tutor.tui.live.command import live_command
 from tutor.tui.live.pane import LivePane
 from tutor.tui.screens.layout import Criteria, Layout, layout_for
 from tutor.tui.screens.stage import Deed, Stage
@@ -76,7 +77,8 @@ class Pages:
             found = LivePane(id="live-pane")
             self._stage.query_one("#live", Container).mount(found)
             found.show_for(self._stage.session.lesson)
-            found.call_after_refresh(found.start_watching)
+            desk = self._stage.session.desk
+            found.call_after_refresh(found.start_watching, lambda: live_command(desk.domain))
         return found
 
     @property

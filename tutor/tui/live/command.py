@@ -17,12 +17,10 @@ class LiveCommand:
     domain: int
 
 
-def live_command(environ: Mapping[str, str] = os.environ) -> LiveCommand:
-    """Watch the user's own domain, with their own discovery settings, as the node that they run. Reads the disk."""
+def live_command(domain: int, environ: Mapping[str, str] = os.environ) -> LiveCommand:
+    """Watch the domain with this id as a node of the user's would, with their settings of discovery. Reads the disk."""
     from tutor.ros.environment import detect, tutor_env  # late: the first paint does not wait for it
 
-    text = environ.get("ROS_DOMAIN_ID", "").strip()
-    domain = int(text) if text.isdecimal() else 0
     env = tutor_env(detect(environ), isolated=False, environ=environ)
     # -P: a module in the learner's folder must not take the place of one of ours.
     return LiveCommand((sys.executable, "-P", "-m", "tutor.live"), {**env, "ROS_DOMAIN_ID": str(domain)}, domain)

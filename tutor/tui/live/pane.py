@@ -25,7 +25,7 @@ from tutor.live.protocol import Attend, Command, Follow, News, Plot, Unfollow
 from tutor.live.protocol import Trouble as ChildTrouble
 from tutor.tui import messages
 from tutor.tui.live.child import LiveChild
-from tutor.tui.live.command import LiveCommand, live_command
+from tutor.tui.live.command import LiveCommand
 from tutor.tui.live.graph_panel import GraphPanel
 from tutor.tui.live.parameters_panel import ParametersPanel
 from tutor.tui.live.presets import PRESETS, Preset
@@ -45,9 +45,8 @@ class LivePane(Vertical):
 
     Mount `LivePane(id="live")` anywhere; it costs nothing until it watches. The screen around it calls
 
-    - `start_watching()` when the page is first opened, or a node of the learner runs. Returns at once; asked again, it
-      does nothing while it watches. A test passes a function that gives another `LiveCommand`; it is called in a
-      worker thread.
+    - `start_watching(command)` when the page is first opened, or a node of the learner runs. Returns at once; asked
+      again, it does nothing while it watches. `command` is called in a worker thread.
     - `stop_watching()` to end it; returns at once, and the child ends for certain. `await close_down()` does the same
       and waits (well under two seconds). A pane that is unmounted, or whose app is killed, ends its child as well.
     - `show_for(lesson)` when another lesson is shown: its topic, node and service are chosen as soon as they appear,
@@ -77,7 +76,7 @@ class LivePane(Vertical):
         self.state = LiveState()
         self._child: LiveChild | None = None
         self._worker: Worker[None] | None = None
-        self._command: Callable[[], LiveCommand] = live_command
+        self._command: Callable[[], LiveCommand] | None = None
         self._broken = ""
         self._preset = Preset()
         self._seen = False
@@ -105,7 +104,7 @@ class LivePane(Vertical):
 
     # --- the watching process ---
 
-    def start_watching(self, command: Callable[[], LiveCommand] = live_command) -> None:
+    def start_watching(self, command: Callable[[], LiveCommand]) -> None:
         """Start the child process that watches, unless it runs."""
         if self._worker is None:
             self._command, self._broken = command, ""
@@ -312,7 +311,7 @@ class LivePane(Vertical):
     def on_show(self, event: events.Show) -> None:
         """The page is turned to."""
         self._attend(True)
-        if self._broken:
+        if self._broken and self._command is not None:
             self.start_watching(self._command)
 
     def on_hide(self, event: events.Hide) -> None:

@@ -28,7 +28,7 @@ from tutor.tui.control.pages import PAGES, Pages
 from tutor.tui.control.records import Records
 from tutor.tui.control.remember import Memory
 from tutor.tui.control.views import Views
-from tutor.tui.desk import Desk, domain_id
+from tutor.tui.desk import Desk
 from tutor.tui.findings import Findings
 from tutor.tui.node import Phase
 from tutor.tui.palette import Actions, LessonText
@@ -102,7 +102,7 @@ class MainScreen(Stage):
         self._framed = (self.query_one("#pages"), self.query_one(CriteriaPanel))
         self.watch_focused(self.focused)
         self.query_one(LessonList).border_title = "Lessons"
-        self.query_one(StatusBar).show_nodes((), domain_id())
+        self.query_one(StatusBar).show_nodes((), self.session.desk.domain)
         self.query_one(StatusBar).show_check(None)
         self.remembered()
         page = self.session.state.page
@@ -253,9 +253,9 @@ class MainScreen(Stage):
         if message.first and not (message.unasked and typing):  # who types is not taken away from their line
             self.show_page("log")
         if message.path == self.nodes.shown:
-            self._log.show(message.state, domain_id(), self.session.paths)
+            self._log.show(message.state, self.session.desk.domain, self.session.paths)
         states = [node.state for node in self.nodes.known.values()]
-        self.query_one(StatusBar).show_nodes(states, domain_id())
+        self.query_one(StatusBar).show_nodes(states, self.session.desk.domain)
         if (phases := [(state.file, state.phase) for state in states]) != self._phases:
             self._phases = phases  # the footer is composed anew: not for each line of a log, it would flicker
             self.refresh_bindings()

@@ -1,0 +1,94 @@
+"""What a learner runs meets what else they run, and nothing of anybody else's."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+
+from tests.cli.conftest import Run
+from tutor.content import load_course
+from tutor.doctor.ros2 import own_domain
+from tutor.tui.desk import Desk
+from tutor.tui.live.command import live_command
+from tutor.workspace import RunOptions, Workspace, claims, domain_of
+
+
+@pytest.fixture(autouse=True)
+def registry(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv("ROS_DOMAIN_ID", raising=False)
+    monkeypatch.setattr(claims, "REGISTRY", tmp_path / "registry")
+
+
+def ros2_domain(run: Run, monkeypatch: pytest.MonkeyPatch, *argv: str) -> str:
+    """The domain in which `ros-tutor ros2` would run."""
+
+    class Became(BaseException):
+        pass
+
+    found: list[str] = []
+
+    def execve(path: str, argv: list[str], env: dict[str, str]) -> None:
+        found.append(env["ROS_DOMAIN_ID"])
+        raise Became
+
+    monkeypatch.setattr(os, "execve", execve)
+    with pytest.raises(Became):
+        run(*argv, "ros2", "launch", "x")
+    return found[0]
+
+
+def test_app_live_and_ros2_are_in_the_workspaces_own(run: Run, home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    run("start", "i1.1", "--workspace", "ada")
+    run("start", "i1.1", "--workspace", "bob")
+    domains = []
+    for name in ("ada", "bob"):
+        desk = Desk(load_course(), Workspace(home / name))
+        domain = domain_of(desk.workspace)
+        node = desk.node_command(desk.lessons[0].files[0], RunOptions())
+        assert desk.domain == domain
+        assert node.env["ROS_DOMAIN_ID"] == str(domain)
+        assert live_command(desk.domain).env["ROS_DOMAIN_ID"] == str(domain)
+        assert ros2_domain(run, monkeypatch, "--workspace", name) == str(domain)
+        domains.append(domain)
+    assert len({0, *domains}) == 3
+
+
+def test_the_variable_wins_everywhere(run: Run, home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    run("start", "i1.1")
+    monkeypatch.setenv("ROS_DOMAIN_ID", "77")
+    desk = Desk(load_course(), Workspace(home / "ros_tutor_ws"))
+    assert desk.domain == 77
+    assert desk.node_command(desk.lessons[0].files[0], RunOptions()).env["ROS_DOMAIN_ID"] == "77"
+    assert ros2_domain(run, monkeypatch) == "77"
+    assert "Your nodes run in ROS domain 77." in run("list").out
+
+
+def test_a_desk_that_moves_has_the_domain_of_the_new_place(home: Path) -> None:
+    desk = Desk(load_course(), Workspace(home / "ros_tutor_ws"))
+    assert desk.domain
+    desk.begin_in(home / "elsewhere")
+    assert desk.domain == domain_of(Workspace(home / "elsewhere"))
+    assert (home / "elsewhere" / ".ros-tutor" / "domain").read_text() == f"{desk.domain}\n"
+
+
+def test_list_shows_it(run: Run, home: Path) -> None:
+    assert "ROS domain" not in run("list").out
+    run("start", "i1.1")
+    assert f"Your nodes run in ROS domain {domain_of(Workspace(home / 'ros_tutor_ws'))}." in run("list").out
+
+
+def test_doctor_shows_it(run: Run, home: Path) -> None:
+    run("start", "i1.1")
+    workspace = home / "ros_tutor_ws"
+    own = domain_of(Workspace(workspace))
+    found = own_domain(workspace, {})
+    assert found.ok
+    assert f"domain {own}" in found.text
+    assert f"export ROS_DOMAIN_ID={own}" in found.text
+    assert "as ROS_DOMAIN_ID says" in own_domain(workspace, {"ROS_DOMAIN_ID": "4"}).text
+    wrong = own_domain(workspace, {"ROS_DOMAIN_ID": "four"})
+    assert wrong.ok is None
+    assert "'four'" in wrong.text
+    assert wrong.mend
