@@ -6,6 +6,8 @@ from example_interfaces.srv import AddTwoInts
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 
+INT64_MIN, INT64_MAX = -(2**63), 2**63 - 1
+
 
 class CalculatorServer(Node):
     """Adds, subtracts, multiplies and divides on request."""
@@ -20,21 +22,15 @@ class CalculatorServer(Node):
 
     def add(self, request: AddTwoInts.Request, response: AddTwoInts.Response) -> AddTwoInts.Response:
         """Answer with a + b."""
-        response.sum = request.a + request.b
-        self.get_logger().info(f"{request.a} + {request.b} = {response.sum}")
-        return response
+        return self.answer(f"{request.a} + {request.b}", request.a + request.b, response)
 
     def subtract(self, request: AddTwoInts.Request, response: AddTwoInts.Response) -> AddTwoInts.Response:
         """Answer with a - b."""
-        response.sum = request.a - request.b
-        self.get_logger().info(f"{request.a} - {request.b} = {response.sum}")
-        return response
+        return self.answer(f"{request.a} - {request.b}", request.a - request.b, response)
 
     def multiply(self, request: AddTwoInts.Request, response: AddTwoInts.Response) -> AddTwoInts.Response:
         """Answer with a * b."""
-        response.sum = request.a * request.b
-        self.get_logger().info(f"{request.a} * {request.b} = {response.sum}")
-        return response
+        return self.answer(f"{request.a} * {request.b}", request.a * request.b, response)
 
     def divide(self, request: AddTwoInts.Request, response: AddTwoInts.Response) -> AddTwoInts.Response:
         """Answer with a // b, or with 0 and an error in the log where b is 0."""
@@ -44,8 +40,16 @@ class CalculatorServer(Node):
             response.sum = 0
             return response
         # Two slashes: one slash makes a float, and the field is an int64.
-        response.sum = request.a // request.b
-        self.get_logger().info(f"{request.a} / {request.b} = {response.sum}")
+        return self.answer(f"{request.a} / {request.b}", request.a // request.b, response)
+
+    def answer(self, question: str, result: int, response: AddTwoInts.Response) -> AddTwoInts.Response:
+        """Log the result and put it into the response, or the nearest number that an int64 can hold."""
+        # Python's numbers have no end, but an int64 has: a larger one would raise OverflowError and end the node.
+        response.sum = max(INT64_MIN, min(result, INT64_MAX))
+        if response.sum == result:
+            self.get_logger().info(f"{question} = {result}")
+        else:
+            self.get_logger().error(f"{question} = {result} does not fit into an int64: answering {response.sum}")
         return response
 
 

@@ -1,0 +1,39 @@
+"""What our solutions do beyond what a check asks of them."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.engine.made import Scene, nothing_shared
+from tutor.content import load_course
+from tutor.judge.submission import Submission
+from tutor.workspace import solution
+
+ADD = "example_interfaces/srv/AddTwoInts"
+LEAST, MOST = -(2**63), 2**63 - 1
+UP_S, ANSWER_S = 60.0, 20.0
+
+
+@pytest.mark.timeout(200)
+async def test_the_calculator_answers_what_no_int64_can_hold(scene: Scene) -> None:
+    from tutor.engine.bench import LiveBench
+
+    file = "calculator_server.py"
+    files = solution(load_course().find("i1.3")).files
+    bench = LiveBench(Submission("i1.3", files), scene.ros, nothing_shared, lambda fraction, text: None)
+    async with bench.start(file) as run:
+        assert await run.until(lambda: "/divide" in [each.name for each in run.graph.services], UP_S)
+        for service, a, b, nearest in (
+            ("/add", MOST, 1, MOST),
+            ("/add", LEAST, -1, LEAST),
+            ("/subtract", LEAST, MOST, LEAST),
+            ("/multiply", MOST, MOST, MOST),
+            ("/multiply", LEAST, 2, LEAST),
+            ("/divide", LEAST, -1, MOST),
+            ("/add", 1, 2, 3),
+        ):
+            answer = await run.call(service, ADD, {"a": a, "b": b}, limit_s=ANSWER_S)
+            assert answer.response == {"sum": nearest}, (service, a, b, run.output)
+        said = [log.text for log in run.logs if log.level >= 40]
+        assert await run.until(lambda: len([log for log in run.logs if log.level >= 40]) == 6, ANSWER_S), said
+        assert run.exit is None
