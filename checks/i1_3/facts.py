@@ -18,6 +18,13 @@ AFTER_ZERO = ((18, 3), (-9, 0), (0, 0), (35, 5))
 """What is divided after a division by zero: well, by zero again, and well."""
 ANSWER_S = 5.0
 CLIENT_S = 15.0
+LATER_S = 0.7
+"""Our servers come up so long after its first service client, about a second after the program's start.
+
+Anyone who does not wait for them has called by then; anyone who waits for a second at a time finds them.
+"""
+NO_CLIENT_S = 1.0
+"""A node that makes no service client for this long may look for our servers before it does."""
 AFTERWARDS_S = 0.5
 """A node that gives up after a division by zero does so within this time."""
 STUCK_S = 1.5
@@ -98,7 +105,8 @@ class Division:
 class Demonstration:
     """A run of the client against servers of ours. None of it where the submission has no client.
 
-    `stuck`: where it was when it did not end; `clients`: the service clients that it had.
+    `up_s`: how long after its start our servers came up; None where it had ended by then. `stuck`: where it was when it
+    did not end; `clients`: the service clients that it had.
     """
 
     trace: Trace | None
@@ -106,6 +114,7 @@ class Demonstration:
     exit: Exit | None = None
     stuck: tuple[Frame, ...] = ()
     clients: tuple[Service, ...] = ()
+    up_s: float | None = None
 
 
 def right_result(service: str, a: int, b: int) -> int:

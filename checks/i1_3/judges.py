@@ -7,20 +7,16 @@ from typing import Any
 
 from checks.i1_3.facts import (
     ANSWER_S,
-    CLIENT,
-    CLIENT_S,
     SAYS_ERROR,
-    SERVER,
     SIGNS,
     TYPE,
     Calls,
-    Demonstration,
     Division,
     complaints_in,
     missing_of,
     right_result,
 )
-from tutor.judge import causes, ending, tracebacks
+from tutor.judge import causes, ending
 from tutor.judge.trace import CallAnswer, Service, Trace
 from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped
 
@@ -198,73 +194,6 @@ def judge_division(seen: Division) -> Verdict:
         f"answered {seen.by_zero.response['sum']}, and {len(seen.after)} calls after it",
         [str(complaints[0])],
     )
-
-
-def judge_client(seen: Demonstration) -> Verdict:
-    expected = (
-        f"{CLIENT}, run without arguments, calls all four services and ends by itself with 0 within {CLIENT_S:g} s"
-    )
-    if seen.trace is None:
-        return failed(
-            expected,
-            f"there is no {CLIENT}",
-            Cause("file missing", f"the submission has no {CLIENT}", f"write {CLIENT} beside {SERVER}"),
-        )
-    called = {served.service for served in seen.served}
-    missing = [name for name in SIGNS if name not in called]
-    calls_made = [f"{s.service} {s.request['a']} {s.request['b']} -> {s.response['sum']}" for s in seen.served[:12]]
-    words = (*calls_made, *causes.last_words(seen.trace, 4))
-    if seen.exit is None:
-        return failed(
-            expected, f"still running after {CLIENT_S:g} s; called {_listed(called)}", _why_hanging(seen), words
-        )
-    ended = f"ended after {seen.exit.after_s:.1f} s with {seen.exit}"
-    if seen.exit.code != 0:
-        cause = causes.of_process(seen.trace)
-        if cause is None or cause.name == "exit at once":
-            cause = Cause("non-zero exit", f"the client {ended}", "end with return or sys.exit(0) when all went well")
-        return failed(expected, f"{ended}; called {_listed(called)}", cause, words)
-    if missing:
-        cause = causes.incompatible_service(seen.clients) or _why_not_called(seen.trace, called, missing)
-        return failed(expected, f"{ended}; {', '.join(missing)} not called", cause, words)
-    return passed(expected, f"{len(seen.served)} calls, {ended}", calls_made)
-
-
-def _why_not_called(trace: Trace, called: set[str], missing: Sequence[str]) -> Cause:
-    if trace.uncalled_main and not called:
-        return Cause(
-            "no main call",
-            "main() is defined, but nothing calls it",
-            'end the file with: if __name__ == "__main__": main()',
-        )
-    return Cause(
-        "not called",
-        f"{', '.join(missing)} got no request",
-        "call each service, and wait for each answer before you go on",
-    )
-
-
-def _why_hanging(seen: Demonstration) -> Cause:
-    assert seen.trace is not None
-    if (mismatched := causes.incompatible_service(seen.clients)) is not None:
-        return mismatched
-    own = tracebacks.own(seen.stuck, seen.trace.folder)
-    where = f" at {own}" if own else ""
-    if causes.in_call(seen.stuck):
-        return Cause(
-            "deadlock by call()",
-            f"the client waits for ever{where}: call() blocks the thread that would have to take in the answer",
-            "use call_async() and rclpy.spin_until_future_complete(node, future), outside of callbacks",
-        )
-    return Cause(
-        "did not end",
-        f"the client was still busy{where}" if where else "the client does not end by itself",
-        "wait for each service, use call_async(), spin until its future is done, and return after the last answer",
-    )
-
-
-def _listed(called: set[str]) -> str:
-    return ", ".join(name for name in SIGNS if name in called) or "nothing"
 
 
 def judge_shutdown(seen: Calls) -> Verdict:

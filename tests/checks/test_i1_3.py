@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from checks.i1_3.client import judge_client
 from checks.i1_3.facts import (
     AFTER_ZERO,
     SIGNS,
@@ -19,7 +21,7 @@ from checks.i1_3.facts import (
     missing_of,
     right_result,
 )
-from checks.i1_3.judges import judge_client, judge_division, judge_operations, judge_services, judge_shutdown
+from checks.i1_3.judges import judge_division, judge_operations, judge_services, judge_shutdown
 from checks.i1_3.scenarios import operands as divisible
 from tests.checks.made import (
     CRASH,
@@ -36,7 +38,7 @@ from tests.checks.made import (
     log,
     trace,
 )
-from tutor.judge.trace import CallAnswer, Graph, LogRecord, Served, Trace
+from tutor.judge.trace import CallAnswer, Graph, LogRecord, Served, Service, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Status
 
@@ -421,6 +423,55 @@ def test_client(served: tuple[Served, ...]) -> None:
 )
 def test_client_not(seen: Demonstration, cause: str, word: str) -> None:
     assert_failed(judge_client(seen), cause, word)
+
+
+ASKS = """
+node = rclpy.create_node('client')
+client = node.create_client(AddTwoInts, 'add')
+future = client.call_async(AddTwoInts.Request(a=1, b=2))
+"""
+WAITS = ASKS.replace("future =", "client.wait_for_service(timeout_sec=0.1)\nfuture =")
+MADE = (Service("/add", TYPE, "/client"),)
+SPINNING = (frame("spin_once", "/venv/rclpy/executors.py"), frame("main"))
+NO_ANSWER = CRASH.replace("'Sensor' object has no attribute 'nothing'", "'NoneType' object has no attribute 'sum'")
+
+
+def asking(text: str, served: tuple[Served, ...] = (), code: int | None = 0, **more: Any) -> Demonstration:
+    """A run of a client with this source."""
+    return replace(demonstration(served, code, sources={"node.py": text}, **more), clients=MADE)
+
+
+@pytest.mark.parametrize(
+    "seen",
+    [
+        asking(ASKS),
+        asking(ASKS, SERVED[1:]),
+        asking(ASKS, code=1),
+        asking(ASKS, code=1, err=NO_ANSWER),
+        asking(ASKS, code=None, stuck=SPINNING),
+        asking(ASKS, code=None, stuck=(*IN_CALL, *SPINNING)),
+    ],
+)
+def test_a_client_that_does_not_wait_is_told_so(seen: Demonstration) -> None:
+    assert_failed(judge_client(seen), "service not waited for", "after line 3", "client.wait_for_service(timeout_sec=")
+
+
+@pytest.mark.parametrize("text", ["client.wait_for_service()", "self.cli.service_is_ready()"])
+def test_a_client_that_asks_for_its_service_is_not_told_to(text: str) -> None:
+    for seen in (asking(ASKS + text, SERVED[:1]), asking(ASKS + text, SERVED[:1], None, stuck=SPINNING)):
+        assert "not waited" not in judge_client(seen).cause
+
+
+def test_who_crashes_of_itself_is_told_of_that() -> None:
+    assert_failed(judge_client(asking(ASKS, code=1, err=CRASH)), "unhandled exception", "line 12")
+
+
+def test_who_gives_up_before_there_is_a_server_is_told_so() -> None:
+    assert_failed(judge_client(asking(WAITS, code=1)), "waits too short a time", "timeout_sec=10.0")
+    assert_failed(judge_client(asking(WAITS, code=1, err=NO_ANSWER)), "waits too short a time")
+    assert_failed(judge_client(asking(WAITS, code=1, err=CRASH)), "unhandled exception")
+    usage = replace(asking(WAITS + "sys.argv[1]", code=2), clients=())
+    assert_failed(judge_client(usage), "non-zero exit")
 
 
 def test_shutdown() -> None:

@@ -217,7 +217,8 @@ async def test_our_servers_answer_a_client_and_remember_it(scene: Scene) -> None
     def add(request: Mapping[str, Any]) -> Mapping[str, Any]:
         return {"sum": request["a"] + request["b"]}
 
-    async with scene.bench(node(CALLS)).start(FILE, serve={"/add": (ADD, add)}) as run:
+    async with scene.bench(node(CALLS)).start(FILE) as run:
+        run.serve("/add", ADD, add)
         assert await run.until(lambda: run.exit is not None, UP_S)
         trace, served = run.trace(), tuple(run.served)
     assert [line.text for line in trace.output if line.stream == "stdout"] == ["sum 9"]
@@ -229,7 +230,8 @@ async def test_a_server_of_ours_that_breaks_is_our_fault(scene: Scene) -> None:
     def broken(request: Mapping[str, Any]) -> Mapping[str, Any]:
         raise ZeroDivisionError("ours")
 
-    async with scene.bench(node(CALLS)).start(FILE, serve={"/add": (ADD, broken)}) as run:
+    async with scene.bench(node(CALLS)).start(FILE) as run:
+        run.serve("/add", ADD, broken)
         with pytest.raises(EngineError, match="ours"):
             await run.until(lambda: run.exit is not None, UP_S)
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import asyncio
 import os
 import tempfile
-import time
 from collections.abc import AsyncIterator, Callable, Iterator, Mapping
 from contextlib import asynccontextmanager, contextmanager, suppress
 from dataclasses import dataclass, field
@@ -15,9 +14,8 @@ from typing import Any, TypeVar
 from tutor.engine.admission import Admission
 from tutor.engine.errors import EngineError
 from tutor.engine.run import Facts, LiveRun
-from tutor.judge.bench import Handler, Run, Scenario
+from tutor.judge.bench import Run, Scenario
 from tutor.judge.submission import Submission
-from tutor.judge.trace import Served
 from tutor.process import LearnerProcess, ProcessError
 from tutor.ros.domain import NoFreeDomain, reserve_domain
 from tutor.ros.environment import RosEnvironment, learner_env
@@ -60,7 +58,6 @@ class LiveBench:
         *,
         parameters: Mapping[str, Any] | None = None,
         watch: Mapping[str, str] | None = None,
-        serve: Mapping[str, tuple[str, Handler]] | None = None,
         asks_s: float | None = None,
     ) -> AsyncIterator[Run]:
         path = self.submission.files[file].resolve()
@@ -69,7 +66,7 @@ class LiveBench:
         def command(env: dict[str, str], log_dir: Path) -> list[str]:
             return program
 
-        given = (parameters or {}, watch or {}, serve or {})
+        given = (parameters or {}, watch or {})
         async with self._start(path, command, *given, asks_s=self.asks_s if asks_s is None else asks_s) as run:
             yield run
 
@@ -83,7 +80,7 @@ class LiveBench:
                 overlay.make(log_dir / "overlay", path, env, python=str(self.ros.python))
             return [*ros2(self.ros, env), "launch", str(path), *given]
 
-        async with self._start(path, command, {}, {}, {}, terminal=True, nodes=2, asks_s=self.asks_s + LAUNCH_S) as run:
+        async with self._start(path, command, {}, {}, terminal=True, nodes=2, asks_s=self.asks_s + LAUNCH_S) as run:
             yield run
 
     @asynccontextmanager
@@ -111,7 +108,6 @@ class LiveBench:
         command: _Command,
         parameters: Mapping[str, Any],
         watch: Mapping[str, str],
-        serve: Mapping[str, tuple[str, Handler]],
         *,
         terminal: bool,
     ) -> AsyncIterator[Run]:
@@ -127,8 +123,6 @@ class LiveBench:
                 observer.watch_logs()
                 for topic, type_name in watch.items():
                     observer.watch(topic, type_name)
-                for service, (type_name, handler) in serve.items():
-                    observer.serve(service, type_name, handler, _recorder(facts, service))
                 env = learner_env(
                     self.ros,
                     domain_id=domain_id,
@@ -199,11 +193,3 @@ def ros_arguments(parameters: Mapping[str, Any]) -> list[str]:
 def package_root(path: Path) -> Path | None:
     """The folder from which the file's own package can be imported, where the file is a module of one."""
     return path.parent.parent if (path.parent / "__init__.py").is_file() else None
-
-
-def _recorder(facts: Facts, service: str) -> Callable[[Mapping[str, Any], Mapping[str, Any]], None]:
-    def record(request: Mapping[str, Any], response: Mapping[str, Any]) -> None:
-        facts.served.append(Served(service, request, response, time.time()))
-        facts.change()
-
-    return record

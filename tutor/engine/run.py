@@ -11,12 +11,14 @@ import time
 from collections.abc import AsyncIterator, Callable, Coroutine, Mapping, Sequence
 from contextlib import asynccontextmanager
 from dataclasses import replace
+from functools import cached_property
 from pathlib import Path
 from typing import Any, TypeVar
 
 from tutor.engine.errors import EngineError
-from tutor.engine.source import launch_arguments, uncalled_main
+from tutor.engine.source import launch_arguments, sources, uncalled_main
 from tutor.judge import tracebacks
+from tutor.judge.bench import Handler
 from tutor.judge.trace import (
     CallAnswer,
     Echo,
@@ -136,6 +138,13 @@ class LiveRun:
         except UnknownType:
             return False
         return True
+
+    def serve(self, service: str, type: str, handler: Handler) -> None:
+        def served(request: Mapping[str, Any], response: Mapping[str, Any]) -> None:
+            self._facts.served.append(Served(service, request, response, time.time()))
+            self._facts.change()
+
+        self._observer.serve(service, type, handler, served)
 
     def now(self) -> float:
         return time.time()
@@ -289,8 +298,7 @@ class LiveRun:
         return Trace(
             file=self._path.name,
             folder=str(self._path.parent),
-            uncalled_main=uncalled_main(self._path),
-            launch_arguments=launch_arguments(self._path),
+            **self._source,
             parameters=self._given,
             started_at=self.started_at,
             samples={topic: tuple(samples) for topic, samples in self._observer.samples.items()},
@@ -310,6 +318,16 @@ class LiveRun:
             return task.result() if task.done() else otherwise
         finally:
             task.cancel()
+
+    @cached_property
+    def _source(self) -> dict[str, Any]:
+        """What the file says about itself."""
+        path = self._path
+        return {
+            "uncalled_main": uncalled_main(path),
+            "launch_arguments": launch_arguments(path),
+            "sources": sources(path),
+        }
 
     def _final_graph(self) -> Graph:
         """The graph now, or, where the process has ended, the last that was seen of it."""

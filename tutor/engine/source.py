@@ -3,7 +3,13 @@
 from __future__ import annotations
 
 import ast
+import tokenize
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from pathlib import Path
+
+MOST_FILES, MOST_BYTES = 20, 200_000
+"""No diagnosis needs more source than this."""
 
 
 def uncalled_main(path: Path) -> bool:
@@ -25,6 +31,28 @@ def launch_arguments(path: Path) -> tuple[str, ...]:
             given = [*call.args[:1], *(keyword.value for keyword in call.keywords if keyword.arg == "name")]
             names += [each.value for each in given if isinstance(each, ast.Constant) and isinstance(each.value, str)]
     return tuple(names)
+
+
+def sources(path: Path) -> Mapping[str, str]:
+    """The text of the file and of those beside it that it imports, by file name; what cannot be read is left out."""
+    found: dict[str, str] = {}
+    waiting = [path]
+    while waiting and len(found) < MOST_FILES:
+        file = waiting.pop(0)
+        if file.name in found or not file.is_file() or file.stat().st_size > MOST_BYTES:
+            continue
+        with suppress(OSError, SyntaxError, UnicodeError), tokenize.open(file) as opened:
+            found[file.name] = opened.read()
+        waiting += [path.parent / f"{name}.py" for name in _imported(_parsed(file))]
+    return found
+
+
+def _imported(tree: ast.Module) -> Iterator[str]:
+    """The last parts of the names that are imported: of what lies beside the file, these are files."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import | ast.ImportFrom):
+            names = [alias.name for alias in node.names]
+            yield from (name.rpartition(".")[2] for name in (*names, getattr(node, "module", None) or ""))
 
 
 def _parsed(path: Path) -> ast.Module:

@@ -90,6 +90,9 @@ class Run(Protocol):
     def watch(self, topic: str, type: str) -> bool:
         """Collect the samples of one more topic from now on. Gives False where this ROS has no such type."""
 
+    def serve(self, service: str, type: str, handler: Handler) -> None:
+        """Offer a service of our own from now on; what it answers is in `served`."""
+
     def now(self) -> float:
         """The wall-clock time, in seconds since the epoch, as in every fact."""
 
@@ -154,13 +157,12 @@ class Bench(Protocol):
         *,
         parameters: Mapping[str, Any] | None = None,
         watch: Mapping[str, str] | None = None,
-        serve: Mapping[str, tuple[str, Handler]] | None = None,
         asks_s: float | None = None,
     ) -> AbstractAsyncContextManager[Run]:
         """Start one of the submission's files; nothing of it is left when the context ends.
 
         `parameters` are given as `--ros-args -p name:=value`; `watch` maps topics to types and is subscribed before the
-        process starts; `serve` maps service names to a type and a handler, ready before the process starts.
+        process starts.
         `asks_s`: about how many seconds of the clock this start, and what waits for it, ask for when it is our own
         solution; without it, the check's `asks_s`. It only says who goes first where many are to start.
         """

@@ -192,13 +192,15 @@ class Trace:
 
     `folder` is where the learner's file lies. `output` is bounded: `dropped_lines` says how many lines in its middle
     were not kept. `uncalled_main`: the file defines `main` and calls it nowhere; `launch_arguments`: the names
-    that it declares as launch arguments (both for a diagnosis, never a verdict).
+    that it declares as launch arguments; `sources`: the text of the file, and of those beside it that it imports, by
+    file name (all three for the words of a diagnosis, never for a verdict: see `tutor.judge.source`).
     """
 
     file: str
     folder: str = ""
     uncalled_main: bool = False
     launch_arguments: tuple[str, ...] = ()
+    sources: Mapping[str, str] = field(default_factory=dict)
     parameters: Mapping[str, Any] = field(default_factory=dict)
     started_at: float = 0.0
     samples: Mapping[str, tuple[Sample, ...]] = field(default_factory=dict)

@@ -1,0 +1,143 @@
+"""I1.3: what must have been seen of the client."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from checks.i1_3.facts import CLIENT, CLIENT_S, LATER_S, SERVER, SIGNS, Demonstration
+from tutor.judge import causes, source, tracebacks
+from tutor.judge.trace import Trace
+from tutor.judge.verdict import Cause, Verdict, failed, passed
+
+WAITS = ("wait_for_service", "service_is_ready", "server_is_ready", "get_service_names_and_types", "wait_for_services")
+"""Names by which a client asks whether a service is there."""
+
+
+def judge_client(seen: Demonstration) -> Verdict:
+    """Judge `client`."""
+    expected = (
+        f"{CLIENT}, run without arguments, waits for the four services, which come up a little later, calls each of "
+        f"them and ends by itself with 0 within {CLIENT_S:g} s"
+    )
+    if seen.trace is None:
+        return failed(
+            expected,
+            f"there is no {CLIENT}",
+            Cause("file missing", f"the submission has no {CLIENT}", f"write {CLIENT} beside {SERVER}"),
+        )
+    called = {served.service for served in seen.served}
+    missing = [name for name in SIGNS if name not in called]
+    calls_made = [f"{s.service} {s.request['a']} {s.request['b']} -> {s.response['sum']}" for s in seen.served[:12]]
+    words = (*calls_made, *causes.last_words(seen.trace, 4))
+    if seen.exit is None:
+        observed = f"still running after {CLIENT_S:g} s; called {_listed(called)}"
+        return failed(expected, observed, _why_hanging(seen, missing), words)
+    ended = f"ended after {seen.exit.after_s:.1f} s with {seen.exit}"
+    if seen.exit.code != 0:
+        return failed(expected, f"{ended}; called {_listed(called)}", _why_not_zero(seen, missing, ended), words)
+    if missing:
+        return failed(expected, f"{ended}; {', '.join(missing)} not called", _why_not_called(seen, missing), words)
+    return passed(expected, f"{len(seen.served)} calls, {ended}", calls_made)
+
+
+def _why_not_zero(seen: Demonstration, missing: Sequence[str], ended: str) -> Cause:
+    assert seen.trace is not None
+    if (unmet := _unmet(seen, missing)) is not None and _follows_from_silence(seen.trace):
+        return unmet
+    cause = causes.of_process(seen.trace)
+    if cause is None or cause.name == "exit at once":
+        return Cause("non-zero exit", f"the client {ended}", "end with return or sys.exit(0) when all went well")
+    return cause
+
+
+def _follows_from_silence(trace: Trace) -> bool:
+    """Whether the program ended because there was no answer: by itself, or since it took None for one."""
+    found = tracebacks.last(trace)
+    if found is None:
+        return True
+    own = found.own(trace.folder)
+    raised = own is not None and own.code.startswith(("raise ", "assert "))
+    return raised or found.type.endswith("TimeoutError") or "'NoneType'" in found.message
+
+
+def _why_not_called(seen: Demonstration, missing: Sequence[str]) -> Cause:
+    assert seen.trace is not None
+    if seen.trace.uncalled_main and not seen.served:
+        return Cause(
+            "no main call",
+            "main() is defined, but nothing calls it",
+            'end the file with: if __name__ == "__main__": main()',
+        )
+    return (
+        causes.incompatible_service(seen.clients)
+        or _unmet(seen, missing)
+        or Cause(
+            "not called",
+            f"{', '.join(missing)} got no request",
+            "call each service, and wait for each answer before you go on",
+        )
+    )
+
+
+def _why_hanging(seen: Demonstration, missing: Sequence[str]) -> Cause:
+    assert seen.trace is not None
+    if (mismatched := causes.incompatible_service(seen.clients)) is not None:
+        return mismatched
+    own = tracebacks.own(seen.stuck, seen.trace.folder)
+    where = f" at {own}" if own else ""
+    spins = any(frame.function.startswith("spin") for frame in seen.stuck)
+    if causes.in_call(seen.stuck) and not spins:
+        return Cause(
+            "deadlock by call()",
+            f"the client waits for ever{where}: call() blocks the thread that would have to take in the answer",
+            "use call_async() and rclpy.spin_until_future_complete(node, future), outside of callbacks",
+        )
+    return _unmet(seen, missing) or Cause(
+        "did not end",
+        f"the client was still busy{where}" if where else "the client does not end by itself",
+        "wait for each service, use call_async(), spin until its future is done, and return after the last answer",
+    )
+
+
+def _unmet(seen: Demonstration, missing: Sequence[str]) -> Cause | None:
+    """Whether it did not call the missing services since it never met them: why not."""
+    assert seen.trace is not None
+    if not missing or not source.calls(seen.trace, "call_async", "call"):
+        return None
+    if not source.mentions(seen.trace, *WAITS):
+        return Cause(
+            "service not waited for",
+            f"the request was sent before there was a server, and such a request is lost: {missing[0]} came up "
+            f"{LATER_S:g} s after the client",
+            _where_to_wait(seen.trace),
+        )
+    if gave_up(seen):
+        assert seen.exit is not None
+        return Cause(
+            "waits too short a time",
+            f"it gave up after {seen.exit.after_s:.1f} s, before it had found our servers: they come up about a second "
+            "after it",
+            "wait long enough for the service: wait_for_service(timeout_sec=10.0)",
+        )
+    return None
+
+
+def gave_up(seen: Demonstration) -> bool:
+    """Whether it asks for our servers, and ended by itself before it had found one."""
+    if seen.trace is None or seen.exit is None or seen.served or not source.mentions(seen.trace, *WAITS):
+        return False
+    return bool(seen.clients) or not source.mentions(seen.trace, "argv", "ArgumentParser")
+
+
+def _where_to_wait(trace: Trace) -> str:
+    """The next step for a client that does not wait, in its own words."""
+    made = [(name, line) for name, line in source.assigned(trace, "create_client") if name]
+    if not made:
+        return "before the first request, call wait_for_service(timeout_sec=10.0) of each service client"
+    name, line = made[0]
+    others = ", and likewise for the other clients" if len(made) > 1 else ""
+    return f"after line {line}, where the client is made: {name}.wait_for_service(timeout_sec=10.0){others}"
+
+
+def _listed(called: set[str]) -> str:
+    return ", ".join(name for name in SIGNS if name in called) or "nothing"

@@ -1,0 +1,53 @@
+"""What a learner's source says, for the words of a diagnosis."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from tests.checks.made import trace
+from tutor.engine.source import sources
+from tutor.judge import source
+
+CLIENT = """
+class Client(Node):
+    def __init__(self):
+        self.add_client = self.create_client(AddTwoInts, "add")
+        clients["divide"] = self.create_client(
+            AddTwoInts, "divide"
+        )
+        # wait_for_service, says the lesson
+        self.add_client.call_async(AddTwoInts.Request())
+"""
+
+
+def test_names_calls_and_assignments_are_found_and_comments_are_not() -> None:
+    seen = trace(sources={"client.py": CLIENT})
+    assert source.mentions(seen, "call_async")
+    assert source.mentions(seen, "nothing", "Node")
+    assert not source.mentions(seen, "wait_for_service")
+    assert [call.lineno for call in source.calls(seen, "create_client", "call_async")] == [4, 5, 9]
+    assert source.assigned(seen, "create_client") == [("self.add_client", 4), ("", 7)]
+
+
+@pytest.mark.parametrize("text", ["def broken(:", "\0", "(" * 5000])
+def test_a_file_that_python_cannot_read_says_nothing(text: str) -> None:
+    seen = trace(sources={"node.py": text})
+    assert not source.mentions(seen, "Node")
+    assert source.calls(seen, "call") == []
+
+
+def test_a_file_brings_along_those_beside_it_that_it_imports(tmp_path: Path) -> None:
+    for name, text in {
+        "node.py": "import helper\nfrom my_package.more import thing\nimport rclpy",
+        "helper.py": "from node import main",
+        "more.py": "def broken(:",
+        "other.py": "",
+    }.items():
+        (tmp_path / name).write_text(text)
+    assert sorted(sources(tmp_path / "node.py")) == ["helper.py", "more.py", "node.py"]
+    (tmp_path / "node.py").write_bytes(b"# coding: latin-1\n# \xe9\nimport helper")
+    assert "\xe9" in sources(tmp_path / "node.py")["node.py"]
+    (tmp_path / "node.py").write_bytes(b"\xff\xfe")
+    assert sources(tmp_path / "node.py") == {}

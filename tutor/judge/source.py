@@ -1,0 +1,66 @@
+"""What a learner's source says, for the words of a diagnosis: a next step must not advise what is there already.
+
+Never for a verdict. A file that Python cannot read says nothing.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from functools import lru_cache
+
+from tutor.judge.trace import Trace
+
+
+def nodes(trace: Trace) -> Iterator[ast.AST]:
+    """All nodes of the syntax trees of the learner's files."""
+    for text in trace.sources.values():
+        yield from ast.walk(_parsed(text))
+
+
+def mentions(trace: Trace, *names: str) -> bool:
+    """Whether one of these names is used anywhere, as a variable, a function or an attribute."""
+    wanted = set(names)
+    return any(
+        (isinstance(node, ast.Name) and node.id in wanted) or (isinstance(node, ast.Attribute) and node.attr in wanted)
+        for node in nodes(trace)
+    )
+
+
+def calls(trace: Trace, *names: str) -> list[ast.Call]:
+    """The calls of functions and methods of these names, in the order in which they are written."""
+    wanted = set(names)
+    found = [node for node in nodes(trace) if isinstance(node, ast.Call) and called(node) in wanted]
+    return sorted(found, key=lambda call: call.lineno)
+
+
+def assigned(trace: Trace, *names: str) -> list[tuple[str, int]]:
+    """What the results of calls of these names are assigned to, such as ("self.client", 14), with the line's number.
+
+    Empty where it is no single name or attribute.
+    """
+    wanted = set(names)
+    found = []
+    for node in nodes(trace):
+        if isinstance(node, ast.Assign | ast.AnnAssign) and isinstance(node.value, ast.Call):
+            target = node.targets[0] if isinstance(node, ast.Assign) else node.target
+            if called(node.value) in wanted:
+                plain = isinstance(target, ast.Name | ast.Attribute)
+                found.append((ast.unparse(target) if plain else "", node.end_lineno or node.lineno))
+    return sorted(found, key=lambda each: each[1])
+
+
+def called(call: ast.Call) -> str:
+    """The last part of the name of what is called; empty where it has none."""
+    match call.func:
+        case ast.Attribute(attr=name) | ast.Name(id=name):
+            return name
+    return ""
+
+
+@lru_cache(maxsize=32)
+def _parsed(text: str) -> ast.Module:
+    try:
+        return ast.parse(text)
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        return ast.Module([], [])
