@@ -53,6 +53,22 @@ def test_labels_have_as_many_digits_as_they_need(value: float, span: float, text
     assert short(value, span) == text
 
 
+def test_few_samples_are_marked_each_and_many_are_a_line() -> None:
+    few = draw([(float(n), 20.0 + n) for n in range(10)], 60, 8, 10.0, 10.0)
+    assert "".join(dots(few.rows)).count("•") == "".join(few.kinds).count("m") == 10
+    many = draw([(n / 20, 20.0 + n % 10) for n in range(200)], 60, 8, 10.0, 10.0)
+    assert "•" not in "".join(dots(many.rows))
+
+
+def test_the_band_that_is_asked_for_is_drawn_and_what_is_outside_stands_out() -> None:
+    plot = draw([(2.0, 25.0), (6.0, 34.0)], 60, 12, 10.0, 10.0, band=(20.0, 30.0))
+    edges = [axis.strip() for (axis, _), kinds in zip(plot.rows, plot.kinds, strict=True) if "b" in kinds]
+    assert edges == ["30┤", "20┤"]
+    assert "".join(plot.kinds).count("m") == 1
+    assert "".join(plot.kinds).count("o") == 1
+    assert any("╌╌╌" in text for text in dots(plot.rows))
+
+
 @given(
     st.lists(st.tuples(st.floats(0, 100), st.floats(-1e300, 1e300)), max_size=50),
     st.integers(12, 200),

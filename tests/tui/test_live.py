@@ -16,6 +16,7 @@ from tests.tui.person import Person
 from tutor.content import load_course
 from tutor.live.facts import TopicNews
 from tutor.tui.live import services_panel
+from tutor.tui.live.echo_view import EchoView
 from tutor.tui.live.history import HistoryView
 from tutor.tui.live.services_panel import ServicesPanel
 from tutor.tui.live.state import TopicView
@@ -269,6 +270,75 @@ async def test_where_nothing_runs_the_page_says_what_to_do_and_nodes_come_and_go
         await me.sees("data: 2", "1 node")
         await asyncio.to_thread(cold.interrupt, node)
         await me.sees("No node runs in domain", "silent for", "0 nodes")
+
+
+async def test_what_my_node_publishes_is_followed_and_shown_by_itself_and_stays_away_once_i_unfollowed_it(
+    cold: World,
+) -> None:
+    async with watching(cold) as me:
+        await me.sees("No node runs")
+        me.app.pane.show_for(load_course().find("i1.1"))
+        me.app.pane.nodes_run(True)
+        await asyncio.to_thread(cold.run, METRONOME, "5", "1000")
+        await me.sees("/ticks  std_msgs/", "messages · ", "Hz")
+        await me.press("delete")
+        await me.sees("Not followed: press Enter")
+        await asyncio.to_thread(cold.run, THERMOMETER)
+        await me.sees("/cmd_vel")
+        assert "/ticks" not in me.app.pane.state.topics
+        assert "/sensor/temperature" in me.app.pane.state.topics
+
+
+async def test_a_name_that_is_almost_the_one_asked_for_is_told_with_the_node_that_has_it(cold: World) -> None:
+    async with watching(cold, (120, 24)) as me:
+        await me.sees("No node runs")
+        me.app.pane.show_for(load_course().find("i1.1"))
+        slip = ("--ros-args", "-r", "/sensor/temperature:=/sensor/temprature")
+        node = await asyncio.to_thread(cold.run, THERMOMETER, "20", *slip)
+        await me.sees("/thermometer publishes /sensor/temprature; the exercise asks for /sensor/temperature. Did you")
+        me.app.pane.show_for(load_course().find("i1.3"))
+        await me.sees_no("Did you mean")
+        me.app.pane.show_for(load_course().find("i1.1"))
+        await me.sees("Did you mean")
+        await asyncio.to_thread(cold.interrupt, node)
+        await me.sees_no("Did you mean")
+
+
+async def test_topics_of_a_lesson_that_i_left_go_with_the_node_that_published_them(cold: World) -> None:
+    async with watching(cold) as me:
+        me.app.pane.show_for(load_course().find("i1.1"))
+        node = await asyncio.to_thread(cold.run, THERMOMETER)
+        await me.sees("data: 2")
+        me.app.pane.show_for(load_course().find("i1.2"))
+        await me.until(lambda: me.topics().chosen == "/chatter")
+        await me.sees("/sensor/temperature")
+        await asyncio.to_thread(cold.interrupt, node)
+        await me.sees_no("/sensor/temperature")
+        await me.sees("No node runs")
+
+
+async def test_the_echo_keeps_what_came_to_be_scrolled_back_to(cold: World) -> None:
+    async with watching(cold) as me:
+        await me.sees("No node runs")
+        me.topics().follow("/ticks")
+        await asyncio.to_thread(cold.run, METRONOME, "4", "12")
+        echo = me.topics().query_one(EchoView)
+        await me.until(lambda: me.count() == 12, "all have come")
+        await me.until(lambda: echo.plain.count("---") >= 10, "and are kept")
+        await me.until(lambda: echo.is_vertical_scroll_end, "the newest is shown")
+        echo.focus()
+        await me.press("home")
+        await me.until(lambda: echo.scroll_offset.y == 0)
+        assert "data: 0" in echo.plain
+        await me.press("end")
+        await me.until(lambda: echo.is_vertical_scroll_end)
+
+
+async def test_the_plot_marks_its_samples_and_shows_the_values_that_are_asked_for(cold: World) -> None:
+    async with watching(cold, (120, 30)) as me:
+        me.app.pane.show_for(load_course().find("i1.1"))
+        await asyncio.to_thread(cold.run, THERMOMETER, "2")
+        await me.sees("asked: 20 to 30", "•", "╌╌╌", "30┤", "20┤")
 
 
 async def test_watching_that_breaks_is_told_and_can_begin_again(cold: World) -> None:

@@ -2,6 +2,7 @@
 
 from tutor.content.errors import ContentError, UnknownExercise
 from tutor.content.lint import lint
+from tutor.content.live import LiveTopic, LiveView, Partner
 from tutor.content.loader import load_course
 from tutor.content.model import (
     Checklist,
@@ -25,6 +26,9 @@ __all__ = [
     "Difficulty",
     "Lesson",
     "LessonFile",
+    "LiveTopic",
+    "LiveView",
+    "Partner",
     "Problem",
     "UnknownExercise",
     "lint",

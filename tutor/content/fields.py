@@ -90,9 +90,21 @@ class Fields:
         """Whatever there is, or None where there is nothing: for the caller to look at."""
         return self._left.pop(name, None)
 
-    def mappings(self, name: str) -> tuple[Fields, ...]:
-        """A list of mappings."""
-        return self._list(name, False, lambda path, value: Fields(self._document, path, value))
+    def number(self, name: str) -> float | None:
+        """A number; None where the field is absent."""
+        value = self._left.pop(name, None)
+        if value is not None and (isinstance(value, bool) or not isinstance(value, (int, float))):
+            raise self.error(name, f"expected a number, found {_kind(value)}")
+        return None if value is None else float(value)
+
+    def mapping(self, name: str) -> Fields | None:
+        """A mapping; None where the field is absent."""
+        value = self._left.pop(name, None)
+        return None if value is None else Fields(self._document, (*self._path, name), value)
+
+    def mappings(self, name: str, *, optional: bool = False) -> tuple[Fields, ...]:
+        """A list of mappings; an absent `optional` one is empty."""
+        return self._list(name, optional, lambda path, value: Fields(self._document, path, value))
 
     def done(self) -> None:
         """Refuse fields that nobody asked for: most often they are misspelt."""

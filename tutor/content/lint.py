@@ -141,6 +141,15 @@ def _folder(lesson: Lesson) -> Iterator[Problem]:
                 yield from _source(path)
         if file.skeleton.is_file() and file.solution.is_file() and _same(file.skeleton, file.solution):
             yield Problem(file.skeleton, "the skeleton is the solution")
+    for partner in lesson.live.partners:
+        if partner.beside and partner.beside not in [file.name for file in lesson.files]:
+            yield Problem(lesson.folder / "lesson.md", f"{partner.name} is beside {partner.beside}, which it has not")
+        if partner.file is not None:
+            expected.add(partner.file)
+            if not partner.file.is_file():
+                yield Problem(partner.file, "this file is missing")
+            else:
+                yield from _source(partner.file)
     for path in sorted(lesson.folder.rglob("*")):
         if path.is_file() and path not in expected and path.parent.name != "__pycache__":
             yield Problem(path, "this file belongs to no lesson")

@@ -17,6 +17,7 @@ from pathlib import Path
 
 from tutor.content.errors import ContentError
 from tutor.content.fields import Document, Fields
+from tutor.content.live import LiveTopic, LiveView, Partner
 from tutor.content.model import (
     Checklist,
     ChecklistGroup,
@@ -99,6 +100,7 @@ def _lesson(folder: Path) -> Lesson:
         checklist=fields.texts("checklist", optional=True),
         body=body.strip("\n") + "\n",
         folder=folder,
+        live=_live(fields.mapping("live"), folder),
     )
     fields.done()
     return lesson
@@ -147,6 +149,43 @@ def _criterion(fields: Fields) -> CriterionText:
     )
     fields.done()
     return criterion
+
+
+def _live(fields: Fields | None, folder: Path) -> LiveView:
+    if fields is None:
+        return LiveView()
+    found = LiveView(
+        topics=tuple(_topic(item) for item in fields.mappings("topics", optional=True)),
+        services=fields.texts("services", optional=True),
+        partners=tuple(_partner(item, folder) for item in fields.mappings("partners", optional=True)),
+    )
+    fields.done()
+    return found
+
+
+def _topic(fields: Fields) -> LiveTopic:
+    low, high = fields.number("low"), fields.number("high")
+    if (low is None) is not (high is None) or (low is not None and high is not None and low >= high):
+        raise fields.error("low", "a band goes from a `low` to a greater `high`")
+    band = None if low is None or high is None else (low, high)
+    topic = LiveTopic(fields.text("name"), fields.text("type"), band)
+    fields.done()
+    return topic
+
+
+def _partner(fields: Fields, folder: Path) -> Partner:
+    run, file = fields.text("run", optional=True), fields.text("file", optional=True)
+    if bool(run) is bool(file):
+        raise fields.error("run", "a partner is either what to `run`, or a `file`")
+    partner = Partner(
+        name=fields.text("name"),
+        does=fields.text("does"),
+        run=tuple(run.split()),
+        file=folder / file if file else None,
+        beside=fields.text("beside", optional=True),
+    )
+    fields.done()
+    return partner
 
 
 def _checklist(file: Path) -> Checklist:

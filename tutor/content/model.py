@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
 from pathlib import Path
 
 from tutor.content.errors import UnknownExercise
+from tutor.content.live import LiveView
 
 
 class Difficulty(StrEnum):
@@ -52,7 +53,7 @@ class Lesson:
 
     `hints` go from gentle to plain. `checklist` holds the ids of the checklist items that passing gives evidence for:
     by the criteria that show an item, or by the exercise as a whole where none of them does. `body` is Markdown,
-    without a title. `folder` is where all of it lies.
+    without a title. `folder` is where all of it lies. `live` is what of it the app shows on DDS.
     """
 
     id: str
@@ -66,6 +67,7 @@ class Lesson:
     checklist: tuple[str, ...]
     body: str
     folder: Path
+    live: LiveView = field(default_factory=LiveView)
 
     @property
     def check(self) -> Path:

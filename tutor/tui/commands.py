@@ -14,6 +14,8 @@ _KEY_NAMES = {"escape": "Esc", "question_mark": "?", "slash": "/", "space": "Spa
 class Command:
     """One thing to do. `name` is what the screen knows it by; `label` is for the footer, `text` for help and palette.
 
+    `help` is for the help instead of `text`: commands with the same one share a line there.
+
     `keys`: any of them does it, the first is shown in the footer where `footer` says so. One key may belong to several
     commands, of which only one makes sense at a time.
     """
@@ -24,6 +26,7 @@ class Command:
     text: str
     footer: bool = False
     palette: bool = True
+    help: str = ""
 
     @property
     def shown_keys(self) -> tuple[str, ...]:
@@ -46,6 +49,9 @@ def shown(key: str) -> str:
         return f"Ctrl+{key.removeprefix('ctrl+').upper()}"
     return key.upper() if key.startswith("f") and key[1:].isdecimal() else key
 
+
+_LIVE = "Live's topics, parameters, services, graph"
+_STEP = "Go to the next or the previous lesson"
 
 GROUPS: tuple[tuple[str, tuple[Command, ...]], ...] = (
     (
@@ -97,20 +103,31 @@ GROUPS: tuple[tuple[str, tuple[Command, ...]], ...] = (
     (
         "Around",
         (
-            Command("next", ("n",), "Next", "Go to the next lesson", footer=True),
-            Command("previous", ("p",), "Prev", "Go to the previous lesson"),
+            Command("next", ("n",), "Next", "Go to the next lesson", footer=True, help=_STEP),
+            Command("previous", ("p",), "Prev", "Go to the previous lesson", help=_STEP),
             Command("lessons", ("l",), "Lessons", "Show or hide the list of lessons"),
             Command("zoom", ("z",), "Zoom", "Give the page all the room, or not"),
             Command("page_lesson", ("1", "f2"), "Lesson", "Show the lesson"),
             Command("page_code", ("2", "f3"), "Code", "Show your code"),
             Command("page_log", ("3", "f4"), "Log", "Show the log of your node"),
             Command("page_live", ("4", "f7"), "Live", "Show topics, parameters, services, live"),
+            Command("live_topics", ("T",), "Topics", "Live: show the topics, with echo, rate and plot", help=_LIVE),
+            Command("live_parameters", ("P",), "Parameters", "Live: show the parameters, and set them", help=_LIVE),
+            Command("live_services", ("S",), "Services", "Live: show the services, and call them", help=_LIVE),
+            Command("live_graph", ("G",), "Graph", "Live: show the graph of nodes and topics", help=_LIVE),
             Command("page_criteria", ("5", "f8"), "Criteria", "Show the criteria"),
             Command("checklist", ("6", "f12"), "Checklist", "Tick what you can do by now", footer=True),
             Command("export", ("X",), "Export", "Export the checklist and your progress"),
             Command("theme", ("t",), "Theme", "Dark or light theme"),
             Command("help", ("question_mark", "f1"), "Help", "Show all keys", footer=True),
-            Command("quit", ("q",), "Quit", "Stop everything and leave", footer=True),
+            Command(
+                "quit",
+                ("q",),
+                "Quit",
+                "Stop everything and leave",
+                footer=True,
+                help="Stop everything and leave (Ctrl+Q, too)",
+            ),
         ),
     ),
 )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import partial
 
 from textual.containers import Container
@@ -9,7 +10,7 @@ from textual.widgets import ContentSwitcher, Tabs
 
 from tutor.tui.control.remember import Memory
 from tutor.tui.live.command import live_command
-from tutor.tui.live.pane import LivePane
+from tutor.tui.live.pane import TABS, LivePane
 from tutor.tui.screens.layout import Criteria, Layout, layout_for
 from tutor.tui.screens.stage import Deed, Stage
 from tutor.tui.widgets.code_pane import CodePane
@@ -22,11 +23,12 @@ PAGES = ("lesson", "code", "log", "live", "criteria")
 class Pages:
     """Turns pages and folds panels. Criteria have a page of their own only where there is no room beside it."""
 
-    def __init__(self, stage: Stage, memory: Memory) -> None:
-        self._stage, self._memory = stage, memory
+    def __init__(self, stage: Stage, memory: Memory, node_runs: Callable[[], bool]) -> None:
+        self._stage, self._memory, self._node_runs = stage, memory, node_runs
         self.current = "lesson"
         self._shape: Layout | None = None
         self.deeds = {f"page_{name}": Deed(partial(self.show, name)) for name in PAGES}
+        self.deeds |= {f"live_{name}": Deed(partial(self.show_live, name)) for name in TABS}
         self.deeds |= {"lessons": Deed(self.toggle_lessons), "zoom": Deed(self.zoom)}
 
     @property
@@ -43,6 +45,11 @@ class Pages:
         self._turn(name)
         self._stage.query_one(Tabs).active = f"tab-{name}"
         self._focus(name)
+
+    def show_live(self, tab: str) -> None:
+        """Turn to the live page, and to one of its tabs."""
+        self.show("live")
+        self._open_live().turn_to(tab)
 
     def tab_chosen(self, name: str) -> None:
         """A tab was activated, by us or by the learner."""
@@ -77,6 +84,7 @@ class Pages:
             found = LivePane(id="live-pane")
             self._stage.query_one("#live", Container).mount(found)
             found.show_for(self._stage.session.lesson)
+            found.nodes_run(self._node_runs())
             desk = self._stage.session.desk
             found.call_after_refresh(found.start_watching, lambda: live_command(desk.domain))
         return found

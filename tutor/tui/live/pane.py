@@ -27,12 +27,18 @@ from tutor.tui import messages
 from tutor.tui.live.child import LiveChild
 from tutor.tui.live.command import LiveCommand
 from tutor.tui.live.graph_panel import GraphPanel
+from tutor.tui.live.near_miss import near_misses
 from tutor.tui.live.parameters_panel import ParametersPanel
-from tutor.tui.live.presets import PRESETS, Preset
 from tutor.tui.live.services_panel import ServicesPanel
 from tutor.tui.live.state import LiveState, is_plumbing, is_plumbing_service
 from tutor.tui.live.strip import TabStrip
 from tutor.tui.live.topics_panel import Order, TopicsPanel
+
+MOST_MISSES = 3
+"""So many near-miss names are told at once at most."""
+
+MOST_OFFERED = 8
+"""So many topics of the learner's nodes are followed unasked at most."""
 
 SWITCH_S = 0.0005
 """How long a thread of the app may keep the others waiting."""
@@ -50,7 +56,10 @@ class LivePane(Vertical):
     - `stop_watching()` to end it; returns at once, and the child ends for certain. `await close_down()` does the same
       and waits (well under two seconds). A pane that is unmounted, or whose app is killed, ends its child as well.
     - `show_for(lesson)` when another lesson is shown: its topic, node and service are chosen as soon as they appear,
-      unless the learner has chosen others.
+      unless the learner has chosen others; topics of the one before go as soon as nobody publishes on them.
+    - `nodes_run(whether)` when a node of the learner's runs, and when none does any more: while one does, what is newly
+      published is followed, and shown where nothing comes on the topic that is shown.
+    - `turn_to(tab)` to show one of `TABS`.
     - `focus_content()` to put the focus where the arrow keys are of use.
 
     It posts `tutor.tui.messages.Trouble` (bubbles up to the screen, for a toast). Keys in it: [ and ] turn its own
@@ -78,10 +87,13 @@ class LivePane(Vertical):
         self._worker: Worker[None] | None = None
         self._command: Callable[[], LiveCommand] | None = None
         self._broken = ""
-        self._preset = Preset()
+        self._left: set[str] = set()
+        self._own_nodes = False
+        self._offered: set[str] = set()
         self._seen = False
         self._composed = False
         self._wants_focus = False
+        self._wanted_tab = ""
 
     def compose(self) -> ComposeResult:
         with Horizontal(id="live-head"):
@@ -89,6 +101,7 @@ class LivePane(Vertical):
             yield Static(id="live-standing")
         yield Static(id="live-empty")
         yield Static(id="live-note", markup=False)
+        yield Static(id="live-miss", markup=False)
         with ContentSwitcher(initial="topics", id="live-panels"):
             yield TopicsPanel(self.state, id="topics")
             yield ParametersPanel(self.state, id="parameters")
@@ -99,6 +112,8 @@ class LivePane(Vertical):
         self._composed = True
         self._show_standing()
         self._choose()
+        if self._wanted_tab:
+            self.turn_to(self._wanted_tab)
         if self._wants_focus:
             self.focus_content()
 
@@ -184,6 +199,8 @@ class LivePane(Vertical):
             case TopicNews(topic):
                 self.query_one(TopicsPanel).show_news(topic)
             case Graph():
+                self._drop_left()
+                self._follow_own()
                 self._show_all()
                 await self._choose_service()
             case NodeParameters():
@@ -235,6 +252,9 @@ class LivePane(Vertical):
         if was_empty and not self.has_class("-empty") and self.query_one(TabStrip).has_focus:
             self.focus_content()  # which could only focus the tabs before
         self.set_class(bool(text) and came, "-note")
+        misses = [str(miss) for miss in near_misses(graph, state.asked)]
+        self.set_class(bool(misses), "-miss")
+        self.query_one("#live-miss", Static).update("\n".join(f"≈ {miss}" for miss in misses[:MOST_MISSES]))
         self.query_one("#live-empty" if not came else "#live-note", Static).update(text)
 
     def _nothing(self, short: bool) -> Content:
@@ -259,28 +279,57 @@ class LivePane(Vertical):
 
     def show_for(self, lesson: Lesson) -> None:
         """Choose what this lesson is about, once it appears."""
-        for name in self._preset.topics:
-            view = self.state.topics.get(name)
-            if view is not None and (view.news is None or not view.news.count):
-                del self.state.topics[name]
-                self._send(Unfollow(name))
-        self._preset = PRESETS.get(lesson.id, Preset())
+        if lesson.live is self.state.asked:
+            return
+        self.state.asked = lesson.live
+        self._left = {name for name in self.state.topics if not self.state.is_asked(name)}
+        self._offered.clear()
         if self._composed:
+            self._drop_left()
+            self.query_one(TopicsPanel).chosen_by_learner = False
+            self.query_one(ServicesPanel).chosen_by_learner = False
             self._choose()
+            self._show_standing()
+
+    def nodes_run(self, whether: bool) -> None:
+        """Whether a node of the learner's runs."""
+        self._own_nodes = whether
+        if self._composed:
+            self._follow_own()
 
     def _choose(self) -> None:
         topics = self.query_one(TopicsPanel)
-        for name in reversed(self._preset.topics):
-            topics.follow(name)
+        for topic in reversed(self.state.asked.topics):
+            topics.follow(topic.name)
         topics.show_list()
         self.call_later(self._choose_service)
+
+    def _drop_left(self) -> None:
+        """Topics of a lesson that was left go once nobody publishes on them any more."""
+        for name in [each for each in self._left if not self.state.is_published(each)]:
+            self._left.discard(name)
+            self.query_one(TopicsPanel).forget(name)
+
+    def _follow_own(self) -> None:
+        """Follow what a node of the learner's has begun to publish, each topic once: unfollowed, it stays so."""
+        if not self._own_nodes or self.state.graph is None:
+            return
+        panel = self.query_one(TopicsPanel)
+        for topic in self.state.graph.topics:
+            name = topic.name
+            if is_plumbing(name) or not topic.publishers or name in self._offered or len(self._offered) >= MOST_OFFERED:
+                continue
+            self._offered.add(name)
+            if name not in self.state.topics:
+                idle = not self.state.is_published(panel.chosen)
+                panel.follow(name, show=idle and not panel.chosen_by_learner)
 
     async def _choose_service(self) -> None:
         panel = self.query_one(ServicesPanel)
         if panel.chosen_by_learner or self.state.graph is None:
             return
         for service in self.state.graph.services:
-            if service.name == self._preset.service and service != panel.chosen:
+            if service.name in self.state.asked.services[:1] and service != panel.chosen:
                 await panel.choose(service, focus=False)
 
     def focus_content(self) -> None:
@@ -293,6 +342,12 @@ class LivePane(Vertical):
             return
         target = {"topics": "#topics-table", "parameters": "#parameters-table", "services": "#services-table"}
         self.query_one(target.get(self.query_one(TabStrip).active, "#graph-view")).focus()
+
+    def turn_to(self, tab: str) -> None:
+        """Show one of `TABS`."""
+        self._wanted_tab = tab
+        if self._composed:
+            self.query_one(TabStrip).active = tab
 
     def action_step(self, by: int) -> None:
         """To the next tab, or the one before."""

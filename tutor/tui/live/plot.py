@@ -22,33 +22,62 @@ _STROKES = [[[sum(dots[low : high + 1]) for high in range(4)] for low in range(4
 _HOLE = 4.0
 """A silence of so many usual periods is left open."""
 
+_MARK = "•"
+_FEW = 2
+"""Samples are marked where there is one for so many cells at most: else the line is all that can be seen of them."""
+
+_BAND = "╌"
+
 _LEAST = 1e-290
 """A value nearer to 0 than this is drawn as 0: an axis around it could not be calculated with."""
 
 
 @dataclass(frozen=True, slots=True)
 class Plot:
-    """A drawing: for each row the label of the y axis (all of one width) and the dots; and the label of the x axis."""
+    """A drawing: for each row the label of the y axis (all of one width) and the cells; and the label of the x axis.
+
+    `kinds` has, for each row, a letter for each cell: `m` a sample, `o` one outside of the band, `b` an edge of it,
+    and a blank for the line.
+    """
 
     rows: tuple[tuple[str, str], ...]
     below: str
+    kinds: tuple[str, ...]
 
 
-def draw(points: Sequence[Point], width: int, height: int, now: float, span_s: float, end: str = "now") -> Plot:
-    """Draw the points of the `span_s` seconds before `now` into so many cells, labels included; `end` names `now`."""
+def draw(
+    points: Sequence[Point],
+    width: int,
+    height: int,
+    now: float,
+    span_s: float,
+    end: str = "now",
+    band: tuple[float, float] | None = None,
+) -> Plot:
+    """Draw the points of the `span_s` seconds before `now` into so many cells, labels included; `end` names `now`.
+
+    `band`: the lowest and the highest value that are asked for; it is drawn, too.
+    """
     first, end_of = (
         bisect.bisect_left(points, t, key=lambda point: point[0]) for t in (now - span_s, math.nextafter(now, math.inf))
     )
     times = [t for t, _ in itertools.islice(points, first, end_of)]
     values = [value for _, value in itertools.islice(points, first, end_of)]
-    low, high, step = _scale(values)
+    low, high, step = _scale([*values, *(band or ())])
     labels = _labels(low, high, step, max(1, height - 1))
     margin = max(len(label) for label in labels)
     cells = max(1, width - margin - 1)
     grid = _Grid(cells, max(1, height - 1), (now - span_s, span_s), (low, high - low))
     _line(grid, times, values)
     edge = [f"{label:>{margin}}" + ("┤" if label else "│") for label in labels]
-    return Plot(tuple(zip(edge, grid.rows(), strict=True)), _below(margin, cells, span_s, end))
+    if band is not None:
+        grid.rule(band)
+    if len(times) * _FEW <= cells:
+        grid.mark(times, values, band)
+    drawn = grid.rows()
+    rows = tuple((edge, "".join(cell for cell, _ in row)) for edge, row in zip(edge, drawn, strict=True))
+    kinds = tuple("".join(kind for _, kind in row) for row in drawn)
+    return Plot(rows, _below(margin, cells, span_s, end), kinds)
 
 
 def _line(grid: _Grid, times: Sequence[float], values: Sequence[float]) -> None:
@@ -133,6 +162,8 @@ class _Grid:
         self._across, self._up = self.width / across[1], (self.height - 1) / up[1]
         self._low = [self.height] * self.width
         self._high = [-1] * self.width
+        self._rules: set[int] = set()
+        self._marks: dict[tuple[int, int], str] = {}
 
     def column(self, t: float) -> int:
         """Where this time is."""
@@ -158,8 +189,34 @@ class _Grid:
             self.stroke(x, before + (y > before) - (y < before), y)
             before = y
 
-    def rows(self) -> list[str]:
-        """The characters, the top row first."""
+    def rule(self, values: Sequence[float]) -> None:
+        """Draw a line across at each of these values, behind all else."""
+        self._rules.update(self._cell_row(value) for value in values)
+
+    def mark(self, times: Sequence[float], values: Sequence[float], band: tuple[float, float] | None) -> None:
+        """Mark each point by itself, those outside of the band in their own way."""
+        for t, value in zip(times, values, strict=True):
+            outside = band is not None and not band[0] <= value <= band[1]
+            self._marks[self._cell_row(value), self.column(t) // 2] = "o" if outside else "m"
+
+    def _cell_row(self, value: float) -> int:
+        """The row of characters of a value, from the top."""
+        return self.height // 4 - 1 - self.row(value) // 4
+
+    def rows(self) -> list[list[tuple[str, str]]]:
+        """The characters with their kinds (see `Plot`), the top row first."""
+        return [
+            [self._cell(row, column, bits) for column, bits in enumerate(line)] for row, line in enumerate(self._bits())
+        ]
+
+    def _cell(self, row: int, column: int, bits: int) -> tuple[str, str]:
+        if kind := self._marks.get((row, column)):
+            return _MARK, kind
+        if bits:
+            return chr(_BRAILLE | bits), " "
+        return (_BAND, "b") if row in self._rules else (" ", " ")
+
+    def _bits(self) -> list[list[int]]:
         drawn = []
         for base in range(self.height - 4, -1, -4):
             bits = [0] * (self.width // 2)
@@ -167,7 +224,7 @@ class _Grid:
                 if low < base + 4 and high >= base:
                     lowest, highest = max(low - base, 0), min(high - base, 3)
                     bits[x // 2] |= _STROKES[x % 2][lowest][highest]
-            drawn.append("".join(chr(_BRAILLE | one) if one else " " for one in bits))
+            drawn.append(bits)
         return drawn
 
     def stroke(self, x: int, y0: int, y1: int) -> None:

@@ -6,6 +6,7 @@ import time
 from collections import deque
 from dataclasses import dataclass, field, replace
 
+from tutor.content import LiveView
 from tutor.judge.trace import Parameter
 from tutor.live.facts import CallOutcome, Graph, NodeParameters, RequestForm, SetOutcome, Topic, TopicNews
 from tutor.live.mismatch import Connection, connections
@@ -14,28 +15,51 @@ from tutor.live.protocol import News, Ready
 KEEP_POINTS_S = 120.0
 """How much of a plotted field is kept, in seconds."""
 
+KEEP_LINES = 500
+"""So many lines of what has come on a topic are kept."""
+
 _MOST_POINTS = 20_000
 _MOST_OUTCOMES = 200
 
 
+@dataclass(frozen=True, slots=True)
+class Held:
+    """A topic as it stood when it was paused, at a wall-clock time in seconds."""
+
+    news: TopicNews | None
+    lines: tuple[str, ...]
+    came: int
+    points: tuple[tuple[float, float], ...]
+    at: float
+
+
 @dataclass(slots=True)
 class TopicView:
-    """A followed topic as it is shown. While `paused`, what is shown stays, and everything is counted all the same."""
+    """A followed topic as it is shown. While `paused`, what is shown stays, and everything is counted all the same.
+
+    `lines` are the last of the `came` lines that its messages were written in. `by_hand`: the learner has chosen to
+    follow it.
+    """
 
     topic: str
+    by_hand: bool = False
     news: TopicNews | None = None
-    text: str = ""
+    lines: deque[str] = field(default_factory=lambda: deque(maxlen=KEEP_LINES))
+    came: int = 0
     fields: tuple[str, ...] = ()
     path: str = ""
     points: deque[tuple[float, float]] = field(default_factory=lambda: deque(maxlen=_MOST_POINTS))
     news_at: float = 0.0
     paused: bool = False
-    held: tuple[TopicNews | None, str, tuple[tuple[float, float], ...], float] | None = None
+    held: Held | None = None
 
     def hear(self, news: TopicNews, now: float) -> None:
         """Take news of it; `now` is a wall-clock time in seconds."""
         self.news, self.news_at = news, now
-        self.text = news.text if news.text is not None else self.text
+        if news.text is not None:
+            written = [*news.text.splitlines(), "---"]
+            self.lines.extend(written)
+            self.came += len(written)
         self.fields = news.fields or self.fields
         if news.field and not self.path:
             self.path = news.field
@@ -47,11 +71,13 @@ class TopicView:
     def pause(self, now: float) -> None:
         """Hold what is shown, or let it go on."""
         self.paused = not self.paused
-        self.held = (self.news, self.text, tuple(self.points), now) if self.paused else None
+        held = Held(self.news, tuple(self.lines), self.came, tuple(self.points), now)
+        self.held = held if self.paused else None
 
     def clear(self) -> None:
         """Forget what has come."""
-        self.text = ""
+        self.lines.clear()
+        self.came = 0
         self.points.clear()
         self.news = None if self.news is None else replace(self.news, count=0, timing=None, silent_s=None, lost=0)
         self.paused, self.held = False, None
@@ -68,6 +94,8 @@ class LiveState:
 
     domain: int = 0
     ready: bool = False
+    asked: LiveView = field(default_factory=LiveView)
+    """What the lesson that is shown is about."""
     graph: Graph | None = None
     topics: dict[str, TopicView] = field(default_factory=dict)
     parameters: dict[str, NodeParameters] = field(default_factory=dict)
@@ -114,6 +142,15 @@ class LiveState:
         for name in self.topics:
             there.setdefault(name, Topic(name))
         return sorted(there.values(), key=lambda topic: (is_plumbing(topic.name), topic.name))
+
+    def is_asked(self, topic: str) -> bool:
+        """Whether the exercise is about this topic."""
+        return any(known.name == topic for known in self.asked.topics)
+
+    def is_published(self, topic: str) -> bool:
+        """Whether somebody publishes on it now."""
+        found = self.graph.topic(topic) if self.graph else None
+        return found is not None and bool(found.publishers)
 
     def mismatches(self) -> list[Connection]:
         """Every pair of endpoints between which no message can go."""

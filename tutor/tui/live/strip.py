@@ -58,14 +58,14 @@ class TabStrip(Widget, can_focus=True):
             self.active = name
 
     def render(self) -> Content:
-        """All labels; the active one stands out by more than its colour."""
+        """All labels; the active one stands out by more than its colour, and in the others the letter that is a key."""
         return Content(" " * _BETWEEN_TABS).join(self._parts())
 
     def _parts(self) -> list[Content]:
         return [
             Content.styled(f" {label} ", "bold $block-cursor-foreground on $block-cursor-background")
             if name == self.active
-            else Content.styled(f" {label} ", "$foreground")
+            else Content.assemble(" ", (label[:1], "$accent underline"), (f"{label[1:]} ", "$foreground"))
             for name, label in self.labels.items()
         ]
 

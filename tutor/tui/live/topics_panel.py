@@ -18,11 +18,11 @@ from textual.widgets.data_table import ColumnKey
 from tutor.live.facts import Topic
 from tutor.live.protocol import Clear, Command, Follow, Plot, Unfollow
 from tutor.tui.live import words
+from tutor.tui.live.echo_view import EchoView
 from tutor.tui.live.plot_view import PlotView
 from tutor.tui.live.row_table import RowTable
 from tutor.tui.live.state import LiveState, TopicView, is_plumbing
 from tutor.tui.live.strip import Action, ActionBar
-from tutor.tui.widgets.line_view import LineView
 
 _COLUMNS = ("", "Topic", "Rate", "Count", "Pub", "Sub", "Type")
 _LIST_EVERY_S = 0.45
@@ -53,6 +53,7 @@ class TopicsPanel(Vertical):
         super().__init__(id=id)
         self.state = state
         self.chosen = ""
+        self.chosen_by_learner = False
         self._listed: tuple[Topic, ...] = ()
         self._list_again_at = 0.0
 
@@ -60,7 +61,7 @@ class TopicsPanel(Vertical):
         yield RowTable(id="topics-table")
         yield Static(id="topic-head")
         with Horizontal(id="topic-body"):
-            yield LineView(id="topic-echo")
+            yield EchoView(id="topic-echo")
             with Vertical(id="topic-plot"):
                 yield Static(id="plot-head")
                 yield PlotView(id="plot")
@@ -122,25 +123,36 @@ class TopicsPanel(Vertical):
         self.set_class(view is None or not view.fields, "-no-numbers")
         self.query_one("#topic-actions", ActionBar).actions = self._actions(view)
         self.query_one("#topic-head", Static).update(self._head(view, now), layout=False)
+        echo, plot = self.query_one(EchoView), self.query_one(PlotView)
         if view is None:
-            self.query_one("#topic-echo", LineView).show_rows([])
+            echo.show_lines(self.chosen, (), 0)
             return
-        text, points = view.text, view.points
-        if view.held is not None:
-            _, text, held, now = view.held
-            self.query_one(PlotView).show(held, now, "paused")
-        elif points and view.news and words.is_silent(view.news, max(0.0, now - view.news_at)):
-            self.query_one(PlotView).show(tuple(points), points[-1][0], "the last one")
+        points, held = view.points, view.held
+        band = self.state.asked.band_of(view.topic)
+        if held is not None:
+            now = held.at
+            plot.show(held.points, now, "paused", band)
+            echo.show_lines(view.topic, held.lines, held.came)
         else:
-            self.query_one(PlotView).show(tuple(points), max(now, points[-1][0]) if points else now)
-        rows = [((line, ""),) for line in text.splitlines()]
-        self.query_one("#topic-echo", LineView).show_rows([*rows, (("---", ""),)] if rows else [])
+            if points and view.news and words.is_silent(view.news, max(0.0, now - view.news_at)):
+                plot.show(tuple(points), points[-1][0], "the last one", band)
+            else:
+                plot.show(tuple(points), max(now, points[-1][0]) if points else now, band=band)
+            echo.show_lines(view.topic, view.lines, view.came)
+        self.query_one("#plot-head", Static).update(self._plot_head(view, band), layout=False)
+
+    def _plot_head(self, view: TopicView, band: tuple[float, float] | None) -> Content:
         place = view.fields.index(view.path) + 1 if view.path in view.fields else 1
-        value = f" = {view.points[-1][1]:g}" if view.points and view.held is None else ""
+        last = view.points[-1][1] if view.points and view.held is None else None
+        value = "" if last is None else f" = {last:g}"
         more = f"  {place} of {len(view.fields)}" if len(view.fields) > 1 else ""
-        self.query_one("#plot-head", Static).update(
-            Content.assemble((view.path, "bold $primary"), value, (more, "$quiet")), layout=False
-        )
+        asked: tuple[str, str] = ("", "")
+        if band is not None:
+            low, high = band
+            asked = (f"  asked: {low:g} to {high:g}", "$good")
+            if last is not None and not low <= last <= high:
+                asked = (f"  ✗ asked: {low:g} to {high:g}", "bold $bad")
+        return Content.assemble((view.path, "bold $primary"), value, asked, (more, "$quiet"))
 
     def _head(self, view: TopicView | None, now: float) -> Content:
         if not self.chosen:
@@ -148,7 +160,7 @@ class TopicsPanel(Vertical):
         name = Content.styled(self.chosen, "bold")
         if view is None:
             return Content.assemble(name, ("\nNot followed: press Enter to see what comes.", "$quiet"))
-        news = view.held[0] if view.held is not None else view.news
+        news = view.held.news if view.held is not None else view.news
         if news is None:
             return Content.assemble(name, ("\n◐ subscribing", "$quiet"))
         facts = f"  {words.short_type(news.type)} · {news.qos}" if news.type else ""
@@ -194,7 +206,7 @@ class TopicsPanel(Vertical):
         pub, sub = len(topic.publishers), len(topic.subscriptions)
         return (
             Text("●" if view else " "),
-            Text(topic.name),
+            Text(topic.name, style="bold" if self.state.is_asked(topic.name) else ""),
             Text(words.rate(timing.rate_hz) if timing else "silent" if silent else "", justify="right"),
             Text(f"{news.count:,}" if news else "", justify="right"),
             Text(str(pub), justify="right"),
@@ -226,35 +238,45 @@ class TopicsPanel(Vertical):
 
     # --- what is done ---
 
-    def follow(self, topic: str) -> None:
+    def follow(self, topic: str, *, by_hand: bool = False, show: bool = True) -> None:
         """Follow a topic, now or when it appears, and show it."""
         if topic not in self.state.topics:
-            self.state.topics[topic] = TopicView(topic)
+            self.state.topics[topic] = TopicView(topic, by_hand)
             self.post_message(Order(Follow(topic)))
+        if not show:
+            self.show_list()
+            return
         self.chosen = topic
         self.show_list()
         if topic in self.table.rows:
             self.table.move_cursor(row=self.table.get_row_index(topic))
 
+    def forget(self, topic: str) -> None:
+        """Follow a topic no longer."""
+        if self.state.topics.pop(topic, None) is not None:
+            self.post_message(Order(Unfollow(topic)))
+            self.show_list()
+
     @on(DataTable.RowHighlighted, "#topics-table")
     def _highlighted(self, event: DataTable.RowHighlighted) -> None:
         if event.row_key.value:
+            self.chosen_by_learner = self.chosen_by_learner or event.row_key.value != self.chosen
             self.chosen = event.row_key.value
             self.show_chosen()
 
     @on(DataTable.RowSelected, "#topics-table")
     def _selected(self, event: DataTable.RowSelected) -> None:
         if event.row_key.value:
-            self.follow(event.row_key.value)
+            self.chosen_by_learner = True
+            self.follow(event.row_key.value, by_hand=True)
 
     def action_follow(self) -> None:
         if self.chosen:
-            self.follow(self.chosen)
+            self.chosen_by_learner = True
+            self.follow(self.chosen, by_hand=True)
 
     def action_unfollow(self) -> None:
-        if self.state.topics.pop(self.chosen, None) is not None:
-            self.post_message(Order(Unfollow(self.chosen)))
-            self.show_list()
+        self.forget(self.chosen)
 
     def action_pause(self) -> None:
         if self.view is not None:

@@ -25,7 +25,6 @@ _EVERYWHERE = (
     ("Ctrl+P", "Find any action, lesson, or text"),
     ("Tab", "Move between the panels"),
     ("Ctrl+Z", "In the editor: undo; Ctrl+Y: redo"),
-    ("Ctrl+Q", "Leave"),
 )
 
 HALF = 3
@@ -70,5 +69,5 @@ def _merged(group: tuple[Command, ...]) -> list[tuple[str, str]]:
     """One line for each action; its keys together."""
     lines: dict[str, list[str]] = {}
     for command in group:
-        lines.setdefault(command.text, []).extend(command.shown_keys)
+        lines.setdefault(command.help or command.text, []).extend(command.shown_keys)
     return [(" ".join(keys), text) for text, keys in lines.items()]

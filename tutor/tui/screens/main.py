@@ -60,7 +60,7 @@ class MainScreen(Stage):
         code, log = CodePane(id="code"), LogPane(id="log")
         self._code, self._log = code, log
         self.memory = Memory(self)
-        self.pages = Pages(self, self.memory)
+        self.pages = Pages(self, self.memory, lambda: bool(self.nodes.running))
         self.records = Records(self)
         self.files = Files(self, code, self.records)
         self.views = Views(self, code, self.files)
@@ -256,6 +256,8 @@ class MainScreen(Stage):
             self._log.show(message.state, self.session.desk.domain, self.session.paths)
         states = [node.state for node in self.nodes.known.values()]
         self.query_one(StatusBar).show_nodes(states, self.session.desk.domain)
+        if (live := self.pages.live) is not None:
+            live.nodes_run(bool(self.nodes.running))
         if (phases := [(state.file, state.phase) for state in states]) != self._phases:
             self._phases = phases  # the footer is composed anew: not for each line of a log, it would flicker
             self.refresh_bindings()
