@@ -1,0 +1,80 @@
+"""ros2 topic hz, bw and delay, on a real talker."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from tests.ros2cli.bench import TALKER, Bench
+from tutor.sandbox.ros2.topic.statistics import Rate, size
+
+STAMPED = """
+from geometry_msgs.msg import PointStamped
+node = rclpy.create_node("stamped")
+publisher = node.create_publisher(PointStamped, "point", 10)
+def publish():
+    point = PointStamped()
+    point.header.stamp = node.get_clock().now().to_msg()
+    publisher.publish(point)
+node.create_timer(0.05, publish)
+spin(node)
+"""
+SPREAD = r"\tmin: (\d\.\d{3})s max: \d\.\d{3}s std dev: \d\.\d{5}s window: (\d+)"
+
+
+def test_the_rate_of_a_topic(bench: Bench) -> None:
+    with bench.node(TALKER), bench.running("topic", "hz", "/chatter") as hz:
+        rate = re.fullmatch(r"average rate: (\d+\.\d{3})", hz.line())
+        spread = re.fullmatch(SPREAD, hz.line())
+        ran = hz.interrupt()
+    assert rate
+    assert spread
+    assert 10 < float(rate[1]) < 25
+    assert (ran.stdout, ran.stderr, ran.code) == ("", "", 2)
+
+
+def test_a_topic_that_is_not_there_yet_is_waited_for(bench: Bench) -> None:
+    with bench.running("topic", "hz", "/chatter") as hz:
+        assert hz.line() == "WARNING: topic [/chatter] does not appear to be published yet"
+        with bench.node(TALKER):
+            assert hz.line().startswith("average rate: ")
+        assert hz.interrupt().code == 2
+
+
+def test_the_bytes_of_a_topic(bench: Bench) -> None:
+    with bench.node(TALKER), bench.running("topic", "bw", "/chatter") as bw:
+        assert bw.line() == "Subscribed to [/chatter]"
+        assert re.fullmatch(r"\d+ B/s from \d+ messages", bw.line())
+        assert re.fullmatch(r"\tMessage size mean: (\d\d) B min: \d\d B max: \d\d B", bw.line())
+        assert bw.interrupt().code == 2
+
+
+def test_the_age_of_messages(bench: Bench) -> None:
+    with bench.node(STAMPED), bench.running("topic", "delay", "/point") as delay:
+        assert re.fullmatch(r"average delay: \d+\.\d{3}", delay.line())
+        assert re.fullmatch(SPREAD, delay.line())
+        assert delay.interrupt().code == 2
+    with bench.node(TALKER):
+        ran = bench.ros2("topic", "delay", "/chatter")
+    assert (ran.stdout, ran.stderr, ran.code) == ("", "msg does not have header\n", 1)
+
+
+def test_a_rate_is_told_once_a_second_from_the_second_message_on() -> None:
+    rate, half = Rate(100), 500_000_000
+    told = [rate.add(1_000 + half * number) for number in range(6)]
+    assert [text is not None for text in told] == [False, False, False, True, False, True]
+    assert told[3] == "average rate: 2.000\n\tmin: 0.500s max: 0.500s std dev: 0.00000s window: 3"
+
+
+def test_a_clock_that_goes_back_begins_anew() -> None:
+    rate = Rate(3)
+    for second in (10, 11, 12, 1, 2):
+        rate.add(second * 1_000_000_000)
+    assert len(rate.between_ns) == 1
+    assert rate.add(0) == "time has reset, resetting counters"
+
+
+@pytest.mark.parametrize(("count", "wanted"), [(12.4, "12 B"), (1500, "1.50 KB"), (2_340_000, "2.34 MB")])
+def test_bytes_are_told_in_a_unit_that_suits(count: float, wanted: str) -> None:
+    assert size(count, count) == wanted

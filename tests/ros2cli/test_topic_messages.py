@@ -1,0 +1,221 @@
+"""ros2 topic echo and pub, between real nodes."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.ros2cli.bench import TALKER, Bench, Ran
+
+LISTENER = """
+from std_msgs.msg import String
+node = rclpy.create_node("listener")
+node.create_subscription(String, "chatter", lambda message: print(message.data, flush=True), 10)
+spin(node)
+"""
+SCANNER = """
+from sensor_msgs.msg import LaserScan
+node = rclpy.create_node("scanner")
+publisher = node.create_publisher(LaserScan, "scan", 10)
+scan = LaserScan(ranges=[0.5] * 3)
+scan.header.frame_id = "laser"
+node.create_timer(0.05, lambda: publisher.publish(scan))
+spin(node)
+"""
+LATCHED = """
+from std_msgs.msg import String
+from rclpy.qos import DurabilityPolicy, QoSProfile
+node = rclpy.create_node("latched")
+publisher = node.create_publisher(String, "map", QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL))
+publisher.publish(String(data="kept"))
+spin(node)
+"""
+MIXED = """
+from std_msgs.msg import String
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+node = rclpy.create_node("mixed")
+one = node.create_publisher(String, "chatter", 10)
+other = node.create_publisher(String, "chatter", QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT))
+node.create_timer(0.05, lambda: other.publish(String(data="hi")))
+spin(node)
+"""
+
+
+def test_echo_goes_on_until_ctrl_c(bench: Bench) -> None:
+    with bench.node(TALKER), bench.running("topic", "echo", "/chatter") as echo:
+        lines = [echo.line() for _ in range(6)]
+        ran = echo.interrupt()
+    number = int(lines[0].removeprefix("data: 'Hello World: ").removesuffix("'"))
+    wanted = [line for n in range(3) for line in (f"data: 'Hello World: {number + n}'", "---")]
+    assert lines == wanted
+    assert (ran.stderr, ran.code) == ("", 2)
+
+
+def test_echo_once_in_its_forms(bench: Bench) -> None:
+    with bench.node(SCANNER):
+        whole = bench.ros2("topic", "echo", "--once", "/scan")
+        assert whole.code == 0
+        assert "header:\n  stamp:\n    sec: 0\n    nanosec: 0\n  frame_id: laser\n" in whole.stdout
+        assert "ranges:\n- 0.5\n- 0.5\n- 0.5\nintensities: []\n---\n" in whole.stdout
+        forms = {
+            ("--flow-style",): "ranges: [0.5, 0.5, 0.5]\nintensities: []\n---\n",
+            ("-l", "2"): "frame_id: la...\n",
+            ("--no-arr",): "ranges: '<sequence type: float, length: 3>'\n",
+            ("--no-str",): "frame_id: '<string length: <5>>'\n",
+            ("--field", "header.frame_id"): "laser\n---\n",
+            ("--field", "header"): "stamp:\n  sec: 0\n  nanosec: 0\nframe_id: laser\n---\n",
+            ("--csv",): "0,0,laser,0.0,0.0,0.0,0.0,0.0,0.0,0.0,0.5,0.5,0.5,\n",
+            ("--raw",): "b'\\x00\\x01",
+            ("-i",): "reception_sequence_number: null\nsource_timestamp: ",
+        }
+        for options, wanted in forms.items():
+            assert wanted in bench.ros2("topic", "echo", "--once", "scan", *options).stdout, options
+
+
+def test_echo_filters(bench: Bench) -> None:
+    with bench.node(TALKER):
+        some = bench.ros2("topic", "echo", "--once", "--filter", "m.data.endswith('0')", "/chatter")
+        assert some.stdout.endswith("0'\n---\n")
+        wrong = bench.ros2("topic", "echo", "--filter", "m.dat > 1", "/chatter")
+        assert (
+            wrong.stderr
+            == ("--filter m.dat > 1: AttributeError: 'String' object has no attribute 'dat'. Did you mean: 'data'?\n")
+            or wrong.stderr == "--filter m.dat > 1: AttributeError: 'String' object has no attribute 'dat'\n"
+        )
+        assert wrong.code == 1
+
+
+def test_echo_asks_for_what_the_publishers_offer(bench: Bench) -> None:
+    with bench.node(LATCHED):
+        assert bench.ros2("topic", "echo", "--once", "/map") == Ran("data: kept\n---\n", "", 0)
+    with bench.node(MIXED):
+        ran = bench.ros2("topic", "echo", "--once", "/chatter")
+        assert ran.stdout == (
+            "Some, but not all, publishers are offering QoSReliabilityPolicy.RELIABLE. Falling back to "
+            "QoSReliabilityPolicy.BEST_EFFORT as it will connect to all publishers\ndata: hi\n---\n"
+        )
+
+
+def test_echo_of_what_does_not_fit_tells_so(bench: Bench) -> None:
+    with bench.node(TALKER):
+        words = ["topic", "echo", "--qos-durability", "transient_local", "--once", "--timeout", "2", "/chatter"]
+        ran = bench.ros2(*words)
+    assert "offering incompatible QoS. No messages will be received from it" in ran.stderr
+    assert (ran.stdout, ran.code) == ("", 0)
+
+
+@pytest.mark.parametrize(
+    ("words", "wanted"),
+    [
+        (
+            ["/nothing"],
+            Ran(
+                "WARNING: topic [/nothing] does not appear to be published yet\n",
+                "Could not determine the type for the passed topic\n",
+                1,
+            ),
+        ),
+        (["/nothing", "std_msgs/msg/Nope"], Ran("", "The passed message type is invalid\n", 1)),
+        (["/nothing", "Strin"], Ran("", "The passed message type is invalid\n", 1)),
+        (["/nothing", "nopkg/msg/String"], Ran("", "The passed message type is invalid\n", 1)),
+        (["--once", "--timeout", "0.5", "/nothing", "std_msgs/msg/String"], Ran("", "", 0)),
+        (["--field", ".", "/nothing"], Ran("", "Invalid field value '.'\n", 1)),
+    ],
+)
+def test_what_cannot_be_echoed(bench: Bench, words: list[str], wanted: Ran) -> None:
+    assert bench.ros2("topic", "echo", *words) == wanted
+
+
+def test_a_bad_name_takes_a_line_or_two_and_no_traceback(bench: Bench) -> None:
+    for words in (["echo", "bad name"], ["pub", "bad name"]):
+        ran = bench.ros2("topic", *words, "std_msgs/msg/String")
+        assert "Traceback" not in ran.stderr
+        assert "bad name" in ran.stderr
+        assert ran.code == 1
+
+
+def test_pub_once_waits_for_who_listens(bench: Bench) -> None:
+    with bench.node(LISTENER) as listener:
+        ran = bench.ros2("topic", "pub", "--once", "/chatter", "std_msgs/msg/String", "{data: hi}")
+        assert listener.line() == "hi"
+        assert ran.stdout.endswith("publisher: beginning loop\npublishing #1: std_msgs.msg.String(data='hi')\n\n")
+        assert (ran.stderr, ran.code) == ("", 0)
+        words = ["topic", "pub", "-t", "3", "-r", "20", "-p", "2", "/chatter", "std_msgs/String", "--stdin"]
+        ran = bench.ros2(*words, stdin="data: there\n")
+        assert [listener.line() for _ in range(3)] == ["there"] * 3
+        assert ran.stdout.endswith("loop\npublishing #2: std_msgs.msg.String(data='there')\n\n")
+
+
+def test_pub_goes_on_until_ctrl_c(bench: Bench) -> None:
+    with bench.node(LISTENER) as listener:
+        with bench.running("topic", "pub", "-r", "20", "/chatter", "std_msgs/msg/String", "data: 5") as pub:
+            assert listener.line() == "5"
+            ran = pub.interrupt()
+        assert (ran.stderr, ran.code) == ("", 2)
+
+
+@pytest.mark.parametrize(
+    ("words", "wanted"),
+    [
+        (["std_msgs/msg/Float64", "data: 1"], "publishing #1: std_msgs.msg.Float64(data=1.0)\n\n"),
+        (["std_msgs/msg/Int32", "data: 1.5"], "publishing #1: std_msgs.msg.Int32(data=1)\n\n"),
+        (["std_msgs/msg/Bool", "data: yes"], "publishing #1: std_msgs.msg.Bool(data=True)\n\n"),
+        (["std_msgs/msg/String"], "publishing #1: std_msgs.msg.String(data='')\n\n"),
+        (
+            ["geometry_msgs/msg/Twist", "{linear: {x: 2.0}, angular: {z: 1.8}}"],
+            "publishing #1: geometry_msgs.msg.Twist(linear=geometry_msgs.msg.Vector3(x=2.0, y=0.0, z=0.0), "
+            "angular=geometry_msgs.msg.Vector3(x=0.0, y=0.0, z=1.8))\n\n",
+        ),
+        (
+            ["diagnostic_msgs/msg/DiagnosticArray", "{status: [{name: motor, values: [{key: a, value: 1}]}]}"],
+            "status=[diagnostic_msgs.msg.DiagnosticStatus(level=b'\\x00', name='motor', message='', "
+            "hardware_id='', values=[diagnostic_msgs.msg.KeyValue(key='a', value='1')])])\n\n",
+        ),
+    ],
+)
+def test_values_become_what_the_fields_make_of_them(bench: Bench, words: list[str], wanted: str) -> None:
+    ran = bench.ros2("topic", "pub", "--once", "-w", "0", "/t", *words)
+    assert ran.stdout.startswith("publisher: beginning loop\n")
+    assert ran.stdout.endswith(wanted)
+    assert (ran.stderr, ran.code) == ("", 0)
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["std_msgs/msg/String", "{dat: hi}"], "Failed to populate field: 'String' object has no attribute 'dat'"),
+        (["std_msgs/msg/String", "{data: 'hi"], "The passed value needs to be in YAML string or a dictionary"),
+        (["std_msgs/msg/String", "hello"], "The passed value needs to be a dictionary in YAML format"),
+        (["std_msgs/msg/Strin", "data: hi"], "The passed message type is invalid"),
+        (["String", "data: hi"], "The passed message type is invalid"),
+        (
+            ["-w", "2", "--max-wait-time-secs", "0.1", "std_msgs/msg/String"],
+            "Timed out waiting for subscribers: Expected 2 subcribers but only got 0 subscribers",
+        ),
+    ],
+)
+def test_what_cannot_be_published(bench: Bench, words: list[str], message: str) -> None:
+    ran = bench.ros2("topic", "pub", "/t", *words)
+    assert ran.stderr == f"{message}\n"
+    assert ran.code == 1
+
+
+def test_a_rate_of_zero_is_wrong_usage(bench: Bench) -> None:
+    ran = bench.ros2("topic", "pub", "-r", "0", "/t", "std_msgs/msg/Bool", "data: true")
+    assert ran.stderr == (
+        "usage: ros2 topic pub [-h] [--stdin] [-r N] [-p N] [-1 | -t TIMES]\n"
+        "                      [-w WAIT_MATCHING_SUBSCRIPTIONS]\n"
+        "                      [--max-wait-time-secs MAX_WAIT_TIME_SECS]\n"
+        "                      [--keep-alive N] [-n NODE_NAME]\n"
+        "                      [--qos-profile {unknown,default,system_default,sensor_data,services_default,"
+        "parameters,parameter_events,action_status_default,best_available}]\n"
+        "                      [--qos-depth N]\n"
+        "                      [--qos-history {system_default,keep_last,keep_all,unknown}]\n"
+        "                      [--qos-reliability {system_default,reliable,best_effort,unknown,best_available}]\n"
+        "                      [--qos-durability {system_default,transient_local,volatile,unknown,best_available}]\n"
+        "                      [--qos-liveliness {system_default,automatic,manual_by_topic,unknown,best_available}]\n"
+        "                      [--qos-liveliness-lease-duration-seconds QOS_LIVELINESS_LEASE_DURATION_SECONDS]\n"
+        "                      [--spin-time SPIN_TIME] [-s]\n"
+        "                      topic_name message_type [values]\n"
+        "ros2 topic pub: error: argument -r/--rate: Value must be positive\n"
+    )
+    assert ran.code == 2

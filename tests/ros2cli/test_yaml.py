@@ -1,0 +1,64 @@
+"""A message's YAML, quickly written, is PyYAML's."""
+
+from __future__ import annotations
+
+import array
+from typing import Any
+
+import pytest
+import yaml
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tutor.ros.as_yaml import _Dumper
+from tutor.ros.yaml_quickly import yaml_of_plain
+
+
+class Made:
+    """What rclpy's messages have that matters here."""
+
+    def __init__(self, **fields: Any) -> None:
+        self.__dict__.update(fields)
+        self._names = dict.fromkeys(fields, "")
+
+    def get_fields_and_field_types(self) -> dict[str, str]:
+        return self._names
+
+    def plain(self) -> dict[str, Any]:
+        return {name: self._of(getattr(self, name)) for name in self._names}
+
+    def _of(self, value: Any) -> Any:
+        if isinstance(value, Made):
+            return value.plain()
+        return list(value) if isinstance(value, array.array) else value
+
+
+def by_pyyaml(message: Made) -> str:
+    return yaml.dump(message.plain(), Dumper=_Dumper, allow_unicode=True, width=2**60, sort_keys=False)
+
+
+scalars = st.one_of(
+    st.floats(),
+    st.integers(-(2**63), 2**64),
+    st.booleans(),
+    st.text(max_size=12),
+    st.text(alphabet="aB1 :#-'\"/._,[]{}?!&*|>%@`~=<\n\t\x85\u2028é0x+e", max_size=8),
+    st.sampled_from(
+        ["yes", "No", "null", "~", "1e5", "0x1F", "1_000", "12:30:00", "2001-01-01", "=", "<<", "Hello: 1"]
+    ),
+)
+
+
+@given(scalars, st.lists(scalars, max_size=4), st.lists(st.floats(width=32), max_size=4))
+def test_it_is_what_pyyaml_writes(one: Any, several: list[Any], numbers: list[float]) -> None:
+    message = Made(data=one, several=several, nested=Made(x=one, numbers=array.array("d", numbers)))
+    if (written := yaml_of_plain(message, None)) is not None:
+        assert written == by_pyyaml(message)
+
+
+@pytest.mark.parametrize("text", ["Hello World: 3", "it's so: yes", "map", "base_link", "a b", "robot1/chatter"])
+def test_the_usual_needs_no_pyyaml(text: str) -> None:
+    message = Made(data=text, nested=Made(x=0.5, y=-3, on_time=True))
+    written = yaml_of_plain(message, 128)
+    assert written is not None
+    assert written == by_pyyaml(message)

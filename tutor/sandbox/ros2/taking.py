@@ -1,0 +1,94 @@
+"""Takes the messages of a topic in batches: at 10 kHz, a hundred wake-ups a second, not ten thousand."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING, Any
+
+from tutor.sandbox.ros2.joining import Domain
+
+if TYPE_CHECKING:
+    from rclpy.qos import QoSProfile
+    from rclpy.subscription import Subscription
+
+DEPTH = 10_000
+"""Messages that may wait until they are taken: a second of a 10 kHz topic."""
+
+_WAIT_NS = 50_000_000  # Ctrl+C is heard between two waits
+_EVENTS_EVERY_S = 0.1
+_MOST_AT_ONCE = 5_000
+
+Taken = tuple[Any, dict[str, Any]]
+"""A message (bytes, where it is raw) and rmw's facts about it: timestamps in ns, numbers."""
+
+
+def taken(
+    domain: Domain,
+    topic: str,
+    message_type: Any,
+    qos: QoSProfile,
+    *,
+    raw: bool,
+    gather_s: float,
+    on_lost: Callable[[Any], None] | None = None,
+) -> Iterator[list[Taken]]:
+    """Subscribe, and give what has arrived, batch by batch, for ever; an empty batch at least ten times a second.
+
+    Between two batches, messages gather for `gather_s` seconds. `on_lost` is told of messages that never came.
+    """
+    import rclpy
+    from rclpy.event_handler import SubscriptionEventCallbacks
+    from rclpy.impl.implementation_singleton import rclpy_implementation as implementation
+
+    node = domain.node
+    group = _only_events()
+    subscription = node.create_subscription(
+        message_type,
+        topic,
+        _taken_here,
+        qos,
+        callback_group=group,
+        event_callbacks=SubscriptionEventCallbacks(message_lost=on_lost),
+        raw=raw,
+    )
+    # Tells of lost messages and of QoS that does not fit, and follows a simulation's clock.
+    executor = rclpy.executors.SingleThreadedExecutor(context=node.context)
+    executor.add_node(node)
+    waiting = implementation.WaitSet(1, 0, 0, 0, 0, 0, node.context.handle)
+    events_at = 0.0
+    while True:
+        waiting.clear_entities()
+        waiting.add_subscription(subscription.handle)
+        waiting.wait(_WAIT_NS)
+        yield _all_of(subscription, raw)
+        if (now := time.monotonic()) >= events_at:
+            events_at = now + _EVENTS_EVERY_S
+            executor.spin_once(timeout_sec=0)
+        time.sleep(gather_s)
+
+
+def _all_of(subscription: Subscription, raw: bool) -> list[Taken]:
+    found: list[Taken] = []
+    take, message_type = subscription.handle.take_message, subscription.msg_type
+    with subscription.handle:
+        while len(found) < _MOST_AT_ONCE and (one := take(message_type, raw)) is not None:
+            found.append(one)
+    return found
+
+
+def _only_events() -> Any:
+    from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
+    from rclpy.subscription import Subscription
+
+    class OnlyEvents(MutuallyExclusiveCallbackGroup):
+        """Keeps the executor from the messages."""
+
+        def can_execute(self, entity: Any) -> bool:
+            return not isinstance(entity, Subscription) and bool(super().can_execute(entity))  # type: ignore[no-untyped-call]
+
+    return OnlyEvents()  # type: ignore[no-untyped-call]
+
+
+def _taken_here(_message: Any) -> None:
+    raise AssertionError("the executor takes no messages")
