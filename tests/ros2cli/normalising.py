@@ -1,0 +1,97 @@
+"""Takes out of an output what differs from run to run: times, ids, paths, measured figures, the number of samples."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+
+TRACEBACK = "TRACEBACK"
+
+_REPLACED = [
+    (r"\x1b\[[0-9;]*m", ""),
+    (r"\[\d{10}\.\d{9}\]", "[TIME]"),
+    (r"\b\d{19}\b", "NANOSECONDS"),
+    (r"\b(sec|nanosec): \d+", r"\1: N"),
+    (r"(publication_sequence_number|reception_sequence_number): (\d+|null)", r"\1: N"),
+    (r"\bpid \[\d+\]", "pid [PID]"),
+    (r"\[pid \d+", "[pid PID"),
+    (r"process id \d+", "process id PID"),
+    (r"_ros2cli_\w+", "_ros2cli_PID"),
+    (r"0x[0-9a-f]{6,}", "ADDRESS"),
+    (r"GID: [0-9a-f.]+", "GID: ID"),
+    (r"-?\d+\.\d{4,}(e[+-]?\d+)?", "FLOAT"),  # measured, or drawn at random
+    (r"b'\\x00\\x01\\x00\\x00.*'", "b'BYTES'"),
+    (r"All log files can be found below \S+", "All log files can be found below FOLDER"),
+    (r"^\s*\^C", ""),
+]
+_COUNTED = [
+    (r"(average rate|min|max|std dev|window|mean|average delay): -?[\d.]+", r"\1: N"),
+    (r"\b[\d.]+ [KM]?B/s from \d+ messages", "N B/s from N messages"),
+    (r"(Message size mean|min|max): [\d.]+ [KM]?B", r"\1: N B"),
+    (r"#\d+", "#N"),
+    (r"(Hello World: )\d+", r"\1N"),
+    (r"Half #N|Hello #N", "PREFIX #N"),
+]
+
+
+def normalise(text: str, paths: Mapping[str, str], *, streams: bool) -> list[str]:
+    """The lines that must agree.
+
+    `paths` maps folders of this machine to the names that they have in the records. Of a command that streams, the
+    number of samples depends on the moment of Ctrl+C, so each different line counts once, where it first came.
+    """
+    for folder, name in sorted(paths.items(), key=lambda item: -len(item[0])):
+        text = text.replace(folder, name)
+    for pattern, instead in [*_REPLACED, *_COUNTED]:
+        text = re.sub(pattern, instead, text, flags=re.MULTILINE)
+    lines = _fold_usage(_fold_tracebacks(text.replace("\r\n", "\n").split("\n")))
+    lines = [line.rstrip() for line in lines]
+    while lines and not lines[-1]:
+        lines.pop()
+    return list(dict.fromkeys(lines)) if streams else lines
+
+
+def _fold_tracebacks(lines: list[str]) -> list[str]:
+    """A traceback becomes one word: what its lines say depends on the code that it is of."""
+    folded: list[str] = []
+    within: str | None = None
+    for line in lines:
+        start = re.match(r"(.*?)Traceback \(most recent call last\):", line)
+        if start:
+            within = start[1]
+            folded.append(within + TRACEBACK)
+        elif within is not None and line.startswith(within):
+            if not line.removeprefix(within).startswith(" "):  # the exception's own line ends it
+                within = None
+        else:
+            within = None
+            folded.append(line)
+    return folded
+
+
+def _fold_usage(lines: list[str]) -> list[str]:
+    """A usage is one line, wherever it was wrapped; the help below it is everyone's own."""
+    folded: list[str] = []
+    usage: list[str] = []
+    for line in lines:
+        if line.startswith("usage: "):
+            usage = [line]
+        elif usage and line.startswith(" "):
+            usage.append(line.strip())
+        else:
+            if usage:
+                folded.append(re.sub(r"\s+", " ", " ".join(usage)))
+                usage = []
+            folded.append(line)
+    if usage:
+        folded.append(re.sub(r"\s+", " ", " ".join(usage)))
+    return _without_help(folded)
+
+
+def _without_help(lines: list[str]) -> list[str]:
+    if "Commands:" in lines and lines[0].startswith("usage: "):
+        words = [
+            line.split()[0] for line in lines[lines.index("Commands:") + 1 :] if line.startswith("  ") and line.strip()
+        ]
+        return [lines[0], "Commands:", *(word for word in words if word != "Call")]
+    return lines

@@ -1,0 +1,107 @@
+"""The surroundings of a record: the workspace with our solutions, the nodes that are up, the files beside it."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import re
+import shlex
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+TOOL = str(Path(sys.executable).with_name("ros-tutor"))
+
+FILES = {
+    "bad.yaml": "/parameterized_publisher:\n  ros__parameters:\n    message_prefix: Half\n    publish_rate: -4.0\n",
+    "wrongtype.yaml": "/parameterized_publisher:\n  ros__parameters:\n    publish_rate: fast\n",
+    "other.yaml": "/other_node:\n  ros__parameters:\n    publish_rate: 3.0\n",
+    "wild.yaml": "/**:\n  ros__parameters:\n    publish_rate: 3.0\n",
+    "unknown.yaml": "/parameterized_publisher:\n  ros__parameters:\n    nonesuch: 1\n",
+    "notparams.yaml": "hello: world\n",
+    "empty.yaml": "",
+}
+
+
+def make_workspace(folder: Path) -> Path:
+    """A workspace with every solution in my_package, as a learner has it who has solved everything."""
+    workspace = folder / "ws"
+    subprocess.run(
+        [TOOL, "--workspace", str(workspace), "start", "i1.1"],
+        cwd=ROOT, check=True, capture_output=True,
+    )  # fmt: skip
+    package = workspace / "src" / "my_package"
+    for solution in sorted(ROOT.glob("lessons/*/solution/*")):
+        place = package / ("launch" if "launch" in solution.name else "my_package") / solution.name
+        if solution.is_file():
+            place.write_bytes(solution.read_bytes())
+    return workspace
+
+
+def shell_environment(workspace: Path) -> dict[str, str]:
+    """What a command finds in its environment in `ros-tutor shell`."""
+    done = subprocess.run(
+        [TOOL, "--workspace", str(workspace), "shell", "-c", "env -0"],
+        cwd=ROOT, check=True, capture_output=True,
+    )  # fmt: skip
+    pairs = done.stdout.decode().split("\0")
+    return dict(pair.split("=", 1) for pair in pairs if "=" in pair)
+
+
+def commands_of(running: str) -> list[str]:
+    """The commands that start what a record says is running."""
+    if running.startswith(("no nodes", "nothing")):
+        return []
+    found = re.search(r"ros2 (run|launch) [^()]*", running)
+    if found is None:
+        raise ValueError(f"what is to be started? {running}")
+    command = found[0].strip()
+    if command.endswith(", twice") or "twice" in running:
+        return [command.removesuffix(", twice")] * 2
+    head, both, last = command.partition(" and ")
+    if both:
+        return [head, " ".join([*head.split()[:-1], last])]
+    return [command]
+
+
+@contextlib.contextmanager
+def running(commands: list[str], env: Mapping[str, str], cwd: Path) -> Iterator[None]:
+    """Nodes that are up meanwhile, each ended by Ctrl+C. Raises TimeoutError where they do not come up within 30 s."""
+    before = _nodes(env, cwd) if commands else 0
+    started: list[subprocess.Popen[bytes]] = []
+    try:
+        for command in commands:
+            started.append(
+                subprocess.Popen(
+                    shlex.split(command), env=env, cwd=cwd, start_new_session=True, stdin=subprocess.DEVNULL,
+                    stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                )
+            )  # fmt: skip
+        wanted = before + sum(2 if " launch " in command else 1 for command in commands)
+        limit = time.monotonic() + 30
+        while _nodes(env, cwd) < wanted:
+            if time.monotonic() > limit:
+                raise TimeoutError(f"{commands} did not come up")
+        yield
+    finally:
+        for process in started:
+            end(process)
+
+
+def _nodes(env: Mapping[str, str], cwd: Path) -> int:
+    listed = subprocess.run(["ros2", "node", "list"], env=env, cwd=cwd, capture_output=True, check=False)
+    return len(listed.stdout.split())
+
+
+def end(process: subprocess.Popen[bytes]) -> None:
+    """Press Ctrl+C; whatever has not ended after 10 s is killed."""
+    for number in (signal.SIGINT, signal.SIGKILL):
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(process.pid, number)
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            process.wait(10)
+            return
