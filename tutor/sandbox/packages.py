@@ -51,6 +51,11 @@ def find_share(package: str) -> Path:
     return _prefix(package) / "share" / package
 
 
+def programs(package: str) -> dict[str, Path]:
+    """The programs of a package, by name. Raises PackageNotFound."""
+    return _programs(_prefix(package), package)
+
+
 def with_programs() -> list[str]:
     """The names of all packages that have programs, sorted."""
     names = {

@@ -13,9 +13,16 @@ from tutor.sandbox.ros2.errors import CommandError
 from tutor.sandbox.ros2.parsing import PACKAGE, LazyParser, add_choices
 
 COMMANDS = {
+    "action": "See actions, and send goals to them",
     "daemon": "Ask about the daemon, which this ros2 does without",
+    "doctor": "Look for what is wrong with this machine",
+    "interface": "See message, service and action types",
     "launch": "Start the nodes of a launch file",
+    "node": "See the nodes",
+    "param": "See and set the parameters of nodes",
+    "pkg": "See the packages",
     "run": "Start a program of a package",
+    "service": "See and call services",
     "topic": "See and publish messages on topics",
 }
 """Each command and what it is for; it is the module (or the package of verbs) of this name in this package."""

@@ -1,0 +1,59 @@
+"""Filling messages from YAML."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+import yaml
+
+from tutor.sandbox.ros2.filling import fill
+
+
+def filled(type_name: str, text: str) -> Any:
+    from tutor.sandbox.ros2.interfaces import find_interface
+
+    message = find_interface(type_name, "msg")()
+    fill(message, yaml.safe_load(text))
+    return message
+
+
+@pytest.mark.parametrize(
+    ("type_name", "text", "field", "value"),
+    [
+        ("std_msgs/msg/String", "data: 5", "data", "5"),
+        ("std_msgs/msg/Float64", "data: 1", "data", 1.0),
+        ("std_msgs/msg/Int32", "data: 1.5", "data", 1),
+        ("std_msgs/msg/Bool", "data: yes", "data", True),
+        ("std_msgs/msg/Byte", "data: 7", "data", b"\x07"),
+        ("std_msgs/msg/Int32MultiArray", "data: [1, 2.0]", "data", [1, 2]),
+        ("std_msgs/msg/Float64MultiArray", "data: [1, 2]", "data", [1.0, 2.0]),
+        ("sensor_msgs/msg/JointState", "name: [a, b]", "name", ["a", "b"]),
+    ],
+)
+def test_values_are_converted_to_the_type_of_the_field(type_name: str, text: str, field: str, value: object) -> None:
+    found = getattr(filled(type_name, text), field)
+    assert (list(found) if isinstance(value, list) else found) == value
+
+
+def test_nested_messages_and_lists_of_them() -> None:
+    twist = filled("geometry_msgs/msg/Twist", "{linear: {x: 2}, angular: {z: 1.8}}")
+    assert (twist.linear.x, twist.linear.y, twist.angular.z) == (2.0, 0.0, 1.8)
+    polygon = filled("geometry_msgs/msg/Polygon", "points: [{x: 1.0}, {y: 2}]")
+    assert [(point.x, point.y) for point in polygon.points] == [(1.0, 0.0), (0.0, 2.0)]
+    pose = filled("geometry_msgs/msg/PoseWithCovariance", f"covariance: {[0.5] * 36}")
+    assert list(pose.covariance) == [0.5] * 36
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("dat: hi", "'String' object has no attribute 'dat'"),
+        ("hello", "Value 'hello' is expected to be a dictionary but is a str"),
+        ("[1, 2]", "Value '[1, 2]' is expected to be a dictionary but is a list"),
+    ],
+)
+def test_what_does_not_fit_is_named(text: str, said: str) -> None:
+    with pytest.raises((AttributeError, TypeError)) as caught:
+        filled("std_msgs/msg/String", text)
+    assert str(caught.value) == said

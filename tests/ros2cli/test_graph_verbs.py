@@ -1,0 +1,140 @@
+"""ros2 node, service, param and action, against real nodes."""
+
+from __future__ import annotations
+
+from tests.ros2cli.bench import TALKER, Bench, Ran
+
+SERVER = """
+from example_interfaces.srv import AddTwoInts
+from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor, SetParametersResult
+node = rclpy.create_node("server", namespace="/math")
+
+def add(request, response):
+    response.sum = request.a + request.b
+    return response
+
+node.create_service(AddTwoInts, "/add", add)
+node.declare_parameter("rate", 2.0, ParameterDescriptor(
+    description="how often", floating_point_range=[FloatingPointRange(from_value=0.5, to_value=10.0)]))
+node.declare_parameter("names", ["a", "b"])
+node.declare_parameter("deep.er.value", 3)
+
+def allow(given):
+    seven = any(each.value == 7.0 for each in given)
+    return SetParametersResult(successful=not seven, reason="not seven" if seven else "")
+
+node.add_on_set_parameters_callback(allow)
+spin(node)
+"""
+NODE = "/math/server"
+
+
+def test_nodes_are_listed_and_described(bench: Bench) -> None:
+    with bench.node(SERVER), bench.node(TALKER):
+        assert bench.ros2("node", "list") == Ran("/math/server\n/talker\n", "", 0)
+        assert bench.ros2("node", "list", "-c").stdout == "2\n"
+        told = bench.ros2("node", "info", NODE).stdout.splitlines()
+        assert told[:3] == [NODE, "  Subscribers:", ""]
+        assert "    /add: example_interfaces/srv/AddTwoInts" in told[told.index("  Service Servers:") :]
+        assert told[-4:] == ["  Action Servers:", "", "  Action Clients:", ""]
+        assert bench.ros2("node", "info", "/nope") == Ran("", "Unable to find node '/nope'\n", 1)
+
+
+def test_two_nodes_of_one_name_are_told(bench: Bench) -> None:
+    with bench.node(TALKER), bench.node(TALKER):
+        listed = bench.ros2("node", "list")
+        assert listed.stdout == "/talker\n/talker\n"
+        assert listed.stderr.startswith("WARNING: Be aware that there are nodes in the graph that share an exact name")
+        assert bench.ros2("node", "info", "/talker").stderr.startswith("There are 2 nodes in the graph")
+
+
+def test_services_are_listed_and_called(bench: Bench) -> None:
+    with bench.node(SERVER):
+        listed = bench.ros2("service", "list", "-t").stdout.splitlines()
+        assert listed[0] == "/add [example_interfaces/srv/AddTwoInts]"
+        assert bench.ros2("service", "type", "/add") == Ran("example_interfaces/srv/AddTwoInts\n", "", 0)
+        assert bench.ros2("service", "find", "example_interfaces/srv/AddTwoInts").stdout == "/add\n"
+        assert bench.ros2("service", "info", "/add").stdout == (
+            "Type: example_interfaces/srv/AddTwoInts\nClients count: 0\nServices count: 1\n"
+        )
+        for form in ("example_interfaces/srv/AddTwoInts", "example_interfaces/AddTwoInts"):
+            assert bench.ros2("service", "call", "/add", form, "{a: 10, b: 5}") == Ran(
+                "waiting for service to become available...\n"
+                "requester: making request: example_interfaces.srv.AddTwoInts_Request(a=10, b=5)\n\n"
+                "response:\nexample_interfaces.srv.AddTwoInts_Response(sum=15)\n\n",
+                "",
+                0,
+            )
+
+
+def test_a_call_that_cannot_be_made_says_why(bench: Bench) -> None:
+    call = ("service", "call", "/add")
+    assert bench.ros2(*call, "AddTwoInts") == Ran("", "The passed service type is invalid\n", 1)
+    assert bench.ros2(*call, "example_interfaces/srv/AddTwoInts", "{a: ten}") == Ran(
+        "", "Failed to populate field: invalid literal for int() with base 10: 'ten'\n", 1
+    )
+    bad = bench.ros2(*call, "example_interfaces/srv/AddTwoInts", "{a: 10")
+    assert (bad.stdout, bad.code, bad.stderr.count("\n")) == ("", 1, 1)
+    assert "no YAML" in bad.stderr
+    with bench.running(*call, "example_interfaces/srv/AddTwoInts") as waiting:
+        assert waiting.line() == "waiting for service to become available..."
+        assert waiting.interrupt() == Ran("", "", 2)
+
+
+def test_parameters_are_listed_read_and_described(bench: Bench) -> None:
+    with bench.node(SERVER):
+        listed = bench.ros2("param", "list", NODE).stdout.split()
+        assert listed[:3] == ["deep.er.value", "names", "rate"]
+        assert bench.ros2("param", "list").stdout.startswith("/math/server:\n  deep.er.value\n")
+        assert bench.ros2("param", "list", "--filter", "ra.*", "--param-type", NODE).stdout == "  rate (type: double)\n"
+        assert bench.ros2("param", "get", NODE, "rate").stdout == "Double value is: 2.0\n"
+        assert bench.ros2("param", "get", "math/server", "names").stdout == "String values are: ['a', 'b']\n"
+        assert bench.ros2("param", "get", "--hide-type", NODE, "deep.er.value").stdout == "3\n"
+        assert bench.ros2("param", "get", NODE, "nope") == Ran("", "Parameter not set\n", 1)
+        assert bench.ros2("param", "describe", NODE, "rate").stdout == (
+            "Parameter name: rate\n  Type: double\n  Description: how often\n  Constraints:\n"
+            "    Min value: 0.5\n    Max value: 10.0\n"
+        )
+        for verb in (("list",), ("dump",), ("get", "x"), ("set", "x", "1")):
+            assert bench.ros2("param", verb[0], "/nope", *verb[1:]) == Ran("", "Node not found\n", 1)
+
+
+def test_parameters_are_set_and_refusals_go_to_stderr(bench: Bench) -> None:
+    with bench.node(SERVER):
+        assert bench.ros2("param", "set", NODE, "rate", "5.0") == Ran("Set parameter successful\n", "", 0)
+        assert bench.ros2("param", "set", NODE, "rate", "7.0") == Ran("", "Setting parameter failed: not seven\n", 0)
+        assert bench.ros2("param", "get", NODE, "rate").stdout == "Double value is: 5.0\n"
+        refused = bench.ros2("param", "delete", NODE, "rate")
+        assert refused.stderr.startswith("Deleting parameter failed: ")
+        assert refused.code == 0
+
+
+def test_a_dump_can_be_loaded(bench: Bench) -> None:
+    with bench.node(SERVER):
+        dumped = bench.ros2("param", "dump", NODE).stdout
+        assert "    deep:\n      er:\n        value: 3\n" in dumped
+        (bench.folder / "dump.yaml").write_text(dumped.replace("rate: 2.0", "rate: 4.0"))
+        loaded = bench.ros2("param", "load", NODE, "dump.yaml")
+        assert "Set parameter rate successful\n" in loaded.stdout
+        assert bench.ros2("param", "get", NODE, "rate").stdout == "Double value is: 4.0\n"
+        for name, text in (("empty", ""), ("list", "[1]"), ("bad", "{a: 1")):
+            (bench.folder / f"{name}.yaml").write_text(text)
+            wrong = bench.ros2("param", "load", NODE, f"{name}.yaml")
+            assert (wrong.stdout, wrong.code, wrong.stderr.count("\n")) == ("", 1, 1), name
+        assert bench.ros2("param", "load", NODE, "nope.yaml").code == 1
+
+
+def test_actions_of_which_there_are_none(bench: Bench) -> None:
+    assert bench.ros2("action", "list") == Ran("", "", 0)
+    assert bench.ros2("action", "list", "-c").stdout == "0\n"
+    assert bench.ros2("action", "type", "/x") == Ran("", "", 1)
+    assert bench.ros2("action", "info", "/x").stdout == "Action: /x\nAction clients: 0\nAction servers: 0\n"
+    assert bench.ros2("action", "send_goal", "/x", "nopkg/action/X").stderr == "The passed action type is invalid\n"
+
+
+def test_the_doctor_names_a_topic_that_nobody_hears(bench: Bench) -> None:
+    with bench.node(TALKER):
+        told = bench.ros2("doctor")
+    assert told == Ran(
+        "UserWarning: Publisher without subscriber detected on /chatter.\n\nAll 3 checks passed\n\n", "", 0
+    )

@@ -1,0 +1,52 @@
+"""ros2 interface and ros2 pkg, which ask no node."""
+
+from __future__ import annotations
+
+from tests.ros2cli.bench import Bench, Ran
+
+
+def test_a_definition_is_shown_with_nested_types_below_their_fields(bench: Bench) -> None:
+    assert bench.ros2("interface", "show", "example_interfaces/srv/AddTwoInts") == Ran(
+        "int64 a\nint64 b\n---\nint64 sum\n", "", 0
+    )
+    assert bench.ros2("interface", "show", "geometry_msgs/msg/TwistStamped").stdout == (
+        "# A twist with reference coordinate frame and timestamp\n\n"
+        "std_msgs/Header header\n\tbuiltin_interfaces/Time stamp\n\t\tint32 sec\n\t\tuint32 nanosec\n"
+        "\tstring frame_id\n"
+        "Twist twist\n\tVector3  linear\n\t\tfloat64 x\n\t\tfloat64 y\n\t\tfloat64 z\n"
+        "\tVector3  angular\n\t\tfloat64 x\n\t\tfloat64 y\n\t\tfloat64 z\n"
+    )
+    bare = bench.ros2("interface", "show", "--no-comments", "geometry_msgs/msg/TwistStamped").stdout
+    assert bare.startswith("std_msgs/Header header\n")
+    assert "#" not in bare
+    assert bench.ros2("interface", "show", "-", stdin="std_msgs/msg/Bool\n").stdout.endswith("bool data\n")
+
+
+def test_what_is_not_there_is_named(bench: Bench) -> None:
+    show = ("interface", "show")
+    assert bench.ros2(*show, "std_msgs/String").stderr == (
+        "Invalid name 'std_msgs/String'. Expected three parts separated by '/'\n"
+    )
+    assert bench.ros2(*show, "nopkg/msg/X") == Ran("", "Unknown package 'nopkg'\n", 1)
+    assert bench.ros2(*show, "std_msgs/msg/Strin").stderr.startswith("Could not find the interface '")
+    assert bench.ros2("interface", "package", "nopkg") == Ran("", "Unknown package 'nopkg'\n", 1)
+    assert bench.ros2("pkg", "prefix", "nopkg") == Ran("", "Package not found\n", 1)
+    assert bench.ros2("pkg", "xml", "nopkg") == Ran("", "Package not found\n", 1)
+    assert bench.ros2("pkg", "executables", "nopkg") == Ran("", "Package 'nopkg' not found\n", 1)
+
+
+def test_types_and_packages_are_listed(bench: Bench) -> None:
+    listed = bench.ros2("interface", "list").stdout.splitlines()
+    assert listed.index("Messages:") < listed.index("Services:") < listed.index("Actions:")
+    assert "    std_msgs/msg/Float64" in listed
+    assert bench.ros2("interface", "list", "-s").stdout.startswith("Services:\n    action_msgs/srv/CancelGoal\n")
+    assert bench.ros2("interface", "package", "std_srvs").stdout == (
+        "std_srvs/srv/Empty\nstd_srvs/srv/SetBool\nstd_srvs/srv/Trigger\n"
+    )
+    assert "std_msgs" in bench.ros2("interface", "packages", "-m").stdout.split()
+    assert "std_srvs" not in bench.ros2("interface", "packages", "-m").stdout.split()
+    assert bench.ros2("interface", "proto", "std_msgs/msg/String").stdout == "\"data: ''\n\"\n"
+    packages = bench.ros2("pkg", "list").stdout.split()
+    assert packages == sorted(packages)
+    assert {"rclpy", "std_msgs", "demo_nodes_py"} <= set(packages)
+    assert "demo_nodes_py talker" in bench.ros2("pkg", "executables", "demo_nodes_py").stdout.splitlines()

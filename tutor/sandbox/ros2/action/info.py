@@ -1,0 +1,53 @@
+"""`ros2 action info`."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any
+
+from tutor.sandbox.ros2.action.names import action_names
+from tutor.sandbox.ros2.errors import CommandError
+from tutor.sandbox.ros2.joining import Domain, joined
+from tutor.sandbox.ros2.node.names import nodes
+from tutor.sandbox.ros2.parsing import complete_with
+
+Found = list[tuple[str, Sequence[str]]]
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """[-t] [-c] ACTION."""
+    complete_with(parser.add_argument("action_name", help="the action, such as /fibonacci"), action_names)
+    parser.add_argument("-t", "--show-types", action="store_true", help="the types as well")
+    parser.add_argument("-c", "--count", action="store_true", help="only how many clients and servers there are")
+
+
+def main(arguments: argparse.Namespace) -> None:
+    """Print the nodes with a client or a server of the action. Raises CommandError where the name cannot be one."""
+    from rclpy.action.graph import get_action_client_names_and_types_by_node, get_action_server_names_and_types_by_node
+    from rclpy.exceptions import InvalidTopicNameException
+    from rclpy.validate_full_topic_name import validate_full_topic_name
+
+    name = arguments.action_name
+    with joined(arguments) as domain:
+        try:
+            validate_full_topic_name(expanded := name if name.startswith("/") else f"/{name}")
+        except (InvalidTopicNameException, ValueError) as error:
+            raise CommandError(str(error)) from error
+        domain.complete()
+        clients = _of_action(domain, expanded, get_action_client_names_and_types_by_node)
+        servers = _of_action(domain, expanded, get_action_server_names_and_types_by_node)
+    print(f"Action: {name}")
+    for title, found in (("clients", clients), ("servers", servers)):
+        print(f"Action {title}: {len(found)}")
+        for node, types in () if arguments.count else found:
+            print(f"    {node} [{', '.join(types)}]" if arguments.show_types else f"    {node}")
+
+
+def _of_action(domain: Domain, action: str, ask: Callable[..., Iterable[tuple[str, Sequence[str]]]]) -> Found:
+    found: Found = []
+    for node in nodes(domain, hidden=True):
+        there: dict[str, Any] = dict(ask(domain.node, node.name, node.namespace))
+        if action in there:
+            found.append((node.full, there[action]))
+    return found
