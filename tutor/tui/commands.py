@@ -81,7 +81,7 @@ GROUPS: tuple[tuple[str, tuple[Command, ...]], ...] = (
             Command("start", ("s",), "Start", "Put the skeleton into your workspace"),
             Command("edit", ("e",), "Edit", "Edit your file here, until Esc", footer=True),
             Command("save", ("ctrl+s",), "Save", "Save (it is also saved as you go)"),
-            Command("own_editor", ("E",), "$EDITOR", "Open it in your editor ($EDITOR)"),
+            Command("own_editor", ("E",), "$EDITOR", "Open it in your own editor ($EDITOR)"),
             Command("next_file", ("f",), "File", "Show the exercise's other file"),
             Command("skeleton", ("k",), "Skeleton", "Show the skeleton"),
             Command("changes", ("d",), "Changes", "Show what you changed in the skeleton"),

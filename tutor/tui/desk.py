@@ -166,7 +166,3 @@ class Desk:
     def command_line(self, file: LessonFile, options: RunOptions) -> str:
         """What a ROS user would type to run this file, once the workspace is built."""
         return run_options.command_line(self.workspace.package.name, file.name, options)
-
-    def editor(self) -> str:
-        """The learner's editor, as a command."""
-        return os.environ.get("VISUAL") or os.environ.get("EDITOR") or "nano"

@@ -3,25 +3,67 @@
 from __future__ import annotations
 
 import asyncio
+import os
 import shlex
+import shutil
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
 from textual.app import App, SuspendNotSupported
 
+VARIABLES = ("VISUAL", "EDITOR")
+"""Where a user names their editor; the first that is set counts."""
 
-async def edit_outside(app: App[Any], editor: str, path: Path) -> str:
-    """Open `path` in `editor` and wait for its end; what went wrong, or nothing."""
+USUAL = ("sensible-editor", "nano", "vim", "vi", "nvim", "micro", "emacs", "ed")
+"""Where none is named, the first of these that is there; `sensible-editor` is Debian's and Ubuntu's choice."""
+
+
+class EditorError(Exception):
+    """There is no editor to start; the text says what to do."""
+
+
+def editor_command(
+    environ: Mapping[str, str] = os.environ, which: Callable[[str], str | None] = shutil.which
+) -> list[str]:
+    """The learner's editor as a command, without the file; `which` finds a program. Raises EditorError."""
+    for variable in VARIABLES:
+        if not (value := environ.get(variable, "").strip()):
+            continue
+        try:
+            command = shlex.split(value)
+        except ValueError as error:
+            raise EditorError(f"{variable} is no command ({str(error).lower()}): {value}") from error
+        if not command or which(command[0]) is None:
+            name = command[0] if command else value
+            raise EditorError(f"There is no program {name}: set {variable} to your editor, or press e to edit here.")
+        return command
+    for name in USUAL:
+        if which(name) is not None:
+            return [name]
+    raise EditorError("No editor is installed: set EDITOR to yours, or press e to edit here.")
+
+
+async def edit_outside(app: App[Any], path: Path) -> str:
+    """Open `path` in the learner's editor and wait for its end; what went wrong, or nothing."""
     try:
-        command = [*shlex.split(editor), str(path)]
-    except ValueError:
-        return f"EDITOR is no command: {editor}"
+        command = editor_command()
+    except EditorError as error:
+        return str(error)
+    name, problem = command[0], ""
     try:
         with app.suspend(), app.batch_update():
-            process = await asyncio.create_subprocess_exec(*command)
-            await process.wait()
+            try:  # in here: the terminal comes back to the app only where nothing is raised
+                process = await asyncio.create_subprocess_exec(*command, str(path))
+                code = await process.wait()
+            except OSError as error:
+                problem = f"{name} cannot be started ({error.strerror}): set EDITOR to another one, or press e."
+            else:
+                if code:
+                    how = f"exit code {code}" if code > 0 else f"signal {-code}"
+                    problem = (
+                        f"{name} ended with {how}. If it does not work here, set EDITOR to another one, or press e."
+                    )
     except SuspendNotSupported:
         return "This terminal cannot be handed to an editor: open the file in another one."
-    except OSError as error:
-        return f"{command[0]} cannot be started ({error.strerror}): set EDITOR to yours."
-    return ""
+    return problem

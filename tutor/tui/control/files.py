@@ -269,7 +269,7 @@ class Files:
         # Ctrl+C in the editor reaches us too; a handler that does nothing is reset to the default in the editor itself.
         before = signal.signal(signal.SIGINT, lambda *_: None)
         try:
-            problem = await edit_outside(self._stage.app, session.desk.editor(), session.path)
+            problem = await edit_outside(self._stage.app, session.path)
         finally:
             signal.signal(signal.SIGINT, before)
         if problem:
