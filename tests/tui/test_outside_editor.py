@@ -65,16 +65,18 @@ WRITES = '#!/bin/sh\necho "opened by ${0##*/}"\nfor last; do :; done\necho "# ed
 @pytest.mark.parametrize("environ", [{}, {"EDITOR": ""}, {"EDITOR": " "}], ids=["unset", "empty", "blank"])
 def test_without_an_editor_of_their_choice_the_one_that_is_there_opens(me: Seated, environ: dict[str, str]) -> None:
     me.installs("vi", WRITES)
-    me.opens(**environ).press(b"E")
-    me.app.until(b"opened by vi")
-    me.app.until(b"# edited with 1 words")
+    app = me.opens(**environ)
+    app.press(b"E")
+    app.until(b"opened by vi")
+    app.until(b"# edited with 1 words")
     me.works_on()
 
 
 def test_an_editor_with_arguments(me: Seated) -> None:
     me.installs("code", WRITES)
-    me.opens(EDITOR="code -w").press(b"E")
-    me.app.until(b"# edited with 2 words: -w")
+    app = me.opens(EDITOR="code -w")
+    app.press(b"E")
+    app.until(b"# edited with 2 words: -w")
 
 
 @pytest.mark.parametrize(
@@ -91,8 +93,9 @@ def test_an_editor_that_fails_is_told_in_the_app_which_goes_on(
 ) -> None:
     if script:
         me.installs(editor, script)
-    me.opens(EDITOR=editor).press(b"E")
-    me.app.until(told)
+    app = me.opens(EDITOR=editor)
+    app.press(b"E")
+    app.until(told)
     me.works_on()
 
 

@@ -10,11 +10,13 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from textual.app import App, SystemCommand
+from textual.events import Event, Key, Paste
 from textual.screen import Screen
 
 from tutor.tui.desk import Desk
 from tutor.tui.screens.opening import OpeningScreen
 from tutor.tui.themes import DARK, LIGHT
+from tutor.tui.typeahead import Typeahead
 
 if TYPE_CHECKING:
     from tutor.tui.screens.main import MainScreen
@@ -35,12 +37,20 @@ class TutorApp(App[int]):
         self.desk = desk
         self.main: MainScreen | None = None
         self._leaving = False
+        self._typeahead = Typeahead(self, super().on_event)
         self._notes: list[str] = []
         desk.notify = self._notes.append
         self._state = desk.app_state()
         self.register_theme(DARK)
         self.register_theme(LIGHT)
         self.theme = self._state.theme if self._state.theme in (DARK.name, LIGHT.name) else DARK.name
+
+    async def on_event(self, event: Event) -> None:
+        """Keys and pastes in the order in which they were typed; those that were handed on already come back up."""
+        if isinstance(event, Key | Paste) and not event.is_forwarded:
+            await self._typeahead.take(event)
+        else:
+            await super().on_event(event)
 
     def get_default_screen(self) -> Screen[Any]:
         """What is painted first."""

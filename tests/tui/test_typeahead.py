@@ -1,0 +1,93 @@
+"""What is typed faster than the app keeps up with: all of it is done, in the order in which it was typed."""
+
+from __future__ import annotations
+
+import os
+import sys
+from pathlib import Path
+from typing import Any
+
+from textual.events import Key, Paste
+from textual.keys import _character_to_key
+
+from tests.benchmarks.terminal import Terminal
+from tests.tui import made
+from tutor.content import load_course
+from tutor.tui.widgets.code_pane import CodeBody, CodePane
+from tutor.workspace import Workspace, start
+
+APP = "import sys; from tutor.cli import main; sys.exit(main())"
+
+END, HOME, LEFT, DELETE = b"\x1b[F", b"\x1b[H", b"\x1b[D", b"\x1b[3~"
+
+
+def ahead(me: Any, *typed: str | Paste) -> None:
+    """Type all this before the app has dealt with any of it."""
+    for each in typed:
+        if isinstance(each, str):
+            key = _character_to_key(each) if len(each) == 1 else each
+            me.app.post_message(Key(key, each if len(each) == 1 else None))
+        else:
+            me.app.post_message(each)
+
+
+async def test_moves_and_letters_in_the_editor_keep_their_order(learner: Any) -> None:
+    async with learner() as me:
+        editor = await me.edits()
+        ahead(me, *"ab", "home", *"c", "end", *"d", "left", "left", *"e", "enter", *"f", "backspace", *"g", "home")
+        ahead(me, Paste("pasted"), "end", *"!")
+        await me.until(lambda: "!" in editor.text)
+        first, second = (made.NODE.split("\n")[0] + "d"), "pastedg"
+        typed = "cab" + first
+        assert editor.text.split("\n")[:2] == [typed[:-2] + "e", second + typed[-2:] + "!"]
+
+
+async def test_what_is_typed_after_a_command_goes_where_the_command_leads(learner: Any) -> None:
+    async with learner() as me:
+        await me.press("2")
+        await me.until(lambda: me.main.query_one(CodeBody).has_focus)
+        await me.sees("1  import signal")
+        editor, meant = me.editor, made.NODE.replace("import", "rcqimport", 1).replace("ing\n", "ingx\n", 1)
+        ahead(me, "e", *"rcq", "escape", *"1", "n", "p", "3", "2", "e", "end", *"x")
+        await me.until(lambda: editor.text == meant)
+        assert me.main.page == "code"
+        assert me.app.focused is editor
+
+
+async def test_what_is_typed_after_a_dialog_was_asked_for_goes_into_the_dialog(learner: Any) -> None:
+    async with learner() as me:
+        ahead(me, "o", *"rate:=2.0", "enter", *"b:=1", "f5", "2", "e", *"z")
+        await me.until(lambda: me.main.session.run_options.parameters == ("rate:=2.0", "b:=1"), "the options")
+        await me.until(
+            lambda: "zimport" in (editor.text if (editor := me.main.query_one(CodePane).editor) else ""),
+            "typed in the editor",
+        )
+
+
+async def test_keys_work_on_after_the_widget_that_had_them_is_gone(learner: Any) -> None:
+    async with learner() as me:
+        editor = await me.edits()
+        me.file.unlink()
+        ahead(me, "down", "end")
+        await editor.remove()
+        ahead(me, "f1")
+        await me.sees("Stop everything and leave")
+
+
+def test_a_burst_of_bytes_in_a_real_terminal_becomes_the_text_that_was_meant(tmp_path: Path) -> None:
+    lesson = load_course().lessons[0]
+    workspace = Workspace(tmp_path / "ws")
+    start(lesson, workspace)
+    file = workspace.path_of(lesson.files[0].name)
+    file.write_text("\nlast\n")
+    app = Terminal([sys.executable, "-c", APP, "--workspace", str(workspace.root)], dict(os.environ))
+    try:
+        app.until(b"Objective")
+        app.press(b"2")
+        app.until(b"last")
+        line = b"x = 1" + HOME + b"#!/usr/" + END + LEFT + DELETE + b"bin" + HOME + b"y" + END + b"\r"
+        app.press(b"e" + line * 20 + b"end\x13")  # Ctrl+S
+        app.until(b"is saved.")
+    finally:
+        app.close()
+    assert file.read_text() == "y#!/usr/x = bin\n" * 20 + "end\nlast\n"
