@@ -125,6 +125,8 @@ def judge_gaps(jump: Feeding, steady: Feeding) -> Verdict:
             "set self.last_number = number for each message, whether there was a gap or not",
         )
         return failed(expected, observed, cause, [line.text for line in again[:6]])
+    if (rising := _goes_on_rising(jump, steady)) is not None:
+        return failed(expected, observed, *rising)
     unused = list(told)
     for index, how in zip(jump.jumps, jumped, strict=True):
         own = next((line for line in unused if _soon(line, index, jump)), None)
@@ -162,6 +164,37 @@ def _goes_on(told: Sequence[Line], jump: Feeding) -> list[Line]:
         if len({line.messages for line in alarms}) > 0.7 * (len(jump.sent) - jump.breaks - SETTLED):
             return alarms
     return []
+
+
+def _goes_on_rising(jump: Feeding, steady: Feeding) -> tuple[Cause, list[str]] | None:
+    """Whether a number that tells of the first jump goes on rising with the messages after it, and the lines.
+
+    It had been constant, and it does not fall back with the second jump, as what is counted since the last one does.
+    What a timer logs may tell of a jump late: only a number that had risen before is looked at.
+    """
+    calm = range(jump.breaks + SETTLED, jump.again + 1)
+    for kind in {line.kind for line in jump.lines if line.messages in calm}:
+        lines = [line for line in jump.lines if line.kind == kind]
+        starts = [[line for line in fed.lines if line.kind == kind and _calm(line, fed)] for fed in (jump, steady)]
+        usual = [line for lines in starts for line in lines]
+        amount = {len(line.numbers) for line in (*lines, *usual)}
+        if max(map(len, starts)) < 2 or len(amount) > 1:  # of one line, nothing is known to be constant
+            continue
+        since = [line for line in lines if line.messages in calm]
+        later = [line for line in lines if line.messages > jump.again]
+        for place in range(*amount):
+            was = {line.numbers[place].value for line in usual}
+            rose = [line.numbers[place].value for line in since]
+            ends = [line.numbers[place].value for line in later[-1:]]
+            whole = all(value.is_integer() for value in rose)
+            if len(was) == 1 and whole and max(was) < rose[0] < rose[-1] <= min(ends, default=rose[-1]):
+                return Cause(
+                    "false alarm",
+                    f"what it says is lost goes on rising while N rises by one again: {since[0].numbers[place].text} "
+                    f"after {since[0].messages} messages, {since[-1].numbers[place].text} after {since[-1].messages}",
+                    "set self.last_number = number for each message, whether there was a gap or not",
+                ), [line.text for line in (since[0], since[-1], *later[-1:])]
+    return None
 
 
 def _of_end(feeding: Feeding, what: str) -> Cause:

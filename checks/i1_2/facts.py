@@ -33,11 +33,12 @@ MEET_S = 0.4
 
 SOONER_HZ = 8.0
 """The rate where none is judged."""
-JUMP_AFTER, AGAIN_AFTER, JUMP_MESSAGES = 17, 27, 37
+JUMP_AFTER, AGAIN_AFTER, JUMP_MESSAGES = 17, 37, 43
 """N jumps twice: far, and then by leaving out one number.
 
-After each jump there is a summary, and time for one that is late. Who begins to count again with the first jump has
-counted ten more, in time to be seen. Three summaries are more than any other start asks for.
+After each jump there is a summary, and time for one that is late; between them, ten messages in a row are summed up of
+which none is missing. Who begins to count again with the first jump has counted ten more, in time to be seen. Four
+summaries are more than any other start asks for.
 """
 
 RESTART_AFTER, RESTART_MESSAGES = 13, 25

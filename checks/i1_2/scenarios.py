@@ -208,8 +208,17 @@ async def _hear_out(run: Run, fed: Feeding) -> Feeding:
     if last:
         # From the last message on: who counts anew for a new publisher is due later than others.
         await run.until(told, max(fed.sent[-1].at + fed.late_s - run.now(), 0.0))
+    if fed.jumps:
+        jumped_at = fed.sent[fed.jumps[-1]].at
+        await run.until(lambda: _speaks_since(jumped_at, now()), max(jumped_at + fed.late_s - run.now(), 0.0))
     await heard_out(run, quiet_s=SAID_S, most_s=MOST_SAID_S)
     return now()
+
+
+def _speaks_since(jumped_at: float, fed: Feeding) -> bool:
+    """Whether it has said something since the jump that it did not say before the first one."""
+    calm = {line.kind for line in fed.lines if line.messages <= fed.breaks}
+    return any(line.at >= jumped_at and line.kind not in calm for line in fed.lines)
 
 
 async def _stuck(bench: Bench) -> tuple[Frame, ...]:

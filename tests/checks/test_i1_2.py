@@ -425,6 +425,24 @@ class LatestStep(LargestStep):
         yield from ()
 
 
+class SinceTheLastGap(Counter):
+    """Says, too, how many messages have come since the last gap, once there was one."""
+
+    whole: int = -1
+
+    def heard(self, data: str) -> Iterator[Log]:
+        self.whole += self.whole >= 0
+        yield from ()
+
+    def jumped(self, last: int, number: int) -> Iterator[Log]:
+        self.whole = 1
+        yield from super().jumped(last, number)
+
+    def summary(self) -> Iterator[Log]:
+        for level, text in super().summary():
+            yield level, f"{text} since the last gap: {self.whole}"
+
+
 class QuotesBoth(Counter):
     """What it says of a jump quotes the message before and the one after, as a summary quotes two, too."""
 
@@ -480,7 +498,7 @@ RIGHT = (
     MissedCount, LossPercent, LossShare, LargestStep, GapWords, GapAtTheStart, Noisy, OneLineEach, LevelsMixed,
     NoisyAndLong, LastSecond, LastTwoSeconds, LastTen, LastInterval, Intervals, Rounded, Scientific, WithClock,
     WithThousands, Anniversary, QuotesBoth, QuotesBothInThree, QuotesTheFirst, RestartsAndQuotesBoth,
-    QuotesBothAndChangesItsWords, SinceTheLastSummary, GapsSinceTheLastSummary, LatestStep,
+    QuotesBothAndChangesItsWords, SinceTheLastSummary, GapsSinceTheLastSummary, LatestStep, SinceTheLastGap,
 )  # fmt: skip
 
 
@@ -651,7 +669,7 @@ class ByASlowTimer(Counter):
 
 def test_the_third_summary_may_wait_for_a_slow_timer() -> None:
     jumped = jump(ByASlowTimer())
-    assert [report.messages for report in find(jumped)] == [11, 21, 35]
+    assert [report.messages for report in find(jumped)] == [11, 21, 35, 41]
     assert_passed(judges.judge_summary(steady(Counter()), jumped))
     assert_passed(judges.judge_count(steady(Counter()), jumped))
 
@@ -738,6 +756,44 @@ class GapCountStuck(GapBlind):
 class GapCountRising(GapBlind):
     def summary(self) -> Iterator[Log]:
         yield 20, f"{self.total} {self.rate()} gaps={self.total // 10} {self.first} {self.last}"
+
+
+class LostForEver(GapCount):
+    """What is lost goes on rising after a gap: each message is held against the number that was due once."""
+
+    expected: int | None = None
+
+    def heard(self, data: str) -> Iterator[Log]:
+        number = int(data.split(":")[1])
+        if self.expected is not None and number > self.expected:
+            self.missed += number - self.expected
+        self.expected = number + 1 if self.expected is None else self.expected + 1
+        yield from ()
+
+    def jumped(self, last: int, number: int) -> Iterator[Log]:
+        yield from ()
+
+    def line(self) -> str:
+        return f"{self.total} at {self.rate():.1f}/s, {self.missed} lost: {self.first} to {self.last}"
+
+
+class GapsForEver(LostForEver):
+    """Counts each message after a gap as one more gap."""
+
+    def line(self) -> str:
+        self.gaps = self.missed and self.gaps + min(10, self.total - JUMP_AFTER)
+        return f"{self.total} at {self.rate():.1f}/s, {self.gaps} gaps: {self.first} to {self.last}"
+
+
+class LostForEverWithEachMessage(LostForEver):
+    """Says so with each message, and not in the summary."""
+
+    def take(self, now: float, data: str) -> Iterator[Log]:
+        yield from super().take(now, data)
+        yield 20, f"{data}, lost so far: {self.missed}"
+
+    def line(self) -> str:
+        return f"{self.total} at {self.rate():.1f}/s: {self.first} to {self.last}"
 
 
 class GapOnlyBack(Counter):
@@ -976,6 +1032,9 @@ class AgainAfterASecond(Counter):
         (Stubborn, "restart", "stopped counting"),
         (NeverGetsOverIt, "gaps", "false alarm"),
         (NeverGetsOverItQuietly, "gaps", "false alarm"),
+        (LostForEver, "gaps", "false alarm"),
+        (GapsForEver, "gaps", "false alarm"),
+        (LostForEverWithEachMessage, "gaps", "false alarm"),
         (ResetsAtAGap, "count", "wrong count"),
         (StopsAtAGap, "summary", "missing summary"),
         (Twice, "summary", "too many summaries"),
@@ -1239,7 +1298,7 @@ def test_what_is_said_just_before_a_summary_is_due_is_no_part_of_it() -> None:
     early = jumped.sent[29].at - 0.01
     logs = (*jumped.trace.logs, LogRecord(40, "node", "1 lost in the last second", early, early))
     jumped = replace(jumped, trace=replace(jumped.trace, logs=logs))
-    assert [report.messages for report in find(jumped)] == [10, 20, 30]
+    assert [report.messages for report in find(jumped)] == [10, 20, 30, 40]
 
 
 def test_how_much_later_than_due_a_message_was_sent() -> None:
