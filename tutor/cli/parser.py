@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 from tutor import __version__
-from tutor.cli import author, check, checklist, doctor, hint, list_exercises, ros2, serve, solution, start
+from tutor.cli import author, check, checklist, doctor, hint, list_exercises, ros2, serve, shell, solution, start
 from tutor.cli.errors import UsageError
 
 Run = Callable[[argparse.Namespace], int]
@@ -79,7 +79,8 @@ def _build() -> _Parser:
     add("solution", solution.run, solution.add_arguments, "print our solution of an exercise")
     add("checklist", checklist.run, checklist.add_arguments, "show, tick or export the self-assessment checklist")
     add("serve", serve.run, serve.add_arguments, "open the app in a browser, on this machine only")
-    add("ros2", ros2.run, ros2.add_arguments, "the ros2 command (launch and run), also without an installed ROS 2")
+    add("shell", shell.run, shell.add_arguments, "a shell in which ros2 works and your workspace is sourced")
+    add("ros2", ros2.run, ros2.add_arguments, "the ros2 command, also without an installed ROS 2")
     add("doctor", doctor.run, doctor.add_arguments, "say what ROS is used, and what is wrong with the machine")
     add("author", author.run, author.add_arguments, "prove a course right, for those who write one")
     return parser

@@ -17,9 +17,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """VERB [ARGUMENT ...]."""
     parser.add_argument(
         "words",
-        metavar="launch|run ...",
+        metavar="COMMAND ...",
         nargs=argparse.REMAINDER,
-        help="as after ros2: launch my_package my_launch.py",
+        help="as after ros2: topic echo /chatter",
     )
 
 

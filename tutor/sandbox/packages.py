@@ -46,6 +46,11 @@ def find_executable(package: str, executable: str) -> list[str]:
     return [sys.executable, "-P", program] if _is_our_script(found[executable]) else [program]
 
 
+def programs_of(package: str) -> list[str]:
+    """The names of a package's programs, sorted. Raises PackageNotFound."""
+    return sorted(_programs(_prefix(package), package))
+
+
 def find_share(package: str) -> Path:
     """The folder of a package's files: `launch/`, `config/` and the like are in it. Raises PackageNotFound."""
     return _prefix(package) / "share" / package

@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from types import FrameType
 from typing import Any, NoReturn
 
+from tutor.sandbox.ros2 import completing
 from tutor.sandbox.ros2.errors import CommandError
 from tutor.sandbox.ros2.parsing import PACKAGE, LazyParser, add_choices
 
@@ -61,6 +62,8 @@ def _run(argv: Sequence[str]) -> int:
     if argv and argv[0] in _ELSEWHERE:
         return _say(f"ros2: `ros2 {argv[0]}` needs an installed ROS 2; this ros2 knows: {', '.join(COMMANDS)}", 2)
     parser = build_parser()
+    if completing.is_asked():
+        completing.answer(parser)
     arguments = parser.parse_args(argv)
     if not arguments.use_python_default_buffering:
         _write_by_lines(sys.stdout)

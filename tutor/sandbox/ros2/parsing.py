@@ -21,10 +21,23 @@ class LazyParser(argparse.ArgumentParser):
         self._fill = fill
 
     def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
+        self.fill()
+        return super().parse_known_args(args, namespace)
+
+    def fill(self) -> None:
+        """Get the arguments now."""
         if self._fill is not None:
             fill, self._fill = self._fill, None
             fill(self)
-        return super().parse_known_args(args, namespace)
+
+    def fill_along(self, words: Sequence[str]) -> None:
+        """Get the arguments, and those of the command and the verb that are among `words`."""
+        self.fill()
+        for action in self._actions:
+            if isinstance(action, argparse._SubParsersAction):
+                for position, word in enumerate(words):
+                    if isinstance(chosen := action.choices.get(word), LazyParser):
+                        return chosen.fill_along(words[position + 1 :])
 
 
 def add_choices(parser: argparse.ArgumentParser, helps: Mapping[str, str], module_of: Callable[[str], str]) -> None:

@@ -10,12 +10,13 @@ from pathlib import Path
 from tutor.sandbox import packages
 from tutor.sandbox.ros2 import overlaying
 from tutor.sandbox.ros2.errors import CommandError
+from tutor.sandbox.ros2.parsing import complete_with
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """PACKAGE EXECUTABLE [ARGUMENT ...]."""
-    parser.add_argument("package", metavar="package_name", help="the package")
-    parser.add_argument("executable", metavar="executable_name", help="its program")
+    complete_with(parser.add_argument("package", metavar="package_name", help="the package"), _packages)
+    complete_with(parser.add_argument("executable", metavar="executable_name", help="its program"), _programs)
     parser.add_argument("rest", metavar="argv", nargs=argparse.REMAINDER, help="what to pass to the program")
 
 
@@ -32,6 +33,18 @@ def main(arguments: argparse.Namespace) -> int:
     signal.signal(signal.SIGTERM, lambda *_: program.terminate())
     code = program.wait()
     return code if code >= 0 else 128 - code
+
+
+def _packages(**_: object) -> list[str]:
+    """For Tab: the packages that have programs."""
+    overlaying.use(Path.cwd())
+    return packages.with_programs()
+
+
+def _programs(parsed_args: argparse.Namespace, **_: object) -> list[str]:
+    """For Tab: the programs of the package that was typed."""
+    overlaying.use(Path.cwd())
+    return packages.programs_of(parsed_args.package)
 
 
 def _as_from_a_terminal() -> None:

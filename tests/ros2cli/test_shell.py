@@ -1,0 +1,167 @@
+"""`ros-tutor shell`: a sourced terminal."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.ros2cli.bench import TALKER, Bench, Ran
+from tests.ros2cli.typing_at import terminal
+from tutor.ros.isolation import PROFILE
+
+TUTOR = [sys.executable, "-P", "-c", "import sys; from tutor.cli import main; sys.exit(main())"]
+NODE = """
+import rclpy
+def main():
+    rclpy.init()
+    print("made", rclpy.create_node("mine").get_name())
+if __name__ == "__main__":
+    main()
+"""
+
+
+def users_env(bench: Bench, **more: str) -> dict[str, str]:
+    """The environment of a user's terminal, on the bench's domain."""
+    names = ("PATH", "LANG", "ROS_DOMAIN_ID", "HOME", "TMPDIR")
+    kept = {name: bench.env[name] for name in names if name in bench.env}
+    discovery = {name: value for name, value in bench.env.items() if name.startswith(("FAST", "ROS_AUTOMATIC"))}
+    return {**kept, **discovery, "SHELL": shutil.which("bash") or "", "TERM": "dumb", **more}
+
+
+def tutor(bench: Bench, *words: str, env: dict[str, str]) -> Ran:
+    ran = subprocess.run(
+        [*TUTOR, *words], env=env, cwd=bench.folder, capture_output=True, text=True, timeout=60, check=False
+    )
+    return Ran(ran.stdout, ran.stderr, ran.returncode)
+
+
+@pytest.fixture
+def workspace(bench: Bench) -> Path:
+    """A workspace with a node of the learner's. Its domain is kept to the test by a DDS profile of the user's."""
+    profile = bench.folder / "profile.xml"
+    profile.write_bytes(PROFILE.read_bytes())
+    bench.env |= {name: str(profile) for name, value in bench.env.items() if value == str(PROFILE)}
+    root = bench.folder / "ws"
+    assert tutor(bench, "start", "i1.1", "--workspace", str(root), env=users_env(bench)).code == 0
+    (root / "src/my_package/my_package/mine.py").write_text(NODE)
+    return root
+
+
+def test_a_command_line_is_run_as_in_a_sourced_terminal(bench: Bench, workspace: Path) -> None:
+    env = users_env(bench)
+    files = sorted(path for path in bench.folder.rglob("*") if "log" not in path.parts)
+
+    def shell(line: str) -> Ran:
+        return tutor(bench, "shell", "--workspace", str(workspace), "-c", line, env=env)
+
+    with bench.node(TALKER):
+        assert shell("ros2 topic type /chatter") == Ran("std_msgs/msg/String\n", "", 0)
+        assert shell("ros2 topic echo --once /chatter | head -c 20").stdout == "data: 'Hello World: "
+    assert shell("ros2 run my_package mine").stdout == "made mine\n"
+    assert shell(f"cd {workspace}/src/my_package/my_package && python3 mine.py").stdout == "made mine\n"
+    assert shell("python3 -c 'import my_package.mine as mine; mine.main()'").stdout == "made mine\n"
+    assert shell("ros2 topic type /nothing; exit 7").code == 7
+    assert shell("kill -TERM $$").code == 128 + signal.SIGTERM
+    assert shell("echo $ROS_DOMAIN_ID").stdout == f"{bench.env['ROS_DOMAIN_ID']}\n"
+    assert shell("ros-tutor list --help").code == 0
+    new = sorted(path for path in bench.folder.rglob("*") if "log" not in path.parts)
+    assert [path for path in new if path not in files and not path.name.startswith("node_")] == []
+
+
+def test_the_domain_is_the_workspaces_where_none_is_set(bench: Bench, workspace: Path) -> None:
+    env = users_env(bench)
+    del env["ROS_DOMAIN_ID"]
+    domains = {tutor(bench, "shell", "--workspace", str(workspace), "-c", "echo $ROS_DOMAIN_ID", env=env).stdout}
+    assert domains == {(workspace / ".ros-tutor/domain").read_text()}
+
+
+def test_a_ros2_that_is_there_is_the_one(bench: Bench, workspace: Path) -> None:
+    own = bench.folder / "own"
+    own.mkdir()
+    (own / "ros2").write_text("#!/bin/sh\necho the real one\n")
+    (own / "ros2").chmod(0o755)
+    env = users_env(bench, PATH=f"{own}:{os.environ['PATH']}")
+    assert tutor(bench, "shell", "--workspace", str(workspace), "-c", "ros2", env=env).stdout == "the real one\n"
+
+
+RC = """
+FROM_RC=read
+PS1='users> '
+export AMENT_PREFIX_PATH=/opt/ros/other PATH=/somewhere/else:$PATH ROS_DISTRO=other
+"""
+
+
+def test_it_is_the_users_own_shell(bench: Bench, workspace: Path) -> None:
+    (bench.folder / ".bashrc").write_text(RC)
+    command = [*TUTOR, "shell", "--workspace", str(workspace)]
+    with bench.node(TALKER), terminal(command, users_env(bench), bench.folder) as shell:
+        shell.until("workspace ")
+        shell.until("(ROS 2: ws) users> ")
+        shell.type('echo "$FROM_RC, ${ROS_DISTRO-unset}, $?"\n')
+        shell.until("\r\nread, unset, 0\r\n")
+        shell.type("ros2 topic ty\t")
+        shell.until("ros2 topic type ")
+        shell.type("/chat\t")
+        shell.until("/chatter ")
+        shell.type("\n")
+        shell.until("std_msgs/msg/String")
+        shell.type("ros2 run my_p\t")
+        shell.until("my_package ")
+        shell.type("min\t\t")
+        shell.until("mine")
+        shell.type("e\n")
+        shell.until("made mine")
+        shell.type("ros2 topic hz /nothing\n")
+        shell.until("does not appear to be published yet")
+        shell.type("\x03")
+        shell.until("(ROS 2: ws) users> ")
+        shell.type("echo code $?\n")
+        shell.until("\r\ncode 2\r\n")
+        shell.type("exit 3\n")
+        assert shell.end() == 3
+    assert not list((bench.folder / "log").glob("ros-tutor-shell-*"))
+    assert (bench.folder / ".bashrc").read_text() == RC
+
+
+@pytest.mark.skipif(shutil.which("zsh") is None, reason="zsh is not installed")
+def test_it_is_zsh_where_that_is_the_users(bench: Bench, workspace: Path) -> None:
+    (bench.folder / ".zshrc").write_text("FROM_RC=read\nPROMPT='users> '\n")
+    command = [*TUTOR, "shell", "--workspace", str(workspace)]
+    env = users_env(bench, SHELL=shutil.which("zsh") or "")
+    with bench.node(TALKER), terminal(command, env, bench.folder) as shell:
+        shell.until("(ROS 2: ws) users> ")
+        shell.type('echo "$FROM_RC, ${ZDOTDIR-unset}"\n')
+        shell.until("read, unset")
+        shell.type("ros2 topic ty\t")
+        shell.until("ros2 topic type")
+        shell.type(" /chat\t")
+        shell.until("/chatter")
+        shell.type("\n")
+        shell.until("std_msgs/msg/String")
+        shell.type("exit 3\n")
+        assert shell.end() == 3
+
+
+def test_with_an_installed_ros_its_own_variables_stay(tmp_path: Path) -> None:
+    from tutor.ros.environment import RosEnvironment
+    from tutor.sandbox.ros2.sourced import setup_file, sourced_environment
+
+    installed = RosEnvironment("system", "jazzy", Path("/usr/bin/python3.12"), "rmw_fastrtps_cpp")
+    environ = {
+        "PATH": "/opt/ros/jazzy/bin:/usr/bin",
+        "AMENT_PREFIX_PATH": "/opt/ros/jazzy",
+        "PYTHONPATH": "/opt/ros/py",
+    }
+    env = sourced_environment(installed, tmp_path, 7, tmp_path / "tools", environ)
+    assert env == {**environ, "ROS_DOMAIN_ID": "7", "ROS_TUTOR_WORKSPACE": str(tmp_path)}
+    assert not (tmp_path / "tools").exists()
+    assert setup_file(installed, tmp_path, "bash") is None
+    (tmp_path / "install").mkdir()
+    (tmp_path / "install/local_setup.bash").touch()
+    assert setup_file(installed, tmp_path, "bash") == tmp_path / "install/local_setup.bash"

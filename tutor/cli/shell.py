@@ -1,0 +1,75 @@
+"""`ros-tutor shell`: a terminal in which ROS 2 and the workspace are sourced, and the domain is the app's."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import shlex
+import signal
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+from tutor.cli import context, terminal
+from tutor.cli.errors import UsageError
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """[-c COMMAND]."""
+    parser.add_argument("-c", dest="line", metavar="COMMAND", help="run this command line in it, and end")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Run the user's shell, or one command line in it; gives its exit code."""
+    from tutor.ros.environment import detect
+    from tutor.sandbox.ros2 import sourced
+    from tutor.sandbox.ros2.terminal import interactive, users_shell
+    from tutor.workspace import domain_of
+
+    try:
+        shell, path = users_shell()
+    except LookupError as error:
+        raise UsageError(str(error)) from error
+    workspace, ros = context.place(arguments), detect()
+    domain = domain_of(workspace)
+    with tempfile.TemporaryDirectory(prefix="ros-tutor-shell-") as folder:
+        tools = Path(folder)
+        env = sourced.sourced_environment(ros, workspace.root, domain, tools)
+        setup = sourced.setup_file(ros, workspace.root, shell)
+        if arguments.line is not None:
+            first = "" if setup is None else f". {shlex.quote(str(setup))}\n"
+            return _run([str(path), "-c", first + arguments.line], env)
+        where = context.shown(workspace.root)
+        command = interactive(
+            shell,
+            path,
+            env=env,
+            changed={name: value for name, value in env.items() if os.environ.get(name) != value},
+            dropped=sorted(set(os.environ) - set(env)),
+            tools=tools,
+            mark=f"(ROS 2: {workspace.root.name}) ",
+            setup=setup,
+        )
+        terminal.say(f"ROS 2 is sourced here: workspace {where}, domain {domain}. `exit` leaves this shell.")
+        return _run(command, env)
+
+
+def _run(command: list[str], env: dict[str, str]) -> int:
+    sys.stdout.flush()
+    # Ctrl+C is the shell's; we are only there to tidy up after it.
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        shell = subprocess.Popen(command, env=env, preexec_fn=_as_from_a_terminal)
+        for each in (signal.SIGTERM, signal.SIGHUP):
+            signal.signal(each, lambda number, _: shell.send_signal(number))
+        code = shell.wait()
+    except OSError as error:
+        raise UsageError(f"{command[0]} cannot be started: {error.strerror}") from error
+    finally:
+        signal.signal(signal.SIGINT, before)
+    return code if code >= 0 else 128 - code
+
+
+def _as_from_a_terminal() -> None:
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
