@@ -9,6 +9,7 @@ from tutor.live.facts import (
     Field,
     Graph,
     NodeParameters,
+    Published,
     Qos,
     RequestForm,
     Service,
@@ -22,8 +23,10 @@ from tutor.live.protocol import (
     Call,
     Follow,
     News,
+    Publish,
     Ready,
     SetParameter,
+    StopPublishing,
     Trouble,
     decode_command,
     decode_news,
@@ -45,6 +48,7 @@ END = Endpoint("/n", "std_msgs/msg/String", Qos("best_effort", deadline_s=0.5))
         SetOutcome(1, "/n", "p", [1.0], True, False, "no", 1.0, 0.1),
         RequestForm("a/srv/B", (Field("x.y", "int64", "0"),)),
         CallOutcome(1, "/s", {"x.y": 3}, None, "cancelled", 1.0, 2.0),
+        Published("/t", "a/msg/B", 2.0, 3, 1, 1.0, True, "no"),
     ],
 )
 def test_news_arrive_as_they_were_said(news: News) -> None:
@@ -60,6 +64,8 @@ def test_commands_arrive_as_they_were_given() -> None:
         Attend(False),
         SetParameter(1, "/n", "p", "double", 2.0),
         Call(2, "/s", "a/srv/B", {"a": [1, 2]}, 3.0),
+        Publish("/t", "a/msg/B", {"x.y": 1.5}, 0.0),
+        StopPublishing("/t"),
     ):
         assert decode_command(encode(command)) == command
 

@@ -14,6 +14,7 @@ from tests.tui.conftest import Learner, at
 from tutor.content import load_course
 from tutor.ros.domain import reserve_domain
 from tutor.tui.desk import Desk
+from tutor.tui.live.request_form import FieldRow
 from tutor.workspace import AppState, Workspace
 
 pytestmark = pytest.mark.timeout(300)
@@ -102,3 +103,69 @@ async def test_i_check_i_mend_and_what_i_have_passed_stands_in_my_checklist(desk
         assert exported.read_text().count("- [x] ") == 1
         await me.press("escape", "n")
         await me.sees("I2.1  Parameterized Publisher")
+
+
+async def test_i_start_the_talker_beside_my_node_and_end_it_and_nothing_is_left_when_i_leave(desk: Desk) -> None:
+    async with doing(desk, "i1.2") as me:
+        await me.press("r")
+        await me.sees("● running  message_stats.py", "Waiting for messages on /chatter")
+        await me.press("b")
+        await me.sees("● running  talker", "ros2 run demo_nodes_py talker", "Publishing: ", "b stops it")
+        await me.press("left_square_bracket")
+        await me.sees("● running  message_stats.py", "r stops it")
+        await me.sees("10 messages, ")
+        await me.press("b")
+        await me.sees("■ talker")
+        await me.press("b")
+        await me.sees("● talker")
+        pids = [pid for node in me.main.nodes.running if (pid := node.pid) is not None]
+        assert len(pids) == 2
+        await me.press("q")
+        await me.until(lambda: me.app.return_code == 0)
+        assert not any(Path(f"/proc/{pid}").exists() for pid in pids)
+
+
+async def test_our_server_answers_my_client_and_my_own_server_runs_beside_it_too(desk: Desk) -> None:
+    async with doing(desk, "i1.3") as me:
+        await me.press("f")
+        await me.sees("calculator_client.py")
+        await me.press("b")
+        await me.sees("● running  our server", "Calculator is up")
+        await me.press("r")
+        await me.sees("calculator_client.py", "add(10, 5) = 15", "■ ended")
+        await me.press("b")
+        await me.sees("■ our server")
+        await me.press("j")
+        await me.sees("● running  calculator_server.py", "j stops it")
+        await me.press("b")
+        await me.sees("Your calculator_server.py runs already")
+        await me.press("j")
+        await me.sees("■ ended  calculator_server.py")
+
+
+def in_a_field(me: Learner) -> bool:
+    return me.app.focused is not None and any(isinstance(each, FieldRow) for each in me.app.focused.ancestors)
+
+
+async def test_i_publish_a_message_by_hand_once_and_at_a_rate_and_my_node_hears_it(desk: Desk) -> None:
+    async with doing(desk, "i1.2") as me:
+        await me.press("r")
+        await me.sees("Waiting for messages on /chatter")
+        await me.press("4")
+        await me.sees("/chatter", "1 node")
+        await me.press("M")
+        await me.sees("Publish a message", "std_msgs/msg/String", "data", "Times per second")
+        await me.until(lambda: in_a_field(me), "the first field has the focus")
+        await me.press(*"Hello: 7", "enter")
+        await me.sees("✓ published once on /chatter: 1 listens", "data: 'Hello: 7'")
+        await me.press("M")
+        await me.sees("Publish a message", "Times per second")
+        await me.until(lambda: in_a_field(me), "the first field has the focus")
+        await me.press(*"Hello: 8", "tab", *"fast", "enter")
+        await me.sees("✗ Write a rate")
+        await me.press("ctrl+u", *"20", "enter")
+        await me.sees("▶ you publish on /chatter at 20 Hz", "data: 'Hello: 8'")
+        await me.press("3")
+        await me.sees('last "Hello: 8"')
+        await me.press("4", "M")
+        await me.sees("■ published on /chatter")

@@ -11,15 +11,16 @@ from tutor.live.protocol import Call
 from tutor.ros.as_yaml import to_yaml
 from tutor.ros.messages import UnknownType
 from tutor.ros.observer import Observer
-from tutor.ros.requests import fill_request, request_fields
+from tutor.ros.requests import fill_request, message_fields, request_fields
 
 CANCELLED = "cancelled"
 
 
 def describe(type_name: str) -> RequestForm:
-    """The form of a service type."""
+    """The form of a service type, or of a message type."""
+    fields = message_fields if "/msg/" in type_name else request_fields
     try:
-        return RequestForm(type_name, request_fields(type_name))
+        return RequestForm(type_name, fields(type_name))
     except UnknownType:
         return RequestForm(type_name, problem=f"This ROS does not have the type {type_name}.")
 

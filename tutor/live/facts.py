@@ -148,7 +148,7 @@ class Field:
 
 @dataclass(frozen=True, slots=True)
 class RequestForm:
-    """What a service asks for. `problem` says why it is not known."""
+    """What a service asks for, or what a message holds. `problem` says why it is not known."""
 
     type: str
     fields: tuple[Field, ...] = ()
@@ -166,3 +166,20 @@ class CallOutcome:
     problem: str
     at: float
     took_s: float
+
+
+@dataclass(frozen=True, slots=True)
+class Published:
+    """How publishing on a topic stands. `rate_hz` is 0 for once. `over`: nothing more is sent; `problem` says why.
+
+    `listeners` are the subscriptions of the learner's nodes when it was last looked.
+    """
+
+    topic: str
+    type: str
+    rate_hz: float
+    sent: int
+    listeners: int
+    at: float
+    over: bool = False
+    problem: str = ""

@@ -9,7 +9,7 @@ from dataclasses import asdict, dataclass, fields, is_dataclass
 from functools import cache
 from typing import Any, Union, get_args, get_origin, get_type_hints
 
-from tutor.live.facts import CallOutcome, Graph, NodeParameters, RequestForm, SetOutcome, TopicNews
+from tutor.live.facts import CallOutcome, Graph, NodeParameters, Published, RequestForm, SetOutcome, TopicNews
 
 # --- commands: from the app ---
 
@@ -68,7 +68,7 @@ class SetParameter:
 
 @dataclass(frozen=True, slots=True)
 class Describe:
-    """Ask for the form of a service type's request. Answered by a RequestForm."""
+    """Ask for the form of a service type's request, or of a message type. Answered by a RequestForm."""
 
     type: str
 
@@ -91,7 +91,40 @@ class Cancel:
     id: int
 
 
-Command = Follow | Unfollow | Clear | Plot | Attend | Refresh | SetParameter | Describe | Call | Cancel
+@dataclass(frozen=True, slots=True)
+class Publish:
+    """Publish a message once (`rate_hz` 0) or so many times a second, instead of what is published on the topic now.
+
+    `values` are by the paths of its fields. Answered by Published, again and again while it goes on.
+    """
+
+    topic: str
+    type: str
+    values: Mapping[str, Any]
+    rate_hz: float
+
+
+@dataclass(frozen=True, slots=True)
+class StopPublishing:
+    """Publish on this topic no longer. Answered by a Published."""
+
+    topic: str
+
+
+Command = (
+    Follow
+    | Unfollow
+    | Clear
+    | Plot
+    | Attend
+    | Refresh
+    | SetParameter
+    | Describe
+    | Call
+    | Cancel
+    | Publish
+    | StopPublishing
+)
 
 # --- news: to the app ---
 
@@ -110,7 +143,7 @@ class Trouble:
     text: str
 
 
-News = Ready | Trouble | Graph | TopicNews | NodeParameters | SetOutcome | RequestForm | CallOutcome
+News = Ready | Trouble | Graph | TopicNews | NodeParameters | SetOutcome | RequestForm | CallOutcome | Published
 
 _KINDS: dict[str, type[Any]] = {kind.__name__: kind for kind in (*get_args(Command), *get_args(News))}
 

@@ -7,7 +7,7 @@ import time
 from collections import deque
 from dataclasses import dataclass, field
 
-from tutor.live.facts import Graph, Qos, Topic, TopicNews
+from tutor.live.facts import Endpoint, Graph, Qos, Topic, TopicNews
 from tutor.live.statistics import Statistics
 from tutor.ros.as_yaml import number_at, numeric_fields, to_yaml
 from tutor.ros.messages import UnknownType, interface
@@ -66,6 +66,13 @@ class FollowedTopics:
         if topic not in self._all:
             self._all[topic] = _Followed(topic)
             self._settle(self._all[topic], graph.topic(topic))
+
+    def expect(self, topic: str, type_name: str) -> bool:
+        """A message of this type is about to be published: subscribe now. Returns whether the topic is followed."""
+        followed = self._all.get(topic)
+        if followed is not None and followed.opened is None:
+            self._settle(followed, Topic(topic, (Endpoint("", type_name),)))
+        return followed is not None
 
     def unfollow(self, topic: str) -> None:
         """Follow it no longer."""

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import asyncio
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Coroutine
+from typing import Any
 
 from tutor.live.calls import Calls, describe
 from tutor.live.facts import Graph
@@ -19,13 +20,17 @@ from tutor.live.protocol import (
     Follow,
     News,
     Plot,
+    Publish,
     Ready,
     Refresh,
     SetParameter,
+    StopPublishing,
     Trouble,
     Unfollow,
 )
+from tutor.live.publishing import Publishing
 from tutor.live.topics import FollowedTopics
+from tutor.ros.by_hand import Hand
 from tutor.ros.observer import Observer
 from tutor.ros.tap import Tap
 from tutor.ros.whole_graph import quick_look, whole_graph
@@ -49,8 +54,10 @@ class Watcher:
         self._topics = FollowedTopics(self._tap)
         self._parameters = ParameterWatch(self._observer, say)
         self._calls = Calls(self._observer, say)
+        self._hand = Hand(self._observer.node.context)
+        self._publishing = Publishing(self._hand, self._topics.expect, say)
         self._seen = True
-        self._sets: set[asyncio.Task[None]] = set()
+        self._tasks: set[asyncio.Task[None]] = set()
         self._known: object = None
         self._looked_closely = 0.0
         say(Ready(domain_id))
@@ -90,9 +97,11 @@ class Watcher:
                 self._look(time.monotonic())
                 self._parameters.ask_all()
             case SetParameter():
-                task = asyncio.create_task(self._set(command))
-                self._sets.add(task)
-                task.add_done_callback(self._sets.discard)
+                self._beside(self._set(command))
+            case Publish():
+                self._beside(self._publishing.begin(command))
+            case StopPublishing(topic):
+                self._beside(self._publishing.end(topic))
             case Describe(type_name):
                 self._say(describe(type_name))
             case Call():
@@ -102,8 +111,14 @@ class Watcher:
 
     def close(self) -> None:
         """Leave the domain."""
+        self._hand.close()
         self._tap.close()
         self._observer.close()
+
+    def _beside(self, work: Coroutine[Any, Any, None]) -> None:
+        task = asyncio.create_task(work)
+        self._tasks.add(task)
+        task.add_done_callback(self._tasks.discard)
 
     async def _set(self, order: SetParameter) -> None:
         self._say(await self._parameters.set(order))

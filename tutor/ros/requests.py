@@ -1,4 +1,4 @@
-"""What a service asks for, as a form: the leaves of its request, their types and defaults; and a form filled in."""
+"""Requests and messages as forms: their leaves, with types and defaults; and a form filled in."""
 
 from __future__ import annotations
 
@@ -20,12 +20,25 @@ def request_fields(type_name: str) -> tuple[Field, ...]:
     return tuple(_leaves(interface(type_name).Request(), ""))
 
 
+def message_fields(type_name: str) -> tuple[Field, ...]:
+    """The leaves of a message type, in their order. Raises UnknownType."""
+    return tuple(_leaves(interface(type_name)(), ""))
+
+
 def fill_request(type_name: str, values: Mapping[str, Any]) -> Any:
     """A request with these values at the paths of its leaves.
 
     Raises UnknownType, and ValueError with one line where a value does not fit.
     """
-    request = interface(type_name).Request()
+    return _fill(interface(type_name).Request(), values)
+
+
+def fill_message(type_name: str, values: Mapping[str, Any]) -> Any:
+    """A message with these values at the paths of its leaves; raises what `fill_request` does."""
+    return _fill(interface(type_name)(), values)
+
+
+def _fill(request: Any, values: Mapping[str, Any]) -> Any:
     types = {field.path: field.type for field in _leaves(request, "")}
     for path, value in values.items():
         *way, last = path.split(".")

@@ -6,12 +6,14 @@ Nothing here imports Textual. The methods that touch the disk are called in work
 from __future__ import annotations
 
 import os
+import shlex
 import sys
 import tempfile
 from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from tutor.content import Course, Lesson, LessonFile
+from tutor.content import Course, Lesson, LessonFile, Partner
 from tutor.judge.result import ExerciseResult
 from tutor.tui import run_options
 from tutor.tui.node import NodeCommand
@@ -28,6 +30,9 @@ from tutor.workspace import (
     write_atomically,
 )
 from tutor.workspace.progress import now
+
+if TYPE_CHECKING:
+    from tutor.ros.environment import RosEnvironment
 
 Notify = Callable[[str], None]
 
@@ -149,19 +154,35 @@ class Desk:
 
     def node_command(self, file: LessonFile, options: RunOptions) -> NodeCommand:
         """How to run one file in the learner's own ROS domain. Raises CommandError where ROS has no `ros2`, OSError."""
-        from tutor.ros.environment import detect, learner_env  # late: the first paint does not wait for it
-        from tutor.sandbox.ros2 import starting
+        from tutor.sandbox.ros2 import starting  # late: the first paint does not wait for it
 
-        ros = detect()
         path = self.path(file)
         launch = starting.is_launch_file(path)
-        package = path.parent.parent if (path.parent / "__init__.py").is_file() else None
-        log_dir = Path(os.environ.get("ROS_LOG_DIR") or Path(tempfile.gettempdir()) / "ros-tutor-log")
-        env = learner_env(ros, domain_id=self.domain, log_dir=log_dir, package_root=package, isolated=False)
+        ros, env = self._world(path.parent.parent if (path.parent / "__init__.py").is_file() else None)
         first = [*starting.ros2(ros, env), "launch"] if launch else [str(ros.python)]
         given = run_options.arguments(options, launch=launch)
         typed = self.command_line(file, options)
         return NodeCommand(file.name, (*first, str(path), *given), env, path.parent, typed, terminal=launch)
+
+    def partner_command(self, partner: Partner) -> NodeCommand:
+        """How to run a node of ours beside the learner's, in their own ROS domain; raises what `node_command` does."""
+        from tutor.sandbox.ros2 import starting  # late: the first paint does not wait for it
+
+        ros, env = self._world(None)
+        if partner.file is not None:
+            typed = f"python3 {partner.file.name}"
+            return NodeCommand(partner.name, (str(ros.python), str(partner.file)), env, partner.file.parent, typed)
+        typed = shlex.join(["ros2", "run", *partner.run])
+        argv = (*starting.ros2(ros, env), "run", *partner.run)
+        return NodeCommand(partner.name, argv, env, self.workspace.root, typed)
+
+    def _world(self, package: Path | None) -> tuple[RosEnvironment, dict[str, str]]:
+        """The ROS that nodes are run with, and their environment; `package` is the folder of a Python package."""
+        from tutor.ros.environment import detect, learner_env
+
+        ros = detect()
+        log_dir = Path(os.environ.get("ROS_LOG_DIR") or Path(tempfile.gettempdir()) / "ros-tutor-log")
+        return ros, learner_env(ros, domain_id=self.domain, log_dir=log_dir, package_root=package, isolated=False)
 
     def command_line(self, file: LessonFile, options: RunOptions) -> str:
         """What a ROS user would type to run this file, once the workspace is built."""

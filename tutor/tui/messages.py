@@ -43,6 +43,13 @@ class NodeChanged(Message):
 
 
 @dataclass
+class NodeChosen(Message):
+    """The log of this node is to be shown."""
+
+    path: Path
+
+
+@dataclass
 class Started(Message):
     """An exercise was started; `written` are the files that were put into the workspace."""
 

@@ -76,6 +76,8 @@ class Node:
         self._stop = asyncio.Event()
         self.over = asyncio.Event()
         """Set when nothing of the node is left."""
+        self.pid: int | None = None
+        """Its process, once there is one."""
         self.state = NodeState(command.file, Phase.STARTING, time.time(), command=command.typed)
 
     async def run(self) -> None:
@@ -100,6 +102,7 @@ class Node:
             self._say(replace(self.state, phase=Phase.ENDED, note=str(error), failed=True, ended_at=time.time()))
             return
         async with process:
+            self.pid = process.pid
             self._say(replace(self.state, phase=Phase.RUNNING, since=process.started_at))
             stopping = asyncio.create_task(self._stop_when_asked(process))
             try:

@@ -1,26 +1,32 @@
-"""The learner's nodes: run, stopped, run anew, each file by itself."""
+"""The learner's nodes, and ours beside them: run, stopped, run again, each by itself."""
 
 from __future__ import annotations
 
 import asyncio
+from collections.abc import Callable
 from pathlib import Path
 
-from tutor.content import Lesson, LessonFile
+from tutor.content import Lesson, LessonFile, Partner
 from tutor.tui import messages
 from tutor.tui.control.files import Files
 from tutor.tui.control.remember import Memory
-from tutor.tui.node import Node
+from tutor.tui.node import Node, NodeCommand
 from tutor.tui.screens.stage import Deed, Stage
 from tutor.workspace import RunOptions
 
 
 class Nodes:
-    """One node for each file, and only those of one lesson: two lessons' nodes would talk into each other's topics."""
+    """One node for each file, and one of ours that goes with them.
+
+    Only those of one lesson: two lessons' nodes would talk into each other's topics.
+    """
 
     def __init__(self, stage: Stage, files: Files, memory: Memory) -> None:
         self._stage, self._files, self._memory = stage, files, memory
         self.known: dict[Path, Node] = {}
-        """The latest node of each file, whether it still runs or not."""
+        """The latest node of each file, whether it still runs or not; one of ours by `key_of`."""
+        self._chosen: tuple[Path, Path] | None = None
+        """The node whose log the learner wants, and the file that was shown when they did."""
         self.latest: Path | None = None
         """The file that was run last."""
         self._turns: dict[Path, asyncio.Lock] = {}
@@ -29,6 +35,8 @@ class Nodes:
             "run": Deed(self.run, lambda: not self._stoppable),
             "stop": Deed(self.stop, lambda: bool(self._stoppable)),
             "restart": Deed(self.restart, lambda: self._alive(stage.session.path)),
+            "partner": Deed(self.partner, lambda: self._partner is not None),
+            "other_file": Deed(self.other_file, lambda: len(stage.session.lesson.files) > 1),
             "options": Deed(self.options),
             "restart_on_save": Deed(self.switch_restart),
         }
@@ -40,9 +48,42 @@ class Nodes:
 
     @property
     def shown(self) -> Path | None:
-        """The file whose log is to be shown: the one that is looked at, else the one that was run last."""
+        """The node whose log is to be shown: the one chosen, else that of the file that is looked at, else the last."""
         path = self._stage.session.path
+        if self._chosen is not None and self._chosen[1] == path and self._chosen[0] in self.listed:
+            return self._chosen[0]
         return path if path in self.known else self.latest
+
+    @property
+    def listed(self) -> list[Path]:
+        """The nodes whose logs can be chosen: those of the lesson, and all that run."""
+        own = self._own(self._stage.session.lesson)
+        return [path for path, node in self.known.items() if path in own or node.state.alive]
+
+    def choose(self, path: Path) -> None:
+        """Show the log of this node."""
+        self._chosen = (path, self._stage.session.path)
+        self._tell(path)
+
+    def stop_key(self, path: Path) -> str:
+        """The key that stops this node."""
+        session = self._stage.session
+        if path == session.path or path not in self._own(session.lesson):
+            return "r"
+        return "j" if path in session.paths else "b"
+
+    def _tell(self, path: Path, *, first: bool = False, unasked: bool = False) -> None:
+        state = self.known[path].state
+        self._stage.post_message(messages.NodeChanged(path, state, first=first, unasked=unasked))
+
+    def _own(self, lesson: Lesson) -> set[Path]:
+        files = {self._stage.session.desk.path(file) for file in lesson.files}
+        return files | {key_of(partner) for partner in lesson.live.partners}
+
+    @property
+    def _partner(self) -> Partner | None:
+        session = self._stage.session
+        return session.lesson.live.partner_of(session.file.name)
 
     def _alive(self, path: Path) -> bool:
         return path in self.known and self.known[path].state.alive
@@ -53,7 +94,10 @@ class Nodes:
         session = self._stage.session
         if self._alive(session.path):
             return [self.known[session.path]]
-        return [] if any(path in self.known for path in session.paths) else self.running
+        if any(path in self.known for path in session.paths):
+            return []
+        own = self._own(session.lesson)
+        return [node for path, node in self.known.items() if node.state.alive and path not in own]
 
     # --- run and stop ---
 
@@ -71,6 +115,35 @@ class Nodes:
         """Press Ctrl+C."""
         for node in self._stoppable:
             node.stop()
+
+    def other_file(self) -> None:
+        """Run the lesson's other file beside the one that is shown, or stop it."""
+        session = self._stage.session
+        files = session.lesson.files
+        file = files[(session.file_index + 1) % len(files)]
+        path = session.desk.path(file)
+        if self._alive(path):
+            self.known[path].stop()
+        elif not path.exists():
+            self._stage.trouble(f"{file.name} is not in your workspace yet.")
+        else:
+            self._start(session.lesson, file)
+
+    def partner(self) -> None:
+        """Start our node that goes with the file that is shown, or stop it."""
+        session, partner = self._stage.session, self._partner
+        if partner is None:
+            return
+        key = key_of(partner)
+        if self._alive(key):
+            self.known[key].stop()
+            return
+        twin = [path for path in session.paths if partner.file and path.name == partner.file.name and self._alive(path)]
+        if twin:
+            self._stage.trouble(f"Your {twin[0].name} runs already, and does what ours would: j stops it.")
+            return
+        desk = session.desk
+        self._begin(session.lesson, key, lambda: desk.partner_command(partner))
 
     def restart(self) -> None:
         """Stop the node of the file that is shown, and run it anew."""
@@ -93,13 +166,22 @@ class Nodes:
         self._stage.refresh_bindings()
 
     def _start(self, lesson: Lesson, file: LessonFile, *, unasked: bool = False) -> None:
-        path = self._stage.session.desk.path(file)
-        self._wanted[path] = self._wanted.get(path, 0) + 1
-        self._stage.work(self._run, lesson, file, path, self._wanted[path], unasked, group="node")
+        desk = self._stage.session.desk
 
-    async def _run(self, lesson: Lesson, file: LessonFile, path: Path, number: int, unasked: bool) -> None:
-        session = self._stage.session
-        others = [node for other, node in self.known.items() if node.state.alive and other not in session.paths]
+        def command() -> NodeCommand:
+            return desk.node_command(file, self._stage.session.state.run_of(lesson.id))
+
+        self._begin(lesson, desk.path(file), command, unasked=unasked)
+
+    def _begin(self, lesson: Lesson, path: Path, command: Callable[[], NodeCommand], *, unasked: bool = False) -> None:
+        self._wanted[path] = self._wanted.get(path, 0) + 1
+        self._stage.work(self._run, lesson, path, command, self._wanted[path], unasked, group="node")
+
+    async def _run(
+        self, lesson: Lesson, path: Path, make: Callable[[], NodeCommand], number: int, unasked: bool
+    ) -> None:
+        own = self._own(lesson)
+        others = [node for other, node in self.known.items() if node.state.alive and other not in own]
         for node in others:
             node.stop()
         if self._alive(path):
@@ -113,8 +195,7 @@ class Nodes:
             from tutor.sandbox.ros2.errors import CommandError
 
             try:
-                options = session.state.run_of(lesson.id)
-                command = await asyncio.to_thread(session.desk.node_command, file, options)
+                command = await asyncio.to_thread(make)
             except CommandError as error:
                 self._stage.trouble(f"The node cannot be started: {error}")
                 return
@@ -123,7 +204,9 @@ class Nodes:
                 return
             node = Node(command, lambda state: self._stage.post_message(messages.NodeChanged(path, state)))
             self.known[path], self.latest = node, path
-            self._stage.post_message(messages.NodeChanged(path, node.state, first=True, unasked=unasked))
+            if not unasked:
+                self._chosen = (path, self._stage.session.path)
+            self._tell(path, first=True, unasked=unasked)
             await node.run()
 
     # --- how it is run ---
@@ -154,3 +237,8 @@ class Nodes:
             self._wanted[path] += 1
         for node in self.known.values():
             node.stop()
+
+
+def key_of(partner: Partner) -> Path:
+    """What a node of ours is known by among the learner's files."""
+    return partner.file or Path(*partner.run)

@@ -29,6 +29,7 @@ class Pages:
         self._shape: Layout | None = None
         self.deeds = {f"page_{name}": Deed(partial(self.show, name)) for name in PAGES}
         self.deeds |= {f"live_{name}": Deed(partial(self.show_live, name)) for name in TABS}
+        self.deeds["publish"] = Deed(self.publish)
         self.deeds |= {"lessons": Deed(self.toggle_lessons), "zoom": Deed(self.zoom)}
 
     @property
@@ -50,6 +51,12 @@ class Pages:
         """Turn to the live page, and to one of its tabs."""
         self.show("live")
         self._open_live().turn_to(tab)
+
+    def publish(self) -> None:
+        """Turn to the live page, and publish a message from there."""
+        self.show("live")
+        live = self._open_live()
+        live.call_after_refresh(live.publish)
 
     def tab_chosen(self, name: str) -> None:
         """A tab was activated, by us or by the learner."""

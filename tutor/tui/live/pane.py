@@ -20,10 +20,11 @@ from textual.widgets import ContentSwitcher, Static
 from textual.worker import Worker
 
 from tutor.content import Lesson
-from tutor.live.facts import CallOutcome, Graph, NodeParameters, RequestForm, SetOutcome, TopicNews
-from tutor.live.protocol import Attend, Command, Follow, News, Plot, Unfollow
+from tutor.live.facts import CallOutcome, Graph, NodeParameters, Published, RequestForm, SetOutcome, TopicNews
+from tutor.live.protocol import Attend, Command, Follow, News, Plot, Publish, StopPublishing, Unfollow
 from tutor.live.protocol import Trouble as ChildTrouble
 from tutor.tui import messages
+from tutor.tui.live import words
 from tutor.tui.live.child import LiveChild
 from tutor.tui.live.command import LiveCommand
 from tutor.tui.live.graph_panel import GraphPanel
@@ -33,6 +34,7 @@ from tutor.tui.live.services_panel import ServicesPanel
 from tutor.tui.live.state import LiveState, is_plumbing, is_plumbing_service
 from tutor.tui.live.strip import TabStrip
 from tutor.tui.live.topics_panel import Order, TopicsPanel
+from tutor.tui.screens.publish import PublishScreen
 
 MOST_MISSES = 3
 """So many near-miss names are told at once at most."""
@@ -102,6 +104,7 @@ class LivePane(Vertical):
         yield Static(id="live-empty")
         yield Static(id="live-note", markup=False)
         yield Static(id="live-miss", markup=False)
+        yield Static(id="live-publishing", markup=False)
         with ContentSwitcher(initial="topics", id="live-panels"):
             yield TopicsPanel(self.state, id="topics")
             yield ParametersPanel(self.state, id="parameters")
@@ -212,6 +215,10 @@ class LivePane(Vertical):
                 self.query_one(ServicesPanel).show_history()
             case RequestForm():
                 await self.query_one(ServicesPanel).show_form()
+                if isinstance(self.app.screen, PublishScreen):
+                    await self.app.screen.show_form(news)
+            case Published():
+                self._show_publishing()
             case ChildTrouble(text):
                 self.post_message(messages.Trouble(text))
             case _:
@@ -223,6 +230,7 @@ class LivePane(Vertical):
         self.query_one(ServicesPanel).show_list()
         self.query_one(ServicesPanel).show_history()
         self.query_one(GraphPanel).show_list()
+        self._show_publishing()
         self._show_standing()
 
     def _show_standing(self) -> None:
@@ -274,6 +282,34 @@ class LivePane(Vertical):
             ("r", "bold $accent"),
             " to run yours." if short else " to run yours.\nTopics, parameters, services and the graph come here.",
         )
+
+    # --- publishing by hand ---
+
+    def publish(self) -> None:
+        """Ask what to publish; where something is published on the topic that is shown, stop that."""
+        topic = self.query_one(TopicsPanel).chosen if self._composed else ""
+        going = [held.topic for held in self.state.published.values() if held.rate_hz and not held.over]
+        if going:
+            self._send(StopPublishing(topic if topic in going else going[0]))
+            return
+
+        def answered(order: Publish | None) -> None:
+            if order is not None:
+                panel = self.query_one(TopicsPanel)
+                panel.follow(order.topic)
+                panel.post_message(Order(order))  # after the order to follow
+
+        self.app.push_screen(PublishScreen(topic, self._type_of, self._send), answered)
+
+    def _type_of(self, topic: str) -> str:
+        found = self.state.graph.topic(topic) if self.state.graph else None
+        asked = (known.type for known in self.state.asked.topics if known.name == topic)
+        return found.types[0] if found is not None else next(asked, "")
+
+    def _show_publishing(self) -> None:
+        text = "\n".join(words.publishing(held) for held in self.state.published.values())
+        self.set_class(bool(text), "-publishing")
+        self.query_one("#live-publishing", Static).update(text)
 
     # --- what is chosen ---
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 
 from tutor.content import LiveView
 from tutor.judge.trace import Parameter
-from tutor.live.facts import CallOutcome, Graph, NodeParameters, RequestForm, SetOutcome, Topic, TopicNews
+from tutor.live.facts import CallOutcome, Graph, NodeParameters, Published, RequestForm, SetOutcome, Topic, TopicNews
 from tutor.live.mismatch import Connection, connections
 from tutor.live.protocol import News, Ready
 
@@ -103,6 +103,8 @@ class LiveState:
     calls: deque[CallOutcome] = field(default_factory=lambda: deque(maxlen=_MOST_OUTCOMES))
     waiting: dict[int, tuple[str, float]] = field(default_factory=dict)
     forms: dict[str, RequestForm] = field(default_factory=dict)
+    published: dict[str, Published] = field(default_factory=dict)
+    """What the learner publishes from here, by topic; of what was published once, the last."""
 
     def hear(self, news: News) -> None:
         """Take news."""
@@ -124,12 +126,20 @@ class LiveState:
                 self.calls.appendleft(news)
             case RequestForm():
                 self.forms[news.type] = news
+            case Published():
+                self._publishing(news)
+
+    def _publishing(self, news: Published) -> None:
+        self.published = {topic: held for topic, held in self.published.items() if not held.over}
+        if not news.over or news.problem or news.sent:
+            self.published[news.topic] = news
 
     def lost(self) -> None:
         """The watching process is gone: nothing is known any more, but what was done is kept."""
         self.ready, self.graph = False, None
         self.parameters.clear()
         self.waiting.clear()
+        self.published.clear()
 
     @property
     def nodes(self) -> tuple[str, ...]:

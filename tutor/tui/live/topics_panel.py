@@ -26,6 +26,7 @@ from tutor.tui.live.strip import Action, ActionBar
 
 _COLUMNS = ("", "Topic", "Rate", "Count", "Pub", "Sub", "Type")
 _LIST_EVERY_S = 0.45
+_PUBLISH: Action = ("M", "Publish", "screen.do('publish')")
 _OTHER_FIELD = ("y", "Field", "next_field")
 
 
@@ -170,7 +171,9 @@ class TopicsPanel(Vertical):
         if not news.count:
             topic = self.state.graph.topic(self.chosen) if self.state.graph else None
             nobody = topic is None or not topic.publishers
-            said = "nobody publishes on it: start the node that does" if nobody else "no message yet"
+            said = (
+                "nobody publishes on it: run the node that does, or press M to publish" if nobody else "no message yet"
+            )
             return Content.assemble(first, (f"\n◐ {said}", "$warn" if nobody else "$quiet"))
         since = 0.0 if view.held is not None else max(0.0, now - view.news_at)
         numbers = words.numbers(news, since)
@@ -182,9 +185,9 @@ class TopicsPanel(Vertical):
 
     def _actions(self, view: TopicView | None) -> tuple[Action, ...]:
         if not self.chosen:
-            return ()
+            return (_PUBLISH,)
         if view is None:
-            return (("Enter", "Follow", "follow"),)
+            return (("Enter", "Follow", "follow"), _PUBLISH)
         several = (_OTHER_FIELD,) if len(view.fields) > 1 else ()
         zoom: tuple[Action, ...] = (("+", "Longer", "zoom(1)"), ("-", "Shorter", "zoom(-1)")) if view.fields else ()
         return (
@@ -193,6 +196,7 @@ class TopicsPanel(Vertical):
             *several,
             *zoom,
             ("Del", "Unfollow", "unfollow"),
+            _PUBLISH,
         )
 
     def _cells(self, topic: Topic) -> tuple[Text, ...]:

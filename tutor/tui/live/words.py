@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from tutor.judge.trace import Parameter
-from tutor.live.facts import TopicNews
+from tutor.live.facts import Published, TopicNews
 
 
 def short_type(name: str) -> str:
@@ -62,3 +62,16 @@ def allowed(parameter: Parameter) -> str:
     if parameter.minimum is None or parameter.maximum is None:
         return ""
     return f"{parameter.minimum:g} to {parameter.maximum:g}"
+
+
+def publishing(held: Published) -> str:
+    """What the learner publishes from here, and whether anybody listens."""
+    if held.problem:
+        return f"✗ not published on {held.topic}: {held.problem}"
+    ears = "nobody listens" if not held.listeners else f"{held.listeners} listen{'s' if held.listeners == 1 else ''}"
+    if not held.rate_hz:
+        return f"✓ published once on {held.topic}: {ears}"
+    sent = f"{held.sent:,} sent, {ears}"
+    if held.over:
+        return f"■ published on {held.topic}: {sent}"
+    return f"▶ you publish on {held.topic} at {held.rate_hz:g} Hz: {sent} · M stops it"

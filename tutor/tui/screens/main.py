@@ -253,7 +253,9 @@ class MainScreen(Stage):
         if message.first and not (message.unasked and typing):  # who types is not taken away from their line
             self.show_page("log")
         if message.path == self.nodes.shown:
-            self._log.show(message.state, self.session.desk.domain, self.session.paths)
+            key = self.nodes.stop_key(message.path)
+            self._log.show(message.state, self.session.desk.domain, self.session.paths, key)
+        self._log.show_nodes({path: self.nodes.known[path].state for path in self.nodes.listed}, self.nodes.shown)
         states = [node.state for node in self.nodes.known.values()]
         self.query_one(StatusBar).show_nodes(states, self.session.desk.domain)
         if (live := self.pages.live) is not None:
@@ -261,6 +263,10 @@ class MainScreen(Stage):
         if (phases := [(state.file, state.phase) for state in states]) != self._phases:
             self._phases = phases  # the footer is composed anew: not for each line of a log, it would flicker
             self.refresh_bindings()
+
+    @on(messages.NodeChosen)
+    def _node_chosen(self, message: messages.NodeChosen) -> None:
+        self.nodes.choose(message.path)
 
     @on(messages.CheckEvent)
     def _check_event(self, message: messages.CheckEvent) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import ClassVar
 
@@ -15,7 +15,8 @@ from textual.content import Content
 from textual.widgets import Input, Static
 
 from tutor.judge.trace import Level
-from tutor.tui import loglines
+from tutor.tui import loglines, messages
+from tutor.tui.live.strip import TabStrip
 from tutor.tui.node import NodeState, Phase
 from tutor.tui.widgets.line_view import Row
 from tutor.tui.widgets.log_view import LogView
@@ -26,7 +27,11 @@ LEVELS = (Level.DEBUG, Level.INFO, Level.WARN, Level.ERROR)
 class LogPane(Vertical):
     """A line on the node, a line on what is shown, and the log below."""
 
-    BINDINGS: ClassVar[list[BindingType]] = [Binding("escape", "end_filter", "All lines", show=True, key_display="Esc")]
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("escape", "end_filter", "All lines", show=True, key_display="Esc"),
+        Binding("left_square_bracket", "step(-1)", "Previous node", show=False),
+        Binding("right_square_bracket", "step(1)", "Next node", show=False),
+    ]
     DEFAULT_CSS = """
     LogPane {
         background: $surface;
@@ -41,6 +46,8 @@ class LogPane(Vertical):
             &:focus { border: none; }
         }
         & > #log-tools { display: none; }
+        & > #log-nodes { display: none; }
+        &.-several > #log-nodes { display: block; }
         & > #log-empty { height: 1fr; content-align: center middle; text-align: center; color: $quiet; }
         & > LogView { display: none; height: 1fr; }
         &.-filled {
@@ -62,6 +69,7 @@ class LogPane(Vertical):
         self._frozen: NodeState | None = None
 
     def compose(self) -> ComposeResult:
+        yield TabStrip({"": ""}, id="log-nodes")
         yield Static("no node yet", id="log-head", classes="log-line")
         yield Static(id="log-tools", classes="log-line")
         yield Input(placeholder="only lines with this text; Enter keeps it, Esc ends it", id="log-filter")
@@ -78,14 +86,38 @@ class LogPane(Vertical):
         )
         yield LogView(id="log-view")
 
-    def show(self, state: NodeState, domain: int, own: Sequence[Path]) -> None:
-        """Show a node and its log; `own` are the files whose traceback lines can be clicked."""
+    def show_nodes(self, states: Mapping[Path, NodeState], shown: Path | None) -> None:
+        """Name the nodes whose logs there are; with [ and ], or a click, another is chosen."""
+        self.set_class(len(states) > 1, "-several")
+        strip = self.query_one(TabStrip)
+        with self.prevent(TabStrip.Turned):
+            strip.labels = {str(path): f"{_mark(state)} {state.file}" for path, state in states.items()} or {"": ""}
+            strip.active = str(shown or "")
+        strip.refresh()
+
+    def action_step(self, by: int) -> None:
+        """To the log of the next node, or the one before."""
+        if self.has_class("-several"):
+            self.query_one(TabStrip).action_step(by)
+
+    @on(TabStrip.Turned)
+    def _turned(self, message: TabStrip.Turned) -> None:
+        message.stop()
+        if message.tab:
+            self.post_message(messages.NodeChosen(Path(message.tab)))
+
+    def show(self, state: NodeState, domain: int, own: Sequence[Path], key: str = "r") -> None:
+        """Show a node and its log; `own` are the files whose traceback lines can be clicked, `key` stops it."""
         self.add_class("-filled")
         if self._state is not None and state.since > self._state.since and state.phase is Phase.STARTING:
             self.paused = False
+        if self._state is not None and state.file != self._state.file:
+            self._frozen = None
         self._state = state
         self.query_one(LogView).own = own
         head = Content.assemble(*_head(state), (f"   domain {domain}", "$quiet"))
+        if state.alive:
+            head = Content.assemble(head, (f"   {key}", "bold $accent"), (" stops it", "$quiet"))
         self.query_one("#log-head", Static).update(head)
         if not self.paused:
             self._show()
@@ -180,6 +212,12 @@ class LogPane(Vertical):
         if shown != every:
             parts.append((f"{shown} of {every} lines", "$warn"))
         return Content.assemble(*parts)
+
+
+def _mark(state: NodeState) -> str:
+    if state.alive:
+        return "●" if state.phase is Phase.RUNNING else "◐"
+    return "!" if state.failed else "■"
 
 
 def _head(state: NodeState) -> list[tuple[str, str]]:

@@ -1,0 +1,83 @@
+"""Publishing by hand: a message once, or at a rate until it is stopped."""
+
+from __future__ import annotations
+
+import asyncio
+import time
+from collections.abc import Callable
+
+from tutor.live.facts import Published
+from tutor.live.protocol import Publish
+from tutor.ros.by_hand import Hand
+from tutor.ros.messages import UnknownType
+
+CONNECT_S = 2.0
+"""How long a publisher that is new waits for those that listen, in seconds; then it publishes all the same."""
+
+LINGER_S = 1.0
+"""How long it stays after its only message, in seconds: who leaves at once may take it along."""
+
+TELL_EVERY_S = 0.5
+FASTEST_HZ = 1000.0
+
+_LOOK_EVERY_S = 0.02
+
+
+class Publishing:
+    """One message for each topic. `tell` is given how it stands, at most every `TELL_EVERY_S` seconds.
+
+    `expect` is told a topic and its type before, and answers whether we listen to it ourselves.
+    """
+
+    def __init__(self, hand: Hand, expect: Callable[[str, str], bool], tell: Callable[[Published], object]) -> None:
+        self._hand = hand
+        self._expect = expect
+        self._tell = tell
+        self._running: dict[str, asyncio.Task[None]] = {}
+
+    async def begin(self, order: Publish) -> None:
+        """Publish this, instead of what is published on the topic."""
+        await self.end(order.topic)
+        self._running[order.topic] = asyncio.create_task(self._run(order))
+
+    async def end(self, topic: str) -> None:
+        """Stop."""
+        if (task := self._running.pop(topic, None)) is not None:
+            task.cancel()
+            await asyncio.gather(task, return_exceptions=True)
+
+    async def _run(self, order: Publish) -> None:
+        sent, problem = 0, ""
+
+        def say(over: bool) -> None:
+            listeners = self._hand.listeners(order.topic)
+            news = Published(order.topic, order.type, order.rate_hz, sent, listeners, time.time(), over, problem)
+            self._tell(news)
+
+        try:
+            self._hand.open(order.topic, order.type, order.values)
+            await self._connect(order.topic, self._expect(order.topic, order.type))
+            began, told = time.perf_counter(), 0.0
+            while sent == 0 or order.rate_hz:
+                self._hand.publish(order.topic)
+                sent += 1
+                if order.rate_hz and time.perf_counter() >= told + TELL_EVERY_S:
+                    told = time.perf_counter()
+                    say(over=False)
+                if order.rate_hz:
+                    due = began + sent / min(order.rate_hz, FASTEST_HZ)
+                    await asyncio.sleep(max(0.0, due - time.perf_counter()))
+            say(over=False)
+            await asyncio.sleep(LINGER_S)
+        except UnknownType:
+            problem = f"This ROS does not have the type {order.type}."
+        except ValueError as error:
+            problem = str(error)
+        finally:
+            say(over=True)
+            self._hand.shut(order.topic)
+
+    async def _connect(self, topic: str, ours: bool) -> None:
+        deadline = time.monotonic() + CONNECT_S
+        while not self._hand.is_connected(topic, ours) and time.monotonic() < deadline:
+            await asyncio.sleep(_LOOK_EVERY_S)

@@ -1,0 +1,115 @@
+"""A form for a message to publish: on which topic, of which type, with which values, once or at a rate."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from typing import ClassVar
+
+from textual import on
+from textual.app import ComposeResult
+from textual.binding import Binding, BindingType
+from textual.containers import Horizontal, VerticalScroll
+from textual.content import Content
+from textual.widgets import Button, Input, Static
+
+from tutor.live.facts import RequestForm
+from tutor.live.protocol import Command, Describe, Publish
+from tutor.tui.live.request_form import ServiceForm
+from tutor.tui.screens.dialog import Dialog
+
+_TYPE = re.compile(r"(\w+)/(?:msg/)?([A-Z]\w*)")
+_FASTEST_HZ = 1000.0
+
+
+class PublishScreen(Dialog[Publish]):
+    """Gives what to publish. `types` knows the types of topics that are there; `ask` tells the watching process."""
+
+    BINDINGS: ClassVar[list[BindingType]] = [Binding("f5", "publish", "Publish")]
+
+    def __init__(self, topic: str, types: Callable[[str], str], ask: Callable[[Command], object]) -> None:
+        super().__init__()
+        self._topic, self._types, self._ask = topic, types, ask
+        self._asked = ""
+
+    def compose(self) -> ComposeResult:
+        with VerticalScroll(classes="window", can_focus=False) as window:
+            window.border_title = "Publish a message"
+            window.border_subtitle = "Enter publishes · Tab goes on · Esc leaves it"
+            with Horizontal(classes="publish-line"):
+                yield Static("Topic", classes="label")
+                yield Input(self._topic, placeholder="as in /chatter", id="publish-topic", compact=True)
+            with Horizontal(classes="publish-line"):
+                yield Static("Type", classes="label")
+                yield Input(placeholder="as in std_msgs/msg/String", id="publish-type", compact=True)
+            yield ServiceForm(id="publish-fields")
+            with Horizontal(classes="publish-line"):
+                yield Static("Times per second", classes="label")
+                yield Input(placeholder="empty: once", id="publish-rate", compact=True)
+            yield Static(id="publish-typed", markup=False)
+            with Horizontal(classes="dialog-buttons"):
+                yield Button("Publish", id="publish")
+
+    def on_mount(self) -> None:
+        self.query_one("#publish-type", Input).value = self._types(self._topic)
+        self.query_one("#publish-topic" if not self._topic else "#publish-type", Input).focus()
+
+    @property
+    def type_name(self) -> str:
+        """The type in full; empty where none is written yet."""
+        found = _TYPE.fullmatch(self.query_one("#publish-type", Input).value.strip())
+        return f"{found[1]}/msg/{found[2]}" if found else ""
+
+    async def show_form(self, form: RequestForm) -> None:
+        """The fields of a type have come."""
+        fields = self.query_one(ServiceForm)
+        if form.type == self.type_name and fields.form != form:
+            await fields.show(form)
+            if not form.problem and isinstance(self.focused, Input) and self.focused.id == "publish-type":
+                fields.focus_first()
+
+    @on(Input.Changed, "#publish-topic")
+    def _topic_typed(self, event: Input.Changed) -> None:
+        if known := self._types(event.value.strip()):
+            self.query_one("#publish-type", Input).value = known
+
+    @on(Input.Changed, "#publish-type")
+    async def _type_typed(self) -> None:
+        name = self.type_name
+        if name != self._asked:
+            self._asked = name
+            await self.query_one(ServiceForm).forget()
+            if name:
+                self._ask(Describe(name))
+
+    @on(Input.Submitted)
+    @on(ServiceForm.Sent)
+    @on(Button.Pressed, "#publish")
+    def action_publish(self) -> None:
+        """Publish what is written, where it is right."""
+        topic = self.query_one("#publish-topic", Input).value.strip()
+        form = self.query_one(ServiceForm)
+        rate = self.query_one("#publish-rate", Input).value.strip()
+        if not topic:
+            self._wrong("#publish-topic", "Name a topic, such as /chatter.")
+        elif form.form is None or form.form.problem:
+            self._wrong("#publish-type", "Name a type that there is, such as std_msgs/msg/String.")
+        elif (hz := _rate(rate)) is None:
+            self._wrong("#publish-rate", f"Write a rate up to {_FASTEST_HZ:g}, such as 2, or nothing for once.")
+        elif (values := form.values()) is not None:
+            self.dismiss(Publish(topic if topic.startswith("/") else f"/{topic}", form.form.type, values, hz))
+
+    def _wrong(self, place: str, text: str) -> None:
+        self.query_one("#publish-typed", Static).update(Content.styled(f"✗ {text}", "$bad"))
+        self.query_one(place, Input).focus()
+
+
+def _rate(text: str) -> float | None:
+    """Messages per second, 0 for once; None for what is no rate."""
+    if not text:
+        return 0.0
+    try:
+        rate = float(text)
+    except ValueError:
+        return None
+    return rate if 0 < rate <= _FASTEST_HZ else None
