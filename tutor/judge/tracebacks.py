@@ -31,8 +31,13 @@ class Frame:
     function: str
     code: str
 
+    @property
+    def name(self) -> str:
+        """The file's name, without its folder."""
+        return self.path.rsplit("/", 1)[-1]
+
     def __str__(self) -> str:
-        return f"{self.path.rsplit('/', 1)[-1]}, line {self.line}" + (f": {self.code}" if self.code else "")
+        return f"{self.name}, line {self.line}" + (f": {self.code}" if self.code else "")
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,12 +87,12 @@ def dumped(output: Iterable[OutputLine]) -> tuple[Frame, ...]:
 
 def own(frames: Iterable[Frame], folder: str) -> Frame | None:
     """The first of the frames that is in the learner's own code."""
-    return next((frame for frame in frames if _within(frame.path, folder)), None)
+    return next((frame for frame in frames if within(frame.path, folder)), None)
 
 
 def called_by_executor(stuck: Sequence[Frame], folder: str) -> bool:
     """Whether, in frames innermost first, the learner's code is being run by an executor of rclpy's: as a callback."""
-    mine = next((i for i, frame in enumerate(stuck) if _within(frame.path, folder)), None)
+    mine = next((i for i, frame in enumerate(stuck) if within(frame.path, folder)), None)
     return mine is not None and any(frame.path.endswith("rclpy/executors.py") for frame in stuck[mine + 1 :])
 
 
@@ -161,5 +166,6 @@ def _without_margins(lines: Sequence[str]) -> list[str]:
     return plain
 
 
-def _within(path: str, folder: str) -> bool:
+def within(path: str, folder: str) -> bool:
+    """Whether a file lies in the learner's folder, and is none of an installed package."""
     return bool(folder) and path.startswith(folder.rstrip("/") + "/") and "/site-packages/" not in path

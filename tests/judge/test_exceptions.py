@@ -1,0 +1,116 @@
+"""The table of known exceptions: each entry is found by its examples, and a broken table says what is wrong with it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from tutor.judge.exceptions import Example, Known, Seen, TableError, find, load, parse, shipped
+from tutor.judge.tracebacks import Frame, Traceback
+
+FOLDER = "/home/me/ws"
+OWN = "unhandled exception"
+
+
+def seen(example: Example) -> Seen:
+    """What a process would have shown of an example."""
+    name, _, message = example.raised.partition(": ")
+    frames = []
+    if example.line:
+        frames.append(Frame(f"{FOLDER}/node.py", 1, example.function, example.line))
+    if example.at:
+        path, _, function = example.at.partition(", ")
+        frames.append(Frame(path, 75, function, ""))
+    return Seen(Traceback(name, message, tuple(frames)), FOLDER, example.source or example.line)
+
+
+EXAMPLES = [
+    pytest.param(known, example, id=f"{example.raised[:50]} | {example.line[:30]}")
+    for known in shipped()
+    for example in known.examples
+]
+
+
+@pytest.mark.parametrize(("known", "example"), EXAMPLES)
+def test_each_example_gets_its_step_and_no_other_entry_takes_it(known: Known, example: Example) -> None:
+    found = find(seen(example), shipped(), cause=OWN)
+    assert found is not None
+    assert found.hint == example.step
+    assert found.name == (known.cause or OWN)
+    assert found == find(seen(example), [known], cause=OWN)
+    assert "{" in example.line or "{" not in found.hint
+
+
+ENTRY = """[[known]]
+type = "ValueError"
+says = "no"
+step = "do"
+"""
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("[[known]", "exceptions.toml"),
+        ("[known]", "[[known]]"),
+        ("[[other]]", "other"),
+        ("[[known]]\ntype = 'E'\nsays = 'x'", "entry 1: step is missing"),
+        (ENTRY + "[[known]]\nstep = 'x'", "entry 2: type is missing"),
+        (ENTRY + "txet = 'x'", "txet"),
+        (ENTRY + "text = 5", "text must be a text"),
+        (ENTRY + "text = '('", "entry 1, text"),
+        (ENTRY.replace("do", "do {this}"), "nothing gives the word this"),
+        (ENTRY + "source = '{that}'", "nothing gives the word that"),
+        (ENTRY + "replace = 'x'", "replace must be"),
+        (ENTRY + "replace = ['(', 'x']", "entry 1, replace"),
+        (ENTRY + "look_up = 'none'", "[words.none]"),
+        (ENTRY + "example = [{ raised = 'ValueError' }]", "step"),
+    ],
+)
+def test_a_broken_table_says_what_is_wrong(text: str, words: str) -> None:
+    with pytest.raises(TableError) as told:
+        parse(text)
+    assert words in str(told.value)
+
+
+def test_a_table_that_is_not_there(tmp_path: Path) -> None:
+    with pytest.raises(TableError, match=r"none\.toml"):
+        load(tmp_path / "none.toml")
+
+
+def one(text: str, example: Example) -> str:
+    """The step of a table of one's own."""
+    found = find(seen(example), parse(text), cause=OWN)
+    return found.hint if found else ""
+
+
+def test_every_pattern_must_be_found() -> None:
+    table = ENTRY + "text = '(?P<what>b.d)'\nline = 'self'\nsource = '{what} = '\nwithout = 'good'\nat = 'rclpy/'"
+    right = Example("my.ValueError: a bad one", "", line="self.x()", source="\nbad = 1", at="/lib/rclpy/node.py, spin")
+    assert one(table, right) == "do"
+    for wrong in (
+        replace(right, raised="TypeError: a bad one"),
+        replace(right, raised="ValueError: a good one"),
+        replace(right, line="other()"),
+        replace(right, source="bod = 1"),
+        replace(right, source="bad = 1\ngood = 2"),
+        replace(right, at="/lib/other/node.py, spin"),
+    ):
+        assert one(table, wrong) == ""
+
+
+def test_what_is_said_names_the_line_and_what_it_led_to() -> None:
+    example = Example("ValueError: 5", "", line="int(x)")
+    found = find(seen(example), parse(ENTRY), cause=OWN, after="; then it ended")
+    assert str(found) == f"{OWN}: ValueError: 5 (node.py, line 1: int(x)); then it ended: no"
+
+
+def test_an_entry_that_asks_for_a_line_does_not_fit_where_there_is_none() -> None:
+    assert one(ENTRY.replace("do", "fix line {number}"), Example("ValueError: 5", "")) == ""
+
+
+def test_the_table_is_as_large_as_it_should_be() -> None:
+    assert len(shipped()) >= 100
+    assert len(EXAMPLES) >= 80

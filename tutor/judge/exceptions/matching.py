@@ -1,0 +1,132 @@
+"""Which known exception a traceback is, and what is said of it."""
+
+from __future__ import annotations
+
+import difflib
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+from tutor.judge.exceptions.table import WORD, Known
+from tutor.judge.tracebacks import Frame, Traceback, within
+from tutor.judge.verdict import Cause
+
+_NEAR = 0.75
+"""Two names are near each other from this ratio of difflib's on."""
+
+
+@dataclass(frozen=True, slots=True)
+class Seen:
+    """A traceback, the folder of the learner's file, and the text of that file, which serves the words only."""
+
+    traceback: Traceback
+    folder: str
+    source: str = ""
+    own: Frame | None = None
+    """The learner's line, where it is another than the innermost one of this traceback in their folder."""
+
+    @property
+    def line(self) -> Frame | None:
+        """The learner's own line."""
+        return self.own or self.traceback.own(self.folder)
+
+
+def find(seen: Seen, table: Iterable[Known], *, cause: str, after: str = "") -> Cause | None:
+    """What the first entry that fits says of it; None where none does.
+
+    `cause` is its name where the entry has none, `after` what the exception led to.
+    """
+    for known in table:
+        if (words := _words(known, seen)) is not None:
+            own: object = seen.line
+            if known.of_source:
+                own = f"line {words['there']}: {words['there_code']}"
+            told = seen.traceback.raised + (f" ({own})" if own else "") + after
+            return Cause(known.cause or cause, f"{told}: {_put(known.says, words)}", _put(known.step, words))
+    return None
+
+
+def _words(known: Known, seen: Seen) -> dict[str, str] | None:
+    """The words that the entry's texts ask for; None where it does not fit."""
+    found, own = seen.traceback, seen.line
+    kind = re.fullmatch(known.type, found.type.rsplit(".", 1)[-1])
+    text = re.search(known.text, found.message)
+    if kind is None or text is None or not _raised_at(known.at, found):
+        return None
+    words = {"raised": found.raised, **_groups(kind), **_groups(text)}
+    if own is not None:
+        words |= {"file": own.name, "number": str(own.line), "code": own.code, "function": own.function}
+    line = re.search(known.line, own.code if own else "")
+    if line is None:
+        return None
+    words |= _groups(line)
+    for step in (_of_way, _of_source, _of_table, _of_replacing):
+        more = step(known, seen, words)
+        if more is None:
+            return None
+        words |= more
+    return words if known.asked <= words.keys() else None
+
+
+def _raised_at(pattern: str, found: Traceback) -> bool:
+    last = found.frames[-1] if found.frames else None
+    return re.search(pattern, f"{last.path}, {last.function}" if last else "") is not None
+
+
+def _of_way(known: Known, seen: Seen, words: Mapping[str, str]) -> dict[str, str] | None:
+    """The first of the learner's lines, from the outermost on, that `through` is found in."""
+    if not known.through:
+        return {}
+    for frame in seen.traceback.frames:
+        if within(frame.path, seen.folder) and (way := re.search(known.through, f"{frame.function}: {frame.code}")):
+            return {"via": str(frame.line), **_groups(way)}
+    return None
+
+
+def _of_source(known: Known, seen: Seen, words: Mapping[str, str]) -> dict[str, str] | None:
+    """The first place in the learner's file that `source` is found in."""
+    source = seen.source
+    if known.without and re.search(_put(known.without, words, escaped=True), source, re.MULTILINE):
+        return None
+    if not known.source:
+        return {}
+    there = re.search(_put(known.source, words, escaped=True), source, re.MULTILINE)
+    if there is None:
+        return None
+    number = source.count("\n", 0, there.start("there" if "there" in there.re.groupindex else 0)) + 1
+    code = source.splitlines()[number - 1].strip()
+    return {**_groups(there), "there": str(number), "there_code": code}
+
+
+def _of_table(known: Known, seen: Seen, words: Mapping[str, str]) -> dict[str, str] | None:
+    """What the table of words has for the group `name`."""
+    if not known.look_up:
+        return {}
+    name = words.get("name", "")
+    near = [name] if name in known.words else []
+    if not near and not known.exact:
+        near = difflib.get_close_matches(name, known.words, n=1, cutoff=_NEAR)
+    return {"found": known.words[near[0]], "nearest": near[0]} if near else None
+
+
+def _of_replacing(known: Known, seen: Seen, words: Mapping[str, str]) -> dict[str, str] | None:
+    """What the line becomes."""
+    if known.replace is None:
+        return {}
+    pattern, by = _put(known.replace.pattern, words, escaped=True), _put(known.replace.by, words)
+    becomes, times = re.subn(pattern, by, words.get("there_code" if known.of_source else "code", ""))
+    return {"becomes": becomes} if times else None
+
+
+def _groups(match: re.Match[str]) -> dict[str, str]:
+    return {name: value or "" for name, value in match.groupdict().items()}
+
+
+def _put(text: str, words: Mapping[str, str], *, escaped: bool = False) -> str:
+    """The text with the words in place of their names in braces."""
+
+    def word(found: re.Match[str]) -> str:
+        known = words.get(found[1])
+        return found[0] if known is None else re.escape(known) if escaped else known
+
+    return WORD.sub(word, text)

@@ -1,0 +1,168 @@
+"""The table of known exceptions: TOML files, read and validated once."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+WORD = re.compile(r"\{([a-z]\w*)\}")
+"""A word in braces stands for what the exception, or the learner's own line, has in its place."""
+
+GIVEN = frozenset(
+    {"raised", "file", "number", "code", "function", "via", "there", "there_code", "becomes", "found", "nearest"}
+)
+"""The words that `matching` gives, beside the named groups of an entry's own patterns."""
+
+_PATTERNS = ("type", "text", "line", "source", "without", "through", "at")
+_TEXTS = ("cause", "says", "step", "look_up")
+_ORDER = ("launch", "parameters", "attributes", "calls", "messages", "process", "imports", "python")
+
+
+class TableError(ValueError):
+    """A table that cannot be used: says which file and entry, and what is wrong there."""
+
+
+@dataclass(frozen=True, slots=True)
+class Replace:
+    """What the learner's line becomes: `pattern` in it, replaced by `by`. Both may contain words in braces."""
+
+    pattern: str
+    by: str
+
+
+@dataclass(frozen=True, slots=True)
+class Example:
+    """A case that an entry is for: what was raised, the learner's line and file, and the step that must come out."""
+
+    raised: str
+    step: str
+    line: str = ""
+    source: str = ""
+    function: str = "callback"
+    at: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Known:
+    """One entry. All of its patterns must be found (`type` as a whole); an empty one asks for nothing.
+
+    `type` is about the last part of the exception's name, `text` about its message, `line` about the learner's own
+    line, `source` and `without` about their whole file, which must have the one and must not have the other;
+    `through` is found in "function: line" of one of the learner's lines on the way there, `at` in "path, function" of
+    the frame that raised. `source`, `without` and `replace` may use the groups of `text` and `line`.
+    `look_up` names a table of words, by whose key that is the group `name` (or, unless `exact`, is nearest to it) the
+    word `found` is given. `of_source`: it is the line that `source` has found, in its group `there` if it has one, that
+    is shown and replaced, where the exception comes from a call that rclpy makes.
+    """
+
+    type: str
+    says: str
+    step: str
+    cause: str = ""
+    text: str = ""
+    line: str = ""
+    source: str = ""
+    without: str = ""
+    through: str = ""
+    at: str = ""
+    replace: Replace | None = None
+    look_up: str = ""
+    exact: bool = True
+    of_source: bool = False
+    examples: tuple[Example, ...] = ()
+    words: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def asked(self) -> frozenset[str]:
+        """The words in braces that its texts ask for."""
+        return frozenset(WORD.findall(f"{self.says} {self.step}"))
+
+
+@cache
+def shipped() -> tuple[Known, ...]:
+    """The table that comes with the program, in the order in which it is searched."""
+    return tuple(entry for name in _ORDER for entry in load(Path(__file__).parent / f"{name}.toml"))
+
+
+def load(path: Path) -> tuple[Known, ...]:
+    """Read a table. Raises TableError where it cannot be read, or is not as it must be."""
+    try:
+        return parse(path.read_text(encoding="utf-8"), path.name)
+    except (OSError, UnicodeError) as error:
+        raise TableError(f"{path}: {error}") from error
+
+
+def parse(text: str, name: str = "exceptions.toml") -> tuple[Known, ...]:
+    """The entries of a table, given as TOML; `name` is for what TableError says."""
+    try:
+        data = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise TableError(f"{name}: {error}") from error
+    tables = data.get("words", {})
+    if strange := data.keys() - {"known", "words"}:
+        raise TableError(f"{name}: there are only [[known]] and [words.NAME], not {', '.join(sorted(strange))}")
+    entries = data.get("known", [])
+    if not isinstance(entries, list) or not isinstance(tables, dict):
+        raise TableError(f"{name}: write [[known]] for each entry, and [words.NAME] for a table of words")
+    return tuple(_entry(each, tables, f"{name}, entry {number}") for number, each in enumerate(entries, 1))
+
+
+def _entry(data: Mapping[str, Any], tables: Mapping[str, Mapping[str, str]], where: str) -> Known:
+    allowed = {*_PATTERNS, *_TEXTS, "replace", "example", "exact", "of_source"}
+    if strange := data.keys() - allowed:
+        raise TableError(
+            f"{where}: no key is called {', '.join(sorted(strange))}; there are {', '.join(sorted(allowed))}"
+        )
+    for key in ("type", "says", "step"):
+        if not data.get(key):
+            raise TableError(f"{where}: {key} is missing")
+    for key in (*_PATTERNS, *_TEXTS):
+        if not isinstance(data.get(key, ""), str):
+            raise TableError(f"{where}: {key} must be a text")
+    table = data.get("look_up", "")
+    if table and table not in tables:
+        raise TableError(f"{where}: there is no [words.{table}]")
+    made = Known(
+        **{key: data[key] for key in (*_PATTERNS, *_TEXTS) if key in data},
+        exact=bool(data.get("exact", True)),
+        of_source=bool(data.get("of_source", False)),
+        replace=_replace(data.get("replace"), where),
+        examples=tuple(_example(each, where) for each in data.get("example", [])),
+        words=dict(tables[table]) if table else {},
+    )
+    groups = frozenset(group for key in _PATTERNS for group in _groups(data.get(key, ""), f"{where}, {key}"))
+    asked = made.asked | frozenset(
+        WORD.findall(" ".join((made.source, made.without, *((made.replace.by,) if made.replace else ()))))
+    )
+    if unknown := asked - groups - GIVEN:
+        raise TableError(f"{where}: nothing gives the word {', '.join(sorted(unknown))}")
+    return made
+
+
+def _replace(data: object, where: str) -> Replace | None:
+    if data is None:
+        return None
+    if not isinstance(data, list) or len(data) != 2 or not all(isinstance(each, str) for each in data):
+        raise TableError(f"{where}: replace must be ['pattern', 'text']")
+    _groups(data[0], f"{where}, replace")
+    return Replace(*data)
+
+
+def _example(data: object, where: str) -> Example:
+    try:
+        return Example(**data)  # type: ignore[arg-type]
+    except TypeError as error:
+        raise TableError(f"{where}: an example has raised, step, and line, source, function or at ({error})") from error
+
+
+def _groups(pattern: str, where: str) -> Sequence[str]:
+    """The named groups of a pattern; a word in braces is any text."""
+    try:
+        return tuple(re.compile(WORD.sub("x", pattern)).groupindex)
+    except re.error as error:
+        raise TableError(f"{where}: {error}") from error
