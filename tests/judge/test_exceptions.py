@@ -23,7 +23,8 @@ def seen(example: Example) -> Seen:
     if example.at:
         path, _, function = example.at.partition(", ")
         frames.append(Frame(path, 75, function, ""))
-    return Seen(Traceback(name, message, tuple(frames)), FOLDER, example.source or example.line)
+    found = Traceback(name, message, tuple(frames))
+    return Seen(found, FOLDER, found.own(FOLDER), "node.py", example.source or example.line)
 
 
 EXAMPLES = [

@@ -17,18 +17,13 @@ _NEAR = 0.75
 
 @dataclass(frozen=True, slots=True)
 class Seen:
-    """A traceback, the folder of the learner's file, and the text of that file, which serves the words only."""
+    """A traceback, the learner's own line in it, and the file that it is in, whose text serves the words only."""
 
     traceback: Traceback
     folder: str
+    line: Frame | None
+    file: str = ""
     source: str = ""
-    own: Frame | None = None
-    """The learner's line, where it is another than the innermost one of this traceback in their folder."""
-
-    @property
-    def line(self) -> Frame | None:
-        """The learner's own line."""
-        return self.own or self.traceback.own(self.folder)
 
 
 def find(seen: Seen, table: Iterable[Known], *, cause: str, after: str = "") -> Cause | None:
@@ -40,7 +35,7 @@ def find(seen: Seen, table: Iterable[Known], *, cause: str, after: str = "") -> 
         if (words := _words(known, seen)) is not None:
             own: object = seen.line
             if known.of_source:
-                own = f"line {words['there']}: {words['there_code']}"
+                own = f"{seen.file}, line {words['there']}: {words['there_code']}"
             told = seen.traceback.raised + (f" ({own})" if own else "") + after
             return Cause(known.cause or cause, f"{told}: {_put(known.says, words)}", _put(known.step, words))
     return None
@@ -90,7 +85,10 @@ def _of_source(known: Known, seen: Seen, words: Mapping[str, str]) -> dict[str, 
         return None
     if not known.source:
         return {}
-    there = re.search(_put(known.source, words, escaped=True), source, re.MULTILINE)
+    pattern = re.compile(_put(known.source, words, escaped=True), re.MULTILINE)
+    # A call goes on for lines: what is wrong in it stands on its first line, or below it.
+    lines = source.splitlines(keepends=True)[: int(words.get("number", 1)) - 1] if known.of_source else []
+    there = pattern.search(source, sum(map(len, lines))) or pattern.search(source)
     if there is None:
         return None
     number = source.count("\n", 0, there.start("there" if "there" in there.re.groupindex else 0)) + 1
