@@ -45,7 +45,8 @@ RARE_S = 3.0
 class Survey:
     """A plain start. `parameters` is None where no node answered; `ending` where the process had ended by itself.
 
-    Here and below, `stuck` is where the node was, innermost frame first, when it answered nothing.
+    Here and below, `stuck` is where the node was, innermost frame first, when it answered nothing; `answering`: it
+    answered, though it published nothing.
     """
 
     trace: Trace
@@ -100,6 +101,7 @@ class Switched:
     again: tuple[Sample, ...] = ()
     rate: Rate | None = None
     stuck: tuple[Frame, ...] = ()
+    answering: bool = False
 
 
 @dataclass(frozen=True)
@@ -113,6 +115,7 @@ class Validated:
     rate: Rate | None = None
     messages: int = 0
     stuck: tuple[Frame, ...] = ()
+    answering: bool = False
 
 
 @dataclass(frozen=True)
@@ -122,6 +125,7 @@ class Retimed:
     trace: Trace
     steps: tuple[tuple[SetAnswer, Rate | None, int], ...] = ()
     stuck: tuple[Frame, ...] = ()
+    answering: bool = False
 
 
 @dataclass(frozen=True)
@@ -137,6 +141,7 @@ class Atomic:
     rate: Rate | None = None
     messages: int = 0
     stuck: tuple[Frame, ...] = ()
+    answering: bool = False
 
 
 def find(parameters: Sequence[Parameter], name: str) -> Parameter | None:

@@ -32,7 +32,9 @@ from checks.i2_1.facts import (
     text,
 )
 from tutor.judge import causes, ending, tracebacks
+from tutor.judge.causes import parameter_use, timers
 from tutor.judge.rates import TOLERANCE, Rate, describe
+from tutor.judge.reading import read
 from tutor.judge.trace import Level, SetAnswer, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Cause, Verdict, failed, passed
@@ -90,18 +92,22 @@ def judge_launch(seen: Launched) -> Verdict:
         return failed(expected, f"with {given}: no message on {TOPIC}", cause, causes.last_words(seen.trace))
     without = [text(sample) for sample in samples[-2:] if seen.prefix not in text(sample)]
     if without:
-        return failed(expected, f'with {given}: "{without[-1]}"', _ignored(PREFIX), [text(s) for s in samples[:6]])
+        return failed(
+            expected, f'with {given}: "{without[-1]}"', _ignored(PREFIX, seen.trace), [text(s) for s in samples[:6]]
+        )
     if seen.rate is None or not seen.rate.agrees(LAUNCH_HZ):
         observed = f"with {given}: {describe(seen.rate, seen.messages)}, not {LAUNCH_HZ} Hz ±{TOLERANCE:.0%}"
         return failed(expected, observed, causes.same_name(seen.trace) or _why_launch_rate(seen))
     if seen.slow_rate is None or not seen.slow_rate.agrees(SLOW_LAUNCH_HZ):
         slow = f"{RATE}:={SLOW_LAUNCH_HZ}: {describe(seen.slow_rate, seen.slow_messages)}"
-        cause = causes.of_process(seen.slow) or _made_whole(seen.slow_rate, SLOW_LAUNCH_HZ) or _other_rate()
+        cause = causes.of_process(seen.slow) or _made_whole(seen.slow_rate, SLOW_LAUNCH_HZ) or _other_rate(seen.slow)
         return failed(expected, f"with {slow}, not {SLOW_LAUNCH_HZ} Hz ±{TOLERANCE:.0%}", cause)
     off = f"with {ENABLED}:=false {RATE}:={LAUNCH_HZ}"
     loud = seen.disabled.on(TOPIC)
     if loud:
-        return failed(expected, f"{off}: {len(loud)} messages", _ignored(ENABLED), [text(s) for s in loud[:3]])
+        return failed(
+            expected, f"{off}: {len(loud)} messages", _ignored(ENABLED, seen.disabled), [text(s) for s in loud[:3]]
+        )
     broken = causes.of_process(seen.disabled)
     held = seen.disabled_answer.value if seen.disabled_answer else None
     offered = any(p.topic == TOPIC for p in seen.disabled.graph.publishers)
@@ -111,7 +117,7 @@ def judge_launch(seen: Launched) -> Verdict:
         return failed(
             expected,
             f"{off}: silence, but not because {ENABLED} is false",
-            broken or _ignored(ENABLED),
+            broken or _ignored(ENABLED, seen.disabled),
             causes.last_words(seen.disabled),
         )
     return passed(
@@ -120,14 +126,16 @@ def judge_launch(seen: Launched) -> Verdict:
 
 
 def _why_launch_rate(seen: Launched) -> Cause:
-    rate = seen.rate
+    rate, source = seen.rate, read(seen.trace)
+    if (whole := timers.whole_division(source)) is not None:
+        return whole
     if rate is not None and rate.in_bursts:
         return causes.in_bursts(RATE)
     if rate is not None and (rate.agrees(DEFAULT_HZ) or _are_alike(rate, seen.slow_rate)):
-        return _ignored(RATE)
+        return _ignored(RATE, seen.trace)
     if rate is None or rate.agrees(1 / LAUNCH_HZ):
-        return causes.rate_as_period(RATE)
-    return _other_rate()
+        return causes.rate_as_period(RATE, source)
+    return _other_rate(seen.trace)
 
 
 def _are_alike(rate: Rate, other: Rate | None) -> bool:
@@ -135,8 +143,10 @@ def _are_alike(rate: Rate, other: Rate | None) -> bool:
     return other is not None and max(rate.hz, other.hz) < 1.1 * min(rate.hz, other.hz)
 
 
-def _other_rate() -> Cause:
-    return Cause("wrong rate", f"{RATE} has an effect, but not this one", f"the timer's period is 1.0 / {RATE}")
+def _other_rate(trace: Trace) -> Cause:
+    return timers.whole_division(read(trace)) or Cause(
+        "wrong rate", f"{RATE} has an effect, but not this one", f"the timer's period is 1.0 / {RATE}"
+    )
 
 
 def _made_whole(rate: Rate | None, asked: float) -> Cause | None:
@@ -151,8 +161,8 @@ def _made_whole(rate: Rate | None, asked: float) -> Cause | None:
     )
 
 
-def _ignored(name: str) -> Cause:
-    return Cause(
+def _ignored(name: str, trace: Trace) -> Cause:
+    return parameter_use.not_read(read(trace), name) or Cause(
         "parameter ignored",
         f"{name} given at start-up has no effect",
         f"read it after declaring it: self.get_parameter('{name}').value",
@@ -163,7 +173,7 @@ def judge_runtime(seen: Switched, retimed: Retimed) -> Verdict:
     expected = f"setting {PREFIX} and {ENABLED} on the running node takes effect within one period"
     for answer in (seen.set_prefix, seen.set_off, seen.set_later, seen.set_on):
         if answer is None:
-            return _not_running(seen.trace, seen.stuck, expected)
+            return _not_running(seen, expected)
         if not answer.answered or not answer.successful:
             return _not_set(expected, answer, seen.trace, seen.stuck)
     assert seen.set_on is not None
@@ -171,13 +181,13 @@ def judge_runtime(seen: Switched, retimed: Retimed) -> Verdict:
         return failed(
             expected,
             f'{PREFIX} set to {seen.prefix}, but the messages still read "{_last(seen.trace)}"',
-            _ignored_later(PREFIX),
+            _ignored_later(PREFIX, seen.trace),
         )
     if seen.sent_while_off:
         return failed(
             expected,
             f"{ENABLED} set to false, but {len(seen.sent_while_off)} messages more than a period later",
-            _ignored_later(ENABLED),
+            _ignored_later(ENABLED, seen.trace),
             [text(s) for s in seen.sent_while_off[:3]],
         )
     if seen.resumed is None:
@@ -206,7 +216,7 @@ def _why_not_as_before(seen: Switched, expected: str, *, any_rate: bool) -> Verd
     said = [text(sample) for sample in seen.again]
     other = next((each for each in said if seen.later not in each), None)
     if other is not None:
-        return failed(expected, f'{off}: "{other}"', _ignored_later(PREFIX), said)
+        return failed(expected, f'{off}: "{other}"', _ignored_later(PREFIX, seen.trace), said)
     both = next((each for each in said if seen.prefix in each), None)
     if both is not None:
         cause = Cause(
@@ -246,8 +256,8 @@ def _held_back(seen: Switched) -> list[str]:
     return [text(s) for s in seen.trace.on(TOPIC) if begin <= s.source_time < begin + 0.5 / hz]
 
 
-def _ignored_later(name: str) -> Cause:
-    return Cause(
+def _ignored_later(name: str, trace: Trace) -> Cause:
+    return parameter_use.not_followed(read(trace), name) or Cause(
         "parameter ignored",
         f"{name} is accepted, but what the node sends does not follow it",
         f"read it in every callback (self.get_parameter('{name}').value), or follow it in a parameter callback",
@@ -259,7 +269,8 @@ def _last(trace: Trace) -> str:
     return text(samples[-1]) if samples else "nothing"
 
 
-def _not_running(trace: Trace, stuck: Sequence[Frame], expected: str) -> Verdict:
+def _not_running(seen: Switched | Validated | Retimed | Atomic, expected: str) -> Verdict:
+    trace, stuck = seen.trace, seen.stuck
     if trace.on(TOPIC):
         return failed(
             expected,
@@ -267,7 +278,7 @@ def _not_running(trace: Trace, stuck: Sequence[Frame], expected: str) -> Verdict
             causes.of_no_answer(trace, stuck),
             causes.last_words(trace),
         )
-    cause = causes.of_silence(trace, TOPIC, TYPE, answers=False, stuck=stuck)
+    cause = causes.of_silence(trace, TOPIC, TYPE, answers=seen.answering, stuck=stuck)
     return failed(expected, f"no message on {TOPIC} to start with", cause, causes.last_words(trace))
 
 
@@ -276,14 +287,15 @@ def _not_set(expected: str, answer: SetAnswer, trace: Trace, stuck: Sequence[Fra
     if not answer.answered:
         cause = causes.of_no_answer(trace, stuck, spins=True)
         return failed(expected, f"setting {what}: no answer in {ANSWER_S:g} s", cause, causes.last_words(trace))
-    cause = causes.of_refusal(answer.reason, answer.values)
+    cause = causes.of_refusal(answer.reason, answer.values, read(trace))
     return failed(expected, f'setting {what}: rejected, "{answer.reason}"', cause)
 
 
 def judge_validation(seen: Validated, switched: Switched) -> Verdict:
     expected = f"{RATE} 0.0 and -1.0 are rejected with a reason; the value and the rate stay at {seen.base_hz} Hz"
     if not seen.rejected:
-        return _not_running(seen.trace, seen.stuck, expected)
+        return _not_running(seen, expected)
+    source = read(seen.trace)
     for answer, value in seen.rejected:
         bad = answer.values[RATE]
         if not answer.answered:
@@ -292,7 +304,8 @@ def judge_validation(seen: Validated, switched: Switched) -> Verdict:
             return failed(
                 expected,
                 f"{RATE} {bad} was accepted",
-                Cause(
+                parameter_use.not_refused(source, RATE, bad)
+                or Cause(
                     "no validation",
                     f"nothing rejects {bad}",
                     "return SetParametersResult(successful=False, reason='...') from an on-set-parameters callback",
@@ -314,13 +327,18 @@ def judge_validation(seen: Validated, switched: Switched) -> Verdict:
             return failed(
                 expected,
                 f"{bad} was rejected, but {RATE} is {_show(value)} now",
-                Cause("value changed all the same", "the value is not what it was", "change nothing when you reject"),
+                Cause(
+                    "value changed all the same",
+                    "the value is not what it was",
+                    parameter_use.checked_too_late(source, RATE) or "change nothing when you reject",
+                ),
             )
     if not _goes_on(seen.rate, seen.base_hz, switched):
         cause = (causes.of_process(seen.trace) if seen.trace.exit else None) or Cause(
             "value changed all the same",
             "the rate changes although the value was rejected",
-            "check the value first; touch the timer only once it is accepted",
+            parameter_use.checked_too_late(source, RATE)
+            or "check the value first; touch the timer only once it is accepted",
         )
         return failed(expected, f"after the rejection: {describe(seen.rate, seen.messages)}", cause)
     return passed(expected, f'rejected: "{seen.rejected[0][0].reason}"; still {seen.rate}')
@@ -329,7 +347,7 @@ def judge_validation(seen: Validated, switched: Switched) -> Verdict:
 def judge_timer(seen: Retimed) -> Verdict:
     expected = f"setting {RATE} changes the measured rate: {UP_HZ} Hz, then {DOWN_HZ} Hz, ±{TOLERANCE:.0%}"
     if not seen.steps:
-        return _not_running(seen.trace, seen.stuck, expected)
+        return _not_running(seen, expected)
     for answer, rate, messages in seen.steps:
         asked = answer.values[RATE]
         if not answer.answered or not answer.successful:
@@ -346,21 +364,22 @@ def judge_timer(seen: Retimed) -> Verdict:
 def _why_timer(seen: Retimed, asked: float, rate: Rate | None) -> Cause:
     if seen.trace.exit and (cause := causes.of_process(seen.trace)):
         return cause
+    source = read(seen.trace)
     if rate is not None and rate.in_bursts:
-        return causes.in_bursts(RATE)
+        return timers.whole_division(source) or causes.in_bursts(RATE)
     before = DEFAULT_HZ if asked == UP_HZ else UP_HZ
     faster = seen.steps[0][1]
     left_behind = asked == DOWN_HZ and faster is not None and faster.hz > UP_HZ + DEFAULT_HZ / 2
     if rate is not None and rate.agrees(before) and not left_behind:
-        return causes.timer_not_replaced()
+        return causes.timer_not_replaced(RATE, source)
     if rate is not None and rate.hz < UP_HZ and all(_are_alike(rate, other) for _, other, _ in seen.steps):
-        return causes.timer_not_replaced()
+        return causes.timer_not_replaced(RATE, source)
     if (whole := _made_whole(rate, asked)) is not None:
         return whole
     if rate is not None and rate.hz > asked:
-        return causes.old_timer_kept(rate.hz, asked)
+        return timers.whole_division(source) or causes.old_timer_kept(rate.hz, asked, source)
     if rate is None or rate.agrees(1 / asked):
-        return causes.rate_as_period(RATE)
+        return timers.whole_division(source) or causes.rate_as_period(RATE, source)
     return Cause("wrong rate", f"{rate.hz:.1f} Hz instead of {asked:g} Hz", "the timer's period is 1.0 / rate seconds")
 
 
@@ -375,7 +394,8 @@ def _goes_on(rate: Rate | None, hz: float, switched: Switched) -> bool:
 def judge_atomic(seen: Atomic, switched: Switched) -> Verdict:
     expected = f"an atomic set of a good {PREFIX} and a bad {RATE}, in either order, changes nothing at all"
     if not seen.answers:
-        return _not_running(seen.trace, seen.stuck, expected)
+        return _not_running(seen, expected)
+    source = read(seen.trace)
     unanswered = next((answer for answer in seen.answers if not answer.answered), None)
     if unanswered is not None:
         return _not_set(expected, unanswered, seen.trace, seen.stuck)
@@ -383,7 +403,8 @@ def judge_atomic(seen: Atomic, switched: Switched) -> Verdict:
         return failed(
             expected,
             "the request was accepted",
-            Cause(
+            parameter_use.not_refused(source, RATE, BAD_RATES[1])
+            or Cause(
                 "no validation",
                 f"{RATE} {BAD_RATES[1]} is not rejected in an atomic request",
                 "check every parameter of the list before you accept",
@@ -392,7 +413,10 @@ def judge_atomic(seen: Atomic, switched: Switched) -> Verdict:
     if "declared" in seen.answers[0].reason:
         return _not_set(expected, seen.answers[0], seen.trace, seen.stuck)
     changed = next((held for held in seen.values if held != seen.before), None)
-    partial = "only validate in the on-set callback; apply in a post-set callback (add_post_set_parameters_callback)"
+    partial = (
+        parameter_use.checked_too_late(source, RATE)
+        or "only validate in the on-set callback; apply in a post-set callback (add_post_set_parameters_callback)"
+    )
     if changed is not None or seen.shown is not None:
         now = f'a message reads "{text(seen.shown)}"' if seen.shown else f"{PREFIX}, {RATE} are {changed}"
         return failed(
@@ -430,7 +454,8 @@ def judge_bad_launch(plain: Survey, seen: Sequence[Trace]) -> Verdict:
                 "nobody can tell from this which parameter is wrong"
                 if found
                 else "the node takes the bad value silently",
-                f"check it after declaring it, and log an error that names {RATE}",
+                parameter_use.checked_at_start(read(trace), RATE)
+                or f"check it after declaring it, and log an error that names {RATE}",
             )
             return failed(expected, observed, cause, causes.last_words(trace))
     return passed(expected, "it does", [naming(trace)[-1] for trace in seen])

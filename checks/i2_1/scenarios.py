@@ -106,9 +106,11 @@ async def switched(bench: Bench) -> Switched:
     prefix, later = "Servus7", "Gruezi9"
     async with bench.start(FILE, watch={TOPIC: TYPE}) as run:
         bench.doing(0.05, "waiting for it to publish")
-        node = await _publishing(run)
+        node, answering = await _publishing(run)
         if node is None:
-            return Switched(trace := run.trace(), prefix, later, stuck=await _stuck(bench, trace))
+            return Switched(
+                trace := run.trace(), prefix, later, stuck=await _stuck(bench, trace, answering), answering=answering
+            )
         base_hz = await _base_hz(run)
         period = 1 / base_hz
         bench.doing(0.2, f"setting {PREFIX} to {prefix}")
@@ -176,9 +178,9 @@ async def validated(bench: Bench) -> Validated:
 async def _validated(bench: Bench, from_hz: float | None) -> Validated:
     async with bench.start(FILE, watch={TOPIC: TYPE}, asks_s=5.0) as run:
         bench.doing(0.05, "waiting for it to publish")
-        node = await _publishing(run)
+        node, answering = await _publishing(run)
         if node is None:
-            return Validated(trace := run.trace(), stuck=await _stuck(bench, trace))
+            return Validated(trace := run.trace(), stuck=await _stuck(bench, trace, answering), answering=answering)
         base_hz = await _base_hz(run)
         if from_hz is None or await _takes(run, node, from_hz, base_hz):
             return await _refusing(bench, run, node, from_hz or base_hz)
@@ -215,9 +217,9 @@ async def retimed(bench: Bench) -> Retimed:
     """Ask for a faster and then for a slower rate; each may take effect after one period of the old one."""
     async with bench.start(FILE, watch={TOPIC: TYPE}) as run:
         bench.doing(0.05, "waiting for it to publish")
-        node = await _publishing(run)
+        node, answering = await _publishing(run)
         if node is None:
-            return Retimed(trace := run.trace(), stuck=await _stuck(bench, trace))
+            return Retimed(trace := run.trace(), stuck=await _stuck(bench, trace, answering), answering=answering)
         steps: list[tuple[SetAnswer, Rate | None, int]] = []
         old_hz = await _base_hz(run)
         for done, new_hz in ((0.3, UP_HZ), (0.6, DOWN_HZ)):
@@ -240,9 +242,9 @@ async def _changed_rate(run: Run, answer: SetAnswer, new_hz: float, old_hz: floa
 async def atomic(bench: Bench) -> Atomic:
     """Set a good prefix and a bad rate in one atomic request, in either order."""
     async with bench.start(FILE, watch={TOPIC: TYPE}, asks_s=5.0) as run:
-        node = await _publishing(run)
+        node, answering = await _publishing(run)
         if node is None:
-            return Atomic(trace := run.trace(), stuck=await _stuck(bench, trace))
+            return Atomic(trace := run.trace(), stuck=await _stuck(bench, trace, answering), answering=answering)
         base_hz = await _base_hz(run)
         before = await _held(run, (PREFIX, RATE))
         tokens = ("Partial1", "Partial2")
@@ -277,9 +279,9 @@ async def silent(bench: Bench) -> tuple[Frame, ...]:
     return await stuck(bench, FILE)
 
 
-async def _stuck(bench: Bench, trace: Trace) -> tuple[Frame, ...]:
-    """Where the node of this trace is, if it is one that runs but does nothing."""
-    return await bench.facts(silent) if trace.graph.nodes and trace.exit is None else ()
+async def _stuck(bench: Bench, trace: Trace, answering: bool = False) -> tuple[Frame, ...]:
+    """Where the node of this trace is, if it is one that runs but does nothing, and answers nothing."""
+    return await bench.facts(silent) if trace.graph.nodes and trace.exit is None and not answering else ()
 
 
 async def _node(run: Run) -> str | None:
@@ -299,10 +301,11 @@ async def _node(run: Run) -> str | None:
     return max(holders, key=holders.count) if holders else None
 
 
-async def _publishing(run: Run) -> str | None:
-    """The node to talk to, once it publishes; None where it does not."""
+async def _publishing(run: Run) -> tuple[str | None, bool]:
+    """The node to talk to, once it publishes, or None where it does not; and whether it answers."""
     node = await _node(run)
-    return node if node is not None and await first_message(run, TOPIC, TYPE, rare_s=RARE_S) else None
+    publishes = node is not None and await first_message(run, TOPIC, TYPE, rare_s=RARE_S)
+    return (node if publishes else None), node is not None
 
 
 async def _held(run: Run, names: Sequence[str]) -> tuple[Any, ...]:

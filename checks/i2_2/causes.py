@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import difflib
 import re
 from collections.abc import Sequence
 
+from checks.i2_2 import steps
 from checks.i2_2.facts import ARGUMENTS, FILE, NAMESPACE, Launched, is_twice, publishers, shared, subscriptions, used
 from checks.i2_2.processes import Gone, by_stream, gone, writers, written_by
 from tutor.judge import causes, tracebacks
 from tutor.judge.bench import OnlyWithRos
+from tutor.judge.reading import read
 from tutor.judge.trace import Endpoint, Graph, Trace
 from tutor.judge.verdict import Cause
 
@@ -16,6 +19,13 @@ _NO_PACKAGE = re.compile(r"package '(?P<name>[^']*)' not found", re.IGNORECASE)
 _NO_PROGRAM = re.compile(r"executable '(?P<name>[^']*)' not found (?:in|on)[^\n]*")
 _NOT_HERE = re.compile(r"\S+ is not supported by the launch files that run without an installed ROS 2")
 _ELSEWHERE = re.compile(r"`ros2 \w+` needs an installed ROS 2")
+_NO_VALUE = re.compile(r"launch configuration '(?P<name>[^']*)' does not exist")
+_NO_DEFAULT = re.compile(r"missing required argument '(?P<name>[^']*)'")
+_NOT_PAIRS = re.compile(r"TypeError: Expected 'remap_rule'|remap_rule.*(?:tuple|unpack)")
+_NO_TEXT = re.compile(
+    r"TypeError: (?:can only concatenate str|sequence item|unsupported operand)[^\n]*"
+    r"(?:LaunchConfiguration|Substitution)"
+)
 _UNRESOLVED = re.compile(r"<launch\S* object at 0x")
 _NO_FILE = re.compile(r"FileNotFoundError|No such file or directory|\[Errno 2\]")
 _NO_FUNCTION = re.compile(r"required function '?generate_launch_description|no attribute '?generate_launch_description")
@@ -30,27 +40,43 @@ def of_launch(trace: Trace) -> Cause | None:
     """
     own = written_by(trace.output, None)
     text = "\n".join(line.text for line in own)
+    source = read(trace)
     if found := _NOT_HERE.search(text):
         raise OnlyWithRos(_line_of(text, found.start()))
+    if found := _NO_VALUE.search(text):
+        return steps.undeclared(source, found["name"])
+    if found := _NO_DEFAULT.search(text):
+        return steps.without_default(source, found["name"])
+    if found := _NOT_PAIRS.search(text):
+        return Cause(
+            "remappings not a list of pairs",
+            _line_of(text, found.start()),
+            f"remappings takes a list of pairs, each in round brackets: {steps.remapping(source, 'chatter')}",
+        )
     if any(_UNRESOLVED.search(line.text) for line in trace.output):
         return Cause(
             "substitution made text too early",
             "an f-string, str() or + has turned a substitution, such as LaunchConfiguration, into text like "
             "<launch.substitutions... object at 0x...>: its value is known only when the launch runs",
-            "give a list instead, whose parts are joined then: [LaunchConfiguration('namespace'), '/', 'name']",
+            steps.text_too_early(source)
+            or "give a list instead, whose parts are joined then: [LaunchConfiguration('namespace'), '/', 'name']",
         )
+    if (found := _NO_TEXT.search(text)) and (hint := steps.text_too_early(source)):
+        return Cause("substitution is no text", _line_of(text, found.start()), hint)
     if found := _NO_PACKAGE.search(text):
         return Cause(
             "package not found",
             _line_of(text, found.start()),
-            "check the spelling of package=; demo_nodes_py, demo_nodes_cpp and my_package are there",
+            steps.no_program(source, "package", found["name"], _nearest(found["name"], _PACKAGES))
+            or "check the spelling of package=; demo_nodes_py, demo_nodes_cpp and my_package are there",
         )
     if found := _NO_PROGRAM.search(text):
         return Cause(
             "executable not found",
             _line_of(text, found.start()),
-            "check executable=: talker and listener in the demo packages, minimal_publisher and minimal_subscriber in "
-            "my_package",
+            steps.no_program(source, "executable", found["name"], _nearest(found["name"], _PROGRAMS))
+            or "check executable=: talker and listener in the demo packages, minimal_publisher and "
+            "minimal_subscriber in my_package",
         )
     raised = tracebacks.find(by_stream(own))
     if raised:
@@ -65,7 +91,7 @@ def of_launch(trace: Trace) -> Cause | None:
         return Cause(
             "nothing returned",
             "generate_launch_description() returns None",
-            "end it with: return LaunchDescription([...])",
+            steps.not_returned(source) or "end it with: return LaunchDescription([...])",
         )
     if error := next((line.text for line in own if _ERROR.search(line.text)), None):
         return Cause("error in the launch", _ERROR.sub("", error), f"mend this in {FILE}, then launch it yourself")
@@ -78,14 +104,23 @@ def of_launch(trace: Trace) -> Cause | None:
         return Cause(
             "nothing to launch",
             f"the launch ended by itself after {trace.exit.after_s:.1f} s with {trace.exit}, and had started nothing",
-            "put both nodes into the list: LaunchDescription([publisher, subscriber])",
+            steps.nothing_listed(source) or "put both nodes into the list: LaunchDescription([publisher, subscriber])",
         )
     return None
 
 
+_PACKAGES = ("demo_nodes_py", "demo_nodes_cpp", "my_package")
+_PROGRAMS = ("talker", "listener", "minimal_publisher", "minimal_subscriber")
+
+
+def _nearest(wrong: str, known: Sequence[str]) -> str:
+    """What was probably meant, or nothing."""
+    return next(iter(difflib.get_close_matches(wrong, known, n=1, cutoff=0.5)), "")
+
+
 def _line_of(text: str, at: int) -> str:
     line = text[text.rfind("\n", 0, at) + 1 : text.find("\n", at) if "\n" in text[at:] else len(text)]
-    return _ERROR.sub("", _ERROR.sub("", line)).strip()[:400]
+    return _ERROR.sub("", _ERROR.sub("", line)).strip().removeprefix("- ")[:400]
 
 
 def _of_dead(dead: Gone, trace: Trace) -> Cause:
@@ -115,10 +150,14 @@ def of_missing(seen: Launched) -> Cause:
     if (sending or taking) and not (sending and taking):
         missing, there = ("subscriber", sending) if sending else ("publisher", taking)
         verb = "subscribes" if sending else "publishes"
+        source = read(trace)
+        if (cause := steps.missing(source, missing)) is not None:
+            return cause
         return Cause(
             f"no {missing}",
             f"there is {_nodes(there)}, but nothing {verb}",
-            f"add a Node(...) for the {missing}, and put it into the list that LaunchDescription([...]) is given",
+            steps.second_of_a_kind(source, missing)
+            or f"add a Node(...) for the {missing}, and put it into the list that LaunchDescription([...]) is given",
         )
     return Cause(
         "one node only",
@@ -133,18 +172,19 @@ def of_topic(usual: Launched, seen: Launched, wanted: str) -> Cause:
     """Why, with another topic given, not both nodes use `wanted`, or the default topic is still used."""
     if (cause := _of_broken(seen)) is not None:
         return cause
-    graph = seen.trace.graph
+    graph, name, source = seen.trace.graph, _own_name(usual), read(seen.trace)
     sends = [each for each in publishers(graph) if each.topic == wanted]
     takes = [each for each in subscriptions(graph) if each.topic == wanted]
     if not sends and not takes:
         return (
             _of_added(graph, wanted)
-            or _of_ignored(seen, "topic", wanted)
+            or _of_ignored(seen, "topic", wanted, usual)
             or _of_remaps(seen, wanted)
+            or steps.topic(source, name)
             or Cause(
                 "topic hard-coded",
                 f"neither node uses {wanted}: the remappings do not depend on the argument",
-                "give both nodes remappings=[('chatter', LaunchConfiguration('topic'))]",
+                f"give both nodes {steps.remapping(source, name)}",
             )
         )
     if not sends or not takes:
@@ -156,7 +196,8 @@ def of_topic(usual: Launched, seen: Launched, wanted: str) -> Cause:
         return _of_remaps(seen, wanted) or Cause(
             "remapping missing on one node",
             f"only {there[0].node} uses {wanted}; {where}",
-            "give the other node the same remappings=[...], from the name that its own code uses",
+            steps.other_node(source, "remappings", steps.remapping(source, name))
+            or "give the other node the same remappings=[...], from the name that its own code uses",
         )
     still = sorted(shared(usual.trace.graph) & used(graph))
     if still:
@@ -177,7 +218,7 @@ def of_namespace(usual: Launched, seen: Launched) -> Cause:
     """Why, with a namespace given, not both nodes and their topic are under it."""
     if (cause := _of_broken(seen)) is not None:
         return cause
-    space = seen.arguments.get("namespace", NAMESPACE)
+    space, source = seen.arguments.get("namespace", NAMESPACE), read(seen.trace)
     graph, under = seen.trace.graph, f"/{space}/"
     ends = [*publishers(graph), *subscriptions(graph)]
     twice = next((name for each in ends for name in (each.node, each.topic) if is_twice(name, space)), None)
@@ -185,21 +226,27 @@ def of_namespace(usual: Launched, seen: Launched) -> Cause:
         return Cause(
             "namespace applied twice",
             f"{twice} is in {under[:-1]} of {under[:-1]}",
-            "use one of the two: namespace=LaunchConfiguration('namespace') for each node, or a PushRosNamespace",
+            steps.twice(source)
+            or "use one of the two: namespace=LaunchConfiguration('namespace') for each node, or a PushRosNamespace",
         )
     within = [each for each in ends if each.node.startswith(under)]
     outside = [each for each in ends if not each.node.startswith(under)]
     if not within:
-        return _of_ignored(seen, "namespace", space) or Cause(
-            "namespace not used",
-            f"{_nodes(outside)}: no node is under {under[:-1]}",
-            "give both nodes namespace=LaunchConfiguration('namespace'), or put them behind a PushRosNamespace",
+        return (
+            _of_ignored(seen, "namespace", space)
+            or steps.namespace(source)
+            or Cause(
+                "namespace not used",
+                f"{_nodes(outside)}: no node is under {under[:-1]}",
+                "give both nodes namespace=LaunchConfiguration('namespace'), or put them behind a PushRosNamespace",
+            )
         )
     if outside and not _both(within):
-        return Cause(
+        return steps.namespace(source) or Cause(
             "namespace missing on one node",
             f"{_nodes(within)} is under {under[:-1]}, {_nodes(outside)} is not",
-            "give the other node the same namespace=LaunchConfiguration('namespace')",
+            steps.other_node(source, "namespace", f"namespace={steps.value(source, 'namespace')}")
+            or "give the other node the same namespace=LaunchConfiguration('namespace')",
         )
     absolute = [each for each in within if not each.topic.startswith(under)]
     if absolute:
@@ -208,7 +255,7 @@ def of_namespace(usual: Launched, seen: Launched) -> Cause:
         return Cause(
             "absolute topic",
             f"the nodes are under {under[:-1]}, but {absolute[0].node} uses {absolute[0].topic}: {because}",
-            "a name that begins with / takes no namespace: remap to the argument's value alone, without a slash",
+            "a name that begins with / takes no namespace: " + steps.right_remapping(source, _own_name(usual)),
         )
     topic = seen.arguments.get("topic")
     if topic is not None:
@@ -241,31 +288,51 @@ def _of_added(graph: Graph, wanted: str) -> Cause | None:
     return None
 
 
-def _of_ignored(seen: Launched, argument: str, value: str) -> Cause | None:
+def _of_ignored(seen: Launched, argument: str, value: str, usual: Launched | None = None) -> Cause | None:
     """Whether the value that was given reaches no node at all."""
+    source = read(seen.trace)
     word = value.rsplit("/", 1)[-1]
     nodes = [command for command in seen.commands if seen.trace.file not in command]  # the launch has it by itself
     if any(word in command for command in nodes):
         return None
+    name = _own_name(usual) if usual is not None else "chatter"
+    right = f"namespace={steps.value(source, argument)}" if argument == "namespace" else steps.remapping(source, name)
     declared = seen.trace.launch_arguments
     others = [name for name in declared if name not in ARGUMENTS]
     if argument not in declared and others:
         return Cause(
             "wrong argument name",
             f"{argument}:={word} changes nothing; the arguments are called {', '.join(declared)}",
-            f"name it exactly '{argument}', in DeclareLaunchArgument and in LaunchConfiguration",
+            steps.other_name(source, argument, others)
+            or f"name it exactly '{argument}', in DeclareLaunchArgument and in LaunchConfiguration",
         )
     if argument not in declared:
         return Cause(
             "argument missing",
             f"{argument}:={word} changes nothing: no such argument is declared",
-            f"declare it with DeclareLaunchArgument('{argument}', ...); LaunchConfiguration('{argument}') is its value",
+            f"put {steps.declaration(argument)} first into the list in LaunchDescription([...]), and give every "
+            f"Node(...) {right}",
         )
-    return Cause(
-        f"{argument} hard-coded" if argument == "topic" else "namespace not used",
+    if argument == "namespace":
+        return steps.namespace(source) or Cause(
+            "namespace not used",
+            f"the argument {argument} is declared, but its value reaches no node",
+            f"give every Node(...) {right}",
+        )
+    return steps.topic(source, name) or Cause(
+        "topic hard-coded",
         f"the argument {argument} is declared, but its value reaches no node",
-        f"use LaunchConfiguration('{argument}') where the nodes are made, instead of a fixed text",
+        f"give every Node(...) {right}",
     )
+
+
+def _own_name(usual: Launched) -> str:
+    """The name that the nodes' own code uses for their topic: what is remapped without arguments, or else its name."""
+    topics = shared(usual.trace.graph) or used(usual.trace.graph)
+    for source, target in _remaps(usual):
+        if any(topic.rsplit("/", 1)[-1] == target.rsplit("/", 1)[-1] for topic in topics):
+            return source.rsplit("/", 1)[-1]
+    return min(topics, default="/chatter").rsplit("/", 1)[-1]
 
 
 def _of_remaps(seen: Launched, wanted: str) -> Cause | None:
@@ -277,7 +344,7 @@ def _of_remaps(seen: Launched, wanted: str) -> Cause | None:
         return Cause(
             "remapping the wrong way round",
             f"{source} is remapped to {target}, so that {target} stays what it is",
-            f"first the name in the node's code, then the new one: ('{target}', LaunchConfiguration('topic'))",
+            "first the name in the node's code, then the new one: " + steps.right_remapping(read(seen.trace), target),
         )
     for source, target in _remaps(seen):
         if target.rsplit("/", 1)[-1] != word or source.startswith("__"):
@@ -291,13 +358,14 @@ def _of_remaps(seen: Launched, wanted: str) -> Cause | None:
             return Cause(
                 "absolute remapping",
                 f"the remapping from {source} means this one name only; in the namespace, the topic is {names[0]}",
-                f"remap from '{source[1:]}', without the slash: then the name is taken within the namespace",
+                "without the slash, the name is taken within the namespace: "
+                + steps.right_remapping(read(seen.trace), source[1:]),
             )
         if not any(name.rsplit("/", 1)[-1] == source.rsplit("/", 1)[-1] for name in names):
             return Cause(
                 "remapping from an unused name",
                 f"{source} is remapped to {target}, but the node uses {', '.join(names)}",
-                f"remap from the name in the node's own code, such as '{names[0].rsplit('/', 1)[-1]}'",
+                steps.right_remapping(read(seen.trace), names[0].rsplit("/", 1)[-1]),
             )
     return None
 

@@ -6,7 +6,8 @@ import re
 from collections.abc import Mapping
 from typing import Any
 
-from tutor.judge.causes import names
+from tutor.judge.causes import names, parameter_use, timers
+from tutor.judge.reading import UNREAD, Source
 from tutor.judge.verdict import Cause
 
 RCLPYS_OWN = re.compile(
@@ -24,6 +25,14 @@ They are not the learner's. (That a value is outside a declared range is.)
 
 _TYPES = re.compile(r"(?:of type|got) '(?:Type\.)?(?P<given>\w+)'|expect(?:ing type|ed) '(?:Type\.)?(?P<wanted>\w+)'")
 
+_DEFAULTS = {
+    "BOOL": "True or False, without quotation marks, not a text or a number",
+    "DOUBLE": "a decimal number, such as 1.0, without quotation marks",
+    "INTEGER": "a whole number, such as 1, without quotation marks",
+    "STRING": "a text, such as 'Hello'",
+}
+_RANGE = re.compile(r"out of range Min: (?P<low>[-\d.e+]+), Max: (?P<high>[-\d.e+]+)|not close enough to a valid step")
+
 
 def of_types(said: str) -> Cause:
     """A value of one type was given to a parameter of another; `said` is rclpy's message, which names both."""
@@ -37,21 +46,24 @@ def of_types(said: str) -> Cause:
             else "the parameter is a double: give it a decimal number, such as 5.0, not 5"
         )
         return Cause(names.INTEGER_PARAMETER, said, hint)
+    default = _DEFAULTS.get(given, "a value of the type that is given")
     return Cause(
-        "wrong parameter type",
-        said,
-        "the type of the default is the type of the parameter: declare a number, such as 1.0, not a text",
+        "wrong parameter type", said, f"the type of the default is the type of the parameter: declare {default}"
     )
 
 
-def of_refusal(reason: str, values: Mapping[str, Any]) -> Cause:
+def of_refusal(reason: str, values: Mapping[str, Any], source: Source = UNREAD) -> Cause:
     """Why a node does not take good `values`, from the `reason` that it gives."""
     if "invalid type" in reason:
+        called = parameter_use.callback(source)
+        which = f"{called.name} (line {called.line})" if called else "the callback"
         return Cause(
             names.CALLBACK_RETURNS_NONE,
-            "the parameter callback does not return a SetParametersResult",
-            "end every way through the callback with: return SetParametersResult(successful=True)",
+            f"the parameter callback{f', {which},' if called else ''} does not return a SetParametersResult",
+            f"end every way through {which} with: return SetParametersResult(successful=True)",
         )
+    if found := _RANGE.search(reason):
+        return _of_range(found, reason, source)
     if "parameter list cannot be empty" in reason:
         return Cause(
             "value dropped",
@@ -67,8 +79,25 @@ def of_refusal(reason: str, values: Mapping[str, Any]) -> Cause:
     return Cause(
         "rejected",
         f'the node rejects a good value: "{reason}"' if reason else "the node rejects a good value, without a reason",
-        "let the callback return SetParametersResult(successful=True) for it",
+        _accepting(source) or "let the callback return SetParametersResult(successful=True) for it",
     )
+
+
+def _of_range(found: re.Match[str], reason: str, source: Source) -> Cause:
+    """A declared range leaves out good values."""
+    made = next(iter(source.calls("FloatingPointRange", "IntegerRange")), None)
+    where = f"line {made.line}: " if made else "in the parameter's descriptor: "
+    right = "FloatingPointRange(from_value=0.01, to_value=1000.0, step=0.0)"
+    what = "values between its steps" if found["low"] is None else f"all but {found['low']} to {found['high']}"
+    return Cause("range too narrow", f'the declared range refuses {what}: "{reason}"', f"{where}{right}")
+
+
+def _accepting(source: Source) -> str | None:
+    """The step where a result says no only because nobody let it say yes."""
+    for made in source.calls("SetParametersResult"):
+        if not made.given and "successful" not in made.named:
+            return f"line {made.line}: SetParametersResult(successful=True): without it, a result means no"
+    return None
 
 
 def not_declared(name: str, default: Any) -> Cause:
@@ -89,12 +118,12 @@ def in_bursts(name: str) -> Cause:
     )
 
 
-def rate_as_period(name: str) -> Cause:
+def rate_as_period(name: str, source: Source = UNREAD) -> Cause:
     """The rate's number is taken for seconds."""
     return Cause(
         names.RATE_AS_PERIOD,
         f"{name} is given in Hz, but the timer waits that many seconds",
-        f"the timer's period is 1.0 / {name}",
+        timers.as_period(source, name) or f"the timer's period is 1.0 / {name}",
     )
 
 
@@ -107,8 +136,22 @@ def period_as_rate(name: str) -> Cause:
     )
 
 
-def timer_not_replaced() -> Cause:
+def timer_not_replaced(name: str = "publish_rate", source: Source = UNREAD) -> Cause:
     """The parameter has a new value, the timer its old period."""
+    uses = (parameter_use.overridden, parameter_use.old_value_read)
+    if (cause := next((each for use in uses if (each := use(source, name))), None)) is not None:
+        return cause
+    if (cause := parameter_use.not_called(source)) is not None:
+        return cause
+    changed = parameter_use.callback(source)
+    if changed is not None and (made := timers.remade(source, changed)) is not None:
+        return timers.stays(source, name, made)
+    if source.calls("create_timer"):
+        return Cause(
+            names.TIMER_NOT_REPLACED,
+            "the parameter changes, but the timer keeps its old period: nothing makes a new one",
+            timers.post_set(source, name),
+        )
     return Cause(
         names.TIMER_NOT_REPLACED,
         "the parameter changes, but the timer keeps its old period",
@@ -116,10 +159,10 @@ def timer_not_replaced() -> Cause:
     )
 
 
-def old_timer_kept(hz: float, asked_hz: float) -> Cause:
+def old_timer_kept(hz: float, asked_hz: float, source: Source = UNREAD) -> Cause:
     """There is a new timer, and the old one as well."""
     return Cause(
         names.OLD_TIMER_KEPT,
         f"{hz:.1f} Hz is more than {asked_hz:g} Hz: an older timer publishes too, since nothing cancelled it",
-        "cancel the old timer before you make the new one: self.destroy_timer(self.timer)",
+        timers.beside(source) or "cancel the old timer before you make the new one: self.destroy_timer(self.timer)",
     )

@@ -5,12 +5,15 @@ from __future__ import annotations
 import difflib
 from collections.abc import Iterable, Sequence
 
-from tutor.judge.causes import names
+from tutor.judge.causes import names, timers
 from tutor.judge.causes.process import node_names, of_no_answer, of_process
 from tutor.judge.qos import Policy, unmet
+from tutor.judge.reading import UNREAD, Source, read
 from tutor.judge.trace import Endpoint, Service, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Cause
+
+_ASLEEP = "lifecycle node not activated"
 
 
 def of_silence(trace: Trace, topic: str, type_name: str, *, answers: bool, stuck: Sequence[Frame] = ()) -> Cause:
@@ -18,19 +21,19 @@ def of_silence(trace: Trace, topic: str, type_name: str, *, answers: bool, stuck
 
     `answers`: whether a node of the learner's answered a request; if not, `stuck` says where it was meanwhile.
     """
-    if (cause := of_process(trace)) is not None:
+    if (cause := of_process(trace) or of_lifecycle(trace)) is not None:
         return cause
     publishers = trace.graph.publishers
     here = [endpoint for endpoint in publishers if endpoint.topic == topic]
     if any(endpoint.type == type_name for endpoint in here):
         if not answers:
             return of_no_answer(trace, stuck)
-        return Cause(
+        return timers.idle(read(trace), topic) or Cause(
             "no messages",
             f"there is a publisher on {topic}, but it sent nothing",
             "does the timer's callback call publish(), and is the timer kept in self?",
         )
-    return _misplaced(publishers, topic, type_name, "create_publisher") or Cause(
+    return _misplaced(trace, publishers, topic, type_name, "create_publisher") or Cause(
         "no publisher",
         f"{node_names(trace)} is up, but has no publisher on {topic}",
         f"create one in __init__: self.create_publisher({_class(type_name)}, '{topic}', 10)",
@@ -39,7 +42,7 @@ def of_silence(trace: Trace, topic: str, type_name: str, *, answers: bool, stuck
 
 def of_deafness(trace: Trace, ours: Endpoint, *, answers: bool, stuck: Sequence[Frame] = ()) -> Cause:
     """Why a node of the learner's took in nothing of what `ours`, a publisher, sent; see `of_silence`."""
-    if (cause := of_process(trace)) is not None:
+    if (cause := of_process(trace) or of_lifecycle(trace)) is not None:
         return cause
     subscriptions = trace.graph.subscriptions
     here = [each for each in subscriptions if (each.topic, each.type) == (ours.topic, ours.type)]
@@ -54,7 +57,7 @@ def of_deafness(trace: Trace, ours: Endpoint, *, answers: bool, stuck: Sequence[
             f"there is a subscription on {ours.topic}, but nothing follows from its messages",
             "is the right callback given to create_subscription, and the subscription kept in self?",
         )
-    return _misplaced(subscriptions, ours.topic, ours.type, "create_subscription") or Cause(
+    return _misplaced(trace, subscriptions, ours.topic, ours.type, "create_subscription") or Cause(
         "no subscription",
         f"{node_names(trace)} is up, but has no subscription on {ours.topic}",
         f"create one in __init__: self.create_subscription({_class(ours.type)}, '{ours.topic}', self.callback, 10)",
@@ -114,7 +117,9 @@ def of_qos(trace: Trace, topic: str) -> Cause | None:
     return next((cause for one in offers for other in asks if (cause := incompatible_qos(one, other))), None)
 
 
-def wrong_topic(endpoints: Iterable[Endpoint], topic: str, create: str = "create_publisher") -> Cause:
+def wrong_topic(
+    endpoints: Iterable[Endpoint], topic: str, create: str = "create_publisher", source: Source = UNREAD
+) -> Cause:
     """The endpoint is there, under another name; what kind of slip it is follows from the name."""
     found = sorted({endpoint.topic for endpoint in endpoints})
     name = min(found, key=lambda each: -difflib.SequenceMatcher(None, each, topic).ratio())
@@ -122,8 +127,18 @@ def wrong_topic(endpoints: Iterable[Endpoint], topic: str, create: str = "create
     return Cause(
         names.WRONG_TOPIC,
         f"messages of this type {verb} {', '.join(found)}, not {verb.split()[-1]} {topic}: {_slip(name, topic)}",
-        f"use exactly '{topic}' in {create}",
+        _renamed(source, create, topic, name) or f"use exactly '{topic}' in {create}",
     )
+
+
+def _renamed(source: Source, create: str, topic: str, name: str) -> str | None:
+    """The step with the line that makes the endpoint."""
+    last = name.rsplit("/", 1)[-1]
+    for made in source.calls(create, create.replace("create_", "create_lifecycle_")):
+        written = made.argument(1, "topic")
+        if written.strip("'").endswith(last):
+            return f"line {made.line}: {made.code.replace(written, repr(topic), 1)}"
+    return None
 
 
 def _slip(name: str, wanted: str) -> str:
@@ -140,19 +155,52 @@ def _slip(name: str, wanted: str) -> str:
     return "the name is spelled differently"
 
 
-def _misplaced(endpoints: Sequence[Endpoint], topic: str, type_name: str, create: str) -> Cause | None:
+def of_lifecycle(trace: Trace) -> Cause | None:
+    """Whether there is a lifecycle node that nobody has activated."""
+    source = read(trace)
+    asleep = [each.node for each in trace.graph.services if each.type == "lifecycle_msgs/srv/ChangeState"]
+    if not asleep:
+        return None
+    own = next((name for name, bases in source.bases().items() if any("Lifecycle" in base for base in bases)), "")
+    made = next(iter(source.calls(own)), None) if own else None
+    node = made.kept if made is not None and made.kept else "node"
+    woken = source.calls("trigger_activate")
+    bare = next((each for each in source.functions("on_activate") if "on_activate" not in each.calls), None)
+    own_way = f"end on_activate (line {bare.line}) with: return super().on_activate(state)" if bare else ""
+    if woken:
+        return Cause(_ASLEEP, f"{asleep[0]} keeps its publishers switched off", own_way) if bare else None
+    steps = [
+        f"in main(), before {node} is spun: {node}.trigger_configure(), then {node}.trigger_activate()",
+        *([own_way] if bare else []),
+    ]
+    return Cause(
+        _ASLEEP,
+        f"{asleep[0]} is a lifecycle node: it does its work only when it has been configured and activated, and nobody "
+        "does that here (an ordinary Node needs none of it)",
+        "\n".join(steps),
+    )
+
+
+def _misplaced(trace: Trace, endpoints: Sequence[Endpoint], topic: str, type_name: str, create: str) -> Cause | None:
     here = [endpoint for endpoint in endpoints if endpoint.topic == topic]
     if here:
         return Cause(
             names.WRONG_TYPE,
             f"{topic} has the type {here[0].type}, not {type_name}",
-            f"give {create} the type {_class(type_name)}: from {type_name.split('/')[0]}.msg import "
+            _everywhere(read(trace), _class(here[0].type), _class(type_name))
+            or f"give {create} the type {_class(type_name)}: from {type_name.split('/')[0]}.msg import "
             f"{_class(type_name)}",
         )
     elsewhere = [endpoint for endpoint in endpoints if endpoint.type == type_name] or [
         endpoint for endpoint in endpoints if difflib.get_close_matches(endpoint.topic, [topic], cutoff=0.6)
     ]
-    return wrong_topic(elsewhere, topic, create) if elsewhere else None
+    return wrong_topic(elsewhere, topic, create, read(trace)) if elsewhere else None
+
+
+def _everywhere(source: Source, wrong: str, right: str) -> str | None:
+    """The step where a type is used throughout the file."""
+    lines = [str(number) for number in source.lines_with(wrong)]
+    return f"write {right} instead of {wrong}, everywhere in the file: line {', '.join(lines)}" if lines else None
 
 
 def _class(type_name: str) -> str:

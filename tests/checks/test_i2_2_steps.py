@@ -1,0 +1,219 @@
+"""I2.2: the next step in the words of the learner's own launch file."""
+
+from __future__ import annotations
+
+import pytest
+
+from checks.i2_2 import steps
+from checks.i2_2.causes import of_launch
+from tests.checks.made import trace
+from tutor.judge.reading import UNREAD, Source
+
+LAUNCH = """\
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument
+from launch.substitutions import LaunchConfiguration
+from launch_ros.actions import Node
+
+
+def generate_launch_description():
+    name = LaunchConfiguration('topic')
+    space = LaunchConfiguration('namespace')
+    talker = Node(package='demo_nodes_py', executable='talker', namespace=space, remappings=[('chatter', name)])
+    listener = Node(package='demo_nodes_py', executable='listener', namespace=space, remappings=[('chatter', name)])
+    return LaunchDescription([
+        DeclareLaunchArgument('topic', default_value='chatter'),
+        DeclareLaunchArgument('namespace', default_value=''),
+        talker,
+        listener,
+    ])
+"""
+REMAPPED = ", remappings=[('chatter', name)]"
+SPACED = ", namespace=space"
+DECLARED = "        DeclareLaunchArgument('namespace', default_value=''),\n"
+
+
+def changed(*pairs: tuple[str, str]) -> Source:
+    """The launch file with something of it written otherwise."""
+    code = LAUNCH
+    for old, new in pairs:
+        assert old in code
+        code = code.replace(old, new)
+    return Source(code)
+
+
+@pytest.mark.parametrize(
+    ("source", "cause", "step"),
+    [
+        (
+            changed((DECLARED, "")),
+            "launch argument not declared",
+            "(line 12) with: DeclareLaunchArgument('namespace', default_value='')",
+        ),
+        (
+            changed((DECLARED, ""), ("        listener,\n", "        listener,\n" + DECLARED)),
+            "launch argument not declared",
+            "move DeclareLaunchArgument('namespace', default_value='') to the front of the list",
+        ),
+        (
+            changed(("DeclareLaunchArgument('namespace'", "DeclareLaunchArgument('ns'")),
+            "launch argument not declared",
+            "line 14: DeclareLaunchArgument('namespace', default_value='')",
+        ),
+        (
+            changed((DECLARED, ""), ("    talker =", f"    declared = {DECLARED.strip().rstrip(',')}\n    talker =")),
+            "launch argument not declared",
+            "begin the list in LaunchDescription([...]) (line 13) with: declared",
+        ),
+        (
+            changed(("LaunchConfiguration('namespace')", "LaunchConfiguration('namespace').perform(LaunchContext())")),
+            "value read too early",
+            "line 9: space = LaunchConfiguration('namespace'), without .perform(...)",
+        ),
+    ],
+)
+def test_a_launch_configuration_that_does_not_exist(source: Source, cause: str, step: str) -> None:
+    """The launch says which one; the text of a substitution in its message is not the learner's doing."""
+    said = (
+        "[ERROR] [launch]: Caught exception in launch (see debug for traceback): launch configuration 'namespace' does "
+        "not exist\n<launch.substitutions.launch_configuration.LaunchConfiguration object at 0x7f0>"
+    )
+    found = of_launch(trace(err=said, sources={"node.py": source.text}))
+    assert found is not None
+    assert found.name == cause
+    assert step in found.hint
+
+
+@pytest.mark.parametrize(
+    ("source", "cause", "step"),
+    [
+        (
+            changed((REMAPPED, ", parameters=[{'topic': name}]")),
+            "topic given as a parameter",
+            "in lines 10 and 11, instead of parameters=...: remappings=[('chatter', name)]",
+        ),
+        (
+            changed(
+                (REMAPPED, ", parameters=[{'topic': LaunchConfiguration('topic')}]"), ("    name =", "    other =")
+            ),
+            "topic given as a parameter",
+            "remappings=[('chatter', other)]",
+        ),
+        (changed((REMAPPED, ", arguments=[name]")), "topic given as an argument", "instead of arguments=..."),
+        (
+            changed((REMAPPED, ", arguments=['--ros-args', '-r', 'chatter:=topic']")),
+            "topic hard-coded",
+            "instead of arguments=...: remappings=[('chatter', name)]",
+        ),
+        (
+            changed(("('chatter', name)", "('chatter', 'topic')")),
+            "topic hard-coded",
+            "in lines 10 and 11: remappings=[('chatter', name)]",
+        ),
+        (
+            changed(
+                (REMAPPED, ""),
+                ("        talker,", "        GroupAction([SetRemap('chatter', name)]),\n        talker,"),
+            ),
+            "remapping without effect",
+            "remove line 15, and give every Node(...) (lines 10 and 11) remappings=[('chatter', name)]",
+        ),
+    ],
+)
+def test_topic(source: Source, cause: str, step: str) -> None:
+    found = steps.topic(source, "chatter")
+    assert found is not None
+    assert found.name == cause, found
+    assert step in found.hint
+
+
+@pytest.mark.parametrize(
+    ("source", "cause", "step"),
+    [
+        (
+            changed((SPACED, ""), ("        listener,", "        listener,\n        PushRosNamespace(space),")),
+            "namespace not used",
+            "remove line 17, and give every Node(...) (lines 10 and 11) namespace=space",
+        ),
+        (changed((SPACED, ", namespace='robot1'")), "namespace not used", "in lines 10 and 11: namespace=space"),
+        (
+            changed((SPACED, ", name=[space, '_node']")),
+            "namespace not used",
+            "(lines 10 and 11) namespace=space, and leave it out of name=...",
+        ),
+    ],
+)
+def test_namespace(source: Source, cause: str, step: str) -> None:
+    found = steps.namespace(source)
+    assert found is not None
+    assert found.name == cause
+    assert step in found.hint
+
+
+@pytest.mark.parametrize(
+    ("source", "says", "step"),
+    [
+        (changed(("        listener,\n", "")), "listener (line 11)", "line 12: put listener into the list"),
+        (
+            changed(("        listener,\n", "        TimerAction(period=60.0, actions=[listener]),\n")),
+            "only after 60.0 s",
+            "put listener itself into the list in LaunchDescription([...]), instead of TimerAction(...) in line 16",
+        ),
+        (
+            changed(
+                (
+                    "        listener,\n",
+                    "        RegisterEventHandler(OnProcessExit(target_action=talker, on_exit=[listener])),\n",
+                )
+            ),
+            "when another process has ended",
+            "instead of RegisterEventHandler(...) in line 16",
+        ),
+    ],
+)
+def test_a_node_that_is_not_started(source: Source, says: str, step: str) -> None:
+    found = steps.missing(source, "subscriber")
+    assert found is not None
+    assert found.name == "no subscriber"
+    assert says in found.text
+    assert step in found.hint
+
+
+@pytest.mark.parametrize(
+    ("written", "step"),
+    [
+        ("f'/{name}'", "line 10: write name instead of f'/{name}'"),
+        ("'/' + str(name)", "line 10: write name instead of '/' + str(name)"),
+        ("'/'.join([space, name])", "line 10: write [space, '/', name] instead of"),
+    ],
+)
+def test_text_too_early(written: str, step: str) -> None:
+    assert step in str(steps.text_too_early(changed(("('chatter', name)", f"('chatter', {written})"))))
+
+
+def test_steps_that_name_a_line() -> None:
+    one = changed(("executable='listener', namespace=space, remappings=[('chatter', name)]", "executable='listener'"))
+    assert steps.other_node(one, "remappings", "R") == "in the Node in line 11: R"
+    assert steps.other_node(Source(LAUNCH), "remappings", "R") is None
+    both = changed(("executable='listener'", "executable='talker'"))
+    assert "line 11: executable='listener'" in str(steps.second_of_a_kind(both, "subscriber"))
+    assert steps.not_returned(changed(("    return Launch", "    Launch"))) == (
+        "line 12: put return in front of LaunchDescription([...])"
+    )
+    assert steps.other_name(changed(("'topic'", "'topic_name'")), "topic", ["topic_name"]) == (
+        "write 'topic' instead of 'topic_name', in line 8 and 13"
+    )
+    assert (
+        "line 13: DeclareLaunchArgument('topic', default_value='chatter')"
+        in steps.without_default(changed(("'topic', default_value='chatter'", "'topic'")), "topic").hint
+    )
+    assert "put talker and listener into the list" in str(
+        steps.nothing_listed(changed(("        talker,\n        listener,\n", "")))
+    )
+
+
+def test_what_cannot_be_read_leaves_the_plain_words() -> None:
+    assert steps.topic(UNREAD, "chatter") is None
+    assert steps.namespace(UNREAD) is None
+    assert steps.missing(UNREAD, "publisher") is None
+    assert steps.remapping(UNREAD, "chatter") == "remappings=[('chatter', LaunchConfiguration('topic'))]"

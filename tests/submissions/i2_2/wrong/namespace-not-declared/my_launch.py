@@ -1,0 +1,32 @@
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument
+from launch.substitutions import LaunchConfiguration
+from launch_ros.actions import Node
+
+
+def generate_launch_description():
+    topic = LaunchConfiguration('topic')
+    namespace = LaunchConfiguration('namespace')
+
+    talker = Node(
+        package='demo_nodes_py',
+        executable='talker',
+        name='talker',
+        namespace=namespace,
+        remappings=[('chatter', topic)],
+        output='screen',
+    )
+    listener = Node(
+        package='demo_nodes_py',
+        executable='listener',
+        name='listener',
+        namespace=namespace,
+        remappings=[('chatter', topic)],
+        output='screen',
+    )
+
+    return LaunchDescription([
+        DeclareLaunchArgument('topic', default_value='chatter'),
+        talker,
+        listener,
+    ])
