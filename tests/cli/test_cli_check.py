@@ -14,6 +14,7 @@ from tests.report.shape import assert_report_shape
 from tutor.content import load_course
 from tutor.engine import EngineError
 from tutor.judge.verdict import fault, skipped
+from tutor.tui.widgets.attempts import history
 from tutor.workspace import Progress, Workspace
 
 FILE = "ros_tutor_ws/src/my_package/my_package/temperature_publisher.py"
@@ -134,8 +135,24 @@ def test_some_criteria_only(run: Run, engine: FakeEngine, home: Path) -> None:
     run("start", "i1.1")
     run("check", "i1.1", "--criterion", "rate", "--criterion", "echo")
     assert engine.asked[-1][1] == frozenset({"rate", "echo"})
-    assert progress(home).of("i1.1").best is None
-    assert "some criteria only" in run("list").out
+    kept = progress(home).of("i1.1")
+    assert kept.best is None
+    assert kept.last is not None
+    assert kept.last.judged == ("echo", "rate")
+    assert "last check: passed, 2 of 2, some criteria only" in run("list").out
+
+
+def test_attempts_at_some_criteria_say_nothing_of_the_others(run: Run, engine: FakeEngine, home: Path) -> None:
+    run("start", "i1.1")
+    lesson = load_course().find("i1.1")
+    run("check", "i1.1", "--criterion", "rate")
+    engine.verdicts["rate"] = FAILURE
+    run("check", "i1.1", "--criterion", "rate")
+    shown = history(lesson, progress(home).of("i1.1"), most=5).plain
+    assert shown.count("not yet: rate  (only rate)") == 1
+    assert "0 of 1" in shown
+    assert "1 of 1" in shown
+    assert "publishes" not in shown
 
 
 def test_progress_that_cannot_be_kept_does_not_change_the_verdict(run: Run, engine: FakeEngine, home: Path) -> None:

@@ -14,7 +14,23 @@ WORKSPACE = ("--workspace", "ws")
 @pytest.mark.parametrize(
     ("argv", "message"),
     [
-        (["frobnicate"], "invalid choice: 'frobnicate'"),
+        (["frobnicate"], "there is no command 'frobnicate' (see `ros-tutor --help`)"),
+        (["chek", "i1.1"], "there is no command 'chek', did you mean check?"),
+        (["Lst"], "there is no command 'Lst', did you mean list?"),
+        (["help", "chek"], "there is no command 'chek', did you mean check?"),
+        (["check", "i1.1", "--critrion", "rate"], "unrecognized arguments: --critrion rate, did you mean --criterion?"),
+        (["check", "i1.1", "--format", "jsn"], "invalid choice: 'jsn', did you mean json?; choose from text, json"),
+        (["checklist", "tik", "timers"], "invalid choice: 'tik', did you mean tick?"),
+        (["check", "1.1"], "Did you mean i1.1?"),
+        (["start", "i1.1", "i1.2"], "start takes one exercise at a time: `ros-tutor start i1.2`"),
+        (["start", "i1.1", "I1_2"], "start takes one exercise at a time"),
+        (["list", "--workspace", "file.txt"], "cannot be your workspace: it is a file"),
+        (["start", "i1.1", "--workspace", "file.txt/ws"], "file.txt is a file"),
+        (["start", "i1.1", "--workspace", "/proc"], "/proc cannot be your workspace: nothing can be written"),
+        (["check", "i1.1", "--workspace", "/proc/ws"], "/proc/ws cannot be your workspace: nothing can be written"),
+        (["check", "i1.1", "file.txt"], "is no Python file; i1.1 is judged by temperature_publisher.py"),
+        (["check", "i2.2", "file.txt"], "is no Python file"),
+        (["checklist", "export", "--output", "x.docx"], "no format for .docx; the formats are markdown (.md), json"),
         (["check"], "the following arguments are required: EXERCISE"),
         (["check", "i1.1", "--format", "pdf"], "argument --format: invalid choice: 'pdf'"),
         (["check", "i1.1", "--frob"], "unrecognized arguments: --frob"),
@@ -45,13 +61,42 @@ WORKSPACE = ("--workspace", "ws")
         (["checklist", "tick", "timers"], "ticks are kept in a workspace"),
     ],
 )
-def test_wrong_usage_is_one_line_and_exit_code_2(run: Run, argv: list[str], message: str) -> None:
+def test_wrong_usage_is_one_line_and_exit_code_2(run: Run, home: Path, argv: list[str], message: str) -> None:
+    (home / "file.txt").write_text("read me\n")
     ran = run(*argv)
     assert ran.code == 2
     assert ran.out == ""
     assert message in ran.err
     assert ran.err.startswith("ros-tutor: ")
     assert ran.err.count("\n") == 1
+    assert [path.name for path in home.iterdir()] == ["file.txt"]
+
+
+def test_a_workspace_that_the_environment_names_is_looked_at_too(
+    run: Run, home: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (home / "file.txt").write_text("read me\n")
+    monkeypatch.setenv("ROS_TUTOR_WORKSPACE", str(home / "file.txt"))
+    ran = run("start", "i1.1")
+    assert (ran.code, ran.out) == (2, "")
+    assert "cannot be your workspace: it is a file" in ran.err
+
+
+def test_start_takes_a_folder_with_a_strange_name(run: Run, home: Path) -> None:
+    assert run("start", "i1.1", "./i1.2").code == 0
+    assert (home / "i1.2" / "temperature_publisher.py").is_file()
+
+
+def test_an_export_without_a_suffix_is_markdown(run: Run, home: Path) -> None:
+    assert run("checklist", "export", "--output", "mine").code == 0
+    assert (home / "mine").read_text().startswith("# ")
+    assert run("checklist", "export", "--format", "json", "--output", "mine.txt").code == 0
+
+
+def test_help_shows_all_or_one(run: Run) -> None:
+    assert run("help").out == run("--help").out
+    assert run("help", "check").out == run("check", "--help").out
+    assert run("help").code == run("help", "check").code == 0
 
 
 def test_without_a_terminal_the_app_says_so(run: Run) -> None:

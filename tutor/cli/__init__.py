@@ -30,7 +30,9 @@ def _run(argv: Sequence[str] | None) -> int:
     from tutor.cli import app
     from tutor.cli.errors import UsageError
     from tutor.cli.parser import parse
+    from tutor.invocation import tell_children
 
+    tell_children()
     arguments = parse(argv)
     if arguments.command is None:
         return app.run(arguments)

@@ -7,6 +7,7 @@ import sys
 
 from tutor.cli import context, terminal
 from tutor.cli.errors import UsageError
+from tutor.invocation import command
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -18,7 +19,7 @@ def run(arguments: argparse.Namespace) -> int:
         return talk(root, terminal.out, lessons)
     if not (terminal.is_terminal(sys.stdin) and terminal.is_terminal(sys.stdout)):
         raise UsageError(
-            "the app needs a terminal; without one, use a command (`ros-tutor --help` names them) or --plain"
+            f"the app needs a terminal; without one, use a command (`{command('help')}` names them) or --plain"
         )
     from tutor.tui import run
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from tutor.cli import context, terminal
 from tutor.cli.errors import PASSED, UsageError
+from tutor.invocation import command
 
 if TYPE_CHECKING:
     from tutor.content import Checklist, Course
@@ -39,7 +40,9 @@ def run(arguments: argparse.Namespace) -> int:
         for item in arguments.items:
             _prove_known(item, course.checklist)
         if not workspace.exists:
-            raise UsageError("ticks are kept in a workspace, and there is none yet; `ros-tutor start i1.1` makes one")
+            raise UsageError(
+                f"ticks are kept in a workspace, and there is none yet; `{command('start', 'i1.1')}` makes one"
+            )
         ticked = arguments.action == "tick"
         progress = workspace.progress(terminal.say).change(lambda before: _with_ticks(before, arguments.items, ticked))
     else:
@@ -52,13 +55,19 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _prove_fitting(arguments: argparse.Namespace) -> None:
+    from tutor.report.checklist import SUFFIXES, format_of
+
     takes_items = arguments.action in ("tick", "untick")
     if takes_items and not arguments.items:
-        raise UsageError(f"checklist {arguments.action} needs an ITEM; `ros-tutor checklist` shows them")
+        raise UsageError(f"checklist {arguments.action} needs an ITEM; `{command('checklist')}` shows them")
     if arguments.items and not takes_items:
         raise UsageError(f"checklist {arguments.action} takes no ITEM")
     if arguments.action != "export" and (arguments.format or arguments.output):
         raise UsageError("--format and --output go with `checklist export`")
+    output = arguments.output
+    if output is not None and output.suffix and arguments.format is None and format_of(output) is None:
+        known = ", ".join(f"{format} ({suffix})" for format, suffix in SUFFIXES.items())
+        raise UsageError(f"--output {output}: there is no format for {output.suffix}; the formats are {known}")
 
 
 def _prove_known(item: str, checklist: Checklist) -> None:
@@ -67,7 +76,7 @@ def _prove_known(item: str, checklist: Checklist) -> None:
         return
     near = get_close_matches(item.lower(), known, n=1)
     guess = f" Did you mean {near[0]}?" if near else ""
-    raise UsageError(f"there is no checklist item {item!r}.{guess} `ros-tutor checklist` shows them all")
+    raise UsageError(f"there is no checklist item {item!r}.{guess} `{command('checklist')}` shows them all")
 
 
 def _with_ticks(progress: Progress, items: list[str], ticked: bool) -> Progress:
@@ -93,7 +102,7 @@ def _show(course: Course, progress: Progress) -> str:
         lines += [""]
     if assessment.ready:
         lines += [terminal.style(assessment.ready_title, "1", sys.stdout), *_wrapped(assessment.ready_text), ""]
-    lines += [f"{assessment.ticked} of {len(items)} ticked. To tick one: ros-tutor checklist tick ITEM"]
+    lines += [f"{assessment.ticked} of {len(items)} ticked. To tick one: {command('checklist', 'tick', 'ITEM')}"]
     return "\n".join(lines) + "\n"
 
 

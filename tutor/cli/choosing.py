@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from tutor.cli.errors import UsageError
+from tutor.invocation import command
 from tutor.judge.result import CriterionResult, ExerciseResult, Report
 from tutor.judge.submission import Submission
 from tutor.judge.verdict import Status, Verdict
@@ -78,7 +79,7 @@ def with_missing(
 
 def _missing(lesson: Lesson, why: str) -> ExerciseResult:
     names = ", ".join(file.name for file in lesson.files if file.required)
-    hint = f"`ros-tutor start {lesson.id}` puts the skeleton into the workspace" if why == NOT_STARTED else ""
+    hint = f"`{command('start', lesson.id)}` puts the skeleton into the workspace" if why == NOT_STARTED else ""
     verdict = Verdict(Status.SKIPPED, expected=names, cause=why, hint=hint)
     return ExerciseResult(
         id=lesson.id,

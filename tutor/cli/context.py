@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import argparse
+import os
 from typing import TYPE_CHECKING
 
 from tutor.cli import terminal
 from tutor.cli.errors import UsageError
+from tutor.invocation import command
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -26,17 +28,41 @@ def load_course(arguments: argparse.Namespace) -> Course:
 
 
 def place(arguments: argparse.Namespace) -> Workspace:
-    """The workspace to use, whether it exists or not."""
+    """The workspace to use, whether it exists or not. Raises UsageError where one is named that can never be one."""
+    found = anywhere(arguments)
+    named = getattr(arguments, "workspace", None) is not None or os.environ.get("ROS_TUTOR_WORKSPACE")
+    if named and not found.exists and (why := _cannot_be_made(found.root)):
+        raise UsageError(f"{found.root} cannot be your workspace: {why}; name another folder with --workspace DIR")
+    return found
+
+
+def anywhere(arguments: argparse.Namespace) -> Workspace:
+    """The workspace as `place` gives it, even where it can never be one."""
     from tutor.workspace import Workspace, find_workspace
 
     return Workspace(find_workspace(getattr(arguments, "workspace", None)))
+
+
+def _cannot_be_made(root: Path) -> str:
+    """Why no workspace can be made at `root`; empty where it can."""
+    import tempfile
+
+    nearest = next(folder for folder in (root, *root.parents) if os.path.lexists(folder))
+    if not nearest.is_dir():
+        return "it is a file" if nearest == root else f"{nearest} is a file"
+    try:
+        with tempfile.NamedTemporaryFile(dir=nearest, prefix=".ros-tutor-"):  # permissions do not tell of /proc
+            return ""
+    except OSError as error:
+        return f"nothing can be written to {nearest} ({error.strerror})"
 
 
 def workspace(arguments: argparse.Namespace) -> Workspace:
     """The workspace to use. It may not exist yet, unless it was named: then UsageError says that it is none."""
     found = place(arguments)
     if getattr(arguments, "workspace", None) is not None and not found.exists:
-        raise UsageError(f"{found.root} is no workspace; `ros-tutor start i1.1 --workspace {found.root}` makes it one")
+        make = command("start", "i1.1", "--workspace", found.root)
+        raise UsageError(f"{found.root} is no workspace; `{make}` makes it one")
     return found
 
 

@@ -19,7 +19,7 @@ def run(arguments: argparse.Namespace) -> int:
     """Print one finding to a line, each with its mend; exit code 3 where something is wrong."""
     from tutor.doctor import examine
 
-    findings = examine(context.place(arguments).root)
+    findings = examine(context.anywhere(arguments).root)
     width = max((len(finding.name) for finding in findings), default=0)
     for finding in findings:
         mark, word, color = _MARKS[finding.ok]

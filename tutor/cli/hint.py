@@ -7,6 +7,7 @@ import sys
 
 from tutor.cli import context, terminal
 from tutor.cli.errors import PASSED
+from tutor.invocation import command
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -28,13 +29,13 @@ def run(arguments: argparse.Namespace) -> int:
         terminal.out(_hint(1, lesson.hints))
         terminal.say(
             f"without a workspace, nobody remembers which hints you have seen; "
-            f"`ros-tutor start {lesson.id}` makes one, `ros-tutor hint {lesson.id} --all` shows them all"
+            f"`{command('start', lesson.id)}` makes one, `{command('hint', lesson.id, '--all')}` shows them all"
         )
     else:
         number, again = workspace.progress(terminal.say).next_hint(lesson.id, of=of)
         terminal.out(_hint(number, lesson.hints))
         if again:
-            terminal.say(f"that was the last hint, again; `ros-tutor solution {lesson.id}` shows our solution")
+            terminal.say(f"that was the last hint, again; `{command('solution', lesson.id)}` shows our solution")
     return PASSED
 
 

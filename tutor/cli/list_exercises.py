@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from tutor.cli import context, terminal
 from tutor.cli.errors import PASSED
+from tutor.invocation import command
 
 if TYPE_CHECKING:
     from tutor.content import Lesson
@@ -38,7 +39,9 @@ def run(arguments: argparse.Namespace) -> int:
         lines += [f"Your nodes run in ROS domain {domain_of(workspace)}."]
     terminal.out("\n".join(lines) + "\n")
     if not workspace.exists:
-        terminal.say(f"there is no workspace yet; `ros-tutor start` makes one at {workspace.root}")
+        terminal.say(
+            f"there is no workspace yet; `{command('start', course.lessons[0].id)}` makes one at {workspace.root}"
+        )
     return PASSED
 
 
@@ -63,7 +66,7 @@ def _last(lesson: Lesson, progress: ExerciseProgress) -> str:
     last = progress.last
     if last is None:
         return ""
-    required = [criterion.id for criterion in lesson.criteria if not criterion.bonus]
+    required = last.asked(criterion.id for criterion in lesson.criteria if not criterion.bonus)
     count = f"{sum(criterion in last.passed for criterion in required)} of {len(required)}"
     partly = "" if last.whole else ", some criteria only"
     return f"last check: {last.verdict.value}, {count}{partly} ({_day(last.at)})"
@@ -79,7 +82,7 @@ def _day(at: str) -> str:
 def _next(lessons: tuple[Lesson, ...], words: dict[str, str]) -> str:
     for lesson in lessons:
         if words[lesson.id] == "not started":
-            return f" Next: ros-tutor start {lesson.id}"
+            return f" Next: {command('start', lesson.id)}"
         if words[lesson.id] != "passed":
-            return f" Next: ros-tutor check {lesson.id}"
-    return " You have done them all: ros-tutor checklist"
+            return f" Next: {command('check', lesson.id)}"
+    return f" You have done them all: {command('checklist')}"

@@ -3,13 +3,28 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from difflib import get_close_matches
 from pathlib import Path
 from typing import Any, NoReturn
 
 from tutor import __version__
-from tutor.cli import author, check, checklist, doctor, hint, list_exercises, ros2, serve, shell, solution, start
+from tutor.cli import (
+    author,
+    check,
+    checklist,
+    doctor,
+    help_command,
+    hint,
+    list_exercises,
+    ros2,
+    serve,
+    shell,
+    solution,
+    start,
+)
 from tutor.cli.errors import UsageError
+from tutor.invocation import program
 
 Run = Callable[[argparse.Namespace], int]
 
@@ -22,6 +37,16 @@ class _Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         raise UsageError(f"{message} (see `{self.prog} --help`)")
+
+    # argparse's own message lists everything there is, and guesses nothing.
+    def _check_value(self, action: argparse.Action, value: Any) -> None:
+        known = None if action.choices is None else [str(choice) for choice in action.choices]
+        if known is None or value in known:
+            return
+        guess = did_you_mean(str(value), known)
+        if isinstance(action, argparse._SubParsersAction):
+            self.error(f"there is no command {value!r}{guess}")
+        raise argparse.ArgumentError(action, f"invalid choice: {value!r}{guess}; choose from {', '.join(known)}")
 
 
 class _Command(_Parser):
@@ -50,13 +75,33 @@ exit codes: 0 passed, 1 not everything passed, 2 wrong usage, 3 a fault of the t
 
 def parse(argv: Sequence[str] | None) -> argparse.Namespace:
     """Read the command line. `command` is None where there is none. Raises UsageError."""
-    return _build().parse_args(argv)
+    parser = build()
+    arguments, unknown = parser.parse_known_args(argv)
+    if unknown:
+        used = command_parsers(parser).get(arguments.command, parser)
+        options = [option for action in used._actions for option in action.option_strings]
+        guess = did_you_mean(unknown[0].partition("=")[0], options) if unknown[0].startswith("-") else ""
+        used.error(f"unrecognized arguments: {' '.join(unknown)}{guess}")
+    return arguments
 
 
-def _build() -> _Parser:
+def did_you_mean(word: str, known: Iterable[str]) -> str:
+    """What was probably meant, as the end of a sentence; empty where nothing is near."""
+    near = get_close_matches(word.lower(), list(known), n=1)
+    return f", did you mean {near[0]}?" if near else ""
+
+
+def command_parsers(parser: argparse.ArgumentParser) -> dict[str, argparse.ArgumentParser]:
+    """The parser of each command, by its name."""
+    subparsers = next(action for action in parser._actions if isinstance(action, argparse._SubParsersAction))
+    return dict(subparsers.choices)
+
+
+def build() -> argparse.ArgumentParser:
+    """The parser of the whole command line."""
     everywhere = _global_options()
     parser = _Parser(
-        prog="ros-tutor",
+        prog=program(),
         description="Hands-on ROS 2 exercises, judged by what your node really does.",
         epilog=_EPILOG,
         parents=[everywhere],
@@ -82,6 +127,7 @@ def _build() -> _Parser:
     add("shell", shell.run, shell.add_arguments, "a shell in which ros2 works and your workspace is sourced")
     add("ros2", ros2.run, ros2.add_arguments, "the ros2 command, also without an installed ROS 2")
     add("doctor", doctor.run, doctor.add_arguments, "say what ROS is used, and what is wrong with the machine")
+    add("help", help_command.run, help_command.add_arguments, "show what a command takes, or all commands")
     add("author", author.run, author.add_arguments, "prove a course right, for those who write one")
     return parser
 

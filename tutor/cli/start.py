@@ -6,14 +6,15 @@ import argparse
 from pathlib import Path
 
 from tutor.cli import context, terminal
-from tutor.cli.errors import PASSED
+from tutor.cli.errors import PASSED, UsageError
+from tutor.invocation import command
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """EXERCISE [DIR] [--force]."""
     parser.add_argument("exercise", metavar="EXERCISE", help="for example i1.1")
     parser.add_argument(
-        "folder", metavar="DIR", nargs="?", type=Path, help="put just the files there, instead of into the workspace"
+        "folder", metavar="DIR", nargs="?", help="put just the files there, instead of into the workspace"
     )
     parser.add_argument(
         "--force", action="store_true", help="replace files that are there; each is kept beside, as name.~1~"
@@ -24,16 +25,22 @@ def run(arguments: argparse.Namespace) -> int:
     """Put the files in place and say where they are."""
     from tutor.workspace import start, start_in
 
-    lesson = context.load_course(arguments).find(arguments.exercise)
+    course = context.load_course(arguments)
+    lesson = course.find(arguments.exercise)
     if arguments.folder is None:
         workspace = context.place(arguments)
         started = start(lesson, workspace, force=arguments.force)
         if started.created_workspace:
             terminal.out(f"Created your workspace: {workspace.root}\n")
-        check = f"ros-tutor check {lesson.id}"
+        check = command("check", lesson.id)
     else:
-        started = start_in(lesson, arguments.folder, force=arguments.force)
-        check = f"ros-tutor check {lesson.id} {arguments.folder}"
+        if course.knows(arguments.folder):
+            raise UsageError(
+                f"start takes one exercise at a time: `{command('start', arguments.folder)}` starts the other one "
+                f"(a folder of that name is ./{arguments.folder})"
+            )
+        started = start_in(lesson, Path(arguments.folder), force=arguments.force)
+        check = command("check", lesson.id, arguments.folder)
 
     lines = [f"{lesson.id} {lesson.title} ({lesson.difficulty.value}): {lesson.objective.strip()}"]
     lines += [f"  to edit        {context.shown(path)}" for path in started.files.written]

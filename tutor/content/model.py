@@ -120,8 +120,16 @@ class Course:
 
         Raises UnknownExercise where there is none.
         """
-        wanted = text.strip().lower().replace("_", ".")
+        wanted = _id_of(text)
         for lesson in self.lessons:
             if lesson.id == wanted:
                 return lesson
         raise UnknownExercise(text, [lesson.id for lesson in self.lessons])
+
+    def knows(self, text: str) -> bool:
+        """Whether `find` would find a lesson."""
+        return any(lesson.id == _id_of(text) for lesson in self.lessons)
+
+
+def _id_of(text: str) -> str:
+    return text.strip().lower().replace("_", ".")

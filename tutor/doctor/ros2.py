@@ -21,7 +21,8 @@ REQUIRED_WHEELS = (
     "ros-jazzy-domain-coordinator",
 )
 _REINSTALL = (
-    "Install ros-tutor anew: uv tool install --reinstall --python 3.12 ros-tutor (in a clone: uv sync --reinstall)"
+    "Install ros-tutor again: uv tool install --reinstall --python 3.12 ros-tutor "
+    "(in a clone: ./.ci/uv sync --reinstall)"
 )
 _SOURCE_ANEW = (
     "Open a new terminal and source ROS 2 Jazzy alone (source /opt/ros/jazzy/setup.bash), or no ROS at all; "

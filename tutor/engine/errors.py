@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from tutor.invocation import command
+
 
 class EngineError(RuntimeError):
     """A check could not be carried out. `mend` says what to do about it."""
 
-    def __init__(self, what: str, mend: str = "run `ros-tutor doctor` to see what is wrong with this machine") -> None:
+    def __init__(self, what: str, mend: str = "") -> None:
         super().__init__(what)
-        self.mend = mend
+        self.mend = mend or f"run `{command('doctor')}` to see what is wrong with this machine"

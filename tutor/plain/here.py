@@ -64,7 +64,7 @@ class Here:
         if known.best is Status.PASSED:
             return "passed"
         if known.last is not None:
-            required = [criterion.id for criterion in lesson.criteria if not criterion.bonus]
+            required = known.last.asked(criterion.id for criterion in lesson.criteria if not criterion.bonus)
             met = sum(id in known.last.passed for id in required)
             return f"not passed yet, {met} of {len(required)} criteria passed in the last check"
         return "started" if known.started_at else "not started"

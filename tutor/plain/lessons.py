@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from tutor.content import Lesson
+from tutor.invocation import as_started
 from tutor.judge.verdict import Status
 from tutor.plain import speech
 from tutor.plain.here import Command, Here, Refused, short
@@ -56,7 +57,7 @@ class Lessons:
     async def read(self, words: list[str]) -> None:
         """All of the text, or one section."""
         lesson = self._here.lesson
-        found = speech.sections(lesson.body)
+        found = speech.sections(as_started(lesson.body))
         if words:
             number = int(words[0]) if words[0].isdecimal() else 0
             if not 1 <= number <= len(found):
@@ -122,4 +123,4 @@ class Lessons:
 
 
 def _in_a_line(markdown: str) -> str:
-    return " ".join(line for section in speech.sections(markdown) for line in section.lines)
+    return " ".join(line for section in speech.sections(as_started(markdown)) for line in section.lines)

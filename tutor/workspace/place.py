@@ -34,8 +34,7 @@ class Workspace:
 
     def path_of(self, name: str) -> Path:
         """Where the exercise file `name` belongs: launch files in `launch/`, everything else among the modules."""
-        is_launch_file = name.endswith(("_launch.py", ".launch.py"))
-        return self.package / ("launch" if is_launch_file else PACKAGE) / name
+        return self.package / ("launch" if is_launch_file(name) else PACKAGE) / name
 
     def progress(self, notify: Callable[[str], None] = to_stderr) -> ProgressFile:
         """The progress file; `notify` is told in one line if a damaged one had to be set aside."""
@@ -44,6 +43,11 @@ class Workspace:
     def app_state(self, notify: Callable[[str], None] = to_stderr) -> AppStateFile:
         """What the app remembers; `notify` is told in one line if a damaged file had to be set aside."""
         return AppStateFile(self.root / MARKER / "app.json", notify)
+
+
+def is_launch_file(name: str) -> bool:
+    """Whether an exercise's file is a launch file, by its name."""
+    return name.endswith(("_launch.py", ".launch.py"))
 
 
 def find_workspace(explicit: Path | None = None) -> Path:

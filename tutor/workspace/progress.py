@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass, field, replace
 from datetime import UTC, datetime
 from typing import Any
@@ -20,13 +20,19 @@ MOST_ATTEMPTS = 200
 class Attempt:
     """One check of the workspace's own files. `at` is a UTC time in ISO 8601.
 
-    `passed` holds the ids of the criteria that passed; `whole` is False where only some criteria were asked for.
+    `passed` holds the ids of the criteria that passed; `whole` is False where only some criteria were asked for, which
+    are `judged` (empty where all were).
     """
 
     at: str
     verdict: Status
     passed: tuple[str, ...]
     whole: bool = True
+    judged: tuple[str, ...] = ()
+
+    def asked(self, criteria: Iterable[str]) -> list[str]:
+        """Those of these criteria that were judged."""
+        return [id for id in criteria if self.whole or id in self.judged or id in self.passed]
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,7 +75,9 @@ class Progress:
         if result.verdict is Status.ERROR:
             return self
         before = self.of(result.id)
-        attempt = Attempt(now(), result.verdict, tuple(c.id for c in result.criteria if c.verdict.passed), whole)
+        passed = tuple(c.id for c in result.criteria if c.verdict.passed)
+        judged = () if whole else tuple(c.id for c in result.criteria)
+        attempt = Attempt(now(), result.verdict, passed, whole, judged)
         best = result.verdict if whole and before.best is not Status.PASSED else before.best
         attempts = (*before.attempts, attempt)[-MOST_ATTEMPTS:]
         started_at = before.started_at or attempt.at
@@ -132,7 +140,8 @@ def _exercise(fields: dict[str, Any]) -> ExerciseProgress:
 
 def _attempt(fields: dict[str, Any]) -> Attempt:
     passed = tuple(_text(criterion) for criterion in fields["passed"])
-    return Attempt(_text(fields["at"]), _status(fields["verdict"]), passed, bool(fields["whole"]))
+    judged = tuple(_text(criterion) for criterion in fields.get("judged", ()))  # not there in files of before
+    return Attempt(_text(fields["at"]), _status(fields["verdict"]), passed, bool(fields["whole"]), judged)
 
 
 def _status(value: Any) -> Status:

@@ -8,9 +8,10 @@ from difflib import get_close_matches
 from pathlib import Path
 
 from tutor.content import Lesson, LessonFile
+from tutor.invocation import command
 from tutor.judge.submission import Submission
 from tutor.workspace.errors import SubmissionError
-from tutor.workspace.place import Workspace
+from tutor.workspace.place import Workspace, is_launch_file
 
 
 def find_submission(lesson: Lesson, path: Path | None, workspace: Workspace | None) -> Submission:
@@ -32,8 +33,16 @@ def find_submission(lesson: Lesson, path: Path | None, workspace: Workspace | No
     if not path.exists():
         raise SubmissionError(f"there is no file or folder {path}{_similar(path.name, path.parent)}")
     names = [file.name for file in lesson.files]
+    if path.is_file() and path.suffix.lower() not in _suffixes(names):
+        raise SubmissionError(f"{path} is no Python file; {lesson.id} is judged by {' and '.join(names)}")
     stands_for = path.name if path.name in names else names[0]
     return _submission(lesson, {name: path if name == stands_for else path.parent / name for name in names})
+
+
+def _suffixes(names: Iterable[str]) -> tuple[str, ...]:
+    """Those that a file may have which stands for one of these: a program may have none at all."""
+    more = (".xml", ".yaml", ".yml") if any(map(is_launch_file, names)) else ()
+    return ".py", "", *more
 
 
 def is_started(lesson: Lesson, path: Path | None, workspace: Workspace | None) -> bool:
@@ -60,7 +69,7 @@ def _of_workspace(lesson: Lesson, workspace: Workspace | None) -> Submission:
     if workspace is None or not workspace.exists:
         where = "here" if workspace is None else f"at {workspace.root}"
         raise SubmissionError(
-            f"there is no workspace {where} yet: `ros-tutor start {lesson.id}` creates it, "
+            f"there is no workspace {where} yet: `{command('start', lesson.id)}` creates it, "
             f"or name the file or folder to check"
         )
     return _submission(lesson, {file.name: workspace.path_of(file.name) for file in lesson.files}, workspace)
@@ -79,7 +88,7 @@ def _submission(lesson: Lesson, places: dict[str, Path], workspace: Workspace | 
 def _missing(lesson: Lesson, file: LessonFile, place: Path, workspace: Workspace | None) -> str:
     similar = _similar(file.name, place.parent, known=(other.name for other in lesson.files))
     if workspace is not None:
-        advice = similar or f"; `ros-tutor start {lesson.id}` puts the skeleton there"
+        advice = similar or f"; `{command('start', lesson.id)}` puts the skeleton there"
         return f"{lesson.id} needs {file.name}, and {place} is not there{advice}"
     if not similar and not any(place.parent.iterdir()):
         return f"{lesson.id} needs {file.name}, but the folder {place.parent} is empty"

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from tutor.content import Lesson
+from tutor.invocation import command
 from tutor.judge.events import ExerciseJudged
 from tutor.judge.verdict import Status
 from tutor.tui import messages
@@ -16,7 +17,8 @@ from tutor.tui.findings import Findings
 from tutor.tui.screens.stage import Deed, Stage
 
 CRASHED = (
-    "This is a fault of ros-tutor or of the machine, not of your code. Check again; if it stays, run: ros-tutor doctor"
+    "This is a fault of ros-tutor or of the machine, not of your code. Check again; if it stays, run: "
+    f"{command('doctor')}"
 )
 
 

@@ -30,18 +30,21 @@ def history(lesson: Lesson, progress: ExerciseProgress, *, most: int) -> Content
 
 
 def _line(attempt: Attempt, required: list[str]) -> Content:
-    met = sum(id in attempt.passed for id in required)
-    full = round(BAR * met / max(1, len(required)))
+    asked = attempt.asked(required)
+    met = sum(id in attempt.passed for id in asked)
+    full = round(BAR * met / max(1, len(asked)))
     passed = attempt.verdict is Status.PASSED
     ink = words.INKS[attempt.verdict]
-    missed = [id for id in required if id not in attempt.passed]
-    about = "" if passed else f"  not yet: {', '.join(missed)}"
+    missed = [id for id in asked if id not in attempt.passed]
+    about = "" if passed or not missed else f"  not yet: {', '.join(missed)}"
+    if not attempt.whole:
+        about += f"  (only {', '.join(attempt.judged or asked)})"
     return Content.assemble(
         (f"{when(attempt.at)}  ", "$quiet"),
         (f"{words.MARKS[attempt.verdict]} ", f"bold {ink}"),
         ("━" * full, ink),
         ("━" * (BAR - full), "$line"),
-        f" {met} of {len(required)}",
+        f" {met} of {len(asked)}",
         (about, "$quiet"),
     )
 

@@ -1,0 +1,27 @@
+"""`ros-tutor help`: what there is, or what one command takes."""
+
+from __future__ import annotations
+
+import argparse
+
+from tutor.cli import terminal
+from tutor.cli.errors import PASSED, UsageError
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """[COMMAND]."""
+    parser.add_argument("topic", metavar="COMMAND", nargs="?", help="for example check (else all commands)")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Print what `--help` prints there."""
+    from tutor.cli.parser import build, command_parsers, did_you_mean
+
+    parser = build()
+    if arguments.topic is not None:
+        known = command_parsers(parser)
+        if arguments.topic not in known:
+            raise UsageError(f"there is no command {arguments.topic!r}{did_you_mean(arguments.topic, known)}")
+        parser = known[arguments.topic]
+    terminal.out(parser.format_help())
+    return PASSED
