@@ -197,3 +197,44 @@ def test_the_hint_behind_a_line_of_a_traceback_is_never_broken() -> None:
         assert any("← g or click" in row for row in rows)
         assert all(len(row) <= 80 for row in rows)
         assert sum(row.count("x") for row in rows) == length
+
+
+CRASHES = """\
+import sys
+for number in range(60):
+    print("line", number, flush=True)
+def tick(depth):
+    tick(depth - 1) if depth else int("no number")
+sys.setrecursionlimit(400)
+tick(12)
+"""
+
+
+@pytest.mark.parametrize("size", [(120, 36), (80, 24)])
+async def test_after_a_crash_the_exceptions_last_line_is_in_sight(learner: Any, size: Any) -> None:
+    async with learner(size) as me:
+        me.file.write_text(CRASHES)
+        await me.press("r")
+        await me.sees("following", "ValueError: invalid literal", "ended by itself with exit code 1")
+
+
+@pytest.mark.parametrize("size", [(120, 36), (80, 24)])
+async def test_a_log_that_fills_while_its_page_is_hidden_is_followed_all_the_same(learner: Any, size: Any) -> None:
+    async with learner(size) as me:
+        go = me.file.with_name("go")
+        me.file.write_text(f"import os, time\nwhile not os.path.exists({str(go)!r}):\n    time.sleep(0.05)\n" + CRASHES)
+        await me.press("r")
+        await me.sees("● running")
+        await me.press("1")
+        await me.sees("Objective")
+        go.touch()
+        await me.until(lambda: me.node.state.phase is Phase.ENDED)
+        await me.pilot.pause()
+        await me.press("3")
+        await me.sees("following", "ValueError: invalid literal", "ended by itself with exit code 1")
+        await me.press("home")
+        await me.sees("scrolled up: End follows", "line 0")
+        await me.press("1", "3")
+        await me.sees("scrolled up: End follows", "line 0")
+        await me.press("end")
+        await me.sees("following", "ValueError: invalid literal")

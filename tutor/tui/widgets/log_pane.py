@@ -64,6 +64,7 @@ class LogPane(Vertical):
         self.text = ""
         self.paused = False
         self._cleared_at = 0.0
+        self._shown = self._every = 0
         self._state: NodeState | None = None
         self._lines: list[loglines.LogLine] = []
         self._frozen: NodeState | None = None
@@ -146,6 +147,10 @@ class LogPane(Vertical):
         self.add_class("-filtering")
         self.query_one(Input).focus()
 
+    @on(LogView.Followed)
+    def _show_following(self) -> None:
+        self._show_tools()
+
     @on(Input.Changed, "#log-filter")
     def _filtered(self, event: Input.Changed) -> None:
         event.stop()
@@ -194,16 +199,21 @@ class LogPane(Vertical):
             mark, kind = ("!", "error") if state.failed else ("■", "quiet")
             at = time.strftime("%H:%M:%S", time.localtime(state.ended_at))
             tail = ((f" {mark}      {at}  ", kind), (f"{state.file}: {state.note}", kind))
+        self._shown, self._every = len(lines), len(every)
         self.query_one(LogView).show_log(lines, head, tail)
-        self.query_one("#log-tools", Static).update(self._tools(len(lines), len(every)))
+        self._show_tools()
+
+    def _show_tools(self) -> None:
+        self.query_one("#log-tools", Static).update(self._tools(self._shown, self._every))
 
     def _tools(self, shown: int, every: int) -> Content:
+        following = "following" if self.query_one(LogView).following else "scrolled up: End follows"
         level = "all levels" if self.level is LEVELS[0] else f"{self.level.name} and above"
         parts: list[Content | str | tuple[str, str]] = []
         for key, name, text in (
             ("m", "level", level),
             ("/", "filter", f"'{self.text}'" if self.text else "filter"),
-            ("Space", "pause", "paused: go on" if self.paused else "following"),
+            ("Space", "pause", "paused: go on" if self.paused else following),
             ("x", "clear", "clear"),
         ):
             on = (name == "pause" and self.paused) or (name == "filter" and self.text)

@@ -10,6 +10,7 @@ from typing import ClassVar
 from rich.cells import cell_len, chop_cells
 from textual import events
 from textual.binding import BindingType
+from textual.message import Message
 
 from tutor.judge.trace import Level
 from tutor.tui.commands import local
@@ -22,7 +23,10 @@ UNBROKEN = 16
 
 
 class LogView(LineView):
-    """Follows the end of the log, unless the learner has scrolled up or has paused it."""
+    """Follows the end of the log, also while it is hidden, unless the learner has scrolled up or has paused it."""
+
+    class Followed(Message):
+        """It follows the end now, or does no longer."""
 
     BINDINGS: ClassVar[list[BindingType]] = local("run stop")
     COMPONENT_CLASSES: ClassVar[set[str]] = {
@@ -43,6 +47,7 @@ class LogView(LineView):
 
     def __init__(self, id: str | None = None) -> None:
         super().__init__(id=id)
+        self.following = True
         self.own: Sequence[Path] = ()
         """The learner's own files: lines that name them can be clicked."""
         self._lines: Sequence[LogLine] = ()
@@ -55,8 +60,15 @@ class LogView(LineView):
         self._lines, self._head, self._tail = lines, head, tail
         self._lay_out()
 
+    def watch_scroll_y(self, old_value: float, new_value: float) -> None:
+        """Whoever scrolls up wants to stay there; at the end it follows again."""
+        super().watch_scroll_y(old_value, new_value)
+        if self.following != (at_end := self.is_vertical_scroll_end):
+            self.following = at_end
+            self.post_message(self.Followed())
+
     def on_resize(self, event: events.Resize) -> None:
-        """Wrap anew."""
+        """Wrap it for the new width."""
         self._lay_out()
 
     def on_click(self, event: events.Click) -> None:
@@ -67,7 +79,6 @@ class LogView(LineView):
             self.post_message(GoToLine(*place))
 
     def _lay_out(self) -> None:
-        at_end = self.is_vertical_scroll_end or not self.rows
         width = max(20, self.scrollable_content_region.width)
         rows: list[Row] = []
         places: list[tuple[Path, int] | None] = []
@@ -86,7 +97,7 @@ class LogView(LineView):
             add(self._tail)
         self._places = places
         self.show_rows(rows)
-        if at_end:
+        if self.following:
             self.scroll_end(animate=False, immediate=True, x_axis=False)
 
 
