@@ -9,11 +9,15 @@ from tutor.content import Lesson
 from tutor.judge.events import CheckFinished, CheckStarted, CriterionJudged, Event, ExerciseJudged, Progress
 from tutor.judge.result import CriterionResult, ExerciseResult
 from tutor.judge.verdict import Verdict, fault
+from tutor.workspace import ExerciseProgress
 
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """One criterion: how far its check is (`fraction`, 0 to 1), what is being done, and in the end its verdict."""
+    """One criterion: how far its check is (`fraction`, 0 to 1), what is being done, and in the end its verdict.
+
+    `before`: whether the last check met it, of those made before the app was started; None where there was none.
+    """
 
     id: str
     text: str
@@ -23,17 +27,24 @@ class Finding:
     doing: str = ""
     verdict: Verdict | None = None
     duration_s: float = 0.0
+    before: bool | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class Findings:
-    """All criteria of one exercise, in the order to show them. `note` says why there is no result, if there is none."""
+    """All criteria of one exercise, in the order to show them. `note` says why there is no result, if there is none.
+
+    `outdated`: the learner's code is no longer what was checked. `before` is when it was last checked before the app
+    was started, as the progress file has it; empty where it was not.
+    """
 
     exercise: str
     criteria: tuple[Finding, ...]
     checking: bool = False
     result: ExerciseResult | None = None
     note: str = ""
+    outdated: bool = False
+    before: str = ""
 
     @classmethod
     def of(cls, lesson: Lesson) -> Findings:
@@ -53,8 +64,15 @@ class Findings:
 
     def begun(self) -> Findings:
         """A check begins: what an earlier one found is gone."""
-        fresh = tuple(Finding(f.id, f.text, f.bonus, checking=True) for f in self.criteria)
-        return Findings(self.exercise, fresh, checking=True)
+        fresh = tuple(Finding(f.id, f.text, f.bonus, checking=True, before=f.before) for f in self.criteria)
+        return Findings(self.exercise, fresh, checking=True, before=self.before)
+
+    def remembering(self, progress: ExerciseProgress) -> Findings:
+        """With what the progress file says of the last check; it holds no diagnosis, so a verdict of ours says more."""
+        if self.judged or self.checking or (last := progress.last) is None:
+            return self
+        known = tuple(replace(f, before=f.id in last.passed) for f in self.criteria)
+        return replace(self, criteria=known, before=last.at)
 
     def after(self, event: Event) -> Findings:
         """What is known once `event` is. An event of another exercise changes nothing."""

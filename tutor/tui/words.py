@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from datetime import datetime
 from pathlib import Path
 from textwrap import shorten
 
@@ -14,7 +15,7 @@ MARKS = {Status.PASSED: "✓", Status.FAILED: "✗", Status.SKIPPED: "-", Status
 """One cell wide in every terminal font that matters."""
 
 INKS = {Status.PASSED: "$good", Status.FAILED: "$bad", Status.SKIPPED: "$quiet", Status.ERROR: "$warn"}
-"""The theme's colour for each status; it never stands alone, a mark and a word are with it."""
+"""The theme's colour for each status; it never stands alone, a mark is with it."""
 
 LEVELS = {Difficulty.EASY: "●○○ easy", Difficulty.MEDIUM: "●●○ medium", Difficulty.CHALLENGE: "●●● challenge"}
 
@@ -45,12 +46,27 @@ def summary(result: ExerciseResult) -> str:
     return f"{text} · {result.duration_s:.1f} s"
 
 
+def when(at: str) -> str:
+    """A time of the progress file, as the learner's clock shows it."""
+    try:
+        moment = datetime.fromisoformat(at).astimezone()
+    except ValueError:
+        return at
+    today = datetime.now().astimezone().date() == moment.date()
+    return f"today {moment:%H:%M}" if today else f"{moment:%Y-%m-%d %H:%M}"
+
+
 def short(path: Path) -> str:
     """A path with the home folder as ~."""
     try:
         return f"~/{path.relative_to(Path.home())}"
     except ValueError:
         return str(path)
+
+
+def key(name: str, *, typing: bool) -> str:
+    """What to press for a command of one letter, which types while the editor has the focus."""
+    return f"Esc, then {name}" if typing else name
 
 
 def fitted(text: str, width: int) -> str:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
 
 from tutor.content import Lesson
 from tutor.invocation import command
@@ -30,6 +32,8 @@ class Checks:
     ) -> None:
         self._stage, self._files, self._records, self._memory, self._show = stage, files, records, memory, show
         self.running: Checking | None = None
+        self._checked: dict[str, dict[Path, str]] = {}
+        """What each exercise's files held when they were last checked."""
         self._next: Lesson | None = None
         """What is to be checked when the running check has been cancelled."""
         self.deeds = {
@@ -68,15 +72,25 @@ class Checks:
             self._next = session.lesson
             self._stop("begun anew: your file has changed")
 
+    def edited(self) -> None:
+        """A file holds something else now: verdicts on what it held before are marked, until that is back."""
+        session = self._stage.session
+        found = session.findings[session.lesson.id]
+        checked, held = self._checked.get(session.lesson.id, {}), self._files.texts(session.lesson)
+        outdated = any(held.get(path, text) != text for path, text in checked.items())
+        if outdated != found.outdated:
+            self._tell(replace(found, outdated=outdated))
+
     def _begin(self, lesson: Lesson) -> None:
         desk = self._stage.session.desk
         self.running = Checking(lesson.id, desk.check_command(lesson), desk.workspace.root, self._stage.post_message)
         self._tell(self._stage.session.findings[lesson.id].begun())
         self._stage.refresh_bindings()
-        self._stage.work(self._run, self.running, group="check")
+        self._stage.work(self._run, lesson, self.running, group="check")
 
-    async def _run(self, checking: Checking) -> None:
+    async def _run(self, lesson: Lesson, checking: Checking) -> None:
         await self._files.save_all()
+        self._checked[lesson.id] = self._files.texts(lesson)
         await checking.run()
 
     def _stop(self, note: str) -> None:

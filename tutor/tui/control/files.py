@@ -148,6 +148,11 @@ class Files:
 
     # --- the learner has changed it ---
 
+    def texts(self, lesson: Lesson) -> dict[Path, str]:
+        """What a lesson's files hold, those that have been read."""
+        paths = map(self._stage.session.desk.path, lesson.files)
+        return {path: self._pane.text(path) for path in paths if self._pane.knows(path)}
+
     def typed(self) -> None:
         """Something was typed: it is saved soon."""
         self._pane.show_saved()

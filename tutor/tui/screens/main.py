@@ -16,6 +16,7 @@ from textual.widget import Widget
 from textual.widgets import ContentSwitcher, ListView, Tab, Tabs, TextArea
 
 from tutor.content import Lesson
+from tutor.judge.verdict import Status
 from tutor.tui import messages
 from tutor.tui.commands import bindings
 from tutor.tui.control.checklist import ChecklistDesk
@@ -158,10 +159,18 @@ class MainScreen(Stage):
             live.show_for(lesson)
         place = lessons.index(lesson) + 1
         criteria = self.query_one(CriteriaPanel)
+        self._count_passed()
         await criteria.show_lesson(session.findings[lesson.id], lessons[place] if place < len(lessons) else None)
         criteria.show_attempts(lesson, session.progress.of(lesson.id))
         await self.query_one(LessonView).show_lesson(lesson)
         self.refresh_bindings()
+
+    def _count_passed(self) -> None:
+        session = self.session
+        lessons = session.desk.lessons
+        passed = {each.id for each in lessons if session.progress.of(each.id).best is Status.PASSED}
+        self.query_one(CriteriaPanel).others_open = len(lessons) - len(passed | {session.lesson.id})
+        self.query_one(StatusBar).show_progress(len(passed), len(lessons))
 
     async def go_to_line(self, lesson: Lesson, line: int) -> None:
         """Show a line of a lesson's text, counted from 0."""
@@ -202,6 +211,8 @@ class MainScreen(Stage):
         a lesson's text has hundreds.
         """
         around = focused.ancestors if focused is not None else []
+        if self._framed:
+            self.query_one(CriteriaPanel).show_typing(isinstance(focused, CodeEditor))
         for panel in self._framed:
             if panel.has_class("-focused") != (panel in around):
                 panel.set_class(panel in around, "-focused", update=False)
@@ -215,10 +226,15 @@ class MainScreen(Stage):
 
     @on(messages.ProgressRead)
     def _progress_read(self, message: messages.ProgressRead) -> None:
-        self.session.progress = message.progress
+        session = self.session
+        session.progress = message.progress
+        for known in session.desk.lessons:
+            session.findings[known.id] = session.findings[known.id].remembering(message.progress.of(known.id))
+        self.query_one(CriteriaPanel).show_findings(session.findings[session.lesson.id])
+        self._count_passed()
         self.query_one(LessonList).show_progress(message.progress)
         self.checklist.show(message.progress)
-        lesson = self.session.lesson
+        lesson = session.lesson
         self.query_one(CriteriaPanel).show_attempts(lesson, message.progress.of(lesson.id))
 
     @on(messages.Started)
@@ -241,6 +257,7 @@ class MainScreen(Stage):
     @on(TextArea.Changed, "CodeEditor")
     def _typed(self) -> None:
         self.files.typed()
+        self.checks.edited()
 
     @on(messages.EditorLeft)
     def _editor_left(self) -> None:

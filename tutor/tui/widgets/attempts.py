@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from datetime import datetime
-
 from textual.content import Content
 
 from tutor.content import Lesson
@@ -18,7 +16,7 @@ BAR = 10
 def history(lesson: Lesson, progress: ExerciseProgress, *, most: int) -> Content:
     """The latest attempts, the latest first, one in a line."""
     if not progress.attempts:
-        return Content.styled("No attempts yet. Press c to check your node.", "$quiet")
+        return Content.styled("No attempts yet. F9 checks your node.", "$quiet")
     required = [c.id for c in lesson.criteria if not c.bonus]
     lines = [_line(attempt, required) for attempt in reversed(progress.attempts[-most:])]
     count = len(progress.attempts)
@@ -40,20 +38,10 @@ def _line(attempt: Attempt, required: list[str]) -> Content:
     if not attempt.whole:
         about += f"  (only {', '.join(attempt.judged or asked)})"
     return Content.assemble(
-        (f"{when(attempt.at)}  ", "$quiet"),
+        (f"{words.when(attempt.at)}  ", "$quiet"),
         (f"{words.MARKS[attempt.verdict]} ", f"bold {ink}"),
         ("━" * full, ink),
         ("━" * (BAR - full), "$line"),
         f" {met} of {len(asked)}",
         (about, "$quiet"),
     )
-
-
-def when(at: str) -> str:
-    """A time of the progress file, as the learner's clock shows it."""
-    try:
-        moment = datetime.fromisoformat(at).astimezone()
-    except ValueError:
-        return at
-    today = datetime.now().astimezone().date() == moment.date()
-    return f"today {moment:%H:%M}" if today else f"{moment:%Y-%m-%d %H:%M}"

@@ -24,11 +24,12 @@ class CriterionRow(ListItem):
         super().__init__()
         self.finding = finding
         self._name_width = name_width
+        self._outdated = False
 
-    def show(self, finding: Finding) -> None:
-        """Show what is known now."""
-        if finding != self.finding:
-            self.finding = finding
+    def show(self, finding: Finding, *, outdated: bool) -> None:
+        """Show what is known now; a verdict on a former version of the code is pale."""
+        if (finding, outdated) != (self.finding, self._outdated):
+            self.finding, self._outdated = finding, outdated
             self.refresh()
 
     def render(self) -> Content:
@@ -39,14 +40,15 @@ class CriterionRow(ListItem):
         word, said, ink = Content(""), found.text, "$quiet"
         if found.verdict is not None:
             mark, shade = words.MARKS[found.verdict.status], words.INKS[found.verdict.status]
+            if self._outdated:
+                mark, shade, name = mark, "$quiet", name.stylize("$quiet")
             head = Content.assemble((f"{mark} ", f"bold {shade}"), name, " ")
-            word = Content.styled(f"{found.verdict.status.value:<8}", shade)
         elif found.checking:
             head = Content.assemble(("◐ ", "$busy"), name, " ")
             word = _bar(found.fraction, 14 if width > 50 else 8)
             said, ink = found.doing or "waiting", "$busy" if found.doing else "$quiet"
         else:
-            head = Content.assemble(("○ ", "$quiet"), name, " ")
+            head = Content.assemble((f"{words.MARKS[Status.PASSED] if found.before else '○'} ", "$quiet"), name, " ")
         gap = "  " if word else ""
         left = width - head.cell_length - word.cell_length - len(gap)
         if left < 12:  # a stump of a sentence says nothing
@@ -84,9 +86,11 @@ class CriteriaPanel(Container):
         yield Static(id="attempts")
 
     def on_mount(self) -> None:
-        self.border_title = "Criteria"
         self._findings: Findings | None = None
         self._following: Lesson | None = None
+        self._typing = False
+        self.others_open = 0
+        """How many other exercises are not passed yet."""
 
     async def show_lesson(self, findings: Findings, following: Lesson | None) -> None:
         """Show another lesson's criteria, and its first failure if it has one; `following` is the lesson after it."""
@@ -112,6 +116,20 @@ class CriteriaPanel(Container):
         """Show the latest attempts, where there is room for them."""
         self.query_one("#attempts", Static).update(history(lesson, progress, most=6))
 
+    def show_typing(self, typing: bool) -> None:
+        """Name the keys that work now: letters type while the editor has the focus."""
+        if typing != self._typing:
+            self._typing = typing
+            self.query_one(Diagnosis).show_typing(typing)
+            if self._findings is not None:
+                self.border_subtitle = _headline(self._findings, typing=typing)
+
+    @property
+    def chosen(self) -> Finding | None:
+        """The criterion whose diagnosis is shown."""
+        row = self.query_one("#criteria-list", ListView).highlighted_child
+        return row.finding if isinstance(row, CriterionRow) else None
+
     @property
     def rows(self) -> list[CriterionRow]:
         """The rows, in order."""
@@ -121,8 +139,11 @@ class CriteriaPanel(Container):
         self._findings = findings
         known = {finding.id: finding for finding in findings.criteria}
         for row in self.rows:
-            row.show(known[row.finding.id])
-        self.border_subtitle = _headline(findings)
+            row.show(known[row.finding.id], outdated=findings.outdated)
+        outdated = findings.outdated and findings.judged and not findings.checking
+        self.border_title = "Criteria: your code has changed since this check" if outdated else "Criteria"
+        self.border_subtitle = _headline(findings, typing=self._typing)
+        self.set_class(outdated, "-outdated")
         self.set_class(bool(findings.result and findings.result.verdict is Status.PASSED), "-passed")
 
     def _turn_to_result(self) -> None:
@@ -134,7 +155,7 @@ class CriteriaPanel(Container):
         if found is None or not found.judged:
             return
         if found.result is not None and found.result.verdict is Status.PASSED:
-            self.query_one(Diagnosis).show_passed(found.result, self._following)
+            self.query_one(Diagnosis).show_passed(found.result, self._following, all_passed=not self.others_open)
             self.add_class("-detail")
             return
         order = (Status.FAILED, Status.ERROR, Status.SKIPPED, Status.PASSED)
@@ -151,15 +172,21 @@ class CriteriaPanel(Container):
         if isinstance(event, ListView.Highlighted) and self._findings.checking:
             return
         if row.finding.verdict is not None or isinstance(event, ListView.Selected):
-            self.query_one(Diagnosis).show_finding(row.finding)
+            self.query_one(Diagnosis).show_finding(row.finding, self._findings)
             self.add_class("-detail")
         elif not self._findings.judged:
             self.remove_class("-detail")
 
 
-def _headline(findings: Findings) -> str:
+def _headline(findings: Findings, *, typing: bool) -> str:
     if findings.checking:
-        return f"checking {findings.fraction:.0%} · Esc cancels"
+        return f"checking {findings.fraction:.0%} · {'F9' if typing else 'Esc'} cancels"
     if findings.note:
         return findings.note
-    return words.summary(findings.result) if findings.result else "not checked yet"
+    if findings.result:
+        return words.summary(findings.result)
+    if findings.before:
+        required = [finding for finding in findings.criteria if not finding.bonus]
+        met = sum(bool(finding.before) for finding in required)
+        return f"last check {words.when(findings.before)}: {met} of {len(required)} met"
+    return "not checked yet"

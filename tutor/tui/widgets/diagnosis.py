@@ -1,6 +1,8 @@
-"""The diagnosis of one criterion: expected, observed, cause, next step, evidence."""
+"""The diagnosis of one criterion: the next step first, then cause, expected, observed and evidence."""
 
 from __future__ import annotations
+
+from functools import partial
 
 from rich.cells import cell_len
 from textual.app import ComposeResult
@@ -12,7 +14,7 @@ from tutor.content import Lesson
 from tutor.judge.result import ExerciseResult
 from tutor.judge.verdict import Status
 from tutor.tui import words
-from tutor.tui.findings import Finding
+from tutor.tui.findings import Finding, Findings
 
 
 class Part(Horizontal):
@@ -25,7 +27,6 @@ class Part(Horizontal):
         &.-filled { display: block; }
         & > .part-name { width: 11; color: $quiet; }
         & > .part-text { width: 1fr; height: auto; link-style: underline; link-color: $foreground; }
-        &#part-hint > .part-text { color: $accent; }
         &#part-evidence > .part-text { color: $quiet; }
         &#part-observed > .part-text { text-style: bold; }
     }
@@ -52,23 +53,31 @@ class Diagnosis(VerticalScroll):
     Diagnosis {
         width: 1fr;
         height: 1fr;
-        padding: 0 2 0 1;
+        padding: 0 1;
         scrollbar-size: 1 1;
         background: $surface;
-        & > #diagnosis-head { margin-bottom: 1; height: auto; }
+        & > #diagnosis-head { height: auto; }
+        & > #diagnosis-step {
+            display: none;
+            height: auto;
+            padding: 0 1;
+            background: $panel;
+            border-left: outer $accent;
+            &.-filled { display: block; }
+        }
     }
     """
 
     PARTS = (
+        ("cause", "Cause"),
         ("expected", "Expected"),
         ("observed", "Observed"),
-        ("cause", "Cause"),
-        ("hint", "Next step"),
         ("evidence", "Evidence"),
     )
 
     def compose(self) -> ComposeResult:
         yield Static(id="diagnosis-head")
+        yield Static(id="diagnosis-step")
         for key, name in self.PARTS:
             yield Part(name, id=f"part-{key}")
 
@@ -76,6 +85,9 @@ class Diagnosis(VerticalScroll):
         super().__init__(id=id)
         self._evidence: tuple[str, ...] = ()
         self._unfolded = False
+        self._typing = False
+        self._head = partial(Content)
+        """Makes the head anew, which names other keys while the editor has the focus."""
 
     @property
     def has_evidence(self) -> bool:
@@ -89,49 +101,78 @@ class Diagnosis(VerticalScroll):
         if self._unfolded:
             self.query_one("#part-evidence").scroll_visible(animate=False)
 
-    def show_finding(self, finding: Finding) -> None:
+    def show_typing(self, typing: bool) -> None:
+        """Name the keys that work now: letters type while the editor has the focus."""
+        self._typing = typing
+        self.query_one("#diagnosis-head", Static).update(self._head())
+        self._show_evidence()
+
+    def show_finding(self, finding: Finding, findings: Findings) -> None:
         """Show one criterion; its evidence is folded."""
         verdict = finding.verdict
         self._unfolded = False
-        if verdict is None:
-            mark, ink, word = "○", "$quiet", "being checked" if finding.checking else "not checked yet"
-        else:
-            mark, ink, word = words.MARKS[verdict.status], words.INKS[verdict.status], verdict.status.value
-        about = Content.assemble((f"{mark} {word}", f"bold {ink}"), "  ", (finding.id, "bold"))
-        if finding.bonus:
-            about = Content.assemble(about, ("  bonus: never changes the verdict", "$quiet"))
         self._fill(
-            Content.assemble(about, "\n", (finding.text, "$quiet")),
+            partial(self._finding_head, finding, findings),
+            step=verdict.hint if verdict else "",
             expected=verdict.expected if verdict else "",
             observed=verdict.observed if verdict else "",
             cause=verdict.cause if verdict else "",
-            hint=verdict.hint if verdict else "",
             evidence=verdict.evidence if verdict else (),
         )
 
-    def show_passed(self, result: ExerciseResult, following: Lesson | None) -> None:
-        """The good news, and where to go from here."""
+    def _finding_head(self, finding: Finding, findings: Findings) -> Content:
+        verdict = finding.verdict
+        if verdict is not None:
+            mark, ink = words.MARKS[verdict.status], words.INKS[verdict.status]
+            said = " error" if verdict.status is Status.ERROR else ""  # of ours: no mark that a learner knows says that
+        else:
+            mark, ink, said = "○", "$quiet", " being checked" if finding.checking else ""
+            if finding.before is not None and not finding.checking:
+                mark = words.MARKS[Status.PASSED] if finding.before else "○"
+        name = Content.assemble((f"{mark}{said} ", f"bold {ink}"), (finding.id, "bold"), "  ", (finding.text, "$quiet"))
+        more = "  bonus: never changes the verdict" if finding.bonus else ""
+        if verdict is None and not finding.checking:
+            met = "Met" if finding.before else "Not met"
+            known = f"{met} at the last check, {words.when(findings.before)}" if findings.before else "Not checked yet"
+            more += f"\n\n{known}. Press {'F9' if self._typing else 'c'} to check."
+        return Content.assemble(name, (more, "$quiet"))
+
+    def show_passed(self, result: ExerciseResult, following: Lesson | None, *, all_passed: bool) -> None:
+        """The good news, and where to go from here; `all_passed`: every exercise of the course is."""
+        self._unfolded = False
+        self._fill(partial(self._passed_head, result, following, all_passed))
+
+    def _passed_head(self, result: ExerciseResult, following: Lesson | None, all_passed: bool) -> Content:
         missed = [c.id for c in result.criteria if c.bonus and c.verdict.status is not Status.PASSED]
         line = f"✓ {result.id.upper()} {result.title} passed"
         bonus = f"Still open as a bonus: {', '.join(missed)}.\n" if missed else ""
-        parts: list[Content | str | tuple[str, str]] = [
+        if all_passed:
+            command, key, where = "checklist", "6", "the checklist: what can you do by now?"
+        elif following is not None:
+            command, key, where = "next", "n", f"{words.label(following)} {following.title}"
+        else:
+            command, key, where = "lessons", "l", "the list of lessons: some are not passed yet"
+        return Content.assemble(
             (line, "bold $good"),
             "\n",
             ("━" * cell_len(line), "$good"),
             "\n\nWell done: your node does all that was asked for.\n",
+            "Every exercise is passed now.\n" if all_passed else "",
             bonus,
-        ]
-        if following is not None:
-            name = f"{words.label(following)} {following.title}"
-            link = Content.from_markup("[@click=screen.do('next')]$name[/]", name=name)
-            parts += ["\nNext: press ", ("n", "bold $accent"), " for ", link, "."]
-        else:
-            parts.append("\nThis was the last exercise.")
-        parts.append(" Choose a criterion to see what was measured.")
-        self._fill(Content.assemble(*parts))
+            "\nNext: press ",
+            (words.key(key, typing=self._typing), "bold $accent"),
+            " for ",
+            Content.from_markup(f"[@click=screen.do('{command}')]$where[/]", where=where),
+            ".\n",
+            ("Choose a criterion to see what was measured.", "$quiet"),
+        )
 
-    def _fill(self, head: Content, *, evidence: tuple[str, ...] = (), **texts: str) -> None:
-        self.query_one("#diagnosis-head", Static).update(head)
+    def _fill(self, head: partial[Content], *, step: str = "", evidence: tuple[str, ...] = (), **texts: str) -> None:
+        self._head = head
+        self.query_one("#diagnosis-head", Static).update(head())
+        shown = self.query_one("#diagnosis-step", Static)
+        shown.set_class(bool(step), "-filled")
+        shown.update(Content.assemble(("Next step  ", "bold $accent"), step))
         for key, _ in self.PARTS[:-1]:
             self.query_one(f"#part-{key}", Part).show(Content(texts.get(key, "")))
         self._evidence = evidence
@@ -141,9 +182,10 @@ class Diagnosis(VerticalScroll):
     def _show_evidence(self) -> None:
         count = len(self._evidence)
         lines = f"{count} line{'' if count == 1 else 's'}"
+        key = words.key("i", typing=self._typing)
         link = Content.from_markup(
             "[@click=screen.do('evidence')]$text[/]",
-            text=f"▾ {lines}, i hides" if self._unfolded else f"▸ {lines}, i shows",
+            text=f"▾ {lines}, {key} hides" if self._unfolded else f"▸ {lines}, {key} shows",
         )
         text = Content("\n").join([link, *(Content(line) for line in self._evidence)]) if self._unfolded else link
         self.query_one("#part-evidence", Part).show(text if count else Content(""))

@@ -30,6 +30,7 @@ class StatusBar(Horizontal):
         & > #bar-name { background: $primary; color: $background; text-style: bold; }
         & > #bar-lesson { width: 1fr; }
         & > #bar-save { color: $foreground; display: none; }
+        & > #bar-progress { color: $quiet; }
         & > #bar-check { color: $busy; }
         & > #bar-node { color: $quiet; }
     }
@@ -38,6 +39,7 @@ class StatusBar(Horizontal):
     def compose(self) -> ComposeResult:
         yield Static("ROS Tutor", id="bar-name")
         yield Static(id="bar-lesson")
+        yield Static(id="bar-progress")
         yield Static(id="bar-save")
         yield Static(id="bar-check")
         yield Static(id="bar-node")
@@ -48,6 +50,12 @@ class StatusBar(Horizontal):
             (words.label(lesson), "bold"), f" {lesson.title}  ", (words.LEVELS[lesson.difficulty], "$quiet")
         )
         self.query_one("#bar-lesson", Static).update(text)
+
+    def show_progress(self, passed: int, total: int) -> None:
+        """Say how many exercises are passed; of the bar, each has two cells."""
+        words = f"{passed} of {total} passed" if self.app.size.width >= WIDE else f"{passed}/{total}"
+        bar = (("━━" * passed, "$good"), ("━━" * (total - passed), "$line")) if self.app.size.width >= WIDE else ()
+        self.query_one("#bar-progress", Static).update(Content.assemble(*bar, f" {words}"))
 
     def show_check(self, findings: Findings | None) -> None:
         """Say how far the running check is; nothing where none runs."""
