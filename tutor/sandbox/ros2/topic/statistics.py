@@ -7,6 +7,7 @@ from collections import deque
 from dataclasses import dataclass, field
 
 _PRINT_EVERY_NS = 1_000_000_000
+_FIRST_AFTER_NS = 500_000_000  # whoever looks on need not wait for a whole second
 _NS = 1e-9
 
 
@@ -33,7 +34,7 @@ class Rate:
         self.between_ns.append(now_ns - self._last)
         self._last = now_ns
         if self._printed is None:
-            self._printed = now_ns
+            self._printed = now_ns - _PRINT_EVERY_NS + _FIRST_AFTER_NS
         elif now_ns >= self._printed + _PRINT_EVERY_NS:
             self._printed = now_ns
             return self._text()
