@@ -11,10 +11,10 @@ from pathlib import Path
 import pytest
 
 from tests.sandbox.launching.case import Case
-from tests.sandbox.launching.cases import arguments, conditions, events, nodes, scoping
+from tests.sandbox.launching.cases import arguments, conditions, events, frontends, nodes, scoping
 from tests.sandbox.launching.stage import Stage
 
-ALL = tuple(case for table in (arguments, scoping, conditions, nodes, events) for case in table.CASES)
+ALL = tuple(case for table in (arguments, scoping, conditions, nodes, events, frontends) for case in table.CASES)
 REAL = all(importlib.util.find_spec(name) is not None for name in ("launch", "launch_ros"))
 
 

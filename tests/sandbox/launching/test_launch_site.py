@@ -160,17 +160,47 @@ def test_what_only_the_real_one_has_is_named_when_it_is_used(stage: Stage, state
     assert ran.code == 1
 
 
-@pytest.mark.parametrize(("name", "kind"), [("main.launch.xml", "XML"), ("main.launch.yaml", "YAML")])
 @pytest.mark.parametrize("included", [False, True])
-def test_other_kinds_of_launch_files_are_named(stage: Stage, name: str, kind: str, included: bool) -> None:
-    path = write(stage, "<launch/>", name)
+def test_a_tag_that_only_the_real_one_has_is_named(stage: Stage, included: bool) -> None:
+    path = write(stage, '<launch><set_ros_log_dir new_log_dir="x"/></launch>', "main.launch.xml")
     if included:
         path = write(stage, launch_file(f"IncludeLaunchDescription('{path}')"))
     ran = stage.run(path)
     errors = [line for line in ran.log if line.startswith("[ERROR]")]
     assert len(errors) == 1
-    assert f"the {kind} launch file '$DIR/{name}' {REFUSED}" in errors[0]
+    assert f"the tag <set_ros_log_dir> {REFUSED}" in errors[0]
     assert ran.code == 1
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "fault"),
+    [
+        ("a.launch.xml", '<launch><node pkg="demo"/></launch>', "AttributeError: Attribute 'exec' of type"),
+        ("a.launch.xml", "<launch><node></launch>", "ParseError: mismatched tag: line 1, column 16"),
+        ("a.launch.xml", '<launch><log message="$(arg x)"/></launch>', "RuntimeError: Unknown substitution: arg"),
+        ("a.launch.xml", '<launch><log message="$(var \'x)"/></launch>', "cannot be read: it ends too early at column"),
+        ("a.launch.xml", '<launch><group if="1" unless="1"/></launch>', "can't be used simultaneously"),
+        ("a.launch.yaml", "launch:\n- log: {message: [1]}\n", "TypeError: Attribute 'message' of Entity 'log'"),
+        ("a.launch.yaml", "launch:\n- group: {if: '1'}\n", "ValueError: Expected entity `group` to have children"),
+        ("a.launch.yaml", "- log\n", "ValueError: Expected only one root"),
+    ],
+)
+def test_a_fault_in_xml_or_yaml_is_named(stage: Stage, name: str, text: str, fault: str) -> None:
+    ran = stage.run(write(stage, text, name))
+    assert any(fault in line for line in ran.lines), ran.lines
+    assert ran.code == 1
+
+
+def test_an_included_file_that_cannot_be_read_is_told_where_arguments_are_listed(stage: Stage) -> None:
+    write(stage, "import nowhere\n", "inner.launch.py")
+    actions = (
+        f"DeclareLaunchArgument('x', default_value='1'), IncludeLaunchDescription('{stage.folder}/inner.launch.py')"
+    )
+    ran = stage.run(write(stage, launch_file(actions)), options="show")
+    assert "    'x':" in ran.lines
+    told = "the arguments of $DIR/inner.launch.py are missing: ModuleNotFoundError: No module named 'nowhere'"
+    assert told in ran.lines
+    assert ran.code == 0
 
 
 def test_a_name_that_the_real_one_has_not_either_is_no_matter_of_support(stage: Stage) -> None:

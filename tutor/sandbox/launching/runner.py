@@ -122,7 +122,16 @@ def _show_arguments(launch: Any, path: Path | str) -> int:
         print("\n  No arguments.")
     elif any(argument._conditionally_included for argument in declared):
         print("\n* argument(s) which are only used if specific conditions occur")
+    _show_unreadable()
     return 0
+
+
+def _show_unreadable() -> None:
+    """Say which included files could not be read: what they declare is not in the list."""
+    unreadable = getattr(importlib.import_module("launch.launch_description_source"), "unreadable", {})
+    for path, error in unreadable.items():
+        cause = error.__cause__ or error
+        print(f"the arguments of {path} are missing: {type(cause).__name__}: {cause}", file=sys.stderr)
 
 
 def _show_learners_part(error: Exception) -> None:

@@ -12,6 +12,15 @@ WAITER = "Node(package='demo', executable='waiter', output='screen')"
 
 CASES = (
     Case(
+        id="one-is-wrong-nothing-is-started",
+        source="ros2 launch 3.4.11: processes that are visited together with what raises are not started",
+        actions="ExecuteProcess(cmd=['echo', 'one'], output='screen'), TimerAction(period=0.01, actions=["
+        "LogInfo(msg='timer')]), Node(package='nowhere', executable='talker')",
+        log=("[ERROR] [launch]: Caught exception in launch (see debug for traceback): *package 'nowhere' not found*",),
+        absent=("process started", "timer"),
+        code=1,
+    ),
+    Case(
         id="visited-in-order",
         source="launch: doc/source/architecture.rst, LaunchDescription; test_launch_description.py",
         actions="LogInfo(msg='1'), GroupAction([LogInfo(msg='2'), LogInfo(msg='3')]), "
@@ -234,11 +243,11 @@ CASES = (
         log=tuple(f"[INFO] [launch.user]: {word}" for word in ("now", "early", "late", "last")),
     ),
     Case(
-        id="timer-sees-what-is-set-later",
-        source="launch: actions/timer_action.py, execute (locals are kept, launch configurations are not)",
+        id="timer-sees-what-was-set-before",
+        source="launch: actions/timer_action.py, execute (locals and, since 3.4.5, launch configurations are kept)",
         actions="SetLaunchConfiguration('x', '1'), TimerAction(period=0.05, actions=[LogInfo(msg=['x is ', "
         "LaunchConfiguration('x')]), LogInfo(msg=ThisLaunchFileDir())]), SetLaunchConfiguration('x', '2')",
-        log=("[INFO] [launch.user]: x is 2", "[INFO] [launch.user]: $DIR"),
+        log=("[INFO] [launch.user]: x is 1", "[INFO] [launch.user]: $DIR"),
     ),
     Case(
         id="on-shutdown-when-idle",
@@ -313,7 +322,6 @@ CASES = (
         f"event.reason))), "
         f"{WAITER}, RegisterEventHandler(OnProcessExit(on_exit=lambda event, context: LogInfo(msg='exit')))",
         log=(
-            "[WARNING] [launch]: user interrupted with ctrl-c (SIGINT)",
             "[INFO] [launch.user]: because ctrl-c (SIGINT)",
             "[INFO] [waiter-1]: process has finished cleanly [pid N]",
             "[INFO] [launch.user]: exit",

@@ -1,6 +1,6 @@
 """The command lines of nodes."""
 
-from tests.sandbox.launching.case import Case
+from tests.sandbox.launching.case import Case, launch_file
 
 
 def node(options: str = "", executable: str = "talker") -> str:
@@ -9,6 +9,27 @@ def node(options: str = "", executable: str = "talker") -> str:
 
 
 CASES = (
+    Case(
+        id="paths-where-substitutions-are-taken",
+        source="launch 3.4.9 PathSubstitution, 3.4.10 pathlib.Path in substitutions",
+        before="from pathlib import Path\n",
+        actions="LogInfo(msg=['at ', Path('/a') / 'b']), LogInfo(msg=PathSubstitution(FindPackageShare('demo')) / "
+        "'config' / ['x', '.yaml']), LogInfo(msg=FindPackageShare('demo') / Path('y')), "
+        "LogInfo(msg=PathJoinSubstitution([Path('/c'), 'd']) / 'e'), "
+        "IncludeLaunchDescription(ThisLaunchFileDir() / 'other.launch.py'), "
+        "IncludeLaunchDescription(Path('other.launch.py')), "
+        "ExecuteProcess(cmd=[Path('/bin/echo'), Path('f')], cwd=Path('/'), output='screen')",
+        files={"other.launch.py": launch_file("LogInfo(msg='other')")},
+        log=(
+            "[INFO] [launch.user]: at /a/b",
+            "[INFO] [launch.user]: $PREFIX/share/demo/config/x.yaml",
+            "[INFO] [launch.user]: $PREFIX/share/demo/y",
+            "[INFO] [launch.user]: /c/d/e",
+            "[INFO] [launch.user]: other",
+            "[INFO] [launch.user]: other",
+        ),
+        says={"echo-1": ("f",)},
+    ),
     Case(
         id="node-plain",
         source="launch_ros: actions/node.py, __init__; test_node.py, test_launch_node",
@@ -129,7 +150,7 @@ CASES = (
         log=(
             "[ERROR] [launch]: Caught exception in launch (see debug for traceback): Allowed value types are "
             "bytes, bool, int,"
-            " float, str, Sequence[bool], Sequence[int], Sequence[float], Sequence[str]. Got <class 'dict'> for "
+            " float, str, Sequence[bool], Sequence[int], Sequence[float], Sequence[str]. Got dict for "
             '"a". If the '
             "parameter is meant to be a string, try wrapping it in "
             "launch_ros.parameter_descriptions.ParameterValue(value, value_type=str)",

@@ -41,8 +41,20 @@ CASES = (
         source="launch: actions/group_action.py, class docstring; test_group_action.py",
         arguments=("x:=one", "y:=why"),
         actions=f"GroupAction([{SHOW_X}, {SHOW_Y}], forwarding=False, "
-        "launch_configurations={'y': [LaunchConfiguration('x'), '!']}), " + SHOW_X,
-        log=("[INFO] [launch.user]: x is nothing", "[INFO] [launch.user]: y is one!", "[INFO] [launch.user]: x is one"),
+        "launch_configurations={'y': LaunchConfiguration('x')}), " + SHOW_X,
+        log=("[INFO] [launch.user]: x is nothing", "[INFO] [launch.user]: y is one", "[INFO] [launch.user]: x is one"),
+    ),
+    Case(
+        id="group-not-forwarding-with-a-list",
+        source="ros2 launch 3.4.11: a list is kept as it is, and is no text when it is used",
+        arguments=("x:=one",),
+        actions="GroupAction([LogInfo(msg=['y is ', LaunchConfiguration('y')])], forwarding=False, "
+        "launch_configurations={'y': [LaunchConfiguration('x'), '!']})",
+        log=(
+            "[ERROR] [launch]: Caught exception in launch (see debug for traceback): sequence item 1: expected str "
+            "instance, list found",
+        ),
+        code=1,
     ),
     Case(
         id="group-scopes-the-environment",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import os
 from collections import deque
-from collections.abc import Iterable, Mapping, MutableMapping
+from collections.abc import Callable, Iterable, Mapping, MutableMapping
 from typing import TYPE_CHECKING, Any
 
 from .event import Event
@@ -58,6 +58,7 @@ class LaunchContext:
         self._is_shutdown = False
         self._loop: asyncio.AbstractEventLoop | None = None
         self._processes: set[Process] = set()
+        self._not_yet_started: list[Callable[[], None]] = []
 
     @property
     def argv(self) -> list[str]:

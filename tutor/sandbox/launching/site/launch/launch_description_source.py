@@ -12,6 +12,9 @@ from .utilities.perform_substitutions_impl import perform_substitutions
 if TYPE_CHECKING:
     from .launch_description import LaunchDescription
 
+unreadable: dict[str, Exception] = {}
+"""What went wrong with the files that could not be looked at before they run."""
+
 
 class LaunchDescriptionSource:
     """A launch description, read from `location` at the first need where it is not given."""
@@ -38,12 +41,17 @@ class LaunchDescriptionSource:
         return self._method
 
     def try_get_launch_description_without_context(self) -> LaunchDescription | None:
-        """For a look at it before it runs: None where that takes more than is known then."""
+        """For a look at it before it runs: None where that takes more than is known then, or it cannot be read."""
         if self._description is not None:
             return self._description
         try:
-            return self._get_launch_description(perform_substitutions(LaunchContext(), self._location))
+            location = perform_substitutions(LaunchContext(), self._location)
         except Exception:
+            return None
+        try:
+            return self._get_launch_description(location)
+        except Exception as error:
+            unreadable[location] = error
             return None
 
     def get_launch_description(self, context: LaunchContext) -> LaunchDescription:

@@ -143,7 +143,12 @@ class LaunchService:
         self._handling = True
         try:
             self._have_handled(event)
+        except Exception:
+            for give_up in self._context._not_yet_started:
+                give_up()  # of the entities that were visited together, nothing is started if one is wrong
+            raise
         finally:
+            self._context._not_yet_started.clear()
             self._handling = False
 
     def _have_handled(self, event: Event) -> None:
@@ -162,6 +167,7 @@ class LaunchService:
                         raise RuntimeError(f"expected a LaunchDescriptionEntity from event_handler, got '{entity}'")
                     pairs = visit_all_entities_and_collect_futures(entity, context)
                     self._going_on += [future for _, future in pairs]
+                    context._not_yet_started.clear()
             finally:
                 context._pop_locals()
 

@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import atexit
+import contextlib
 import os
+import tempfile
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-from launch._unsupported import refuse
+import yaml
+from launch._frontend import parse_substitution
 from launch.launch_context import LaunchContext
 from launch.some_substitutions_type import SomeSubstitutionsType
 from launch.substitution import Substitution
@@ -55,14 +60,16 @@ class Parameter:
 
 
 class ParameterFile:
-    """A YAML file of parameters."""
+    """A YAML file of parameters; with `allow_substs` those of launch, such as $(var x), are performed in it."""
 
     def __init__(
-        self, param_file: str | os.PathLike[str] | SomeSubstitutionsType, *, allow_substs: bool = False
+        self,
+        param_file: str | os.PathLike[str] | SomeSubstitutionsType,
+        *,
+        allow_substs: bool | SomeSubstitutionsType = False,
     ) -> None:
-        ensure_argument_type(allow_substs, bool, "allow_substs", "ParameterFile()")
-        if allow_substs:
-            refuse("launch_ros.parameter_descriptions.ParameterFile with allow_substs=True")
+        ensure_argument_type(allow_substs, (bool, str, Substitution, Iterable), "allow_substs", "ParameterFile()")
+        self._allow_substs = normalize_typed_substitution(allow_substs, bool)
         self._file = (
             os.fspath(param_file)
             if isinstance(param_file, os.PathLike)
@@ -70,9 +77,34 @@ class ParameterFile:
         )
 
     @property
+    def allow_substs(self) -> Any:
+        return self._allow_substs
+
+    @property
     def param_file(self) -> Any:
         return self._file
 
     def evaluate(self, context: LaunchContext) -> Path:
-        """The file's path."""
-        return Path(self._file if isinstance(self._file, str) else perform_substitutions(context, self._file))
+        """The file's path, or that of a copy with the substitutions performed, which goes when the launch ends."""
+        path = Path(self._file if isinstance(self._file, str) else perform_substitutions(context, self._file))
+        if not perform_typed_substitution(context, self._allow_substs, bool):
+            return path
+        text = perform_substitutions(context, parse_substitution(path.read_text(encoding="utf-8")))
+        try:
+            yaml.safe_load(text)
+        except yaml.YAMLError as error:
+            raise ValueError(f"the parameter file '{path}' is no YAML once its substitutions are performed") from error
+        return temporary_file(text)
+
+
+def temporary_file(text: str) -> Path:
+    """A file of parameters with this text, which is there as long as the launch runs."""
+    with tempfile.NamedTemporaryFile(mode="w", prefix="launch_params_", delete=False) as file:
+        file.write(text)
+    atexit.register(_remove, file.name)
+    return Path(file.name)
+
+
+def _remove(path: str) -> None:
+    with contextlib.suppress(OSError):
+        os.unlink(path)

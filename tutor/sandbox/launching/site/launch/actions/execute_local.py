@@ -177,7 +177,16 @@ class ExecuteLocal(Action):
         context.add_completion_future(self._completed)
         self._starting = True
         self._task = context.asyncio_loop.create_task(self._run(context, self._asked_to_end))
+        context._not_yet_started.append(self._give_up)
         return None
+
+    def _give_up(self) -> None:
+        """Do not start it: what was visited with it is wrong."""
+        self._starting = False
+        if self._task is not None:
+            self._task.cancel()
+        if self._completed is not None and not self._completed.done():
+            self._completed.set_result(None)
 
     # --- the life of the process
 

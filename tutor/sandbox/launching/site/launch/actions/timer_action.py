@@ -18,10 +18,11 @@ from ..some_substitutions_type import SomeSubstitutionsType
 from ..substitution import Substitution
 from ..utilities.ensure_argument_type_impl import ensure_argument_type
 from ..utilities.type_utils import normalize_typed_substitution, perform_typed_substitution
+from .pop_launch_configurations import PopLaunchConfigurations
 
 
 class _OnTimer(BaseEventHandler):
-    """Has the actions visited of whichever timer has fired, with the locals that they were written under."""
+    """Has the actions visited of whichever timer has fired, with what was known when they were set."""
 
     def __init__(self) -> None:
         super().__init__(matcher=lambda event: isinstance(event, TimerEvent))
@@ -33,7 +34,10 @@ class _OnTimer(BaseEventHandler):
 
 
 class TimerAction(Action):
-    """Visits the actions when `period` seconds are over, unless it is cancelled, or the launch ends, before."""
+    """Visits the actions when `period` seconds are over, unless it is cancelled, or the launch ends, before.
+
+    They see the launch configurations as they were when the timer was set, and are a scope of them.
+    """
 
     def __init__(
         self,
@@ -50,6 +54,7 @@ class TimerAction(Action):
         self._actions = list(actions)
         self._cancel_on_shutdown = normalize_typed_substitution(cancel_on_shutdown, bool)
         self._locals: dict[str, Any] = {}
+        self._configurations: dict[str, Any] = {}
         self._is_cancelled = False
         self._cancelled: asyncio.Future[None] | None = None
         self._completed: asyncio.Future[None] | None = None
@@ -76,7 +81,10 @@ class TimerAction(Action):
 
     def handle(self, context: LaunchContext) -> SomeEntitiesType | None:
         context.extend_locals(self._locals)
-        return self._actions
+        context._push_launch_configurations()
+        context.launch_configurations.clear()
+        context.launch_configurations.update(self._configurations)
+        return [*self._actions, PopLaunchConfigurations()]
 
     def execute(self, context: LaunchContext) -> None:
         loop = context.asyncio_loop
@@ -88,6 +96,7 @@ class TimerAction(Action):
         if not any(isinstance(handler, _OnTimer) for handler in context._event_handlers):
             context.register_event_handler(_OnTimer())
         self._locals = context.get_locals_as_dict()
+        self._configurations = dict(context.launch_configurations)
         period = perform_typed_substitution(context, self._period, float)
         waiting = loop.create_task(self._wait(context, period, self._cancelled, self._completed))
         self._completed.add_done_callback(lambda _: waiting.done())  # the task lives as long as the future

@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from .._unsupported import refuse
+from .._frontend import load_launch_description
+from ..invalid_launch_file_error import InvalidLaunchFileError
+from ..launch_description import LaunchDescription
 
-FORMATS = {"xml": "XML", "yaml": "YAML", "yml": "YAML"}
-"""The suffixes of launch files that only an installed ROS 2 reads."""
 
-
-class InvalidFrontendLaunchFileError(Exception):
+class InvalidFrontendLaunchFileError(InvalidLaunchFileError):
     """A file in no format of launch files."""
 
 
-def refuse_frontend_launch_file(path: str, suffix: str) -> None:
-    """Raise NotSupportedError where the suffix (no dot) is that of an XML or YAML launch file."""
-    if suffix in FORMATS:
-        refuse(f"the {FORMATS[suffix]} launch file '{path}'")
+def get_launch_description_from_frontend_launch_file(frontend_launch_file_path: str) -> LaunchDescription:
+    """The launch description in an XML or YAML file; raises what is wrong with it."""
+    return load_launch_description(frontend_launch_file_path)

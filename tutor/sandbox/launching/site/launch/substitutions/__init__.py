@@ -9,9 +9,10 @@ from .file_content import FileContent
 from .find_executable import FindExecutable
 from .if_else_substitution import IfElseSubstitution
 from .launch_configuration import LaunchConfiguration
+from .launch_log_dir import LaunchLogDir
 from .local_substitution import LocalSubstitution
 from .not_equals_substitution import NotEqualsSubstitution
-from .path_join_substitution import PathJoinSubstitution
+from .path_join_substitution import PathJoinSubstitution, PathSubstitution
 from .python_expression import PythonExpression
 from .substitution_failure import SubstitutionFailure
 from .text_substitution import TextSubstitution
@@ -30,11 +31,13 @@ __all__ = [
     "FindExecutable",
     "IfElseSubstitution",
     "LaunchConfiguration",
+    "LaunchLogDir",
     "LocalSubstitution",
     "NotEqualsSubstitution",
     "NotSubstitution",
     "OrSubstitution",
     "PathJoinSubstitution",
+    "PathSubstitution",
     "PythonExpression",
     "SubstitutionFailure",
     "TextSubstitution",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os.path
 from collections.abc import Iterable
+from pathlib import Path
 
 from ..launch_context import LaunchContext
 from ..some_substitutions_type import SomeSubstitutionsType
@@ -13,10 +14,13 @@ from ..utilities.perform_substitutions_impl import perform_substitutions
 
 
 class PathJoinSubstitution(Substitution):
-    """The parts, each a text, a substitution or several of them, joined as os.path.join does."""
+    """The parts, each a text, a path, a substitution or several of them, joined as os.path.join does.
+
+    `path / part` is the path with one more part.
+    """
 
     def __init__(self, substitutions: SomeSubstitutionsType | Iterable[SomeSubstitutionsType]) -> None:
-        parts = [substitutions] if isinstance(substitutions, str | Substitution) else substitutions
+        parts = [substitutions] if isinstance(substitutions, str | Path | Substitution) else substitutions
         self._parts = [normalize_to_list_of_substitutions(part) for part in parts]
 
     @property
@@ -28,3 +32,20 @@ class PathJoinSubstitution(Substitution):
 
     def perform(self, context: LaunchContext) -> str:
         return os.path.join(*[perform_substitutions(context, part) for part in self._parts])
+
+    def __truediv__(self, additional_path: SomeSubstitutionsType) -> PathJoinSubstitution:
+        return PathJoinSubstitution([*self._parts, additional_path])
+
+
+class PathSubstitution(PathJoinSubstitution):
+    """One path, to which parts can be added: `PathSubstitution(FindPackageShare('demo')) / 'config' / 'x.yaml'`."""
+
+    def __init__(self, path: SomeSubstitutionsType) -> None:
+        super().__init__([path])
+
+
+class FoundPath(PathSubstitution):
+    """The base of substitutions that find a folder."""
+
+    def __init__(self) -> None:
+        super().__init__(self)

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from ..launch_context import LaunchContext
-from ..substitution import Substitution
+from .path_join_substitution import FoundPath
 from .substitution_failure import SubstitutionFailure
 
 
-class ThisLaunchFileDir(Substitution):
+class ThisLaunchFileDir(FoundPath):
     """The folder of the launch file that was included last."""
 
     def describe(self) -> str:

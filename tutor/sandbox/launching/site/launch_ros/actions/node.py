@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import atexit
-import contextlib
 import os
-import tempfile
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
@@ -18,7 +15,7 @@ from launch.logging import get_logger
 from launch.some_substitutions_type import SomeSubstitutionsType
 from launch.utilities import ensure_argument_type, normalize_to_list_of_substitutions, perform_substitutions
 
-from ..parameter_descriptions import Parameter, ParameterFile
+from ..parameter_descriptions import Parameter, ParameterFile, temporary_file
 from ..substitutions.executable_in_package import ExecutableInPackage
 from ..utilities.evaluate_parameters import evaluate_parameter_dict
 from ..utilities.names import validate_namespace, validate_node_name
@@ -178,10 +175,7 @@ class Node(ExecuteProcess):
         """Into a file that is there as long as the launch runs."""
         plain = {name: list(value) if isinstance(value, tuple) else value for name, value in parameters.items()}
         node = self.node_name if self.is_node_name_fully_specified() else "/**"
-        with tempfile.NamedTemporaryFile(mode="w", prefix="launch_params_", delete=False) as file:
-            yaml.dump({node: {"ros__parameters": plain}}, file, default_flow_style=False)
-        atexit.register(_remove, file.name)
-        return Path(file.name)
+        return temporary_file(yaml.dump({node: {"ros__parameters": plain}}, default_flow_style=False))
 
     def _warn_of_same_name(self, context: LaunchContext) -> None:
         names: dict[str, int] = context.get_locals_as_dict().get("unique_ros_node_names", {})
@@ -196,8 +190,3 @@ class Node(ExecuteProcess):
 
 def _perform(context: LaunchContext, value: SomeSubstitutionsType | None) -> str | None:
     return None if value is None else perform_substitutions(context, normalize_to_list_of_substitutions(value))
-
-
-def _remove(path: str) -> None:
-    with contextlib.suppress(OSError):
-        os.unlink(path)

@@ -5,15 +5,17 @@ from __future__ import annotations
 from launch.launch_context import LaunchContext
 from launch.some_substitutions_type import SomeSubstitutionsType
 from launch.substitution import Substitution
+from launch.substitutions.path_join_substitution import FoundPath
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 from .. import packages
 
 
-class FindPackage(Substitution):
+class FindPackage(FoundPath):
     """A folder of a package."""
 
     def __init__(self, package: SomeSubstitutionsType) -> None:
+        super().__init__()
         self._package = normalize_to_list_of_substitutions(package)
 
     @property

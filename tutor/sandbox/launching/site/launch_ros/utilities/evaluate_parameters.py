@@ -72,7 +72,7 @@ def _from_text(name: str, text: str) -> Any:
         return _uniform(name, loaded)
     raise TypeError(
         "Allowed value types are bytes, bool, int, float, str, Sequence[bool], Sequence[int], Sequence[float], "
-        f'Sequence[str]. Got {type(loaded)} for "{name}". {advice}'
+        f'Sequence[str]. Got {type(loaded).__name__} for "{name}". {advice}'
     )
 
 

@@ -1,0 +1,185 @@
+"""The actions by the names that they have in XML and YAML."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from .. import actions
+from .._unsupported import refuse
+from ..action import Action
+from ..conditions import IfCondition, UnlessCondition
+from ..substitution import Substitution
+from ..substitutions.text_substitution import TextSubstitution
+from .entity import Entity
+from .text import parse_substitution, parse_words
+
+Arguments = dict[str, Any]
+MAKERS: dict[str, Callable[[Entity], Action]] = {}
+"""What makes an action of an entity, by its name; launch_ros adds its own."""
+NOT_HERE: set[str] = set()
+"""The names that only an installed ROS 2 knows."""
+
+
+def make_action(entity: Entity) -> Action:
+    """The action of an entity; raises what is wrong with it."""
+    name = entity.type_name
+    if name in NOT_HERE:
+        refuse(f"the tag <{name}>")
+    if name not in MAKERS:
+        raise RuntimeError(f"Unrecognized entity of the type: {name}")
+    made = MAKERS[name](entity)
+    entity.require_all_known()
+    return made
+
+
+def condition(entity: Entity) -> Arguments:
+    """The condition of an action, in its `if` or `unless`."""
+    predicate, negated = entity.find("if"), entity.find("unless")
+    if predicate is not None and negated is not None:
+        raise RuntimeError("if and unless conditions can't be used simultaneously")
+    if predicate is not None:
+        return {"condition": IfCondition(parse_substitution(predicate))}
+    return {} if negated is None else {"condition": UnlessCondition(parse_substitution(negated))}
+
+
+def texts(entity: Entity, **names: str) -> Arguments:
+    """Optional attributes that hold texts with substitutions: the argument for each, and its attribute."""
+    found = {argument: entity.find(attribute) for argument, attribute in names.items()}
+    return {argument: parse_substitution(text) for argument, text in found.items() if text is not None}
+
+
+def text(entity: Entity, attribute: str) -> list[Substitution]:
+    """An attribute that holds a text with substitutions."""
+    return parse_substitution(entity.get(attribute))
+
+
+def value(given: Any) -> Any:
+    """A value of any type: a text with substitutions as its parts, a plain text as it is, a list item by item."""
+    if isinstance(given, list):
+        return [value(item) for item in given]
+    if not isinstance(given, str):
+        return given
+    parts = parse_substitution(given)
+    if len(parts) == 1 and isinstance(parts[0], TextSubstitution):
+        return parts[0].text
+    return parts
+
+
+def pairs(entity: Entity, name: str, first: str, second: str) -> list[tuple[Any, Any]]:
+    """The entities of a name below, as pairs of two of their attributes."""
+    found = []
+    for item in entity.below(name):
+        found.append((tuple(text(item, first)), text(item, second)))
+        item.require_all_known()
+    return found
+
+
+def plain(given: str) -> str:
+    """A text without its backslashes."""
+    return re.sub(r"\\(.)", r"\1", given)
+
+
+def process(entity: Entity) -> Arguments:
+    """What a process takes, whatever its command is."""
+    given = condition(entity)
+    given |= texts(entity, cwd="cwd", prefix="launch-prefix", output="output", respawn="respawn")
+    on_exit = entity.find("on_exit")
+    if on_exit == "shutdown":
+        given["on_exit"] = [actions.Shutdown()]
+    elif on_exit is not None:
+        raise ValueError(f"Attribute on_exit of Entity node expected to be shutdown but got `{on_exit}`")
+    for name, data_type in (("shell", bool), ("emulate_tty", bool), ("respawn_max_retries", int)):
+        if (found := entity.find(name, data_type)) is not None:
+            given[name] = found
+    for name in ("respawn_delay", "sigterm_timeout", "sigkill_timeout"):
+        if (seconds := entity.find(name, float)) is not None:
+            if seconds < 0.0:
+                raise ValueError(
+                    f"Attribute {name} of Entity node expected to be a non-negative value but got `{seconds}`"
+                )
+            given[name] = seconds if name == "respawn_delay" else str(seconds)
+    if env := pairs(entity, "env", "name", "value"):
+        given["additional_env"] = dict(env)
+    return given
+
+
+def _executable(entity: Entity) -> Action:
+    given = process(entity) | texts(entity, name="name")
+    return actions.ExecuteProcess(cmd=parse_words(entity.get("cmd")), **given)
+
+
+def _arg(entity: Entity) -> Action:
+    given = condition(entity) | texts(entity, default_value="default")
+    if (description := entity.find("description")) is not None:
+        given["description"] = plain(description)
+    if choices := entity.below("choice"):
+        given["choices"] = [plain(choice.get("value")) for choice in choices]
+    return actions.DeclareLaunchArgument(plain(entity.get("name")), **given)
+
+
+def _include(entity: Entity) -> Action:
+    arguments = [*pairs(entity, "arg", "name", "value"), *pairs(entity, "let", "name", "value")]
+    return actions.IncludeLaunchDescription(text(entity, "file"), launch_arguments=arguments, **condition(entity))
+
+
+def _group(entity: Entity) -> Action:
+    given = condition(entity)
+    for name in ("scoped", "forwarding"):
+        if (found := entity.find(name, bool)) is not None:
+            given[name] = found
+    if keep := pairs(entity, "keep", "name", "value"):
+        given["launch_configurations"] = dict(keep)
+    return actions.GroupAction([make_action(child) for child in entity.children if child.type_name != "keep"], **given)
+
+
+def _timer(entity: Entity) -> Action:
+    given = condition(entity)
+    if (cancel := entity.find("cancel_on_shutdown", bool)) is not None:
+        given["cancel_on_shutdown"] = value(cancel)
+    period = value(entity.get("period", float))
+    return actions.TimerAction(period=period, actions=children(entity), **given)
+
+
+def children(entity: Entity) -> Sequence[Action]:
+    """The actions of all entities below."""
+    return [make_action(child) for child in entity.children]
+
+
+def _append(entity: Entity) -> Action:
+    given = condition(entity) | texts(entity, separator="separator")
+    if (prepend := entity.find("prepend", bool)) is not None:
+        given["prepend"] = value(prepend)
+    return actions.AppendEnvironmentVariable(text(entity, "name"), text(entity, "value"), **given)
+
+
+def _reset(entity: Entity) -> Action:
+    keep = dict(pairs(entity, "keep", "name", "value"))
+    return actions.ResetLaunchConfigurations(keep or None, **condition(entity))
+
+
+def _shutdown(entity: Entity) -> Action:
+    reason = entity.find("reason")
+    return actions.Shutdown(**({"reason": reason} if reason else {}), **condition(entity))
+
+
+MAKERS |= {
+    "append_env": _append,
+    "arg": _arg,
+    "executable": _executable,
+    "group": _group,
+    "include": _include,
+    "let": lambda entity: actions.SetLaunchConfiguration(
+        text(entity, "name"), text(entity, "value"), **condition(entity)
+    ),
+    "log": lambda entity: actions.LogInfo(msg=text(entity, "message"), **condition(entity)),
+    "reset": _reset,
+    "reset_env": lambda entity: actions.ResetEnvironment(**condition(entity)),
+    "set_env": lambda entity: actions.SetEnvironmentVariable(
+        text(entity, "name"), text(entity, "value"), **condition(entity)
+    ),
+    "shutdown": _shutdown,
+    "timer": _timer,
+    "unset_env": lambda entity: actions.UnsetEnvironmentVariable(text(entity, "name"), **condition(entity)),
+}

@@ -1,0 +1,117 @@
+"""The actions and substitutions that know ROS, by the names that they have in XML and YAML."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from launch._frontend import actions as launch_actions
+from launch._frontend.actions import condition, pairs, process, text, texts, value
+from launch._frontend.entity import Entity
+from launch._frontend.substitutions import TABLE
+from launch._frontend.text import parse_substitution, parse_words
+from launch.action import Action
+
+from . import actions
+from .parameter_descriptions import ParameterFile, ParameterValue
+from .substitutions import ExecutableInPackage, FindPackagePrefix, FindPackageShare
+
+TYPES: dict[str, Any] = {
+    "str": str,
+    "bool": bool,
+    "float": float,
+    "int": int,
+    "list_of_str": list[str],
+    "list_of_bool": list[bool],
+    "list_of_float": list[float],
+    "list_of_int": list[int],
+    "yaml": None,
+}
+
+
+def node_arguments(entity: Entity) -> dict[str, Any]:
+    """What a node takes."""
+    given = process(entity)
+    given |= texts(entity, package="pkg", name="name", namespace="namespace", exec_name="exec_name")
+    for argument, attribute in (("arguments", "args"), ("ros_arguments", "ros_args")):
+        if (words := entity.find(attribute)) is not None:
+            given[argument] = parse_words(words)
+    given["executable"] = text(entity, "exec")
+    given |= parameters_and_remappings(entity)
+    return given
+
+
+def parameters_and_remappings(entity: Entity) -> dict[str, Any]:
+    """The <param> and <remap> entities below."""
+    given: dict[str, Any] = {}
+    if remappings := pairs(entity, "remap", "from", "to"):
+        given["remappings"] = remappings
+    if params := entity.below("param"):
+        given["parameters"] = [_parameters(param) for param in params]
+    return given
+
+
+def _parameters(entity: Entity) -> Any:
+    """A file of parameters, or a dict with one."""
+    name, file = entity.find("name"), entity.find("from")
+    allow_substs = entity.find("allow_substs", bool)
+    if name is not None and file is not None:
+        raise RuntimeError("name and from attributes are mutually exclusive")
+    if file is not None:
+        entity.require_all_known()
+        given = parse_substitution(allow_substs) if isinstance(allow_substs, str) else bool(allow_substs)
+        return ParameterFile(parse_substitution(file), allow_substs=given)
+    if name is None:
+        raise ValueError("param Entity should have name or from attribute")
+    if allow_substs is not None:
+        raise RuntimeError("'allow_substs' can only be used together with 'from' attribute")
+    return _values([entity])
+
+
+def _values(entities: Sequence[Entity]) -> dict[Any, Any]:
+    values: dict[Any, Any] = {}
+    for entity in entities:
+        name = tuple(text(entity, "name"))
+        type_name = entity.find("type")
+        if type_name is not None and type_name not in TYPES:
+            raise ValueError(f"Got invalid type identifier '{type_name}'")
+        data_type = TYPES[type_name or "yaml"]
+        given = entity.find("value", data_type)
+        nested = entity.below("param")
+        entity.require_all_known()
+        if nested and (given is not None or type_name is not None):
+            raise RuntimeError("nested parameters and value or type attributes are mutually exclusive")
+        if nested:
+            values[name] = _values(nested)
+        elif given is not None:
+            values[name] = ParameterValue(value(given), value_type=data_type)
+        else:
+            raise RuntimeError("either a value attribute or nested params are needed")
+    return values
+
+
+def _set_parameter(entity: Entity) -> Action:
+    return actions.SetParameter(text(entity, "name"), text(entity, "value"), **condition(entity))
+
+
+def _push_namespace(entity: Entity) -> Action:
+    return actions.PushROSNamespace(text(entity, "namespace"), **condition(entity))
+
+
+launch_actions.MAKERS |= {
+    "node": lambda entity: actions.Node(**node_arguments(entity)),
+    "push-ros-namespace": _push_namespace,
+    "push_ros_namespace": _push_namespace,
+    "set_parameter": _set_parameter,
+    "set_parameters_from_file": lambda entity: actions.SetParametersFromFile(
+        text(entity, "filename"), **condition(entity)
+    ),
+    "set_remap": lambda entity: actions.SetRemap(text(entity, "from"), text(entity, "to"), **condition(entity)),
+    "set_use_sim_time": lambda entity: actions.SetUseSimTime(value(entity.get("value", bool)), **condition(entity)),
+}
+launch_actions.NOT_HERE |= {"node_container", "load_composable_node", "ros_timer", "set_ros_log_dir"}
+TABLE |= {
+    "exec-in-pkg": (2, 2, lambda executable, package: ExecutableInPackage(executable=executable, package=package)),
+    "find-pkg-prefix": (1, 1, FindPackagePrefix),
+    "find-pkg-share": (1, 1, FindPackageShare),
+}
