@@ -177,7 +177,11 @@ def test_real_packages_go_first(use: Use, tmp_path: Path, monkeypatch: pytest.Mo
     monkeypatch.setenv("AMENT_PREFIX_PATH", environ["AMENT_PREFIX_PATH"])
     assert packages.find_executable("demo_nodes_py", "talker") == [str(program)]
     assert run("demo_nodes_py", "talker") == (3, "real")
-    assert packages.find_executable("demo_nodes_cpp", "talker")[0] == sys.executable
+    ours = [str(tmp_path / "overlay/lib/demo_nodes_cpp/talker")]
+    assert packages.find_executable("demo_nodes_cpp", "talker") == ours
+    monkeypatch.setattr(sys, "executable", "/with spaces/python")  # which the kernel does not read off the first line
+    monkeypatch.setattr(packages, "_is_our_script", lambda program: True)
+    assert packages.find_executable("demo_nodes_cpp", "talker") == ["/with spaces/python", "-P", *ours]
 
 
 def test_ros2_is_there_where_there_is_none(tmp_path: Path) -> None:
@@ -189,3 +193,28 @@ def test_ros2_is_there_where_there_is_none(tmp_path: Path) -> None:
     environ = {"PATH": str(real.parent)}
     overlay.make(tmp_path / "theirs", None, environ)
     assert environ["PATH"] == str(real.parent)
+
+
+def test_packages_are_found_at_any_depth_but_not_within_others(use: Use, tmp_path: Path) -> None:
+    ws = tmp_path / "ws"
+    scripts = "['sing = {0}.sing:main']"
+    for name, at in (
+        ("near", "src"),
+        ("deep", "src/group/sub"),
+        ("inner", "src/near"),
+        ("built", "build"),
+        ("off", "src/x"),
+    ):
+        package(ws / at, name, scripts.format(name))
+    write(ws / "src/x/COLCON_IGNORE")
+    use(write(ws / "src/near/launch/a.launch.py"))
+    assert run("near", "sing") == (7, "near")
+    assert run("deep", "sing") == (7, "deep")
+    assert not any(map(packages.has, ("inner", "built", "off")))
+
+
+def test_demo_nodes_in_cpp_that_are_not_built_do_not_hide_ours(use: Use, tmp_path: Path) -> None:
+    write(tmp_path / "ws/src/demos/demo_nodes_cpp/package.xml", "<package><name>demo_nodes_cpp</name></package>")
+    write(tmp_path / "ws/src/demos/demo_nodes_cpp/CMakeLists.txt")
+    use(write(package(tmp_path / "ws/src", "birds") / "launch/a.launch.py"))
+    assert packages.find_executable("demo_nodes_cpp", "talker")

@@ -81,12 +81,16 @@ def until(process: subprocess.Popen[str], *words: str) -> str:
     ("words", "code", "message"),
     [
         (["bag", "record"], 2, "`ros2 bag` needs an installed ROS 2; this ros2 knows: "),
-        (["run", "demo", "talker"], 1, "package 'demo' not found"),
-        (["run", "demo_nodes_py", "talk"], 1, "executable 'talk' not found in package 'demo_nodes_py'"),
+        (["run", "demo", "talker"], 1, "Package 'demo' not found\n"),
+        (["run", "demo_nodes_py", "shout"], 1, "No executable found\n"),
         (["launch", "nowhere.py"], 1, "there is no launch file nowhere.py"),
         (["launch", "my_package"], 1, "say which launch file of my_package"),
-        (["launch", "my_package", "nowhere.py"], 1, "file 'nowhere.py' was not found"),
-        (["launch", "demo", "my_launch.py"], 1, "package 'demo' not found"),
+        (
+            ["launch", "my_package", "nowhere.py"],
+            1,
+            "file 'nowhere.py' was not found in the share directory of package 'my_package' which is at '",
+        ),
+        (["launch", "demo", "my_launch.py"], 1, "Package 'demo' not found: \"package 'demo' not found, searching: ['"),
         (["launch", "my_launch.py", "word=x"], 1, "malformed launch argument 'word=x'"),
         (["launch", "my_launch.py", "word:="], 1, "malformed launch argument 'word:='"),
     ],
@@ -100,6 +104,92 @@ def test_what_is_wrong_is_told_in_one_line(
     assert message in ran.stderr
     assert ran.stderr.count("\n") == 1
     assert not list((tmp_path / "log").glob("ros2-overlay*"))
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["run", "demo_nodes_py", "taker"], ["No executable found", "(is it talker?)"]),
+        (["run", "demo_node_py", "talker"], ["Package 'demo_node_py' not found", "(is it demo_nodes_py"]),
+        (
+            ["launch", "demo_nodes_cpp", "talker_listener.py"],
+            ["file 'talker_listener.py' was", "(is it talker_listener_launch"],
+        ),
+    ],
+)
+def test_a_name_that_is_nearly_right_is_told_what_is_there(
+    tmp_path: Path, env: dict[str, str], words: list[str], said: list[str]
+) -> None:
+    (tmp_path / "my_launch.py").write_text(LAUNCH_FILE)
+    ran = ros2(*words, env=env, cwd=tmp_path)
+    assert ran.returncode == 1
+    for line, start in zip(ran.stderr.splitlines(), said, strict=True):
+        assert line.startswith(start)
+
+
+@pytest.mark.parametrize("code", [0, 3, -9])
+def test_run_tells_how_a_program_has_failed(tmp_path: Path, env: dict[str, str], code: int) -> None:
+    module = tmp_path / "ws/src/birds/birds/sing.py"
+    module.parent.mkdir(parents=True)
+    (module.parent / "__init__.py").touch()
+    module.write_text(f"import os, sys\ndef main():\n    os.kill(os.getpid(), {max(-code, 0)})\n    return {code}\n")
+    (module.parents[1] / "package.xml").write_text("<package><name>birds</name></package>")
+    (module.parents[1] / "setup.cfg").write_text(
+        "[options.entry_points]\nconsole_scripts =\n  sing = birds.sing:main\n"
+    )
+    ran = ros2("run", "--prefix", "env A=b", "birds", "sing", env=env, cwd=tmp_path / "ws")
+    says = {0: "", 3: "[ros2run]: Process exited with failure 3\n", -9: "[ros2run]: Killed\n"}
+    assert (ran.stdout, ran.stderr, ran.returncode) == (says[code], "", code % 256)
+
+
+SHOWS = """
+import os
+from launch import LaunchDescription
+from launch.actions import EmitEvent, ExecuteProcess, LogInfo, RegisterEventHandler
+from launch.event_handlers import OnProcessExit
+from launch.events import Shutdown
+from launch_ros.actions import Node
+from my_package.settings import TOPIC
+
+
+def generate_launch_description():
+    said = ExecuteProcess(cmd=["printenv", "PYTHONUNBUFFERED", "A"], output="log", cwd="/")
+    return LaunchDescription([
+        LogInfo(msg=TOPIC), Node(package="my_package", executable="x"), said,
+        RegisterEventHandler(OnProcessExit(target_action=said, on_exit=[EmitEvent(event=Shutdown())])),
+    ])
+"""
+
+
+def test_what_a_launch_file_describes_is_shown_and_it_can_import_its_own_package(
+    tmp_path: Path, env: dict[str, str]
+) -> None:
+    (tmp_path / "my_launch.py").write_text(SHOWS)
+    (tmp_path / "settings.py").write_text("TOPIC = 'chatter'")
+    ran = ros2("launch", "-p", "my_launch.py", env=env, cwd=tmp_path)
+    assert [line.partition(" object at ")[0] for line in ran.stdout.splitlines()] == [
+        "<launch.launch_description.LaunchDescription",
+        "├── LogInfo('chatter')",
+        "├── ExecuteProcess(cmd=[ExecInPkg(pkg='my_package', exec='x'), '--ros-args'], cwd=None, env=None, "
+        "shell=False)",
+        "├── ExecuteProcess(cmd=['printenv', 'PYTHONUNBUFFERED', 'A'], cwd=''/'', env=None, shell=False)",
+        "└── RegisterEventHandler('<launch.event_handlers.on_process_exit.OnProcessExit",
+        "    └── OnProcessExit(matcher='event == ProcessExited and ExecuteLocal(event.action)', handler='<actions>', "
+        "handle_once=False)",
+        "        └── EmitEvent(event='launch.events.Shutdown')",
+    ]
+    assert (ran.stderr, ran.returncode) == ("", 0)
+
+
+@pytest.mark.parametrize(("value", "shown"), [("1", ["1", "b"]), ("ros-tutor", ["b"])])
+def test_output_is_held_back_unless_a_check_wants_it_otherwise(
+    tmp_path: Path, env: dict[str, str], value: str, shown: list[str]
+) -> None:
+    text = SHOWS.replace("from my_package.settings import TOPIC", "TOPIC = ''")
+    (tmp_path / "my_launch.py").write_text(text.replace('Node(package="my_package", executable="x"), ', ""))
+    words = ["launch", "-a", "--launch-prefix", "env A=b", "my_launch.py"]
+    ran = ros2(*words, env={**env, "PYTHONUNBUFFERED": value}, cwd=tmp_path)
+    assert [line.removeprefix("[env-1] ") for line in ran.stdout.splitlines() if line.startswith("[env-1]")] == shown
 
 
 def test_a_launch_file_by_its_path_takes_arguments(tmp_path: Path, env: dict[str, str]) -> None:
@@ -156,7 +246,7 @@ def test_an_exit_code_is_passed_on(tmp_path: Path, env: dict[str, str]) -> None:
     (package / "ends/__init__.py").touch()
     (package / "ends/five.py").write_text("import sys\ndef main():\n    print(sys.argv[1:])\n    return 5\n")
     ran = ros2("run", "ends", "five", "--ros-args", "-s", env=env, cwd=tmp_path)
-    assert (ran.returncode, ran.stdout) == (5, "['--ros-args', '-s']\n")
+    assert (ran.returncode, ran.stdout) == (5, "['--ros-args', '-s']\n[ros2run]: Process exited with failure 5\n")
 
 
 def test_ctrl_c_ends_the_whole_launch(tmp_path: Path, env: dict[str, str]) -> None:

@@ -47,6 +47,9 @@ _SYSTEM_FACTS = (
     "AMENT_",
     "COLCON_",
 )
+UNBUFFERED = "PYTHONUNBUFFERED"
+UNBUFFERED_BY_US = "ros-tutor"
+"""The value of PYTHONUNBUFFERED for what we run ourselves. `ros2` takes it back for what it starts in turn."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,6 +99,8 @@ def learner_env(
     """
     env = _ros_env(ros, environ, first_on_path=[] if package_root is None else [package_root])
     env.update(_discovery(isolated, environ))
+    if not isolated:
+        env[UNBUFFERED] = environ.get(UNBUFFERED) or UNBUFFERED_BY_US
     env["ROS_DOMAIN_ID"] = str(domain_id)
     env["ROS_LOG_DIR"] = str(log_dir)
     return env
@@ -182,7 +187,7 @@ def _ros_env(ros: RosEnvironment, environ: Mapping[str, str], first_on_path: lis
             env[name] = prefixes.joined(left)
     env[BOOTSTRAP_DONE] = "1"
     env["RMW_IMPLEMENTATION"] = ros.rmw
-    env["PYTHONUNBUFFERED"] = "1"  # a piped print would be held back
+    env[UNBUFFERED] = "1"  # a piped print would be held back
     env["PYTHONDONTWRITEBYTECODE"] = "1"  # no __pycache__ beside a learner's files
     env["PYTHONIOENCODING"] = "utf-8"
     # Messages import numpy, whose threads spin for a while when it is loaded: a quarter of a node's start, in CPU time.

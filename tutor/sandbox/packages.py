@@ -12,6 +12,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 INDEX = Path("share") / "ament_index" / "resource_index" / "packages"
+_LONGEST_INTERPRETER = 110
+"""Characters of a path; older kernels read 127 of a script's first line."""
 
 
 class PackageNotFound(LookupError):
@@ -20,6 +22,7 @@ class PackageNotFound(LookupError):
     def __init__(self, package: str) -> None:
         self.package = package
         near = difflib.get_close_matches(package, with_programs())
+        self.hint = hint(near)
         super().__init__(f"package '{package}' not found" + (f"; is it {' or '.join(near)}?" if near else ""))
 
 
@@ -29,7 +32,13 @@ class ExecutableNotFound(LookupError):
     def __init__(self, package: str, executable: str, programs: list[str]) -> None:
         self.package = package
         self.executable = executable
+        self.hint = hint(difflib.get_close_matches(executable, programs))
         super().__init__(f"executable '{executable}' not found in package '{package}'; it has: {_listed(programs)}")
+
+
+def hint(near: list[str]) -> str:
+    """A second line of a message that asks whether one of these names was meant; nothing where there is none."""
+    return f"\n(is it {' or '.join(near)}?)" if near else ""
 
 
 def find_executable(package: str, executable: str) -> list[str]:
@@ -43,7 +52,8 @@ def find_executable(package: str, executable: str) -> list[str]:
         raise ExecutableNotFound(package, executable, sorted(found))
     program = str(found[executable])
     # Our own script's first line may be one that the kernel cannot read: too long, or with spaces in the path.
-    return [sys.executable, "-P", program] if _is_our_script(found[executable]) else [program]
+    unreadable = len(sys.executable) > _LONGEST_INTERPRETER or " " in sys.executable
+    return [sys.executable, "-P", program] if unreadable and _is_our_script(found[executable]) else [program]
 
 
 def programs_of(package: str) -> list[str]:

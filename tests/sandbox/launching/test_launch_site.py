@@ -133,7 +133,6 @@ def test_a_name_is_one_thing_wherever_it_is_imported_from(stage: Stage) -> None:
             "from launch.actions import OpaqueCoroutine\nOpaqueCoroutine()",
             "launch.actions.opaque_coroutine.OpaqueCoroutine",
         ),
-        ("import launch\nlaunch.LaunchIntrospector()", "launch.launch_introspector.LaunchIntrospector"),
         (
             "import launch_testing.actions\nlaunch_testing.actions.ReadyToTest()",
             "launch_testing.actions.ready.ReadyToTest",

@@ -6,7 +6,7 @@ import contextlib
 import importlib
 import importlib.util
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, Protocol
 
@@ -37,11 +37,14 @@ def run(
     arguments: Sequence[str] | Mapping[str, str] = (),
     show_args: bool = False,
     *,
+    show_description: bool = False,
     noninteractive: bool | None = None,
     debug: bool = False,
     resolver: Resolver = packages,
 ) -> int:
-    """Run the launch file, or only print its arguments; returns the exit code: 0, or 1 after an error.
+    """Run the launch file, or only print its arguments, or all that it describes.
+
+    Returns the exit code: 0, or 1 after an error.
 
     `arguments`: `name:=value`, or a mapping. `noninteractive`: no terminal passes Ctrl+C on to the nodes;
     found out where it is not given. `resolver` serves the substitutes only: a real launch finds packages by itself.
@@ -53,8 +56,8 @@ def run(
         return 1
     launch = _import_launch(resolver)
     try:
-        if show_args:
-            return _show_arguments(launch, path)
+        if show_args or show_description:
+            return _show(launch, path, _show_arguments if show_args else _show_description)
         if noninteractive is None:
             noninteractive = not sys.stdin.isatty()
         argv = [f"{name}:={value}" for name, value in pairs]
@@ -103,7 +106,7 @@ def _launch(
     return code
 
 
-def _show_arguments(launch: Any, path: Path | str) -> int:
+def _show(launch: Any, path: Path | str, show: Callable[[Any, Any], None]) -> int:
     sources = importlib.import_module("launch.launch_description_sources")
     try:
         description = sources.get_launch_description_from_any_launch_file(str(path))
@@ -111,6 +114,15 @@ def _show_arguments(launch: Any, path: Path | str) -> int:
         print(f"{type(error).__name__}: {error}", file=sys.stderr)
         _show_learners_part(error)
         return 1
+    show(launch, description)
+    return 0
+
+
+def _show_description(launch: Any, description: Any) -> None:
+    print(launch.LaunchIntrospector().format_launch_description(description))
+
+
+def _show_arguments(launch: Any, description: Any) -> None:
     print("Arguments (pass arguments as '<name>:=<value>'):")
     declared = description.get_launch_arguments()
     for argument in declared:
@@ -123,7 +135,6 @@ def _show_arguments(launch: Any, path: Path | str) -> int:
     elif any(argument._conditionally_included for argument in declared):
         print("\n* argument(s) which are only used if specific conditions occur")
     _show_unreadable()
-    return 0
 
 
 def _show_unreadable() -> None:

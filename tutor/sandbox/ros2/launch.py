@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import difflib
 import os
 from collections.abc import Sequence
 from pathlib import Path
@@ -13,13 +14,27 @@ from tutor.sandbox.ros2.errors import CommandError
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """[-s] PACKAGE FILE [NAME:=VALUE ...], or [-s] PATH [NAME:=VALUE ...]."""
+    """PACKAGE FILE [NAME:=VALUE ...], or PATH [NAME:=VALUE ...]."""
     parser.add_argument(
         "-n", "--noninteractive", action="store_true", help="no terminal is there that passes Ctrl+C on to the nodes"
     )
     parser.add_argument("-d", "--debug", action="store_true", help="tell more of what launch does")
-    parser.add_argument(
+    instead = parser.add_mutually_exclusive_group()
+    instead.add_argument(
+        "-p", "--print", "--print-description", action="store_true", help="show what the file describes, start nothing"
+    )
+    instead.add_argument(
         "-s", "--show-args", "--show-arguments", action="store_true", help="show the arguments that the file takes"
+    )
+    parser.add_argument(
+        "-a",
+        "--show-all-subprocesses-output",
+        action="store_true",
+        help="show the output of all processes, and log it as well",
+    )
+    parser.add_argument("--launch-prefix", metavar="COMMAND", help="start every process with this command, in quotes")
+    parser.add_argument(
+        "--launch-prefix-filter", metavar="PATTERN", help="only those whose name this regular expression matches"
     )
     parser.add_argument("package", metavar="package_name", help="a package, or the path of a launch file")
     parser.add_argument("file", metavar="launch_file_name", nargs="?", help="the launch file's name in the package")
@@ -39,12 +54,21 @@ def main(arguments: argparse.Namespace) -> int:
     else:
         path = _in_package(arguments.package, arguments.file)
     check_arguments(given)
+    if arguments.launch_prefix_filter is not None and arguments.launch_prefix is None:
+        raise CommandError("--launch-prefix must be specified if --launch-prefix-filter is provided")
+    for name in ("launch-prefix", "launch-prefix-filter"):
+        if value := getattr(arguments, name.replace("-", "_")):
+            given.append(f"{name}:={value}")
+    if arguments.show_all_subprocesses_output:
+        os.environ["OVERRIDE_LAUNCH_PROCESS_OUTPUT"] = "both"
+    overlaying.buffer_as_by_default()
     from tutor.sandbox import launching  # late: whoever only asks for help, or is wrong, needs none of it
 
     code: int = launching.run(
         path,
         given,
         show_args=arguments.show_args,
+        show_description=arguments.print,
         noninteractive=arguments.noninteractive or None,
         debug=arguments.debug,
         resolver=packages,
@@ -80,15 +104,28 @@ def _by_path(arguments: argparse.Namespace) -> bool:
 
 
 def _in_package(package: str, name: str) -> Path:
-    share = packages.find_share(package)
+    try:
+        share = packages.find_share(package)
+    except packages.PackageNotFound as error:
+        searched = [entry for entry in os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep) if entry]
+        message = f"Package '{package}' not found: \"package '{package}' not found, searching: {searched}\""
+        raise CommandError(f"{message}{error.hint}") from error
     found = []
+    names: set[str] = set()
     for folder, below, files in os.walk(share, followlinks=True):  # of a package that is not built, they are links
         below[:] = [each for each in below if not each.startswith((".", "__"))]
+        names.update(files)
         if name in files:
             found.append(Path(folder) / name)
     if not found:
-        raise CommandError(f"file '{name}' was not found in the share directory of package '{package}' ({share})")
+        near = difflib.get_close_matches(name, names)
+        raise CommandError(
+            f"file '{name}' was not found in the share directory of package '{package}' which is at '{share}'"
+            + packages.hint(near)
+        )
     if len({path.resolve() for path in found}) > 1:
-        listed = ", ".join(str(path) for path in found)
-        raise CommandError(f"file '{name}' was found more than once in the share directory of '{package}': {listed}")
+        listed = [str(path) for path in found]
+        raise CommandError(
+            f"file '{name}' was found more than once in the share directory of package '{package}': {listed}"
+        )
     return found[0].resolve()

@@ -16,6 +16,7 @@ from tutor.sandbox.ros2 import sources
 from tutor.sandbox.ros2.sources import SourcePackage
 
 _DEMO = Path(__file__).resolve().parents[1] / "demo"
+_MODULES = Path("lib") / "python3" / "site-packages"
 _DEMO_PACKAGES = ("demo_nodes_cpp", "demo_nodes_py")
 
 _OF_PACKAGE = """\
@@ -70,14 +71,19 @@ def make(prefix: Path, near: Path | None, environ: MutableMapping[str, str], *, 
     for package in _packages(near, environ):
         if package.name in made or any((each / INDEX / package.name).is_file() for each in there):
             continue
+        if package.name in _DEMO_PACKAGES and not package.programs:
+            continue  # its programs are C++ that is not built; ours do the same
         made.add(package.name)
         for program, target in package.programs.items():
             folders = [str(folder) for folder in package.modules]
             script = _OF_PACKAGE.format(python=python, name=package.name, folders=folders, target=target)
             _write_program(prefix / "lib" / package.name / program, script)
         _add_package(prefix, package.name, package.share)
-        if all((folder / "__init__.py").is_file() for folder in package.modules[-1:]):
-            _append(environ, "PYTHONPATH", package.modules[-1].parent)
+        if len(package.modules) > 1:
+            _add_modules(prefix / _MODULES, package)
+            _append(environ, "PYTHONPATH", prefix / _MODULES)
+        elif (package.modules[0] / "__init__.py").is_file():
+            _append(environ, "PYTHONPATH", package.modules[0].parent)
     for name in _DEMO_PACKAGES:
         if name not in made and not any((each / INDEX / name).is_file() for each in there):
             for program in ("talker", "listener"):
@@ -119,6 +125,13 @@ def _add_package(prefix: Path, name: str, share: Mapping[str, Path]) -> None:
     marker = prefix / INDEX / name
     marker.parent.mkdir(parents=True, exist_ok=True)
     marker.touch()
+
+
+def _add_modules(folder: Path, package: SourcePackage) -> None:
+    """A package whose modules are in several folders, importable by its name."""
+    init = folder / package.name / "__init__.py"
+    init.parent.mkdir(parents=True, exist_ok=True)
+    init.write_text(f"__path__ = {[str(each) for each in package.modules]!r}\n", encoding="utf-8")
 
 
 def _write_program(path: Path, text: str) -> None:

@@ -5,13 +5,21 @@ from __future__ import annotations
 import atexit
 import os
 import shutil
+import sys
 import tempfile
 from pathlib import Path
 
+from tutor.ros.environment import UNBUFFERED, UNBUFFERED_BY_US
 from tutor.sandbox.ros2 import overlay
 from tutor.sandbox.ros2.errors import CommandError
 
 _OVERLAY = "ROS_TUTOR_OVERLAY"
+
+
+def buffer_as_by_default() -> None:
+    """Have what we start hold back its output as Python does, unless the user, or a check, wants it otherwise."""
+    if os.environ.get(UNBUFFERED) == UNBUFFERED_BY_US:
+        del os.environ[UNBUFFERED]
 
 
 def use(near: Path) -> None:
@@ -29,3 +37,5 @@ def use(near: Path) -> None:
     except OSError as error:
         raise CommandError(f"the packages cannot be read: {error}") from error
     os.environ[_OVERLAY] = str(folder / "prefix")
+    # What a launch file imports is searched for here, in this process.
+    sys.path += [entry for entry in os.environ.get("PYTHONPATH", "").split(os.pathsep) if entry not in sys.path]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import shlex
 import signal
 import subprocess
 from pathlib import Path
@@ -12,18 +13,22 @@ from tutor.sandbox.ros2 import overlaying
 from tutor.sandbox.ros2.errors import CommandError
 from tutor.sandbox.ros2.parsing import complete_with
 
+_SAYS = "[ros2run]:"
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """PACKAGE EXECUTABLE [ARGUMENT ...]."""
+    """[--prefix COMMAND] PACKAGE EXECUTABLE [ARGUMENT ...]."""
+    parser.add_argument("--prefix", metavar="COMMAND", help="start the program with this command, in quotes")
     complete_with(parser.add_argument("package", metavar="package_name", help="the package"), _packages)
     complete_with(parser.add_argument("executable", metavar="executable_name", help="its program"), _programs)
     parser.add_argument("rest", metavar="argv", nargs=argparse.REMAINDER, help="what to pass to the program")
 
 
 def main(arguments: argparse.Namespace) -> int:
-    """Run the program to its end, and give its exit code (128 + N after signal N). Raises LookupError, CommandError."""
+    """Run the program to its end, and give its exit code (-N after signal N). Raises CommandError."""
     overlaying.use(Path.cwd())
-    command = [*packages.find_executable(arguments.package, arguments.executable), *arguments.rest]
+    overlaying.buffer_as_by_default()
+    command = [*shlex.split(arguments.prefix or ""), *_find(arguments.package, arguments.executable), *arguments.rest]
     # Ctrl+C reaches the program by itself; we only have to be there still when it has ended.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     try:
@@ -32,7 +37,20 @@ def main(arguments: argparse.Namespace) -> int:
         raise CommandError(f"{command[0]} cannot be started: {error.strerror}") from error
     signal.signal(signal.SIGTERM, lambda *_: program.terminate())
     code = program.wait()
-    return code if code >= 0 else 128 - code
+    if code > 0:
+        print(f"{_SAYS} Process exited with failure {code}")
+    elif code < 0:
+        print(f"{_SAYS} {signal.strsignal(-code)}")
+    return code
+
+
+def _find(package: str, executable: str) -> list[str]:
+    try:
+        return packages.find_executable(package, executable)
+    except packages.PackageNotFound as error:
+        raise CommandError(f"Package '{package}' not found{error.hint}") from error
+    except packages.ExecutableNotFound as error:
+        raise CommandError(f"No executable found{error.hint}") from error
 
 
 def _packages(**_: object) -> list[str]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import configparser
 import json
+import os
 import re
 import subprocess
 import sys
@@ -16,6 +17,10 @@ from typing import Any
 TEMPLATE = Path(__file__).resolve().parents[2] / "workspace" / "template" / "src" / "my_package"
 _MARKER = ".ros-tutor"
 _RUN_SETUP_S = 10.0
+_DEEPEST = 5
+_MOST = 2000
+_BUILT = frozenset({"build", "install", "log", "node_modules", "venv"})
+_IGNORED = ("COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE")
 
 # Gives what setup.py passes to setup(), as JSON, where that cannot be read off.
 _CAPTURE = """
@@ -50,7 +55,7 @@ def around(place: Path) -> Iterator[SourcePackage]:
     folder = place if place.is_dir() else place.parent
     for parent in (folder, *folder.parents):
         if (parent / "package.xml").is_file():
-            yield from _packages((parent, *sorted(path.parent for path in parent.parent.glob("*/package.xml"))))
+            yield from _packages((parent, *_folders(_workspace_of(parent))))
             return
         if (parent / _MARKER).is_dir():
             yield from below(parent)
@@ -60,7 +65,42 @@ def around(place: Path) -> Iterator[SourcePackage]:
 
 def below(folder: Path) -> Iterator[SourcePackage]:
     """The packages in a workspace, or in a folder."""
-    yield from _packages(sorted(path.parent for at in ("", "src/") for path in folder.glob(f"{at}*/package.xml")))
+    yield from _packages(_folders(folder))
+
+
+def _workspace_of(package: Path) -> Path:
+    """Where the packages beside one are: below the nearest folder `src` around it, else in the folder that it is in."""
+    sources = next((parent for parent in package.parents if parent.name == "src"), None)
+    return package.parent if sources is None else sources
+
+
+def _folders(root: Path) -> Iterator[Path]:
+    """The folders of packages in a folder, as colcon finds them: at any depth, but none within another.
+
+    What is hidden, built or has a file COLCON_IGNORE is left out. A folder that is no workspace may be large, such as
+    the home folder: `_DEEPEST` levels are searched, and `_MOST` folders.
+    """
+    level = [root]
+    seen = 0
+    for depth in range(_DEEPEST + 1):
+        below: list[Path] = []
+        for folder in level:
+            if depth and (folder / "package.xml").is_file():
+                yield folder
+                continue
+            seen += 1
+            if seen <= _MOST:
+                below += _subfolders(folder)
+        level = below
+
+
+def _subfolders(folder: Path) -> list[Path]:
+    try:
+        names = [entry.name for entry in os.scandir(folder) if entry.is_dir()]
+    except OSError:
+        return []
+    kept = (folder / name for name in sorted(names) if not name.startswith((".", "__")) and name not in _BUILT)
+    return [path for path in kept if not any((path / marker).exists() for marker in _IGNORED)]
 
 
 def bare(folder: Path) -> SourcePackage:

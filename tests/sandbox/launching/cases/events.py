@@ -13,7 +13,7 @@ WAITER = "Node(package='demo', executable='waiter', output='screen')"
 CASES = (
     Case(
         id="one-is-wrong-nothing-is-started",
-        source="ros2 launch 3.4.11: processes that are visited together with what raises are not started",
+        source="launch 3.4.11: processes that are visited together with what raises are not started",
         actions="ExecuteProcess(cmd=['echo', 'one'], output='screen'), TimerAction(period=0.01, actions=["
         "LogInfo(msg='timer')]), Node(package='nowhere', executable='talker')",
         log=("[ERROR] [launch]: Caught exception in launch (see debug for traceback): *package 'nowhere' not found*",),

@@ -46,7 +46,7 @@ CASES = (
     ),
     Case(
         id="group-not-forwarding-with-a-list",
-        source="ros2 launch 3.4.11: a list is kept as it is, and is no text when it is used",
+        source="launch 3.4.11: a list is kept as it is, and is no text when it is used",
         arguments=("x:=one",),
         actions="GroupAction([LogInfo(msg=['y is ', LaunchConfiguration('y')])], forwarding=False, "
         "launch_configurations={'y': [LaunchConfiguration('x'), '!']})",

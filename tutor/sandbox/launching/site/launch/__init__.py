@@ -27,6 +27,7 @@ from .launch_context import LaunchContext  # noqa: E402
 from .launch_description import LaunchDescription  # noqa: E402
 from .launch_description_entity import LaunchDescriptionEntity  # noqa: E402
 from .launch_description_source import LaunchDescriptionSource  # noqa: E402
+from .launch_introspector import LaunchIntrospector  # noqa: E402
 from .launch_service import LaunchService  # noqa: E402
 from .some_entities_type import SomeEntitiesType, SomeEntitiesType_types_tuple  # noqa: E402
 from .some_substitutions_type import SomeSubstitutionsType, SomeSubstitutionsType_types_tuple  # noqa: E402
@@ -42,6 +43,7 @@ __all__ = [
     "LaunchDescription",
     "LaunchDescriptionEntity",
     "LaunchDescriptionSource",
+    "LaunchIntrospector",
     "LaunchService",
     "SomeEntitiesType",
     "SomeEntitiesType_types_tuple",

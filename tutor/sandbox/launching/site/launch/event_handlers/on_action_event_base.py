@@ -41,6 +41,8 @@ class OnActionEventBase(BaseEventHandler):
             return action_matcher(action) if callable(action_matcher) else action is action_matcher
 
         super().__init__(matcher=matches, **kwargs)
+        from_action = "" if action_matcher is None else f" and {target_action_cls.__name__}(event.action)"
+        self._matcher_words = f"event == {target_event_cls.__name__}{from_action}"
         self._callable: Callable[[Any, LaunchContext], SomeEntitiesType | None] | None = None
         self._entities: list[LaunchDescriptionEntity] = []
         if callable(on_event):
@@ -57,6 +59,10 @@ class OnActionEventBase(BaseEventHandler):
                     )
         elif on_event is not None:
             raise TypeError(f"expected actions or a callable for an event, got '{type(on_event)}'")
+
+    @property
+    def matcher_description(self) -> str:
+        return self._matcher_words
 
     @property
     def handler_description(self) -> str:

@@ -25,6 +25,14 @@ class OnShutdown(BaseEventHandler):
         super().__init__(matcher=lambda event: is_a_subclass(event, Shutdown), **kwargs)
         self._on_shutdown = on_shutdown
 
+    @property
+    def matcher_description(self) -> str:
+        return "event issubclass of launch.events.Shutdown"
+
+    @property
+    def handler_description(self) -> str:
+        return str(self._on_shutdown)
+
     def handle(self, event: Event, context: LaunchContext) -> SomeEntitiesType | None:
         super().handle(event, context)
         if callable(self._on_shutdown):

@@ -1,0 +1,65 @@
+"""A launch description as a tree of lines, as `ros2 launch --print` shows it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+from .actions.emit_event import EmitEvent
+from .actions.execute_process import ExecuteProcess
+from .actions.log_info import LogInfo
+from .actions.register_event_handler import RegisterEventHandler
+from .launch_description import LaunchDescription
+from .launch_description_entity import LaunchDescriptionEntity
+from .some_substitutions_type import SomeSubstitutionsType
+from .utilities.normalize_to_list_of_substitutions_impl import normalize_to_list_of_substitutions
+
+Tree = tuple[str, list[Any]]
+"""A line, and the trees below it."""
+
+
+class LaunchIntrospector:
+    """Describes launch descriptions without running them."""
+
+    def format_launch_description(self, launch_description: LaunchDescription) -> str:
+        """One line for each entity, those below a handler beneath it."""
+        return "\n".join([str(launch_description), *_lines(_trees(launch_description.entities), "")])
+
+
+def _trees(entities: Iterable[LaunchDescriptionEntity]) -> list[Tree]:
+    return [_tree(entity) for entity in entities]
+
+
+def _tree(entity: LaunchDescriptionEntity) -> Tree:
+    match entity:
+        case LogInfo():
+            return f"LogInfo({_substitutions(entity.msg)})", []
+        case EmitEvent():
+            return f"EmitEvent(event='{entity.event.name}')", []
+        case ExecuteProcess():
+            return _process(entity), []
+        case RegisterEventHandler():
+            words, below = entity.event_handler.describe()
+            return f"RegisterEventHandler('{entity.event_handler}'):", [(words, _trees(below))]
+        case _:
+            return f"Action('{entity}')", []
+
+
+def _process(action: ExecuteProcess) -> str:
+    cmd = ", ".join(_substitutions(word) for word in action.cmd)
+    cwd = None if action.cwd is None else f"'{_substitutions(action.cwd)}'"
+    env = action.env
+    if env is not None:
+        env = "{" + ", ".join(f"{_substitutions(name)}: {_substitutions(value)}" for name, value in env) + "}"
+    return f"ExecuteProcess(cmd=[{cmd}], cwd={cwd}, env={env}, shell={action.shell})"
+
+
+def _substitutions(given: SomeSubstitutionsType) -> str:
+    return " + ".join(part.describe() for part in normalize_to_list_of_substitutions(given))
+
+
+def _lines(trees: list[Tree], before: str) -> Iterable[str]:
+    for at, (line, below) in enumerate(trees):
+        is_last = at == len(trees) - 1
+        yield f"{before}{'└── ' if is_last else '├── '}{line}"
+        yield from _lines(below, before + ("    " if is_last else "│   "))
