@@ -9,35 +9,37 @@ from typing import TYPE_CHECKING
 
 from tutor.cli import context, terminal
 from tutor.cli.errors import PASSED
+from tutor.cli.standing import Standing, next_command, next_lesson, standings
 from tutor.invocation import command
 
 if TYPE_CHECKING:
-    from tutor.content import Lesson
-    from tutor.workspace import ExerciseProgress, Workspace
+    from tutor.content import Course, Lesson
+    from tutor.workspace import ExerciseProgress, Progress, Workspace
 
-_WORDS = {"passed": ("✓", "32"), "not passed yet": ("✗", "31"), "started": ("·", "33"), "not started": (" ", "2")}
+_WORDS = {
+    Standing.PASSED: ("✓ passed        ", "32"),
+    Standing.NOT_PASSED: ("✗ not passed yet", "31"),
+    Standing.STARTED: ("· started       ", "33"),
+    Standing.NOT_STARTED: ("  not started   ", "2"),
+}
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """It takes none of its own."""
+    """[--format text|json]."""
+    parser.add_argument("--format", choices=("text", "json"), default="text", help="text (default) or json")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Print one line for each exercise, what to do next, and the workspace's ROS domain."""
-    from tutor.workspace import domain_of
-
+    """Print one line for each exercise, what to do next, and the workspace's ROS domain; or all of it as JSON."""
     course = context.load_course(arguments)
     workspace = context.workspace(arguments)
     progress = context.read_progress(workspace)
+    if arguments.format == "json":
+        from tutor.cli.list_json import render
 
-    width = max((len(lesson.title) for lesson in course.lessons), default=0)
-    words = {lesson.id: _word(lesson, progress.of(lesson.id), workspace) for lesson in course.lessons}
-    lines = [_line(lesson, progress.of(lesson.id), words[lesson.id], width) for lesson in course.lessons]
-    passed = sum(word == "passed" for word in words.values())
-    lines += ["", f"{passed} of {len(lines)} passed.{_next(course.lessons, words)}"]
-    if workspace.exists:
-        lines += [f"Your nodes run in ROS domain {domain_of(workspace)}."]
-    terminal.out("\n".join(lines) + "\n")
+        terminal.out(render(course, progress, workspace))
+        return PASSED
+    terminal.out(_text(course, progress, workspace))
     if not workspace.exists:
         terminal.say(
             f"there is no workspace yet; `{command('start', course.lessons[0].id)}` makes one at {workspace.root}"
@@ -45,19 +47,23 @@ def run(arguments: argparse.Namespace) -> int:
     return PASSED
 
 
-def _word(lesson: Lesson, progress: ExerciseProgress, workspace: Workspace) -> str:
-    from tutor.workspace import is_started
+def _text(course: Course, progress: Progress, workspace: Workspace) -> str:
+    from tutor.workspace import domain_of
 
-    if progress.best is not None and progress.best.value == "passed":
-        return "passed"
-    if progress.attempts:
-        return "not passed yet"
-    return "started" if progress.started_at or is_started(lesson, None, workspace) else "not started"
+    known = standings(course, progress, workspace)
+    width = max((len(lesson.title) for lesson in course.lessons), default=0)
+    lines = [_line(lesson, progress.of(lesson.id), known[lesson.id], width) for lesson in course.lessons]
+    passed = sum(standing is Standing.PASSED for standing in known.values())
+    following = next_lesson(course.lessons, known)
+    word = "Next" if following is not None else "You have done them all"
+    lines += ["", f"{passed} of {len(lines)} passed. {word}: {next_command(following, known)}"]
+    if workspace.exists:
+        lines += [f"Your nodes run in ROS domain {domain_of(workspace)}."]
+    return "\n".join(lines) + "\n"
 
 
-def _line(lesson: Lesson, progress: ExerciseProgress, word: str, width: int) -> str:
-    mark, color = _WORDS[word]
-    state = terminal.style(f"{mark} {word:14}", color, sys.stdout)
+def _line(lesson: Lesson, progress: ExerciseProgress, standing: Standing, width: int) -> str:
+    state = terminal.style(*_WORDS[standing], sys.stdout)
     name = f"{lesson.id:6} {lesson.title:{width}}  {lesson.difficulty.value:9}"
     return f"{name}  {state}  {_last(lesson, progress)}".rstrip()
 
@@ -77,12 +83,3 @@ def _day(at: str) -> str:
         return f"{datetime.fromisoformat(at).astimezone():%Y-%m-%d %H:%M}"
     except ValueError:
         return at
-
-
-def _next(lessons: tuple[Lesson, ...], words: dict[str, str]) -> str:
-    for lesson in lessons:
-        if words[lesson.id] == "not started":
-            return f" Next: {command('start', lesson.id)}"
-        if words[lesson.id] != "passed":
-            return f" Next: {command('check', lesson.id)}"
-    return f" You have done them all: {command('checklist')}"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from collections.abc import Callable, Iterable, Sequence
 from difflib import get_close_matches
 from pathlib import Path
@@ -13,15 +14,20 @@ from tutor.cli import (
     author,
     check,
     checklist,
+    diff,
     doctor,
     help_command,
     hint,
     list_exercises,
+    next_exercise,
+    reset,
     ros2,
+    run_node,
     serve,
     shell,
     solution,
     start,
+    watch,
 )
 from tutor.cli.errors import UsageError
 from tutor.invocation import program
@@ -76,13 +82,28 @@ exit codes: 0 passed, 1 not everything passed, 2 wrong usage, 3 a fault of the t
 def parse(argv: Sequence[str] | None) -> argparse.Namespace:
     """Read the command line. `command` is None where there is none. Raises UsageError."""
     parser = build()
-    arguments, unknown = parser.parse_known_args(argv)
+    words = list(sys.argv[1:] if argv is None else argv)
+    words, rest = _nodes_own(words)
+    arguments, unknown = parser.parse_known_args(words)
+    if rest:
+        arguments.rest = rest
     if unknown:
         used = command_parsers(parser).get(arguments.command, parser)
         options = [option for action in used._actions for option in action.option_strings]
         guess = did_you_mean(unknown[0].partition("=")[0], options) if unknown[0].startswith("-") else ""
+        if arguments.command == "run":
+            guess = "; what is your node's own follows --, as in -- --ros-args"
         used.error(f"unrecognized arguments: {' '.join(unknown)}{guess}")
     return arguments
+
+
+def _nodes_own(words: list[str]) -> tuple[list[str], list[str]]:
+    """What is ours, and what the node gets: for `run`, what follows the first `--`."""
+    ours = words[: words.index("--")] if "--" in words else words
+    takes_value = {"--workspace", "--lessons"}  # whose value, too, may be "run"
+    pairs = zip(["", *ours], ours, strict=False)
+    command = next((word for before, word in pairs if not word.startswith("-") and before not in takes_value), "")
+    return (ours, words[len(ours) + 1 :]) if command == "run" else (words, [])
 
 
 def did_you_mean(word: str, known: Iterable[str]) -> str:
@@ -119,7 +140,12 @@ def build() -> argparse.ArgumentParser:
 
     add("list", list_exercises.run, list_exercises.add_arguments, "show the exercises, with your progress")
     add("start", start.run, start.add_arguments, "put the skeleton of an exercise into the workspace")
+    add("next", next_exercise.run, next_exercise.add_arguments, "show the first exercise not passed, and what to do")
     add("check", check.run, check.add_arguments, "judge an exercise by what your node does")
+    add("watch", watch.run, watch.add_arguments, "check again at each save, until Ctrl+C")
+    add("run", run_node.run, run_node.add_arguments, "run your node in this terminal, until Ctrl+C")
+    add("diff", diff.run, diff.add_arguments, "compare your file with the skeleton, or with our solution")
+    add("reset", reset.run, reset.add_arguments, "put the skeleton back; your file is kept beside it")
     add("hint", hint.run, hint.add_arguments, "show the next hint for an exercise")
     add("solution", solution.run, solution.add_arguments, "print our solution of an exercise")
     add("checklist", checklist.run, checklist.add_arguments, "show, tick or export the self-assessment checklist")

@@ -1,0 +1,313 @@
+"""From one exercise to the next: next, run, watch, diff, reset, and the list as JSON."""
+
+from __future__ import annotations
+
+import io
+import json
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+from typing import IO
+
+import pytest
+
+from tests.cli.conftest import Run
+from tests.cli.fake_engine import FAILURE, FakeEngine
+from tests.cli.test_cli_process import command
+from tutor.content import load_course
+from tutor.workspace import Workspace, claims, domain_of
+
+FILE = "ros_tutor_ws/src/my_package/my_package/temperature_publisher.py"
+
+
+@pytest.fixture(autouse=True)
+def registry(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv("ROS_DOMAIN_ID", raising=False)
+    monkeypatch.setattr(claims, "REGISTRY", tmp_path / "registry")
+
+
+# --- next ---
+
+
+def test_next_leads_from_exercise_to_exercise(run: Run, engine: FakeEngine) -> None:
+    ran = run("next")
+    assert ran.code == 0
+    assert ran.out.startswith("i1.1 Sensor Publisher (easy)\n")
+    assert ran.out.endswith("Next: ros-tutor start i1.1\n")
+
+    run("start", "i1.1")
+    assert "to edit   " + FILE in run("next").out
+    assert run("next").out.endswith("Next: ros-tutor check i1.1\n")
+
+    engine.verdicts = {"rate": FAILURE}
+    run("check", "i1.1")
+    ran = run("next")
+    assert "not yet   rate\n" in ran.out
+    assert "a hint    ros-tutor hint i1.1\n" in ran.out
+    assert "to run    ros-tutor run i1.1\n" in ran.out
+
+    engine.verdicts = {}
+    run("check", "i1.1")
+    assert run("next").out.startswith("i1.2 ")
+
+
+def test_after_the_last_comes_the_checklist(run: Run, engine: FakeEngine) -> None:
+    for lesson in load_course().lessons:
+        run("start", lesson.id)
+        run("check", lesson.id)
+    ran = run("next")
+    assert (ran.code, ran.out) == (0, "You have passed all 6 exercises.\nNext: ros-tutor checklist\n")
+    assert "6 of 6 passed. You have done them all: ros-tutor checklist" in run("list").out
+
+
+# --- list --format json ---
+
+
+def test_the_list_as_json(run: Run, engine: FakeEngine, home: Path) -> None:
+    empty = json.loads(run("list", "--format", "json").out)
+    assert empty["schema"] == "ros-tutor/list/1"
+    assert empty["workspace"] == {"path": str(home / "ros_tutor_ws"), "exists": False, "ros_domain_id": None}
+    assert empty["next"] == {"exercise": "i1.1", "command": "ros-tutor start i1.1"}
+    assert [each["standing"] for each in empty["exercises"]] == ["not_started"] * 6
+    assert empty["exercises"][0]["last_attempt"] is None
+
+    run("start", "i1.1")
+    engine.verdicts = {"rate": FAILURE}
+    run("check", "i1.1", "--criterion", "rate", "--criterion", "echo")
+    run("start", "i1.2")
+    ran = run("list", "--format", "json")
+    assert ran.err == ""
+    document = json.loads(ran.out)
+    assert document["passed"] == 0
+    assert document["workspace"]["ros_domain_id"] == domain_of(Workspace(home / "ros_tutor_ws"))
+    first, second, *_ = document["exercises"]
+    assert set(first) == set(second)
+    assert (first["id"], first["title"], first["difficulty"]) == ("i1.1", "Sensor Publisher", "easy")
+    assert (first["standing"], second["standing"]) == ("not_passed", "started")
+    assert first["files"] == [str(home / FILE)]
+    assert {"id": "shutdown", "bonus": True} in first["criteria"]
+    assert (first["attempts"], first["hints_shown"]) == (1, 0)
+    last = first["last_attempt"]
+    assert (last["verdict"], last["judged"], last["passed"]) == ("failed", ["echo", "rate"], ["echo"])
+
+
+def test_what_the_documentation_says_of_the_json_is_so(run: Run, engine: FakeEngine) -> None:
+    run("start", "i1.1")
+    run("check", "i1.1")
+    document = json.loads(run("list", "--format", "json").out)
+    described = (Path(claims.__file__).parents[2] / "docs" / "formats.md").read_text()
+    names = {*document, *document["workspace"], *document["next"], *document["exercises"][0]}
+    names |= {*document["exercises"][0]["last_attempt"], *document["exercises"][0]["criteria"][0]}
+    assert {name for name in names if f"`{name}`" not in described} == set()
+
+
+# --- diff and reset ---
+
+
+def test_diff_shows_what_was_changed(run: Run, home: Path) -> None:
+    run("start", "i1.1")
+    ran = run("diff", "i1.1")
+    assert (ran.code, ran.out) == (0, "")
+    assert "nothing differs from the skeleton" in ran.err
+
+    with (home / FILE).open("a") as file:
+        file.write("print('\x1b[31mmine')\n")
+    ran = run("diff", "i1.1")
+    assert ran.code == 0
+    assert ran.out.startswith(f"--- skeleton/temperature_publisher.py\n+++ {FILE}\n@@ ")
+    assert "\n+print('" in ran.out
+    assert "\x1b" not in ran.out
+
+    ran = run("diff", "i1.1", "--solution")
+    assert ran.out.startswith(f"--- {FILE}\n+++ solution/temperature_publisher.py\n@@ ")
+    assert "\n-print('" in ran.out
+    assert run("diff", "i1.1", FILE).out == run("diff", "i1.1").out
+    assert run("diff", "i1.2").code == 2
+
+
+def test_reset_keeps_what_was_there(run: Run, home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    assert "is not started yet; `ros-tutor start i1.1`" in run("reset", "i1.1", "--yes").err
+    run("start", "i1.1")
+    skeleton = (home / FILE).read_text()
+    (home / FILE).write_text("mine\n")
+    ran = run("reset", "i1.1")
+    assert (ran.code, (home / FILE).read_text()) == (2, "mine\n")
+    assert "--yes says that you are sure" in ran.err
+
+    ran = run("reset", "i1.1", "--yes")
+    assert ran.code == 0
+    assert (home / FILE).read_text() == skeleton
+    assert (home / f"{FILE}.~1~").read_text() == "mine\n"
+    assert f"skeleton again  {FILE}\n" in ran.out
+    assert f"kept            {FILE}.~1~\n" in ran.out
+
+    for answer, content in (("\n", "again\n"), ("no\n", "again\n"), ("yes\n", skeleton)):
+        (home / FILE).write_text("again\n")
+        monkeypatch.setattr("tutor.cli.terminal.is_terminal", lambda stream: True)
+        monkeypatch.setattr(sys, "stdin", io.StringIO(answer))
+        ran = run("reset", "i1.1")
+        assert (ran.code, (home / FILE).read_text()) == (0, content)
+        assert "A backup is kept. [y/N]" in ran.err
+
+
+# --- run ---
+
+
+class Became(BaseException):
+    """This process has become another."""
+
+
+@pytest.fixture
+def became(monkeypatch: pytest.MonkeyPatch) -> list[tuple[list[str], dict[str, str], Path]]:
+    found: list[tuple[list[str], dict[str, str], Path]] = []
+
+    def execve(path: str, argv: list[str], env: dict[str, str]) -> None:
+        assert path == argv[0]
+        found.append((argv, env, Path.cwd()))
+        raise Became
+
+    monkeypatch.setattr(os, "execve", execve)
+    return found
+
+
+def test_run_hands_on_what_is_the_nodes_own(
+    run: Run, home: Path, became: list[tuple[list[str], dict[str, str], Path]]
+) -> None:
+    run("start", "i1.1")
+    with pytest.raises(Became):
+        run(
+            "--workspace",
+            "ros_tutor_ws",
+            "run",
+            "i1.1",
+            "--",
+            "--ros-args",
+            "-p",
+            "publish_rate:=5.0",
+            "--",
+            "-r",
+            "a:=b",
+        )
+    argv, env, where = became[0]
+    assert argv[1:] == [str(home / FILE), "--ros-args", "-p", "publish_rate:=5.0", "--", "-r", "a:=b"]
+    assert env["ROS_DOMAIN_ID"] == str(domain_of(Workspace(home / "ros_tutor_ws")))
+    assert where == (home / FILE).parent
+
+
+def test_run_takes_any_file_of_the_exercise(
+    run: Run, home: Path, became: list[tuple[list[str], dict[str, str], Path]]
+) -> None:
+    run("start", "i1.3")
+    for words in ([], ["calculator_server"], ["calculator_client.py"]):
+        with pytest.raises(Became):
+            run("--workspace", home / "ros_tutor_ws", "run", "i1.3", *words)
+    assert [Path(argv[1]).name for argv, _, _ in became] == [
+        *["calculator_server.py"] * 2,
+        "calculator_client.py",
+    ]
+
+
+def test_run_runs_a_launch_file_as_ros2_does(
+    run: Run, home: Path, became: list[tuple[list[str], dict[str, str], Path]]
+) -> None:
+    run("start", "i2.2")
+    with pytest.raises(Became):
+        run("run", "i2.2", "--", "topic:=/news")
+    assert became[0][0][-3:] == [
+        "launch",
+        str(home / "ros_tutor_ws/src/my_package/launch/my_launch.py"),
+        "topic:=/news",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("argv", "message"),
+    [
+        (["i1.1"], "is not there; `ros-tutor start i1.1`"),
+        (["i1.3", "server"], "i1.3 has no file 'server'; it has calculator_server.py and calculator_client.py"),
+        (["i1.1", "--ros-args"], "what is your node's own follows --"),
+        (["i9.9"], "There is no exercise"),
+    ],
+)
+def test_what_cannot_be_run_is_said(run: Run, argv: list[str], message: str) -> None:
+    ran = run("run", *argv)
+    assert (ran.code, ran.out) == (2, "")
+    assert message in ran.err
+
+
+def test_a_double_dash_is_the_nodes_only_for_run(run: Run) -> None:
+    assert "There is no exercise 'run'" in run("solution", "--", "run").err
+    assert "there is no command 'x'" in run("--workspace", "run", "x", "--", "y").err
+
+
+def test_a_node_that_runs_ends_on_ctrl_c(home: Path, tmp_path: Path) -> None:
+    program = f"""
+import sys
+from pathlib import Path
+from tutor.cli import main
+from tutor.workspace import claims
+claims.REGISTRY = Path({str(tmp_path / "registry")!r})
+sys.exit(main(sys.argv[1:]))
+"""
+    node = home / FILE
+    arguments = [sys.executable, "-c", program]
+    subprocess.run([*arguments, "start", "i1.1"], check=True, capture_output=True)
+    node.write_text("import sys, time\nprint(*sys.argv[1:], flush=True)\ntime.sleep(60)\n")
+    ran = subprocess.Popen(
+        [*arguments, "run", "i1.1", "--", "a", "--b"], stdout=subprocess.PIPE, stderr=subprocess.PIPE
+    )
+    assert ran.stdout is not None
+    assert ran.stdout.readline() == b"a --b\n"
+    ran.send_signal(signal.SIGINT)
+    _, err = ran.communicate(timeout=30)
+    assert b"Ctrl+C ends it" in err
+    assert ran.returncode == -signal.SIGINT
+
+
+# --- watch ---
+
+
+def lines_until(stream: IO[str], words: str) -> list[str]:
+    found = []
+    for line in stream:
+        found.append(line)
+        if words in line:
+            return found
+    raise AssertionError(f"{words!r} did not come; there was {found}")
+
+
+def test_watch_checks_again_at_each_save(run: Run, home: Path) -> None:
+    run("start", "i1.1")
+    watching = subprocess.Popen(
+        command("watch", "i1.1", "--criterion", "publishes"),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        env={**os.environ, "PYTHONPATH": str(Path(claims.__file__).parents[2])},
+    )
+    assert watching.stdout is not None
+    assert watching.stderr is not None
+    try:
+        for number in range(3):
+            lines_until(watching.stderr, "waiting for the next save of temperature_publisher.py; Ctrl+C ends it")
+            lines_until(watching.stdout, "i1.1 Sensor Publisher  FAILED")
+            saved = home / "saved.py"
+            saved.write_text(f"# save {number}\n")
+            saved.replace(home / FILE)  # as many editors save
+        lines_until(watching.stderr, "waiting for the next save")
+        (home / FILE).unlink()
+        lines_until(watching.stderr, "i1.1 needs temperature_publisher.py")
+        watching.send_signal(signal.SIGINT)
+        watching.communicate(timeout=30)
+    finally:
+        watching.kill()
+    assert watching.returncode == 130
+    assert len(Workspace(home / "ros_tutor_ws").progress().read().of("i1.1").attempts) == 4
+
+
+def test_watch_needs_something_to_watch(run: Run, engine: FakeEngine) -> None:
+    ran = run("watch", "i1.1")
+    assert ran.code == 2
+    assert "ros-tutor start i1.1" in ran.err

@@ -1,0 +1,62 @@
+"""`ros-tutor diff`: the learner's files against the skeleton, or against our solution."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Iterator
+from difflib import unified_diff
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from tutor.cli import context, terminal
+from tutor.cli.errors import PASSED
+
+if TYPE_CHECKING:
+    from tutor.content import Lesson
+    from tutor.judge.submission import Submission
+
+_COLORS = (("---", "1"), ("+++", "1"), ("@@", "36"), ("-", "31"), ("+", "32"))
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """EXERCISE [PATH] [--solution]."""
+    parser.add_argument("exercise", metavar="EXERCISE", help="for example i2.1")
+    parser.add_argument("path", metavar="PATH", nargs="?", type=Path, help="a file or folder (or the workspace's own)")
+    parser.add_argument("--solution", action="store_true", help="against our solution instead of the skeleton")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Print what was changed in the skeleton; or with --solution, what our solution has in the place of it."""
+    from tutor.workspace import find_submission
+
+    lesson = context.load_course(arguments).find(arguments.exercise)
+    submission = find_submission(lesson, arguments.path, context.workspace(arguments))
+    lines = list(_lines(lesson, submission, solution=arguments.solution))
+    other = "our solution" if arguments.solution else "the skeleton"
+    if lines:
+        terminal.out("\n".join(map(_colored, lines)) + "\n")
+    else:
+        terminal.say(f"nothing differs from {other}")
+    return PASSED
+
+
+def _lines(lesson: Lesson, submission: Submission, *, solution: bool) -> Iterator[str]:
+    from tutor.workspace import read_source
+
+    for file in lesson.files:
+        own = submission.files.get(file.name)
+        if own is None:
+            continue
+        ours = file.solution if solution else file.skeleton
+        mine = (context.shown(own), (read_source(own) or "").splitlines())
+        given = (f"{ours.parent.name}/{file.name}", ours.read_text(encoding="utf-8").splitlines())
+        (before, old), (after, new) = (mine, given) if solution else (given, mine)
+        yield from unified_diff(old, new, before, after, lineterm="")
+
+
+def _colored(line: str) -> str:
+    from tutor.report.plain import printable
+
+    color = next((color for start, color in _COLORS if line.startswith(start)), "")
+    return terminal.style(printable(line), color, sys.stdout)

@@ -1,0 +1,58 @@
+"""`ros-tutor list --format json`: one document of the schema `ros-tutor/list/1`, which docs/formats.md describes."""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING, Any
+
+from tutor.cli.standing import Standing, next_command, next_lesson, standings
+
+if TYPE_CHECKING:
+    from tutor.content import Course, Lesson
+    from tutor.workspace import ExerciseProgress, Progress, Workspace
+
+SCHEMA = "ros-tutor/list/1"
+
+
+def render(course: Course, progress: Progress, workspace: Workspace) -> str:
+    """The document, with a line's end."""
+    from tutor.workspace import domain_of
+
+    known = standings(course, progress, workspace)
+    following = next_lesson(course.lessons, known)
+    document = {
+        "schema": SCHEMA,
+        "workspace": {
+            "path": str(workspace.root),
+            "exists": workspace.exists,
+            "ros_domain_id": domain_of(workspace) if workspace.exists else None,
+        },
+        "passed": sum(standing is Standing.PASSED for standing in known.values()),
+        "next": {"exercise": None if following is None else following.id, "command": next_command(following, known)},
+        "exercises": [
+            _exercise(lesson, progress.of(lesson.id), known[lesson.id], workspace) for lesson in course.lessons
+        ],
+    }
+    return json.dumps(document, ensure_ascii=False, indent=2) + "\n"
+
+
+def _exercise(lesson: Lesson, progress: ExerciseProgress, standing: Standing, workspace: Workspace) -> dict[str, Any]:
+    last = progress.last
+    return {
+        "id": lesson.id,
+        "title": lesson.title,
+        "difficulty": lesson.difficulty.value,
+        "standing": standing.value,
+        "files": [str(workspace.path_of(file.name)) for file in lesson.files],
+        "criteria": [{"id": criterion.id, "bonus": criterion.bonus} for criterion in lesson.criteria],
+        "hints_shown": progress.hints,
+        "attempts": len(progress.attempts),
+        "last_attempt": None
+        if last is None
+        else {
+            "at": last.at,
+            "verdict": last.verdict.value,
+            "judged": last.asked(criterion.id for criterion in lesson.criteria),
+            "passed": list(last.passed),
+        },
+    }

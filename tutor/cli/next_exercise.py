@@ -1,0 +1,49 @@
+"""`ros-tutor next`: the first exercise that is not passed, and what to do."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from typing import TYPE_CHECKING
+
+from tutor.cli import context, terminal
+from tutor.cli.errors import PASSED
+from tutor.cli.standing import Standing, next_command, next_lesson, standings
+from tutor.invocation import command
+
+if TYPE_CHECKING:
+    from tutor.content import Lesson
+    from tutor.workspace import ExerciseProgress, Workspace
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """It takes none of its own."""
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Print the exercise, how far the learner is, and the next command."""
+    course = context.load_course(arguments)
+    workspace = context.workspace(arguments)
+    progress = context.read_progress(workspace)
+    known = standings(course, progress, workspace)
+    lesson = next_lesson(course.lessons, known)
+    if lesson is None:
+        terminal.out(f"You have passed all {len(known)} exercises.\nNext: {next_command(None, known)}\n")
+        return PASSED
+    heading = f"{lesson.id} {lesson.title} ({lesson.difficulty.value})"
+    lines = [terminal.style(heading, "1", sys.stdout), lesson.objective.strip(), ""]
+    if known[lesson.id] is not Standing.NOT_STARTED:
+        lines += _so_far(lesson, progress.of(lesson.id), workspace)
+    lines += [f"Next: {next_command(lesson, known)}"]
+    terminal.out(terminal.wrap("\n".join(lines), terminal.width(sys.stdout)))
+    return PASSED
+
+
+def _so_far(lesson: Lesson, progress: ExerciseProgress, workspace: Workspace) -> list[str]:
+    lines = [f"  to edit   {context.shown(workspace.path_of(file.name))}" for file in lesson.files]
+    if progress.last is not None:
+        asked = progress.last.asked(criterion.id for criterion in lesson.criteria if not criterion.bonus)
+        missed = [id for id in asked if id not in progress.last.passed]
+        lines += [f"  not yet   {', '.join(missed)}"] if missed else []
+        lines += [f"  a hint    {command('hint', lesson.id)}"]
+    return [*lines, f"  to run    {command('run', lesson.id)}", ""]

@@ -1,0 +1,59 @@
+"""`ros-tutor run`: the learner's node in the foreground, in the workspace's ROS domain."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from typing import TYPE_CHECKING
+
+from tutor.cli import context, terminal
+from tutor.cli.errors import UsageError
+from tutor.invocation import command
+
+if TYPE_CHECKING:
+    from tutor.content import Lesson, LessonFile
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """EXERCISE [FILE] [-- ARGUMENT...]."""
+    parser.usage = "%(prog)s EXERCISE [FILE] [options] [-- ARGUMENT ...]"
+    parser.add_argument("exercise", metavar="EXERCISE", help="for example i2.1; ends with Ctrl+C")
+    parser.add_argument("file", metavar="FILE", nargs="?", help="which of its files (or the first one)")
+    parser.epilog = (
+        "What follows -- is the node's own: -- --ros-args -p publish_rate:=2.0 (for a launch file: -- topic:=/x)"
+    )
+    parser.set_defaults(rest=[])
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Become the node; comes back only where that cannot be."""
+    from tutor.sandbox.ros2.errors import CommandError
+    from tutor.tui.desk import Desk
+    from tutor.workspace import RunOptions
+
+    course = context.load_course(arguments)
+    lesson = course.find(arguments.exercise)
+    file = _file(lesson, arguments.file)
+    desk = Desk(course, context.workspace(arguments))
+    path = desk.path(file)
+    if not path.is_file():
+        raise UsageError(f"{path} is not there; `{command('start', lesson.id)}` puts the skeleton there")
+    try:
+        node = desk.node_command(file, RunOptions())
+    except CommandError as error:
+        raise UsageError(str(error)) from error
+    terminal.say(f"{context.shown(path)} in ROS domain {desk.domain}; Ctrl+C ends it")
+    sys.stdout.flush()
+    os.chdir(node.cwd)
+    os.execve(node.argv[0], [*node.argv, *arguments.rest], node.env)
+
+
+def _file(lesson: Lesson, name: str | None) -> LessonFile:
+    names = {alias: file for file in lesson.files for alias in (file.name, file.name.removesuffix(".py"))}
+    if name is None:
+        return lesson.files[0]
+    if name not in names:
+        known = " and ".join(file.name for file in lesson.files)
+        raise UsageError(f"{lesson.id} has no file {name!r}; it has {known}. What is the node's own follows --")
+    return names[name]

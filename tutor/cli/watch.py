@@ -1,0 +1,63 @@
+"""`ros-tutor watch`: check again at each save."""
+
+from __future__ import annotations
+
+import argparse
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from tutor.cli import check, context, terminal
+from tutor.cli.errors import INTERRUPTED
+
+if TYPE_CHECKING:
+    from tutor.cli.judging import Engine
+
+_LOOK_EVERY_S = 0.3
+_SOURCES = (".py", ".xml", ".yaml", ".yml")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """EXERCISE [PATH] [--criterion ID]...."""
+    parser.add_argument("exercise", metavar="EXERCISE", help="for example i2.1")
+    parser.add_argument("path", metavar="PATH", nargs="?", type=Path, help="a file or folder (or the workspace's own)")
+    parser.add_argument("--criterion", metavar="ID", action="append", help="judge only this one (repeatable)")
+    parser.set_defaults(solution=False, format="text", output=None)
+
+
+def run(arguments: argparse.Namespace, engine: Engine | None = None) -> int:
+    """Check now, and whenever a file of the exercise, or one that no other exercise has, is saved; until Ctrl+C."""
+    from tutor.workspace import SubmissionError, find_submission
+
+    course = context.load_course(arguments)
+    lesson = course.find(arguments.exercise)
+    submission = find_submission(lesson, arguments.path, context.workspace(arguments))
+    folders = {path.parent for path in submission.files.values()}
+    own = {path for path in submission.files.values()}
+    others = {file.name for other in course.lessons for file in other.files if other.id != lesson.id}
+    while True:
+        seen = _look(folders, own, others)
+        try:
+            if check.run(arguments, engine) == INTERRUPTED:
+                return INTERRUPTED
+        except SubmissionError as error:  # renamed, or half saved
+            terminal.say(str(error))
+        terminal.say(f"waiting for the next save of {' or '.join(sorted(path.name for path in own))}; Ctrl+C ends it")
+        while _look(folders, own, others) == seen:
+            time.sleep(_LOOK_EVERY_S)
+
+
+def _look(folders: set[Path], own: set[Path], others: set[str]) -> dict[Path, bytes]:
+    """The contents of the files that a check may read."""
+    found: dict[Path, bytes] = {}
+    for folder in folders:
+        try:
+            paths = [path for path in folder.iterdir() if path.suffix in _SOURCES and path.name not in others]
+        except OSError:
+            continue
+        for path in {*paths, *(each for each in own if each.parent == folder)}:
+            try:
+                found[path] = path.read_bytes()
+            except OSError:
+                continue
+    return found
