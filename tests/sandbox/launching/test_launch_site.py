@@ -138,12 +138,12 @@ def test_a_name_is_one_thing_wherever_it_is_imported_from(stage: Stage) -> None:
             "launch_testing.actions.ready.ReadyToTest",
         ),
         (
-            "from launch_ros.ros_adapters import get_ros_node\nget_ros_node(None)",
-            "launch_ros.ros_adapters.get_ros_node",
+            "from launch_ros.utilities import add_node_name\nadd_node_name(None, '')",
+            "launch_ros.utilities.track_node_names.add_node_name",
         ),
         (
-            "from launch_ros.actions import LifecycleTransition\nclass Mine(LifecycleTransition): ...\nMine()",
-            "launch_ros.actions.lifecycle_transition.LifecycleTransition",
+            "from launch.frontend import Parser\nclass Mine(Parser): ...\nMine()",
+            "launch.frontend.parser.Parser",
         ),
     ],
 )
@@ -159,15 +159,19 @@ def test_what_only_the_real_one_has_is_named_when_it_is_used(stage: Stage, state
     assert ran.code == 1
 
 
+LOAD = """<launch><load_composable_node target="c">
+<composable_node pkg="a" plugin="b" name="n"/></load_composable_node></launch>"""
+
+
 @pytest.mark.parametrize("included", [False, True])
-def test_a_tag_that_only_the_real_one_has_is_named(stage: Stage, included: bool) -> None:
-    path = write(stage, '<launch><set_ros_log_dir new_log_dir="x"/></launch>', "main.launch.xml")
+def test_what_a_tag_cannot_do_is_named(stage: Stage, included: bool) -> None:
+    path = write(stage, LOAD, "main.launch.xml")
     if included:
         path = write(stage, launch_file(f"IncludeLaunchDescription('{path}')"))
     ran = stage.run(path)
     errors = [line for line in ran.log if line.startswith("[ERROR]")]
     assert len(errors) == 1
-    assert f"the tag <set_ros_log_dir> {REFUSED}" in errors[0]
+    assert f"loading the composable node b into a container {REFUSED}" in errors[0]
     assert ran.code == 1
 
 

@@ -6,15 +6,16 @@ from collections.abc import Sequence
 from typing import Any
 
 from launch._frontend import actions as launch_actions
-from launch._frontend.actions import condition, pairs, process, text, texts, value
+from launch._frontend.actions import children, condition, pairs, process, text, texts, value
 from launch._frontend.entity import Entity
 from launch._frontend.substitutions import TABLE
 from launch._frontend.text import parse_substitution, parse_words
 from launch.action import Action
 
 from . import actions
+from .descriptions.composable_node import ComposableNode
 from .parameter_descriptions import ParameterFile, ParameterValue
-from .substitutions import ExecutableInPackage, FindPackagePrefix, FindPackageShare
+from .substitutions import ExecutableInPackage, FindPackagePrefix, FindPackageShare, Parameter
 
 TYPES: dict[str, Any] = {
     "str": str,
@@ -94,24 +95,52 @@ def _set_parameter(entity: Entity) -> Action:
     return actions.SetParameter(text(entity, "name"), text(entity, "value"), **condition(entity))
 
 
+def _node_container(entity: Entity) -> Action:
+    nodes = [_composable_node(node) for node in entity.below("composable_node")]
+    return actions.ComposableNodeContainer(composable_node_descriptions=nodes, **node_arguments(entity))
+
+
+def _load_composable_node(entity: Entity) -> Action:
+    nodes = [_composable_node(node) for node in entity.below("composable_node")]
+    target = text(entity, "target")
+    return actions.LoadComposableNodes(composable_node_descriptions=nodes, target_container=target, **condition(entity))
+
+
+def _composable_node(entity: Entity) -> ComposableNode:
+    given = condition(entity) | texts(entity, namespace="namespace") | parameters_and_remappings(entity)
+    if extra := pairs(entity, "extra_arg", "name", "value"):
+        given["extra_arguments"] = [dict([pair]) for pair in extra]
+    node = ComposableNode(
+        package=text(entity, "pkg"), plugin=text(entity, "plugin"), name=text(entity, "name"), **given
+    )
+    entity.require_all_known()
+    return node
+
+
 def _push_namespace(entity: Entity) -> Action:
     return actions.PushROSNamespace(text(entity, "namespace"), **condition(entity))
 
 
 launch_actions.MAKERS |= {
+    "load_composable_node": _load_composable_node,
     "node": lambda entity: actions.Node(**node_arguments(entity)),
+    "node_container": _node_container,
     "push-ros-namespace": _push_namespace,
     "push_ros_namespace": _push_namespace,
+    "ros_timer": lambda entity: actions.ROSTimer(
+        period=value(entity.get("period", float)), actions=children(entity), **condition(entity)
+    ),
     "set_parameter": _set_parameter,
     "set_parameters_from_file": lambda entity: actions.SetParametersFromFile(
         text(entity, "filename"), **condition(entity)
     ),
     "set_remap": lambda entity: actions.SetRemap(text(entity, "from"), text(entity, "to"), **condition(entity)),
+    "set_ros_log_dir": lambda entity: actions.SetROSLogDir(text(entity, "new_log_dir"), **condition(entity)),
     "set_use_sim_time": lambda entity: actions.SetUseSimTime(value(entity.get("value", bool)), **condition(entity)),
 }
-launch_actions.NOT_HERE |= {"node_container", "load_composable_node", "ros_timer", "set_ros_log_dir"}
 TABLE |= {
     "exec-in-pkg": (2, 2, lambda executable, package: ExecutableInPackage(executable=executable, package=package)),
     "find-pkg-prefix": (1, 1, FindPackagePrefix),
     "find-pkg-share": (1, 1, FindPackageShare),
+    "param": (1, 2, lambda name, default=None: Parameter(name, default=default)),
 }

@@ -7,7 +7,6 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from .. import actions
-from .._unsupported import refuse
 from ..action import Action
 from ..conditions import IfCondition, UnlessCondition
 from ..substitution import Substitution
@@ -18,15 +17,11 @@ from .text import parse_substitution, parse_words
 Arguments = dict[str, Any]
 MAKERS: dict[str, Callable[[Entity], Action]] = {}
 """What makes an action of an entity, by its name; launch_ros adds its own."""
-NOT_HERE: set[str] = set()
-"""The names that only an installed ROS 2 knows."""
 
 
 def make_action(entity: Entity) -> Action:
     """The action of an entity; raises what is wrong with it."""
     name = entity.type_name
-    if name in NOT_HERE:
-        refuse(f"the tag <{name}>")
     if name not in MAKERS:
         raise RuntimeError(f"Unrecognized entity of the type: {name}")
     made = MAKERS[name](entity)

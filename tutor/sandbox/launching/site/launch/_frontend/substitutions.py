@@ -6,7 +6,6 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from .. import substitutions as subs
-from .._unsupported import refuse
 from ..substitution import Substitution
 from ..substitutions.text_substitution import TextSubstitution
 
@@ -55,13 +54,9 @@ TABLE: dict[str, tuple[int, int, Callable[..., Any]]] = {
 }
 """For each name the fewest and the most arguments, and what makes the substitution of them."""
 
-NOT_HERE = {"param"}
-
 
 def make(name: str, arguments: Sequence[Argument]) -> Substitution:
     """The substitution `$(name arguments...)`; RuntimeError, TypeError where there is none such."""
-    if name in NOT_HERE:
-        refuse(f"the substitution $({name} ...)")
     if name not in TABLE:
         raise RuntimeError(f"Unknown substitution: {name}")
     fewest, most, substitution = TABLE[name]

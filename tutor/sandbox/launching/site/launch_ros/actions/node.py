@@ -96,13 +96,17 @@ class Node(ExecuteProcess):
         )
 
     def execute(self, context: LaunchContext) -> Sequence[LaunchDescriptionEntity] | None:
-        if self._final_node_name is None:
-            for word in self._ros_arguments(context):
-                self._description.cmd.append(normalize_to_list_of_substitutions(word))
+        self._find_names(context)
         entities = super().execute(context)
         if self.is_node_name_fully_specified():
             self._warn_of_same_name(context)
         return entities
+
+    def _find_names(self, context: LaunchContext) -> None:
+        """Complete the command; from here on the node's name and namespace are known."""
+        if self._final_node_name is None:
+            for word in self._ros_arguments(context):
+                self._description.cmd.append(normalize_to_list_of_substitutions(word))
 
     def _ros_arguments(self, context: LaunchContext) -> list[str]:
         """What follows `--ros-args`, in the order of the original."""

@@ -1,5 +1,6 @@
 """Descriptions of nodes' parameters."""
 
 from ..parameter_descriptions import Parameter, ParameterFile, ParameterValue
+from .composable_node import ComposableNode
 
-__all__ = ["Parameter", "ParameterFile", "ParameterValue"]
+__all__ = ["ComposableNode", "Parameter", "ParameterFile", "ParameterValue"]
