@@ -103,6 +103,13 @@ GROUPS: tuple[tuple[str, tuple[Command, ...]], ...] = (
         ),
     ),
     (
+        "The terminal",
+        (
+            Command("lesson_command", ("R",), "Run command", "Run a command of the lesson in the terminal"),
+            Command("interrupt_command", (), "Ctrl+C", "Stop the command that is shown in the terminal"),
+        ),
+    ),
+    (
         "Around",
         (
             Command("next", ("n",), "Next", "Go to the next lesson", footer=True, help=_STEP),
@@ -118,6 +125,7 @@ GROUPS: tuple[tuple[str, tuple[Command, ...]], ...] = (
             Command("live_services", ("S",), "Services", "Live: show the services, and call them", help=_LIVE),
             Command("publish", ("M",), "Publish", "Live: publish a message, once or at a rate; or stop that"),
             Command("live_graph", ("G",), "Graph", "Live: show the graph of nodes and topics", help=_LIVE),
+            Command("page_terminal", ("7", "f10"), "Terminal", "Type ros2 commands, several at once"),
             Command("page_criteria", ("5", "f8"), "Criteria", "Show the criteria"),
             Command("checklist", ("6", "f12"), "Checklist", "Tick what you can do by now", footer=True),
             Command("export", ("X",), "Export", "Export the checklist and your progress"),

@@ -5,6 +5,7 @@ Nothing here imports Textual. The methods that touch the disk are called in work
 
 from __future__ import annotations
 
+import contextlib
 import os
 import shlex
 import sys
@@ -17,6 +18,7 @@ from tutor.content import Course, Lesson, LessonFile, Partner
 from tutor.judge.result import ExerciseResult
 from tutor.tui import run_options
 from tutor.tui.node import NodeCommand
+from tutor.tui.terminal.shell import Shell
 from tutor.workspace import (
     AppState,
     Placed,
@@ -45,6 +47,7 @@ class Desk:
         self.workspace = workspace
         self.extra = extra
         self._domain: tuple[Path, int] | None = None
+        self._tools: tempfile.TemporaryDirectory[str] | None = None
         self.notify: Notify = lambda text: None
         """Told in one line, from any thread, what the learner should know (damaged progress was set aside)."""
 
@@ -187,3 +190,30 @@ class Desk:
     def command_line(self, file: LessonFile, options: RunOptions) -> str:
         """What a ROS user would type to run this file, once the workspace is built."""
         return run_options.command_line(self.workspace.package.name, file.name, options)
+
+    def shell(self) -> Shell:
+        """Where the commands of the terminal page are run: as in `ros-tutor shell`. Raises OSError, ValueError."""
+        from tutor.ros.environment import detect  # late: the first paint does not wait for it
+        from tutor.sandbox.ros2.sourced import sourced_environment
+
+        if self._tools is None:
+            self._tools = tempfile.TemporaryDirectory(prefix="ros-tutor-terminal-")
+        env = sourced_environment(detect(), self.workspace.root, self.domain, Path(self._tools.name))
+        return Shell(env, self.workspace.root)
+
+    def typed_commands(self) -> list[str]:
+        """The commands that were typed on the terminal page, the oldest first."""
+        try:
+            return self._history.read_text(encoding="utf-8").splitlines()
+        except (OSError, UnicodeDecodeError):
+            return []
+
+    def keep_typed_commands(self, commands: Sequence[str]) -> None:
+        """Remember the commands typed; where that is impossible, they are forgotten."""
+        if self.workspace.exists and commands:
+            with contextlib.suppress(StorageError):
+                write_atomically(self._history, "\n".join(commands) + "\n")
+
+    @property
+    def _history(self) -> Path:
+        return self.workspace.kept("terminal-history")

@@ -86,6 +86,13 @@ class GoToLine(Message):
 
 
 @dataclass
+class RunCommand(Message):
+    """A command of the lesson's text is to be run in the terminal."""
+
+    command: str
+
+
+@dataclass
 class ProgressRead(Message):
     """The learner's progress was read or has changed."""
 

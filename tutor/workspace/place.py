@@ -36,6 +36,10 @@ class Workspace:
         """Where the exercise file `name` belongs: launch files in `launch/`, everything else among the modules."""
         return self.package / ("launch" if is_launch_file(name) else PACKAGE) / name
 
+    def kept(self, name: str) -> Path:
+        """Where a file of ours is kept that is none of the learner's."""
+        return self.root / MARKER / name
+
     def progress(self, notify: Callable[[str], None] = to_stderr) -> ProgressFile:
         """The progress file; `notify` is told in one line if a damaged one had to be set aside."""
         return ProgressFile(self.root / MARKER / "progress.json", notify)

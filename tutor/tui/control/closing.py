@@ -19,6 +19,10 @@ async def close_down(stage: Stage, files: Files, nodes: Nodes, checks: Checks, m
     """Save, end the check and the nodes, and wait until nothing of them is left."""
     checks.leave()
     nodes.leave()
+    terminal = pages.terminal
+    if terminal is not None:
+        terminal.leave()
+        stage.session.desk.keep_typed_commands(terminal.typed_commands)
     try:
         async with asyncio.timeout(SAVE_LIMIT_S):
             await files.save_all()
@@ -27,7 +31,7 @@ async def close_down(stage: Stage, files: Files, nodes: Nodes, checks: Checks, m
     await memory.flush()
     if (live := pages.live) is not None:
         await live.close_down()
-    busy = [worker for worker in stage.workers if worker.group in ("check", "node", "progress")]
+    busy = [worker for worker in stage.workers if worker.group in ("check", "node", "progress", "terminal")]
     if busy:  # an empty list would mean all of them, and the one that follows the file never ends
         await stage.app.workers.wait_for_complete(busy)
     files.leave()

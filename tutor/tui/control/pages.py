@@ -13,11 +13,13 @@ from tutor.tui.live.command import live_command
 from tutor.tui.live.pane import TABS, LivePane
 from tutor.tui.screens.layout import Criteria, Layout, layout_for
 from tutor.tui.screens.stage import Deed, Stage
+from tutor.tui.terminal.history import History
+from tutor.tui.terminal.pane import TerminalPane
 from tutor.tui.widgets.code_pane import CodePane
 from tutor.tui.widgets.lesson_list import LessonList
 from tutor.tui.widgets.lesson_view import LessonView
 
-PAGES = ("lesson", "code", "log", "live", "criteria")
+PAGES = ("lesson", "code", "log", "live", "terminal", "criteria")
 
 
 class Pages:
@@ -71,6 +73,8 @@ class Pages:
         self._stage.set_class(name == "criteria", "-criteria")
         if name == "live":
             self._open_live()
+        elif name == "terminal":
+            self.open_terminal()
         if name != "criteria":
             self._stage.query_one(ContentSwitcher).current = name
         self._memory.note(page=name)
@@ -81,6 +85,8 @@ class Pages:
             self._stage.query_one(CodePane).focus_content()
         elif name == "live":
             self._open_live().focus_content()
+        elif name == "terminal":
+            self.open_terminal().focus_content()
         else:
             target = {"log": "#log-view", "criteria": "#criteria-list"}.get(name, "#lesson")
             self._stage.set_focus(self._stage.query_one(target), scroll_visible=False)
@@ -100,6 +106,19 @@ class Pages:
     def live(self) -> LivePane | None:
         """The live page, if it has been opened."""
         return next(iter(self._stage.query(LivePane)), None)
+
+    def open_terminal(self) -> TerminalPane:
+        """The terminal page, made the first time that it is asked for."""
+        if not (found := self.terminal):
+            desk = self._stage.session.desk
+            found = TerminalPane(desk.shell, History(desk.typed_commands()), id="terminal-pane")
+            self._stage.query_one("#terminal", Container).mount(found)
+        return found
+
+    @property
+    def terminal(self) -> TerminalPane | None:
+        """The terminal page, if it has been opened."""
+        return next(iter(self._stage.query(TerminalPane)), None)
 
     # --- the panels ---
 

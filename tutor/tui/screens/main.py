@@ -28,6 +28,7 @@ from tutor.tui.control.nodes import Nodes
 from tutor.tui.control.pages import PAGES, Pages
 from tutor.tui.control.records import Records
 from tutor.tui.control.remember import Memory
+from tutor.tui.control.terminal import Terminal
 from tutor.tui.control.views import Views
 from tutor.tui.desk import Desk
 from tutor.tui.findings import Findings
@@ -69,6 +70,7 @@ class MainScreen(Stage):
         self.checks = Checks(self, self.files, self.records, self.memory, self._show_findings)
         self.checklist = ChecklistDesk(self, self.records)
         logs = Logs(self, log)
+        self.terminal = Terminal(self, self.pages)
         own = {
             "next": Deed(lambda: self._step(1)),
             "previous": Deed(lambda: self._step(-1)),
@@ -80,7 +82,17 @@ class MainScreen(Stage):
         self._framed: tuple[Widget, ...] = ()
         self._phases: list[tuple[str, Phase]] = []
         self._deeds: dict[str, Deed] = dict(own)
-        controllers = (self.pages, self.records, self.files, self.views, self.nodes, self.checks, self.checklist, logs)
+        controllers = (
+            self.pages,
+            self.records,
+            self.files,
+            self.views,
+            self.nodes,
+            self.checks,
+            self.checklist,
+            logs,
+            self.terminal,
+        )
         for controller in controllers:
             self._deeds |= controller.deeds
 
@@ -96,6 +108,7 @@ class MainScreen(Stage):
                         yield self._code
                         yield self._log
                         yield Container(id="live")
+                        yield Container(id="terminal")
                 yield CriteriaPanel(id="criteria")
         yield KeyFooter(compact=True)
 
@@ -241,6 +254,10 @@ class MainScreen(Stage):
     def _started(self, message: messages.Started) -> None:
         self.files.started(message)
 
+    @on(messages.RunCommand)
+    def _run_command(self, message: messages.RunCommand) -> None:
+        self.terminal.run(message.command)
+
     @on(messages.FileTouched)
     def _file_touched(self, message: messages.FileTouched) -> None:
         self.files.touched(message)
@@ -312,7 +329,9 @@ class MainScreen(Stage):
     @property
     def busy(self) -> bool:
         """Whether a check or a node runs."""
-        return self.checks.running is not None or bool(self.nodes.running)
+        terminal = self.pages.terminal
+        commands = terminal is not None and bool(terminal.running)
+        return self.checks.running is not None or bool(self.nodes.running) or commands
 
     async def close_down(self) -> None:
         """Save, end the check and the nodes, and wait until nothing of them is left."""

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from textual import events
 from textual.app import ComposeResult
 from textual.containers import VerticalScroll
 from textual.content import Content
-from textual.widgets import Markdown, Static
-from textual.widgets.markdown import MarkdownBlock
+from textual.widgets import Label, Markdown, Static
+from textual.widgets.markdown import MarkdownBlock, MarkdownFence
 
 from tutor.content import Lesson
-from tutor.tui import words
+from tutor.tui import messages, words
+from tutor.tui.terminal.lesson_commands import LANGUAGES, command_at
 
 
 class LessonView(VerticalScroll):
@@ -55,6 +57,17 @@ class LessonView(VerticalScroll):
         self.query_one("#lesson-head", Static).update(head)
         self.scroll_home(animate=False)
         await self.query_one(Markdown).update(lesson.body)
+
+    def on_click(self, event: events.Click) -> None:
+        """A command in an example is run in the terminal."""
+        above = self.screen.get_widget_at(*event.screen_offset)[0].ancestors_with_self
+        fence = next((each for each in above if isinstance(each, MarkdownFence)), None)
+        if fence is None or fence.lexer.partition(" ")[0] not in LANGUAGES:
+            return
+        text = fence.query_one("#code-content", Label).content_region
+        if text.contains_point(event.screen_offset) and (command := command_at(fence.code, event.screen_y - text.y)):
+            event.stop()
+            self.post_message(messages.RunCommand(command))
 
     def go_to_line(self, line: int) -> None:
         """Scroll to the block that holds a line of the body, counted from 0."""

@@ -1,0 +1,54 @@
+"""Which commands a lesson's text shows."""
+
+from __future__ import annotations
+
+from tutor.tui.terminal.history import History
+from tutor.tui.terminal.lesson_commands import command_at, commands_in
+
+TEXT = """\
+Text with `ros2 topic list`.
+
+```python
+ros2 = "no command"
+```
+
+```bash
+ros2 topic list      # every topic
+# only a remark
+python3 node.py --ros-args \\
+    -p rate:=5.0 \\
+    -p name:='a # b'
+```
+
+```console
+$ ros2 topic hz /chatter
+average rate: 1.000
+$ ros2 topic list
+```
+"""
+
+
+def test_commands_are_in_shell_examples_only_and_each_is_one_line() -> None:
+    assert commands_in(TEXT) == (
+        "ros2 topic list",
+        "python3 node.py --ros-args -p rate:=5.0 -p name:='a # b'",
+        "ros2 topic hz /chatter",
+    )
+
+
+def test_each_line_of_an_example_leads_to_its_command() -> None:
+    example = "one \\\n  more\ntwo # why\n"
+    assert [command_at(example, line) for line in range(4)] == ["one more", "one more", "two", ""]
+
+
+def test_output_is_no_command() -> None:
+    assert command_at("$ one\noutput\n", 1) == ""
+
+
+def test_history_goes_back_and_returns_to_the_draft() -> None:
+    history = History(["a", "b"])
+    history.add("b")
+    assert history.entries == ["a", "b"]
+    assert [history.older("draft"), history.older("b"), history.older("a")] == ["b", "a", "a"]
+    assert [history.newer("a"), history.newer("b"), history.newer("draft")] == ["b", "draft", "draft"]
+    assert History().older("x") == "x"

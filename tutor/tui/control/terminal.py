@@ -1,0 +1,43 @@
+"""What the learner does with the terminal page from elsewhere: a command of the lesson's text, run there."""
+
+from __future__ import annotations
+
+from tutor.tui.control.pages import Pages
+from tutor.tui.screens.stage import Deed, Stage
+from tutor.tui.terminal.lesson_commands import commands_in
+
+
+class Terminal:
+    """Runs the lesson's commands."""
+
+    def __init__(self, stage: Stage, pages: Pages) -> None:
+        self._stage, self._pages = stage, pages
+        self.deeds = {
+            "lesson_command": Deed(self.choose, lambda: bool(self._commands)),
+            "interrupt_command": Deed(self.interrupt, lambda: bool(pages.terminal and pages.terminal.running)),
+        }
+
+    @property
+    def _commands(self) -> tuple[str, ...]:
+        return commands_in(self._stage.session.lesson.body)
+
+    def choose(self) -> None:
+        """Ask which of the lesson's commands to run, and run it."""
+        from tutor.tui.screens.choose_command import ChooseCommandScreen
+
+        def chosen(command: str | None) -> None:
+            if command is not None:
+                self.run(command)
+
+        self._stage.app.push_screen(ChooseCommandScreen(self._commands), chosen)
+
+    def run(self, command: str) -> None:
+        """Turn to the terminal page, and run a command there."""
+        self._stage.show_page("terminal")
+        pane = self._pages.open_terminal()
+        pane.call_after_refresh(pane.run_line, command)
+
+    def interrupt(self) -> None:
+        """Press Ctrl+C there."""
+        if (pane := self._pages.terminal) is not None:
+            pane.action_interrupt()

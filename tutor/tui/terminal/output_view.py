@@ -1,0 +1,109 @@
+"""What one command has printed, wrapped to the width; it follows the end unless the learner has scrolled up."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from typing import ClassVar
+
+from rich.cells import cell_len, chop_cells
+from textual import events
+from textual.binding import BindingType
+
+from tutor.judge.trace import OutputLine
+from tutor.tui.node import NodeState, Phase
+from tutor.tui.widgets.line_view import LineView, Row
+
+_ESCAPES = re.compile(r"\x1b(?:\[[0-?]*[ -/]*[@-~]|\][^\x07\x1b]*(?:\x07|\x1b\\)?|[@-Z\\^_])")
+_CONTROLS = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069]")
+_LEVELS = {"[WARN]": "warn", "[ERROR]": "error", "[FATAL]": "error"}
+
+
+class OutputView(LineView):
+    """The command, what it printed, and how it ended."""
+
+    BINDINGS: ClassVar[list[BindingType]] = []
+    COMPONENT_CLASSES: ClassVar[set[str]] = {f"line--{kind}" for kind in ("quiet", "name", "warn", "error")}
+    DEFAULT_CSS = """
+    OutputView {
+        & > .line--quiet { color: $quiet; }
+        & > .line--name { color: $code-type; text-style: bold; }
+        & > .line--warn { color: $warn; }
+        & > .line--error { color: $bad; }
+    }
+    """
+
+    def __init__(self, id: str | None = None) -> None:
+        super().__init__(id=id)
+        self._state: NodeState | None = None
+        self._error = ""
+
+    def show_state(self, state: NodeState | None, *, new: bool = False) -> None:
+        """Show a command as it is now; `new`: another one than before, from its end."""
+        self._state, self._error = state, ""
+        self._lay_out(to_end=new)
+
+    def show_error(self, text: str) -> None:
+        """Show one line about something that could not be done."""
+        self._error = text
+        self._lay_out(to_end=True)
+
+    def on_resize(self, event: events.Resize) -> None:
+        """Wrap to the new width."""
+        self._lay_out()
+
+    def _lay_out(self, *, to_end: bool = False) -> None:
+        follow = to_end or self.is_vertical_scroll_end or not self.rows
+        width = max(20, self.scrollable_content_region.width)
+        rows: list[Row] = []
+        for pieces in (*_described(self._state), *(((self._error, "error"),),) * bool(self._error)):
+            rows += _wrapped(pieces, width)
+        self.show_rows(rows)
+        if follow:
+            self.scroll_end(animate=False, immediate=True, x_axis=False)
+
+
+def _described(state: NodeState | None) -> Sequence[Row]:
+    if state is None:
+        return ()
+    rows: list[Row] = [(("$ ", "quiet"), (state.command, "name"))]
+    if state.dropped:
+        rows.append(((f"({state.dropped} lines of a flood are not shown)", "quiet"),))
+    rows += [_line(line) for line in state.lines]
+    if state.phase is Phase.ENDED and (ending := ended(state)):
+        rows.append(((ending, "error" if state.failed else "quiet"),))
+    return rows
+
+
+def ended(state: NodeState) -> str:
+    """How a command ended, as far as it is worth a word: nothing where it simply did."""
+    note = state.note
+    if note.endswith("exit code 0") or note == "stopped":
+        return ""
+    return f"[{note.removeprefix('ended by itself with ')}]"
+
+
+def _line(line: OutputLine) -> Row:
+    text = plain(line.text)
+    kind = next((kind for mark, kind in _LEVELS.items() if mark in text[:40]), "")
+    return ((text, kind),)
+
+
+def plain(text: str) -> str:
+    """Text only: no colours, no moves of the cursor, nothing that a terminal would obey; tabs as spaces."""
+    return _CONTROLS.sub("\N{REPLACEMENT CHARACTER}", _ESCAPES.sub("", text).rstrip("\r")).expandtabs(8)
+
+
+def _wrapped(pieces: Row, width: int) -> list[Row]:
+    rows: list[list[tuple[str, str]]] = [[]]
+    room = width
+    for text, kind in pieces:
+        rest = text
+        while rest and cell_len(rest) > room:
+            head = chop_cells(rest, room)[0] if room > 1 else ""
+            rows[-1].append((head, kind))
+            rows.append([])
+            rest, room = rest[len(head) :], width
+        rows[-1].append((rest, kind))
+        room -= cell_len(rest)
+    return [tuple(row) for row in rows]

@@ -1,0 +1,88 @@
+"""The line in which commands are typed."""
+
+from __future__ import annotations
+
+from collections.abc import Awaitable, Callable, Mapping
+from typing import ClassVar
+
+from textual import events
+from textual.binding import BindingType
+from textual.message import Message
+from textual.widgets import Input
+
+from tutor.tui.terminal.history import History
+
+
+class Prompt(Input, inherit_bindings=False):
+    """An input with a shell's keys.
+
+    All of them are handled where the printable ones are, in the order in which they were pressed: an action of a
+    binding would overtake the letters that still wait to be put in.
+    """
+
+    BINDINGS: ClassVar[list[BindingType]] = []
+
+    class Interrupted(Message):
+        """Ctrl+C."""
+
+    class Completed(Message):
+        """Tab."""
+
+    class Cleared(Message):
+        """Ctrl+L."""
+
+    class Left(Message):
+        """Esc."""
+
+    class Turned(Message):
+        """To another command's output: -1 or 1."""
+
+        def __init__(self, by: int) -> None:
+            super().__init__()
+            self.by = by
+
+    def __init__(self, history: History, id: str | None = None) -> None:
+        super().__init__(id=id, compact=True, placeholder="a command, such as: ros2 topic list", select_on_focus=False)
+        self.history = history
+        self._keys: Mapping[str, Callable[[], object]] = {
+            "enter": self.action_submit,
+            "up": lambda: self._recall(self.history.older(self.value)),
+            "down": lambda: self._recall(self.history.newer(self.value)),
+            "left": self.action_cursor_left,
+            "right": self.action_cursor_right,
+            "ctrl+left": self.action_cursor_left_word,
+            "ctrl+right": self.action_cursor_right_word,
+            "home": self.action_home,
+            "ctrl+a": self.action_home,
+            "end": self.action_end,
+            "ctrl+e": self.action_end,
+            "backspace": self.action_delete_left,
+            "ctrl+h": self.action_delete_left,
+            "delete": self.action_delete_right,
+            "ctrl+d": self.action_delete_right,
+            "ctrl+w": self.action_delete_left_word,
+            "ctrl+u": self.action_delete_left_all,
+            "ctrl+k": self.action_delete_right_all,
+            "ctrl+v": self.action_paste,
+            "tab": lambda: self.post_message(self.Completed()),
+            "ctrl+c": lambda: self.post_message(self.Interrupted()),
+            "ctrl+l": lambda: self.post_message(self.Cleared()),
+            "escape": lambda: self.post_message(self.Left()),
+            "ctrl+pageup": lambda: self.post_message(self.Turned(-1)),
+            "ctrl+pagedown": lambda: self.post_message(self.Turned(1)),
+        }
+
+    async def _on_key(self, event: events.Key) -> None:
+        action = self._keys.get(event.key)
+        if action is None:
+            await super()._on_key(event)
+            return
+        event.stop()
+        event.prevent_default()
+        result = action()
+        if isinstance(result, Awaitable) and event.key == "enter":
+            await result
+
+    def _recall(self, text: str) -> None:
+        self.value = text
+        self.cursor_position = len(text)

@@ -1,0 +1,63 @@
+"""Where a command of the terminal page is run: its environment and folder, and what only a shell itself can do."""
+
+from __future__ import annotations
+
+import re
+import shlex
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from tutor.tui.node import NodeCommand
+
+
+@dataclass(frozen=True, slots=True)
+class Shell:
+    """The place that commands are run in. Made by the desk, as `ros-tutor shell` has it."""
+
+    env: Mapping[str, str]
+    cwd: Path
+
+    @property
+    def place(self) -> str:
+        """The folder, as a prompt shows it."""
+        home = self.env.get("HOME", "")
+        path = str(self.cwd)
+        return "~" + path[len(home) :] if home and (path == home or path.startswith(home + "/")) else path
+
+    def command(self, line: str) -> NodeCommand:
+        """How to run a line."""
+        env = {**self.env, "PYTHONUNBUFFERED": "1"}  # a terminal shows each line as it is printed
+        return NodeCommand(line, ("bash", "-c", line), env, self.cwd, line, terminal=True)
+
+    def changed_by(self, line: str) -> Shell | str | None:
+        """The shell after `cd` or `export`; what is wrong with one; None where the line is any other command."""
+        try:
+            words = shlex.split(line, comments=True)
+        except ValueError:
+            return None
+        if not words or any(mark in line for mark in ";&|"):
+            return None
+        if words[0] == "cd":
+            return self._in(words[1:])
+        if words[0] == "export" and len(words) > 1:
+            return self._with(words[1:])
+        return None
+
+    def _in(self, words: list[str]) -> Shell | str:
+        if len(words) > 1:
+            return "cd: too many arguments"
+        folder = (self.cwd / Path(words[0] if words else self.env.get("HOME", "/")).expanduser()).resolve()
+        if not folder.is_dir():
+            return f"cd: {words[0]}: {'Not a directory' if folder.exists() else 'No such file or directory'}"
+        return replace(self, cwd=folder)
+
+    def _with(self, words: list[str]) -> Shell | str:
+        env = dict(self.env)
+        for word in words:
+            name, sign, value = word.partition("=")
+            if not re.fullmatch(r"[A-Za-z_]\w*", name):
+                return f"export: `{word}': not a valid identifier"
+            if sign:
+                env[name] = value
+        return replace(self, env=env)
