@@ -60,8 +60,8 @@ GROUPS: tuple[tuple[str, tuple[Command, ...]], ...] = (
             Command("run", ("r", "f5"), "Run", "Run your node in your own ROS domain", footer=True),
             Command("stop", ("r", "f6"), "Stop", "Stop your node, as Ctrl+C does", footer=True),
             Command("restart", ("f5",), "Restart", "Stop your node and run it anew"),
-            Command("partner", ("b",), "Partner", "Start our node that goes with yours, or stop it", footer=True),
-            Command("other_file", ("j",), "Other file", "Run the exercise's other file beside it, or stop it"),
+            Command("partner", ("b",), "Partner", "Run or stop our node that goes with yours", footer=True),
+            Command("other_file", ("j",), "Other file", "Run or stop the exercise's other file"),
             Command("options", ("o",), "Options", "Set parameters and remaps"),
             Command("restart_on_save", ("W",), "Restart on save", "Restart on each save: on or off"),
         ),
@@ -103,13 +103,6 @@ GROUPS: tuple[tuple[str, tuple[Command, ...]], ...] = (
         ),
     ),
     (
-        "The terminal",
-        (
-            Command("lesson_command", ("R",), "Run command", "Run a command of the lesson in the terminal"),
-            Command("interrupt_command", (), "Ctrl+C", "Stop the command that is shown in the terminal"),
-        ),
-    ),
-    (
         "Around",
         (
             Command("next", ("n",), "Next", "Go to the next lesson", footer=True, help=_STEP),
@@ -123,9 +116,10 @@ GROUPS: tuple[tuple[str, tuple[Command, ...]], ...] = (
             Command("live_topics", ("T",), "Topics", "Live: show the topics, with echo, rate and plot", help=_LIVE),
             Command("live_parameters", ("P",), "Parameters", "Live: show the parameters, and set them", help=_LIVE),
             Command("live_services", ("S",), "Services", "Live: show the services, and call them", help=_LIVE),
-            Command("publish", ("M",), "Publish", "Live: publish a message, once or at a rate; or stop that"),
+            Command("publish", ("M",), "Publish", "Live: publish a message, or stop that"),
             Command("live_graph", ("G",), "Graph", "Live: show the graph of nodes and topics", help=_LIVE),
-            Command("page_terminal", ("7", "f10"), "Terminal", "Type ros2 commands, several at once"),
+            Command("lesson_command", ("R",), "Run command", "Run a command of the lesson in the terminal"),
+            Command("page_terminal", ("7", "f10"), "Terminal", "Show the terminal, and type commands"),
             Command("page_criteria", ("5", "f8"), "Criteria", "Show the criteria"),
             Command("checklist", ("6", "f12"), "Checklist", "Tick what you can do by now", footer=True),
             Command("export", ("X",), "Export", "Export the checklist and your progress"),

@@ -5,9 +5,11 @@ Nothing here imports Textual. The methods that touch the disk are called in work
 
 from __future__ import annotations
 
+import atexit
 import contextlib
 import os
 import shlex
+import shutil
 import sys
 import tempfile
 from collections.abc import Callable, Sequence
@@ -47,7 +49,7 @@ class Desk:
         self.workspace = workspace
         self.extra = extra
         self._domain: tuple[Path, int] | None = None
-        self._tools: tempfile.TemporaryDirectory[str] | None = None
+        self._tools: Path | None = None
         self.notify: Notify = lambda text: None
         """Told in one line, from any thread, what the learner should know (damaged progress was set aside)."""
 
@@ -197,8 +199,9 @@ class Desk:
         from tutor.sandbox.ros2.sourced import sourced_environment
 
         if self._tools is None:
-            self._tools = tempfile.TemporaryDirectory(prefix="ros-tutor-terminal-")
-        env = sourced_environment(detect(), self.workspace.root, self.domain, Path(self._tools.name))
+            self._tools = Path(tempfile.mkdtemp(prefix="ros-tutor-terminal-"))
+            atexit.register(shutil.rmtree, self._tools, ignore_errors=True)
+        env = sourced_environment(detect(), self.workspace.root, self.domain, self._tools)
         return Shell(env, self.workspace.root)
 
     def typed_commands(self) -> list[str]:

@@ -14,7 +14,6 @@ class Terminal:
         self._stage, self._pages = stage, pages
         self.deeds = {
             "lesson_command": Deed(self.choose, lambda: bool(self._commands)),
-            "interrupt_command": Deed(self.interrupt, lambda: bool(pages.terminal and pages.terminal.running)),
         }
 
     @property
@@ -36,8 +35,3 @@ class Terminal:
         self._stage.show_page("terminal")
         pane = self._pages.open_terminal()
         pane.call_after_refresh(pane.run_line, command)
-
-    def interrupt(self) -> None:
-        """Press Ctrl+C there."""
-        if (pane := self._pages.terminal) is not None:
-            pane.action_interrupt()
