@@ -14,7 +14,7 @@ from tutor.ros.as_yaml import to_yaml
 from tutor.sandbox.ros2.errors import CommandError
 from tutor.sandbox.ros2.filling import fill
 from tutor.sandbox.ros2.interfaces import UnknownInterface, find_interface, message_names
-from tutor.sandbox.ros2.joining import add_direct_arguments, joined
+from tutor.sandbox.ros2.joining import Domain, add_direct_arguments, joined
 from tutor.sandbox.ros2.parsing import complete_with, nonnegative_int, positive_float
 from tutor.sandbox.ros2.qos import add_qos_arguments, qos_of
 from tutor.sandbox.ros2.topic.names import full_name, topic_names, topics
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from rclpy.publisher import Publisher
 
 _LOOK_S = 0.02
+_MATCHING_S = 0.5
 _ACKNOWLEDGED_S = 1.0
 
 
@@ -75,8 +76,10 @@ def main(arguments: argparse.Namespace) -> None:
         )
     with joined(arguments, name=arguments.node_name) as domain:
         full_name(domain, arguments.topic_name)  # tells of one that no topic can have
+        if least:
+            domain.complete()
         publisher = domain.node.create_publisher(message_type, arguments.topic_name, qos_of(arguments))
-        _await_subscriptions(publisher, least, arguments.max_wait_time_secs)
+        _await_subscriptions(domain, publisher, least, arguments.max_wait_time_secs)
         message = message_type()
         try:
             stamps = fill(message, values, stamps=True)
@@ -113,8 +116,10 @@ def _read(text: str) -> dict[str, Any]:
     return values
 
 
-def _await_subscriptions(publisher: Publisher, least: int, limit_s: float | None) -> None:
+def _await_subscriptions(domain: Domain, publisher: Publisher, least: int, limit_s: float | None) -> None:
     start = say_at = time.monotonic()
+    if domain.node.count_subscribers(publisher.topic_name) >= least:
+        say_at += _MATCHING_S  # they are there, and it takes them a moment to know each other
     while (there := publisher.get_subscription_count()) < least:
         now = time.monotonic()
         if now >= say_at:

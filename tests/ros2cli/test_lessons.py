@@ -1,0 +1,209 @@
+"""Each command of each lesson, as it is written, in `ros-tutor shell` with our solution: it prints what is shown."""
+
+from __future__ import annotations
+
+import os
+import shlex
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager, suppress
+from pathlib import Path
+
+import pytest
+
+from tests.ros2cli.bench import Bench
+from tests.ros2cli.lesson_commands import Command, commands
+from tutor.content import load_course
+from tutor.content.model import Lesson
+from tutor.ros.isolation import PROFILE
+from tutor.workspace import Workspace
+
+TUTOR = [sys.executable, "-P", "-c", "import sys; from tutor.cli import main; sys.exit(main())"]
+LIMIT_S = 90.0
+LOOK_EVERY_S = 0.05
+LESSONS = {lesson.id: lesson for lesson in load_course().lessons}
+
+
+class Shell:
+    """`ros-tutor shell` on a domain of its own: command lines are run in its environment, in the learner's folder."""
+
+    def __init__(self, bench: Bench, workspace: Workspace) -> None:
+        profile = bench.folder / "profile.xml"
+        profile.write_bytes(PROFILE.read_bytes())
+        names = ("PATH", "LANG", "ROS_DOMAIN_ID", "HOME", "TMPDIR", "ROS_AUTOMATIC_DISCOVERY_RANGE")
+        users = {name: bench.env[name] for name in names if name in bench.env}
+        users |= {name: str(profile) for name, value in bench.env.items() if value == str(PROFILE)}
+        self._workspace = workspace
+        self._users = {**users, "SHELL": shutil.which("bash") or "bash"}
+        self._outputs = bench.folder / "outputs"
+        self._outputs.mkdir()
+        self._count = 0
+
+    @contextmanager
+    def open(self) -> Iterator[None]:
+        """The shell itself, which holds the programs that its command lines need."""
+        words = [
+            *TUTOR,
+            "shell",
+            "--workspace",
+            str(self._workspace.root),
+            "-c",
+            "cat /proc/self/environ; exec sleep 600",
+        ]
+        with subprocess.Popen(words, env=self._users, stdout=subprocess.PIPE, process_group=0) as shell:
+            assert shell.stdout is not None
+            read = b""
+            while not read.endswith(b"\0"):
+                more = os.read(shell.stdout.fileno(), 65536)
+                assert more, "the shell has ended"
+                read += more
+            pairs = (entry.partition("=") for entry in read.decode().split("\0") if entry)
+            self.env = {name: value for name, _, value in pairs}
+            try:
+                yield
+            finally:
+                os.killpg(shell.pid, signal.SIGKILL)
+        shutil.rmtree(Path(self.env["PATH"].partition(":")[0]).parent, ignore_errors=True)
+
+    @contextmanager
+    def started(self, line: str) -> Iterator[Started]:
+        """A command line, in a process group of its own; Ctrl+C is pressed at the end, where it still runs."""
+        self._count += 1
+        path = self._outputs / str(self._count)
+        folder = self._workspace.path_of("node.py").parent
+        with path.open("wb") as to:
+            process = subprocess.Popen(
+                ["bash", "-c", line],
+                env=self.env,
+                cwd=folder if folder.is_dir() else self._outputs,
+                stdout=to,
+                stderr=subprocess.STDOUT,
+                process_group=0,
+            )
+        started = Started(line, process, path)
+        try:
+            yield started
+        finally:
+            started.interrupt()
+
+
+class Started:
+    """A command line that runs, or has run."""
+
+    def __init__(self, line: str, process: subprocess.Popen[bytes], path: Path) -> None:
+        self.line = line
+        self._process = process
+        self._path = path
+
+    @property
+    def output(self) -> str:
+        return self._path.read_text(errors="replace")
+
+    @property
+    def code(self) -> int | None:
+        return self._process.poll()
+
+    def interrupt(self) -> None:
+        """Press Ctrl+C, and see to it that nothing is left."""
+        for number, limit_s in ((signal.SIGINT, 15.0), (signal.SIGKILL, 5.0)):
+            with suppress(ProcessLookupError):
+                os.killpg(self._process.pid, number)
+            with suppress(subprocess.TimeoutExpired):
+                self._process.wait(limit_s)
+
+    def until(self, command: Command, *, ends: bool = False, prints: bool = False) -> None:
+        """Wait until it shows what the lesson shows; where it `ends`, for its end, where it `prints`, for anything."""
+        deadline = time.monotonic() + LIMIT_S
+        while (ends and self.code is None) or (prints and not self.output) or not command.shows(self.output):
+            assert self.code is None or command.shows(self.output), self._told(command)
+            assert time.monotonic() < deadline, self._told(command)
+            time.sleep(LOOK_EVERY_S)
+
+    def _told(self, command: Command) -> str:
+        shown = "\n".join(command.shown)
+        return f"`{command.line}` is shown as\n{shown}\nbut printed (exit code {self.code})\n{self.output}"
+
+
+@pytest.mark.timeout(600)
+@pytest.mark.parametrize("lesson", LESSONS.values(), ids=str)
+def test_each_command_of_a_lesson_does_what_it_shows(bench: Bench, lesson: Lesson) -> None:
+    workspace = Workspace(bench.folder / "ws")
+    shell = Shell(bench, workspace)
+    with ExitStack() as nodes:
+        nodes.enter_context(shell.open())
+        running: list[Started] = []
+        for command in commands(lesson.body):
+            if is_check(command.line):
+                continue  # tests of the checks do that
+            if is_node(command.line):
+                # As a learner would: a launch, or a program, is ended before it is started again.
+                for other in [each for each in running if program(each.line) == program(command.line)]:
+                    other.interrupt()
+                    running.remove(other)
+                before = node_names(shell)
+                node = nodes.enter_context(shell.started(command.line))
+                node.until(command)
+                await_new_node(shell, before, node)
+                running.append(node)
+            else:
+                with shell.started(command.line) as started:
+                    endless = is_endless(command.line)
+                    started.until(command, ends=not endless, prints=endless)
+                    assert endless or started.code == 0, f"`{command.line}`: {started.code}\n{started.output}"
+                    started.interrupt()
+                    assert not endless or started.code in (2, -signal.SIGINT), started.output
+                    assert "Traceback" not in started.output
+            if command.line.startswith("ros-tutor start"):
+                put_solution(lesson, workspace)
+        still = [f"{node.line}\n{node.output}" for node in running if node.code not in (None, 0)]
+        assert not still, still
+
+
+def is_check(line: str) -> bool:
+    return line.startswith(("ros-tutor check", "ros-tutor watch"))
+
+
+def is_node(line: str) -> bool:
+    words = shlex.split(line.replace("\\\n", " "), comments=True)
+    words = words[1:] if words[0] == "ros-tutor" else words
+    if words[0] == "run" or words[:2] == ["ros2", "run"]:
+        return True
+    if words[0] == "python3":
+        return True
+    return words[:2] == ["ros2", "launch"] and not {"-s", "--show-args", "--show-arguments", "-p", "--print"} & {*words}
+
+
+def program(line: str) -> tuple[str, ...]:
+    """What tells one node's command from another's: all words but its arguments."""
+    return tuple(shlex.split(line.replace("\\\n", " "), comments=True)[:4])[: 2 if "launch" in line else 4]
+
+
+def is_endless(line: str) -> bool:
+    words = shlex.split(line.replace("\\\n", " "), comments=True)
+    return words[:2] == ["ros2", "topic"] and words[2] in ("echo", "hz", "bw", "delay") and "--once" not in words
+
+
+def node_names(shell: Shell) -> list[str]:
+    ran = subprocess.run(
+        ["ros2", "node", "list"], env=shell.env, capture_output=True, text=True, timeout=60, check=True
+    )
+    return ran.stdout.split()
+
+
+def await_new_node(shell: Shell, before: list[str], node: Started) -> None:
+    """Wait until there are more nodes than before, or the program has done its work."""
+    deadline = time.monotonic() + LIMIT_S
+    while len(node_names(shell)) <= len(before):
+        if node.code is not None:
+            assert node.code == 0, f"`{node.line}`: {node.code}\n{node.output}"
+            return
+        assert time.monotonic() < deadline, node.output
+
+
+def put_solution(lesson: Lesson, workspace: Workspace) -> None:
+    for file in lesson.files:
+        shutil.copyfile(file.solution, workspace.path_of(file.name))
