@@ -187,3 +187,21 @@ async def test_i_export_in_each_format_and_no_file_is_replaced_unasked(learner: 
         me.app.screen.query_one(Input).value = "n" * 300
         await me.press("enter")
         await me.sees("Your checklist is not written")
+
+
+async def test_the_last_pass_leads_to_the_checklist_and_capital_x_exports_there_too(learner: Any) -> None:
+    async with learner() as me:
+        done = {lesson.id: ExerciseProgress(now(), (), Status.PASSED) for lesson in me.desk.lessons[1:]}
+        me.desk.workspace.progress(print).change(
+            lambda progress: replace(progress, exercises={**progress.exercises, **done})
+        )
+        me.main.records.read()
+        await me.sees("5 of 6 passed")
+        await me.press("c")
+        lesson = me.desk.lessons[0]
+        await me.told(*made.started(), *made.whole(lesson, made.GOOD))
+        await me.sees("Every exercise is passed now.", "Next: press 6 for the checklist")
+        await me.press("6")
+        await me.sees("of 15 ticked")
+        await me.press("X")
+        await me.sees("(•) Markdown", "checklist.md")

@@ -146,3 +146,49 @@ async def test_a_file_that_is_no_text_is_left_alone(learner: Any) -> None:
         await me.press("2")
         await me.sees("cannot be shown", "is not UTF-8")
         assert me.file.read_bytes() == b"\xff\xfe"
+
+
+async def test_i_find_a_text_with_ctrl_f_and_go_from_place_to_place(learner: Any) -> None:
+    async with learner() as me:
+        editor = await me.edits()
+        rows = [row for row, line in enumerate(made.NODE.split("\n")) for _ in range(line.count('log("'))]
+        await me.press("ctrl+f", *'LOG("')
+        await me.sees("not found")
+        await me.press("ctrl+u", *'log("')
+        await me.sees(f"1 of {len(rows)}")
+        assert editor.selected_text == 'log("'
+        seen = []
+        for key in ("enter", "down", "enter", "enter", "up"):
+            await me.press(key)
+            await me.pilot.pause()
+            seen.append(editor.selection.start[0])
+        assert seen == [rows[1], rows[2], rows[3], rows[0], rows[3]], "round the end, and back"
+        await me.press("escape", "ctrl+g")
+        await me.until(lambda: editor.selected_text == 'log("' and editor.selection.start[0] == rows[0], "and again")
+        await me.press("X")
+        assert editor.text == made.NODE.replace('log("', "X", 1), "what was found is what is typed over"
+        await me.press("escape", "ctrl+f", "escape", "1")
+        await me.sees("Objective")
+
+
+async def test_i_select_all_and_go_to_both_ends_of_the_file(learner: Any) -> None:
+    async with learner() as me:
+        editor = await me.edits()
+        await me.press("ctrl+end")
+        assert editor.cursor_location == editor.document.end
+        await me.press("ctrl+home")
+        assert editor.cursor_location == (0, 0)
+        await me.press("ctrl+shift+end")
+        assert editor.selected_text == made.NODE
+        await me.press("ctrl+a", *"x = 1")
+        await me.until(lambda: me.file.read_text() == "x = 1", "all of it replaced")
+
+
+async def test_in_the_editor_the_function_keys_are_those_of_the_help(learner: Any) -> None:
+    async with learner() as me:
+        editor = await me.edits()
+        await me.press("f6")
+        assert not editor.selected_text
+        await me.press("f7")
+        await me.until(lambda: me.main.page == "live")
+        assert not editor.selected_text

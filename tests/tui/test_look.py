@@ -7,9 +7,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from textual.binding import Binding
 from textual.color import Color
 from textual.css.stylesheet import Stylesheet
 from textual.events import Paste
+from textual.widgets import Static
 from textual.widgets._footer import FooterKey
 from textual.widgets.markdown import MarkdownBlock
 
@@ -17,6 +19,7 @@ from tests.tui import made
 from tutor.tui.screens.layout import Criteria, Layout, layout_for
 from tutor.tui.themes import DARK, GROUNDS, INKS, LIGHT
 from tutor.tui.widgets.criteria import CriteriaPanel
+from tutor.tui.widgets.editor import CodeEditor
 
 SIZES = [(120, 36), (80, 24)]
 
@@ -148,6 +151,10 @@ async def test_help_names_every_key(learner: Any) -> None:
     async with learner() as me:
         await me.press("question_mark")
         await me.sees("Run your node in your own ROS domain", "Stop everything and leave", "Ctrl+P")
+        help = "\n".join(str(part.render()) for part in me.app.screen.query(Static))
+        editing = {binding.key for binding in CodeEditor.BINDINGS if isinstance(binding, Binding)}
+        assert {key for key in ("ctrl+f", "ctrl+a", "ctrl+home", "ctrl+end") if key not in editing} == set()
+        assert not [key for key in ("Ctrl+F", "Ctrl+G", "Ctrl+A", "Ctrl+Home", "Ctrl+End", "Ctrl+Z") if key not in help]
         await me.press("escape")
         await me.until(lambda: "Stop everything and leave" not in me.screen())
 
@@ -207,3 +214,18 @@ async def test_a_lesson_with_two_files_shows_the_other_one(learner: Any) -> None
         await me.until(lambda: me.main.session.file_index == 1)
         await me.pilot.click("#code-head", offset=(2, 0))
         assert (await asyncio.to_thread(me.desk.path(me.desk.lessons[1].files[1]).read_text)) == made.NODE
+
+
+async def test_home_and_end_choose_in_the_lists_and_the_keys_of_the_help_work_where_they_are_pressed(
+    learner: Any,
+) -> None:
+    async with learner() as me:
+        await me.press("l", "l")
+        await me.press("end", "enter")
+        await me.sees("I2.3  Multi-Threaded Service")
+        await me.press("l", "l", "home", "enter")
+        await me.sees("I1.1  Sensor Publisher")
+        await me.press("i")
+        await me.sees("There is no evidence here")
+        await me.press("5", "end", "enter")
+        await me.sees("shutdown  Ctrl+C ends the node cleanly")

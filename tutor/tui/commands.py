@@ -83,6 +83,8 @@ GROUPS: tuple[tuple[str, tuple[Command, ...]], ...] = (
             Command("start", ("s",), "Start", "Put the skeleton into your workspace"),
             Command("edit", ("e",), "Edit", "Edit your file here, until Esc", footer=True),
             Command("save", ("ctrl+s",), "Save", "Save (it is also saved as you go)"),
+            Command("find", ("ctrl+f",), "Find", "Find a text in your code: Enter next, ↑ previous"),
+            Command("find_next", ("ctrl+g",), "Find next", "Find the same text again"),
             Command("own_editor", ("E",), "$EDITOR", "Open it in your own editor ($EDITOR)"),
             Command("next_file", ("f",), "File", "Show the exercise's other file"),
             Command("skeleton", ("k",), "Skeleton", "Show the skeleton"),
@@ -149,12 +151,27 @@ def bindings() -> list[BindingType]:
     return [binding for command in commands() for binding in command.bindings()]
 
 
-def local(names: str, *, shown_key: int = 0) -> list[BindingType]:
+EDITOR_KEYS = (
+    ("Esc", "Leave it: letters are commands again"),
+    ("Ctrl+F", "Find; Enter or ↓ next, ↑ previous, Esc ends"),
+    ("Ctrl+A", "Select all; Shift and a move selects, too"),
+    ("Ctrl+C", "Copy; Ctrl+X: cut; Ctrl+V: paste"),
+    ("Ctrl+Z", "Undo; Ctrl+Y: redo"),
+    ("Home", "To the beginning of the line; End: to its end"),
+    ("Ctrl+Home", "To the beginning of the file; Ctrl+End: to its end"),
+    ("Ctrl+←", "A word to the left; Ctrl+→: to the right"),
+    ("Ctrl+W", "Delete the word before; Ctrl+K: the rest of the line"),
+    ("Tab", "Indent; Backspace: back by one step"),
+)
+"""What the keys do in the editor, for the help; the commands above have theirs there, too."""
+
+
+def local(names: str, *, shown_key: int = 0, show: bool = True) -> list[BindingType]:
     """The footer of a panel that has the focus: these commands of the screen, each by its key number `shown_key`."""
     table = {command.name: command for command in commands()}
     found: list[BindingType] = []
     for name in names.split():
         command = table[name]
         key = command.keys[min(shown_key, len(command.keys) - 1)]
-        found.append(Binding(key, f"screen.do('{name}')", command.label, show=True, key_display=shown(key)))
+        found.append(Binding(key, f"screen.do('{name}')", command.label, show=show, key_display=shown(key)))
     return found

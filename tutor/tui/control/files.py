@@ -35,6 +35,8 @@ class Files:
             "start": Deed(self.start),
             "edit": Deed(self.edit),
             "save": Deed(self.save),
+            "find": Deed(self.find, lambda: stage.session.path in self._disk),
+            "find_next": Deed(lambda: self.find(again=True), lambda: stage.session.path in self._disk),
             "own_editor": Deed(self.open_outside),
             "next_file": Deed(self.next_file, lambda: len(stage.session.lesson.files) > 1),
             "reset": Deed(self.reset),
@@ -252,6 +254,12 @@ class Files:
             self._type()
         else:  # asked for before the file has been read
             self._stage.work(self._type_soon, path, group="show-line", exclusive=True)
+
+    def find(self, *, again: bool = False) -> None:
+        """Find a text in the file that is shown."""
+        if self._stage.page != "code":
+            self._stage.show_page("code")
+        self._pane.find(again=again)
 
     async def _type_soon(self, path: Path) -> None:
         await self.look(path)

@@ -27,7 +27,7 @@ class ChecklistScreen(Screen[None]):
 
     CSS_PATH = Path(__file__).with_name("checklist.tcss")
     BINDINGS: ClassVar[list[BindingType]] = [
-        Binding("x", "export", "Export"),
+        Binding("x,X", "export", "Export", key_display="x"),
         Binding("t", "theme", "Theme"),
         Binding("escape", "close", "Back", key_display="Esc"),
         Binding("q,6,f12", "close", show=False),

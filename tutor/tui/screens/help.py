@@ -12,7 +12,7 @@ from textual.containers import Container, VerticalScroll
 from textual.content import Content
 from textual.widgets import Static
 
-from tutor.tui.commands import GROUPS, Command
+from tutor.tui.commands import EDITOR_KEYS, GROUPS, Command
 from tutor.tui.screens.dialog import Dialog
 
 _HOW = (
@@ -24,7 +24,6 @@ _HOW = (
 _EVERYWHERE = (
     ("Ctrl+P", "Find any action, lesson, or text"),
     ("Tab", "Move between the panels"),
-    ("Ctrl+Z", "In the editor: undo; Ctrl+Y: redo"),
 )
 
 HALF = 3
@@ -49,18 +48,21 @@ class HelpScreen(Dialog[None]):
             yield Static(_HOW, classes="dialog-text")
             with Container(id="help-columns"):
                 yield Static(_text(GROUPS[:HALF]), classes="dialog-text")
-                yield Static(_text((*GROUPS[HALF:], ("Everywhere", ()))), classes="dialog-text")
+                yield Static(
+                    _text(GROUPS[HALF:], ("Everywhere", _EVERYWHERE), ("In the editor", EDITOR_KEYS)),
+                    classes="dialog-text",
+                )
 
     def on_resize(self, event: events.Resize) -> None:
         """Two columns where there is room."""
         self.set_class(event.size.width >= TWO_COLUMNS, "-two")
 
 
-def _text(groups: Sequence[tuple[str, tuple[Command, ...]]]) -> Content:
+def _text(groups: Sequence[tuple[str, tuple[Command, ...]]], *more: tuple[str, Sequence[tuple[str, str]]]) -> Content:
     parts: list[Content | str | tuple[str, str]] = []
-    for title, group in groups:
+    for title, keys in (*((title, _merged(group)) for title, group in groups), *more):
         parts += ["\n\n" if parts else "", (title, "bold $primary")]
-        for key, text in _merged(group) if group else _EVERYWHERE:
+        for key, text in keys:
             parts += ["\n", (f"{key:<9} ", "bold $accent"), text]
     return Content.assemble(*parts)
 

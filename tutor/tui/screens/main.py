@@ -77,7 +77,7 @@ class MainScreen(Stage):
             "theme": Deed(self._theme),
             "help": Deed(self._help),
             "quit": Deed(lambda: self.app.run_action("quit")),
-            "evidence": Deed(self._evidence, lambda: self.query_one(Diagnosis).has_evidence),
+            "evidence": Deed(self._evidence),
         }
         self._framed: tuple[Widget, ...] = ()
         self._phases: list[tuple[str, Phase]] = []
@@ -154,7 +154,13 @@ class MainScreen(Stage):
         self.app.push_screen(HelpScreen())
 
     def _evidence(self) -> None:
-        self.query_one(Diagnosis).fold()
+        diagnosis = self.query_one(Diagnosis)
+        if not diagnosis.has_evidence:
+            self.say("There is no evidence here: choose a criterion that was checked.")
+            return
+        if self.pages.folded and self.page != "criteria":
+            self.show_page("criteria")
+        diagnosis.fold()
 
     # --- which lesson ---
 
@@ -182,7 +188,9 @@ class MainScreen(Stage):
         session = self.session
         lessons = session.desk.lessons
         passed = {each.id for each in lessons if session.progress.of(each.id).best is Status.PASSED}
-        self.query_one(CriteriaPanel).others_open = len(lessons) - len(passed | {session.lesson.id})
+        others = len(lessons) - len(passed | {session.lesson.id})
+        # The last pass leads to the checklist, where the course has one.
+        self.query_one(CriteriaPanel).others_open = others if self.can("checklist") else max(1, others)
         self.query_one(StatusBar).show_progress(len(passed), len(lessons))
 
     async def go_to_line(self, lesson: Lesson, line: int) -> None:

@@ -15,6 +15,7 @@ from textual.widgets import Static
 
 from tutor.tui import words
 from tutor.tui.widgets.code_view import CodeView
+from tutor.tui.widgets.find_bar import FindBar
 from tutor.tui.widgets.line_view import Piece, Row
 
 if TYPE_CHECKING:
@@ -102,6 +103,27 @@ class CodePane(Vertical):
         yield CodeBody(id="code-body")
         yield CodeView(id="code-view")
         yield Static(id="code-missing")
+        yield FindBar(id="code-find")
+
+    def on_descendant_focus(self) -> None:
+        """Other keys are named while letters type."""
+        self.show_saved()
+
+    def on_descendant_blur(self) -> None:
+        """The keys of commands work again."""
+        self.show_saved()
+
+    # --- finding ---
+
+    def find(self, *, again: bool = False) -> None:
+        """Ask what to find in the learner's file; or go on to the next place (`again`)."""
+        if self.editor is None:
+            return
+        if self.view != OWN:
+            self._turn(OWN, "")
+        bar = self.query_one(FindBar)
+        if not again or not bar.again(self.editor):
+            bar.begin(self.editor, typing=self.editor.has_focus)
 
     # --- what the editors hold ---
 
@@ -249,7 +271,7 @@ class CodePane(Vertical):
                 parts += [Content.styled(mark + each.name, "bold $primary"), "  "]
             else:
                 parts += [mark, Content.from_markup(f"[@click=screen.show_file({index})]{each.name}[/]"), "  "]
-        if len(self._paths) > 1:
+        if len(self._paths) > 1 and not self._typing:
             parts.append(("f: other file  ", "$quiet"))
         if self.editor is not None:
             parts.append(("not saved yet  ", "$warn") if self.editor.changed else ("✓ saved  ", "$good"))
@@ -257,12 +279,18 @@ class CodePane(Vertical):
         self.query_one("#code-head", Static).update(Content.assemble(*parts), layout=False)
         self.query_one("#code-looks", Static).update(self._looks(), layout=False)
 
+    @property
+    def _typing(self) -> bool:
+        return self.editor is not None and self.editor.has_focus
+
     def _looks(self) -> Content:
         parts: list[Content | str | tuple[str, str]] = []
         if self.view != OWN:
             parts += [(self._title, "bold"), "  ", Content.from_markup("[@click=back]Esc: your file[/]")]
             return Content.assemble(*parts)
-        if self.editor is not None:
+        if self._typing:
+            parts.append(("Esc, then  ", "$quiet"))
+        elif self.editor is not None:
             parts += [("e", "bold $accent"), (" edit  ", "$quiet")]
         for view, key, name in LOOKS:
             parts += [(key, "bold $accent"), " ", Content.from_markup(f"[@click=screen.do('{view}')]{name}[/]"), "  "]

@@ -14,6 +14,7 @@ from tutor.tui import words
 from tutor.tui.findings import Finding, Findings
 from tutor.tui.widgets.attempts import history
 from tutor.tui.widgets.diagnosis import Diagnosis
+from tutor.tui.widgets.row_list import RowList
 from tutor.workspace import ExerciseProgress
 
 
@@ -81,7 +82,7 @@ class CriteriaPanel(Container):
     """
 
     def compose(self) -> ComposeResult:
-        yield ListView(id="criteria-list", initial_index=None)
+        yield RowList(id="criteria-list", initial_index=None)
         yield Diagnosis(id="diagnosis")
         yield Static(id="attempts")
 

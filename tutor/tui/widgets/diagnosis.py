@@ -151,7 +151,7 @@ class Diagnosis(VerticalScroll):
         elif following is not None:
             command, key, where = "next", "n", f"{words.label(following)} {following.title}"
         else:
-            command, key, where = "lessons", "l", "the list of lessons: some are not passed yet"
+            command, key, where = "lessons", "l", "the list of lessons"
         return Content.assemble(
             (line, "bold $good"),
             "\n",

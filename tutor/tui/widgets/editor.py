@@ -46,7 +46,13 @@ class CodeEditor(TextArea):
 
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("escape", "leave", "Commands", show=True, key_display="Esc"),
-        *local("save run restart stop check cancel help", shown_key=1),
+        *local("save find run restart stop check cancel help", shown_key=1),
+        *local("find_next page_live", shown_key=1, show=False),  # F7 is another key of TextArea's
+        Binding("ctrl+a", "select_all", "Select all", show=False),
+        Binding("ctrl+home", "go_to_start", "To the beginning", show=False),
+        Binding("ctrl+end", "go_to_end", "To the end", show=False),
+        Binding("ctrl+shift+home", "go_to_start(True)", "Select to the beginning", show=False),
+        Binding("ctrl+shift+end", "go_to_end(True)", "Select to the end", show=False),
     ]
     DEFAULT_CSS = """
     CodeEditor {
@@ -132,6 +138,14 @@ class CodeEditor(TextArea):
     def action_leave(self) -> None:
         """Give the focus back."""
         self.post_message(EditorLeft())
+
+    def action_go_to_start(self, select: bool = False) -> None:
+        """To the beginning of the file."""
+        self.move_cursor((0, 0), select=select)
+
+    def action_go_to_end(self, select: bool = False) -> None:
+        """To the end of the file."""
+        self.move_cursor(self.document.end, select=select)
 
     def _insert(self, text: str) -> None:
         start, end = self.selection

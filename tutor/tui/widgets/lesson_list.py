@@ -7,10 +7,11 @@ from textwrap import wrap
 
 from textual.content import Content
 from textual.geometry import Size
-from textual.widgets import ListItem, ListView
+from textual.widgets import ListItem
 
 from tutor.content import Lesson
 from tutor.tui import words
+from tutor.tui.widgets.row_list import RowList
 from tutor.workspace import ExerciseProgress, Progress
 
 _INK = {"✓": "$good", "◐": "$warn", "○": "$quiet"}
@@ -54,7 +55,7 @@ class LessonRow(ListItem):
         return Content.assemble((f"{mark} ", ink), title, "\n  ", (level, "$quiet"), gap, (standing, ink))
 
 
-class LessonList(ListView):
+class LessonList(RowList):
     """All lessons, under the names of their units."""
 
     DEFAULT_CSS = """
