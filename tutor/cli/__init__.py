@@ -27,12 +27,14 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _run(argv: Sequence[str] | None) -> int:
-    from tutor.cli import app
+    from tutor.cli import app, completion
     from tutor.cli.errors import UsageError
     from tutor.cli.parser import parse
     from tutor.invocation import tell_children
 
     tell_children()
+    if completion.is_asked():
+        completion.answer()
     arguments = parse(argv)
     if arguments.command is None:
         return app.run(arguments)

@@ -14,6 +14,7 @@ from tutor.cli import (
     author,
     check,
     checklist,
+    completion,
     diff,
     doctor,
     help_command,
@@ -118,8 +119,8 @@ def command_parsers(parser: argparse.ArgumentParser) -> dict[str, argparse.Argum
     return dict(subparsers.choices)
 
 
-def build() -> argparse.ArgumentParser:
-    """The parser of the whole command line."""
+def build(*, mixing: bool = True) -> argparse.ArgumentParser:
+    """The parser of the whole command line. `mixing`: options may stand between a command's other arguments."""
     everywhere = _global_options()
     parser = _Parser(
         prog=program(),
@@ -131,7 +132,7 @@ def build() -> argparse.ArgumentParser:
     parser.add_argument(
         "--plain", action="store_true", help="plain lines of text instead of the app, for screen readers"
     )
-    commands = parser.add_subparsers(title="commands", metavar="COMMAND", parser_class=_Command)
+    commands = parser.add_subparsers(title="commands", metavar="COMMAND", parser_class=_Command if mixing else _Parser)
 
     def add(name: str, run: Run, arguments: Callable[[argparse.ArgumentParser], None], help: str) -> None:
         command = commands.add_parser(name, help=help, description=_sentence(help), parents=[everywhere])
@@ -152,6 +153,7 @@ def build() -> argparse.ArgumentParser:
     add("serve", serve.run, serve.add_arguments, "open the app in a browser, on this machine only")
     add("shell", shell.run, shell.add_arguments, "a shell in which ros2 works and your workspace is sourced")
     add("ros2", ros2.run, ros2.add_arguments, "the ros2 command, also without an installed ROS 2")
+    add("completion", completion.run, completion.add_arguments, "print what makes Tab complete in bash, zsh or fish")
     add("doctor", doctor.run, doctor.add_arguments, "say what ROS is used, and what is wrong with the machine")
     add("help", help_command.run, help_command.add_arguments, "show what a command takes, or all commands")
     add("author", author.run, author.add_arguments, "prove a course right, for those who write one")

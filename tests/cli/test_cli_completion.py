@@ -1,0 +1,88 @@
+"""Tab completion, asked for as bash, zsh and fish do."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+import tutor
+from tests.cli.conftest import Run
+
+ROOT = Path(tutor.__file__).parents[1]
+
+# What each shell sets before it asks, and then what came.
+ASK = {
+    "bash": """
+COMP_LINE="$LINE"; COMP_POINT=${#LINE}; COMP_TYPE=9
+_python_argcomplete ./ros-tutor
+printf '%s\\n' "${COMPREPLY[@]}"
+""",
+    "zsh": """
+BUFFER="$LINE"; CURSOR=${#LINE}; words=(./ros-tutor)
+_describe() { print -l -- "${completions[@]%%:*}" }
+_python_argcomplete
+""",
+    "fish": 'complete -C "$LINE" | cut -f1\n',
+}
+BEFORE = {"zsh": "autoload -U compinit; compinit -u -D\n", "bash": "", "fish": ""}
+
+
+def completed(shell: str, line: str, home: Path) -> list[str]:
+    """What Tab offers at the end of a line."""
+    script = subprocess.run(
+        ["./ros-tutor", "completion", shell], cwd=ROOT, capture_output=True, text=True, check=True
+    ).stdout
+    asked = subprocess.run(
+        [shell, *(["--no-rcs"] if shell == "zsh" else []), "-c", f"{BEFORE[shell]}{script}\n{ASK[shell]}"],
+        cwd=ROOT,
+        env={**os.environ, "HOME": str(home), "LINE": line},
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=True,
+    )
+    return [word.strip() for word in asked.stdout.splitlines() if word.strip()]
+
+
+@pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
+def test_exercises_and_criteria_are_completed(shell: str, home: Path) -> None:
+    if shutil.which(shell) is None:
+        pytest.skip(f"there is no {shell}")
+    assert completed(shell, "./ros-tutor check i2.", home) == ["i2.1", "i2.2", "i2.3"]
+    assert completed(shell, "./ros-tutor check i2.1 --criterion t", home) == ["timer"]
+
+
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        ("che", {"check", "checklist"}),
+        ("wat", {"watch"}),
+        ("check a", {"all"}),
+        ("start a", set()),
+        ("check --criterion shut", {"shutdown", "shutdown-busy"}),
+        ("check i1.2 --criterion g", {"gaps"}),
+        ("check i1.1 --form", {"--format"}),
+        ("check i1.1 --format j", {"json", "junit"}),
+        ("checklist untick tim", {"timers"}),
+        ("run i1.3 calc", {"calculator_server", "calculator_client"}),
+        ("help so", {"solution"}),
+        ("completion ", {"bash", "zsh", "fish", "--workspace", "--lessons"}),
+        ("ros2 topic ec", {"echo"}),
+        ("--workspace tut", {"tutor/"}),
+    ],
+)
+def test_whatever_can_be_typed_is_completed(line: str, words: set[str], home: Path) -> None:
+    assert set(completed("bash", f"./ros-tutor {line}", home)) == words
+
+
+def test_help_says_how_to_switch_it_on(run: Run) -> None:
+    said = run("completion", "--help").out
+    assert 'eval "$(ros-tutor completion bash)"' in said
+    assert "ros-tutor completion fish | source" in said
+    ran = run("completion", "tcsh")
+    assert ran.code == 2
+    assert "choose from bash, zsh, fish" in ran.err
