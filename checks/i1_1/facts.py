@@ -55,9 +55,10 @@ class Survey:
 
 @dataclass(frozen=True)
 class Values:
-    """The values of each of several starts without parameters."""
+    """The values of each of several starts without parameters; `trace` is one of them, for the words of a cause."""
 
     runs: tuple[tuple[float, ...], ...]
+    trace: Trace | None = None
 
     @property
     def all(self) -> tuple[float, ...]:

@@ -7,6 +7,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import replace
 
+from checks.i1_1 import steps
 from checks.i1_1.facts import (
     HIGHEST,
     LISTEN_S,
@@ -27,7 +28,9 @@ from checks.i1_1.facts import (
     swapped,
 )
 from tutor.judge import causes, ending, randomness
+from tutor.judge.causes import timers
 from tutor.judge.rates import TOLERANCE
+from tutor.judge.reading import UNREAD, Source, read
 from tutor.judge.trace import Parameter
 from tutor.judge.verdict import Cause, Verdict, failed, passed
 
@@ -60,25 +63,30 @@ def judge_range(found: Values, more: Values) -> Verdict:
     return failed(
         expected,
         f"{len(wrong)} of {len(values)} values outside, such as {wrong[0]:g}",
-        _why_outside(wrong, values),
+        _why_outside(wrong, values, _source(found)),
         [f"data: {value!r}" for value in wrong[:5]],
     )
 
 
-def _why_outside(wrong: Sequence[float], values: Sequence[float]) -> Cause:
+def _source(found: Values) -> Source:
+    return UNREAD if found.trace is None else read(found.trace)
+
+
+def _why_outside(wrong: Sequence[float], values: Sequence[float], source: Source) -> Cause:
     if all(math.isfinite(value) and 0 < abs(value) < 1e-300 for value in wrong):
         return Cause(
             "an int in a float field",
             "a Python int was put into Float64.data: its bits are sent as if they were a float",
-            "make it a float first: msg.data = float(value)",
+            steps.as_float(source) or "make it a float first: msg.data = float(value)",
         )
     if all(60 <= value <= 90 for value in values):
         return Cause(
             "out of range",
             "these look like degrees Fahrenheit",
-            f"publish degrees Celsius: random.uniform({LOWEST}, {HIGHEST})",
+            steps.draw(source) or f"publish degrees Celsius: random.uniform({LOWEST}, {HIGHEST})",
         )
-    return Cause("out of range", "values leave the range", f"random.uniform({LOWEST}, {HIGHEST}) stays within it")
+    step = steps.draw(source) or f"random.uniform({LOWEST}, {HIGHEST}) stays within it"
+    return Cause("out of range", "values leave the range", step)
 
 
 def judge_random(found: Values) -> Verdict:
@@ -90,7 +98,11 @@ def judge_random(found: Values) -> Verdict:
         return failed(
             expected,
             f"{pattern.text} ({len(run)} values)",
-            Cause(pattern.name, pattern.text, "draw a new value in every callback: random.uniform(20.0, 30.0)"),
+            Cause(
+                pattern.name,
+                pattern.text,
+                steps.draw(_source(found)) or "draw a new value in every callback: random.uniform(20.0, 30.0)",
+            ),
             [f"data: {value:g}" for value in run[:8]],
         )
     longest = max(found.runs, key=len)
@@ -174,24 +186,31 @@ def _rate_not_declared() -> Cause:
 
 
 def _why_rate(group: Sequence[RateProbe], wrong: RateProbe, declared: tuple[Parameter, ...] | None) -> Cause:
+    source = read(wrong.trace)
+    if (cut := steps.whole_rate(source, wrong.name)) is not None:
+        return cut
     broken = causes.of_process(wrong.trace)
     if broken is not None:
         return broken
     if declared is not None and wrong.name not in {parameter.name for parameter in declared}:
         return _rate_not_declared()
     if wrong.rate is not None and wrong.rate.in_bursts:
-        return causes.in_bursts(wrong.name)
+        return timers.whole_division(source) or causes.in_bursts(wrong.name)
     measured = [(probe, probe.rate) for probe in group if probe.rate is not None]
     if measured and len(swapped(group)) == len(measured):
-        return causes.rate_as_period(wrong.name) if wrong.unit == "Hz" else causes.period_as_rate(wrong.name)
+        if wrong.unit == "Hz":
+            return causes.rate_as_period(wrong.name, source)
+        return causes.period_as_rate(wrong.name, source)
     rates_seen = [rate.hz for _, rate in measured]
+    if (seen := causes.same_name(wrong.trace) or steps.rate(source, wrong.name)) is not None:
+        return seen
     if len(rates_seen) > 1 and max(rates_seen) <= min(rates_seen) * (1 + TOLERANCE):
         return Cause(
             "parameter ignored",
             f"the rate stays at {rates_seen[0]:.1f} Hz, whatever {wrong.name} says",
             f"use self.get_parameter('{wrong.name}').value for the timer's period",
         )
-    return causes.same_name(wrong.trace) or Cause(
+    return Cause(
         "wrong rate", f"{wrong}", "the timer's period is 1.0 / rate seconds; are there two timers, or a rounding?"
     )
 
@@ -219,7 +238,7 @@ def judge_name(found: Names) -> Verdict:
 
 def _why_name(found: Names) -> Cause:
     for probe in found.probes:
-        broken = causes.of_process(probe.trace)
+        broken = causes.of_process(probe.trace) or causes.of_lifecycle(probe.trace)
         if broken is not None:
             return broken
         says = re.compile(re.escape(probe.value)).search
@@ -232,7 +251,8 @@ def _why_name(found: Names) -> Cause:
             f"the node answers no parameter call, and {SUGGESTED_NAME} has no effect",
             f"self.declare_parameter('{SUGGESTED_NAME}', 'sensor'), and log its value",
         )
-    return Cause(
+    own = [probe for probe in found.probes if probe.name in {parameter.name for parameter in found.declared}]
+    return steps.name_logged(read(found.probes[0].trace), (own or found.probes)[0].name) or Cause(
         "parameter ignored",
         f"{', '.join(probe.name for probe in found.probes)} is declared, but not logged",
         f"self.get_logger().info(f'{{self.get_parameter(\"{found.probes[0].name}\").value}}: ...')",

@@ -69,7 +69,8 @@ async def values(bench: Bench) -> Values:
         doubtful = randomness.suspicious(mine) or len(others.intersection(mine)) > len(mine) / 2
         return len(mine) >= randomness.PLENTY or (not doubtful and run.now() >= run.on(TOPIC)[0].source_time + LEAST_S)
 
-    return Values(tuple(await asyncio.gather(_collect(bench, enough), _collect(bench, enough))))
+    runs = await asyncio.gather(_collect(bench, enough), _collect(bench, enough))
+    return Values(tuple(values for values, _ in runs), runs[0][1])
 
 
 async def more_values(bench: Bench) -> Values:
@@ -89,15 +90,16 @@ async def more_values(bench: Bench) -> Values:
     def enough(run: Run) -> bool:
         return len(_data(run)) >= randomness.PLENTY or bool(outside(_data(run)))
 
-    return Values((plain, *await asyncio.gather(_collect(bench, enough), _collect(bench, enough))))
+    runs = await asyncio.gather(_collect(bench, enough), _collect(bench, enough))
+    return Values((plain, *(values for values, _ in runs)), runs[0][1])
 
 
-async def _collect(bench: Bench, enough: Callable[[Run], bool]) -> tuple[float, ...]:
-    """The values of one plain start."""
+async def _collect(bench: Bench, enough: Callable[[Run], bool]) -> tuple[tuple[float, ...], Trace]:
+    """The values of one plain start, and its trace."""
     async with bench.start(FILE, watch={TOPIC: TYPE}) as run:
         if await first_message(run, TOPIC, TYPE):
             await run.until(lambda: enough(run), LISTEN_S)
-        return tuple(_data(run))
+        return tuple(_data(run)), run.trace()
 
 
 def _data(seen: Run | Trace) -> list[float]:

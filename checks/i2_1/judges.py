@@ -199,7 +199,8 @@ def judge_runtime(seen: Switched, retimed: Retimed) -> Verdict:
             or Cause(
                 "does not resume",
                 f"{ENABLED} true does not bring the messages back",
-                "let the timer run on, and only skip publish() while enabled is false; or make the timer again",
+                timers.ended_for_good(read(seen.trace), ENABLED)
+                or "let the timer run on, and only skip publish() while enabled is false; or make the timer again",
             ),
         )
     # A timer that is left behind, whatever is set, is what `timer` tells of.
@@ -318,7 +319,8 @@ def judge_validation(seen: Validated, switched: Switched) -> Verdict:
                 Cause(
                     "no reason given",
                     "the reason is empty",
-                    "SetParametersResult(successful=False, reason='the rate must be > 0')",
+                    parameter_use.without_reason(source, RATE)
+                    or "SetParametersResult(successful=False, reason='the rate must be > 0')",
                 ),
             )
         if causes.RCLPYS_OWN.match(answer.reason):

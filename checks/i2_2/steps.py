@@ -53,7 +53,7 @@ def undeclared(source: Source, argument: str) -> Cause:
         text = f"LaunchConfiguration('{argument}') is read, but no argument '{argument}' is declared"
         if others:
             other = others[0].argument(0, "name")
-            hint = f"line {others[0].line}: {others[0].code.replace(other, f'{argument!r}', 1)}"
+            hint = others[0].instead(other, repr(argument))
             return Cause(name, f"{text}; line {others[0].line} declares {other}, which nothing reads", hint)
         every = [each for each in dict.fromkeys([argument, *_read_bare(source)]) if not _declared(source, each)]
         return Cause(

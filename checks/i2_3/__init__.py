@@ -10,7 +10,7 @@ CHECK = Check(
     (
         Criterion("blocks", judges.judge_blocks, (scenarios.lone, scenarios.trio)),
         Criterion("timer", judges.judge_timer, (scenarios.quiet, scenarios.lone)),
-        Criterion("concurrent", judges.judge_concurrent, (scenarios.trio,)),
+        Criterion("concurrent", judges.judge_concurrent, (scenarios.trio, scenarios.lone)),
         Criterion("shutdown", judges.judge_shutdown, (scenarios.quiet,)),
         Criterion(
             "parallel",

@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 
-from checks.i2_3.facts import SERVICE, TYPE, Lone, Quiet, Three, right_sum
+from checks.i2_3 import steps
+from checks.i2_3.facts import SERVICE, SHORTEST_S, TYPE, Lone, Quiet, Three, right_sum
 from checks.i2_3.pace import During, Fault
 from checks.i2_3.ticks import HZ, Series
 from tutor.judge import causes, tracebacks
+from tutor.judge.reading import UNREAD, Source, read
 from tutor.judge.trace import CallAnswer, Service, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Cause
@@ -23,7 +25,7 @@ REPEATED = 4
 
 def of_no_service(trace: Trace) -> Cause:
     """Why the service is not there."""
-    if (broken := causes.of_process(trace)) is not None:
+    if (broken := causes.of_process(trace) or causes.of_lifecycle(trace)) is not None:
         return broken
     offered = [s for s in trace.graph.services if not s.type.startswith(("rcl_interfaces/", "type_description_"))]
     for service in offered:
@@ -40,7 +42,7 @@ def of_no_service(trace: Trace) -> Cause:
         return Cause(
             "wrong service name",
             f"there is {service.name} instead of {SERVICE}",
-            f"name it '{SERVICE[1:]}', spelled like this, without a namespace or ~ in front",
+            _renamed(trace) or f"name it '{SERVICE[1:]}', spelled like this, without a namespace or ~ in front",
         )
     return Cause(
         "service missing",
@@ -49,19 +51,28 @@ def of_no_service(trace: Trace) -> Cause:
     )
 
 
+def _renamed(trace: Trace) -> str | None:
+    made = steps.service(read(trace))
+    given = made.argument(1, "srv_name") if made else ""
+    return made.instead(given, repr(SERVICE[1:])) if made and given else None
+
+
 def of_no_answer(seen: Lone) -> Cause:
     """Why a call got no answer."""
     if (broken := causes.of_process(seen.trace)) is not None:
         return broken
     if (unmatched := causes.incompatible_service(_here(seen.trace))) is not None:
         return unmatched
+    if not seen.spins and (empty := steps.not_added(read(seen.trace))) is not None:
+        return empty
     if not seen.spins or causes.in_call(seen.stuck):
         return causes.of_no_answer(seen.trace, seen.stuck)
     own = tracebacks.own(seen.stuck, seen.trace.folder)
     return Cause(
         "no answer",
         f"the callback does not come to an end{f', at {own}' if own else ''}",
-        "let the callback wait 3 s, fill in response.sum and return the response; let nothing wait without a limit",
+        (steps.waiting(own.code, own.line) if own else None)
+        or "let the callback wait 3 s, fill in response.sum and return the response; let nothing wait without a limit",
     )
 
 
@@ -69,9 +80,11 @@ def _here(trace: Trace) -> list[Service]:
     return [service for service in trace.graph.services if service.name == SERVICE]
 
 
-def of_wrong_sum(answer: CallAnswer) -> Cause:
+def of_wrong_sum(answer: CallAnswer, source: Source = UNREAD) -> Cause:
     """What may be wrong with this answer."""
     assert answer.response is not None
+    if answer.took_s < SHORTEST_S and (early := steps.too_early(source)) is not None:
+        return early
     got, right = answer.response["sum"], right_sum(answer)
     if got == 0:
         return Cause("wrong sum", "the sum is 0: was it put into response.sum?", "response.sum = request.a + request.b")
@@ -82,29 +95,34 @@ def of_other_pace(alone: Quiet, likely: Series | None) -> Cause:
     """Why no timer of 10 Hz was heard, though nobody called."""
     if (broken := causes.of_process(alone.trace)) is not None:
         return broken
+    source = read(alone.trace)
     if likely is None:
         after = alone.ending.output if alone.ending else ()
         lines = Counter(shape(line.text) for line in (*alone.trace.output, *after))
         printed = causes.of_printed(
             alone.trace, lambda text: lines[shape(text)] >= REPEATED, "what comes again and again", after=after
         )
-        if printed is not None:
-            return printed
-        return Cause(
-            "no timer messages",
-            "no log message comes back while nobody calls (debug messages are not shown)",
-            f"self.create_timer({1 / HZ:g}, self.tick, ...), and log the tick's number at info, every tenth time",
+        return (
+            printed
+            or steps.silent(source)
+            or Cause(
+                "no timer messages",
+                "no log message comes back while nobody calls (debug messages are not shown)",
+                f"self.create_timer({1 / HZ:g}, self.tick, ...), and log the tick's number at info, every tenth time",
+            )
         )
     if likely.numbered or likely.hz > HZ:
         return Cause(
             "wrong timer period",
             f"the timer ticks {likely.hz:.1f} times per second, not {HZ:g}",
-            f"create_timer takes the period in seconds: {1 / HZ:g}",
+            steps.period(source) or f"create_timer takes the period in seconds: {1 / HZ:g}",
         )
     return Cause(
         "wrong timer period",
         f"{likely.hz:.1f} messages per second, without a number that counts the ticks",
-        f"let the timer have a period of {1 / HZ:g} s; if it logs every tenth tick only, put the tick's number in",
+        steps.period(source)
+        or steps.numbered(source)
+        or f"let the timer have a period of {1 / HZ:g} s; if it logs every tenth tick only, put the tick's number in",
     )
 
 
@@ -112,6 +130,7 @@ def of_disturbed_timer(seen: Lone, heard: During) -> Cause:
     """Why the timer does not go on during a call as it does outside one."""
     if (broken := causes.of_process(seen.trace)) is not None:
         return broken
+    source = read(seen.trace)
     if heard.fault is Fault.FAST:
         return Cause(
             "ticks in a burst",
@@ -128,7 +147,7 @@ def of_disturbed_timer(seen: Lone, heard: During) -> Cause:
         return Cause(
             "timer pauses",
             f"the timer goes on during a call, but pauses for {heard.longest_s:.1f} s of it",
-            "let the two callbacks share no lock, and neither of them wait for the other",
+            steps.lock(source) or "let the two callbacks share no lock, and neither of them wait for the other",
         )
     own = tracebacks.own(seen.stuck, seen.trace.folder)
     where = f", at {own}" if own else ""
@@ -136,19 +155,31 @@ def of_disturbed_timer(seen: Lone, heard: During) -> Cause:
         return Cause(
             "blocked executor",
             "the timer stands still during a call",
-            "use a MultiThreadedExecutor, and put the timer and the service into different callback groups",
+            steps.executor(source)
+            or steps.threads(source)
+            or steps.groups(source)
+            or "use a MultiThreadedExecutor, and put the timer and the service into different callback groups",
+        )
+    if _in_worker(seen.stuck) and (held := steps.lock(source)) is not None:
+        return Cause(
+            "blocked executor",
+            f"the timer stands still while the service works{where}: its callback waits for a lock that the service "
+            "holds",
+            held,
         )
     if _in_worker(seen.stuck):
         return Cause(
             "blocked executor",
-            f"the timer stands still while the service works{where}: they are in one MutuallyExclusiveCallbackGroup "
-            "(a node's default group is one), or the executor has too few threads",
-            "give the timer a ReentrantCallbackGroup of its own, and the executor at least 2 threads: num_threads=4",
+            f"the timer stands still while the service works{where}: {steps.held_by(source)}",
+            steps.threads(source)
+            or steps.groups(source)
+            or "give the timer a ReentrantCallbackGroup of its own, and the executor at least 2 threads: num_threads=4",
         )
     return Cause(
         "blocked executor",
         f"one thread runs all callbacks, and while the service works{where}, the timer waits",
-        "use executor = MultiThreadedExecutor(num_threads=4), executor.add_node(node), executor.spin()",
+        steps.executor(source)
+        or "use executor = MultiThreadedExecutor(num_threads=4), executor.add_node(node), executor.spin()",
     )
 
 
@@ -162,12 +193,15 @@ def of_lost_calls(trace: Trace, three: Three, answered: Sequence[CallAnswer]) ->
             f"{len(three.answers) - len(answered)} of {len(three.answers)} calls made at once got no answer",
             "let every call wait its turn or work beside the others, and return its response; refuse none",
         )
+    if any(answer.took_s < SHORTEST_S for answer in answered) and (early := steps.too_early(read(trace))) is not None:
+        return early
     sums = [answer.response["sum"] for answer in answered if answer.response is not None]
     if any(sums.count(right_sum(answer)) > 1 for answer in answered):
         return Cause(
             "shared state",
             "one call was answered with the sum of another: they share a variable",
-            "keep a and b in local variables of the callback, not in self: several calls are in it at once",
+            steps.shared(read(trace))
+            or "keep a and b in local variables of the callback, not in self: several calls are in it at once",
         )
     return Cause(
         "wrong sum",

@@ -8,6 +8,7 @@ from dataclasses import replace
 from functools import partial
 
 from checks.i2_3 import causes as why
+from checks.i2_3 import steps
 from checks.i2_3.facts import (
     ANSWER_S,
     CALLS,
@@ -33,6 +34,7 @@ from checks.i2_3.ticks import HZ, Series, best
 from tutor.judge import causes, ending
 from tutor.judge.bench import MachineTooBusy
 from tutor.judge.rates import TOLERANCE
+from tutor.judge.reading import read
 from tutor.judge.trace import CallAnswer
 from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped
 
@@ -69,14 +71,19 @@ def _judge_answer(seen: Lone) -> Verdict:
     for call in seen.calls:
         answer = call.answer
         if answer.response is not None and answer.response["sum"] != right_sum(answer):
-            return failed(expected, _told(answer), why.of_wrong_sum(answer))
+            return failed(expected, _told(answer), why.of_wrong_sum(answer, read(seen.trace)))
+    source = read(seen.trace)
     told, took = _told(best.answer), f"the work takes {best.answer.took_s:.1f} s"
     if best.answer.took_s < SHORTEST_S:
-        return failed(expected, told, Cause("too quick", took, "let the callback wait: time.sleep(3.0), then answer"))
+        if (early := steps.too_early(source)) is not None:
+            return failed(expected, told, early)
+        step = steps.work(source) or "let the callback wait: time.sleep(3.0), then answer"
+        return failed(expected, told, Cause("too quick", took, step))
     if not best.in_time:
         if best.near and all(call.busy for call in seen.calls):
             raise MachineTooBusy("this machine is too busy to time the service")
-        return failed(expected, told, Cause("too slow", took, "let the callback wait 3 s once, then answer"))
+        step = steps.work(source) or "let the callback wait 3 s once, then answer"
+        return failed(expected, told, Cause("too slow", took, step))
     return passed(expected, told)
 
 
@@ -102,7 +109,9 @@ def _judge_timer(alone: Quiet, seen: Lone) -> Verdict:
             raise MachineTooBusy("this machine is too busy to measure the timer")
         observed = f"outside a call: {likely}" if likely else "outside a call, the node logs nothing again and again"
         evidence = [tick.text for tick in likely.ticks[:4]] if likely else causes.last_words(alone.trace)
-        return failed(expected, observed, why.of_other_pace(alone, likely), evidence)
+        silent = likely is None and bool(seen.calls) and not seen.spins
+        cause = why.of_no_answer(seen) if silent else why.of_other_pace(alone, likely)
+        return failed(expected, observed, cause, evidence)
     if not seen.calls:
         return skipped("not judged, because there was no call to listen during: `blocks` did not pass")
     right = [series for series in alone.series if series.is_10_hz]
@@ -132,7 +141,7 @@ def _heard(call: During, series: Series) -> str:
     )
 
 
-def judge_concurrent(seen: Trio) -> Verdict:
+def judge_concurrent(seen: Trio, one: Lone | None = None) -> Verdict:
     expected = "three calls made at once are all answered, each with its own sum"
     if not seen.made:
         return skipped(f"not judged, because there is no {SERVICE}: `blocks` did not pass")
@@ -142,7 +151,13 @@ def judge_concurrent(seen: Trio) -> Verdict:
         return passed(expected, f"all {CALLS} within {three.took_s:.2f} s", told)
     answered = [answer for answer in three.answers if answer.response is not None]
     observed = f"{three.right} of {CALLS} right, {CALLS - len(answered)} not answered"
-    return failed(expected, observed, why.of_lost_calls(seen.trace, three, answered), told)
+    never = one is not None and bool(one.calls) and one.quickest is None and not answered
+    cause = (
+        why.of_no_answer(one)
+        if one is not None and never and seen.trace.exit is None
+        else why.of_lost_calls(seen.trace, three, answered)
+    )
+    return failed(expected, observed, cause, told)
 
 
 def judge_parallel(one: Lone, several: Trio) -> Verdict:
@@ -159,7 +174,8 @@ def judge_parallel(one: Lone, several: Trio) -> Verdict:
     cause = Cause(
         "one call at a time",
         "the calls wait for each other",
-        "put the service into a ReentrantCallbackGroup, and give the executor threads enough: num_threads=8",
+        steps.apart(read(several.trace))
+        or "put the service into a ReentrantCallbackGroup, and give the executor threads enough: num_threads=8",
     )
     return failed(expected, observed, cause)
 

@@ -199,11 +199,17 @@ def test_a_missing_import_is_part_of_the_step() -> None:
 @pytest.mark.parametrize(
     ("source", "step"),
     [
-        (changed(("1.0 / self.rate", "self.rate")), "line 14: self.create_timer(1.0 / self.rate, self.tick)"),
-        (changed(("1.0 / param.value", "param.value")), "line 23: self.create_timer(1.0 / param.value, self.tick)"),
+        (
+            changed(("1.0 / self.rate", "self.rate")),
+            "line 14: self.timer = self.create_timer(1.0 / self.rate, self.tick)",
+        ),
+        (
+            changed(("1.0 / param.value", "param.value")),
+            "line 23: self.timer = self.create_timer(1.0 / param.value, self.tick)",
+        ),
         (
             changed(("1.0 / self.rate", "self.rate * 1.0")),
-            "line 14: self.create_timer(1.0 / (self.rate * 1.0), self.tick)",
+            "line 14: self.timer = self.create_timer(1.0 / (self.rate * 1.0), self.tick)",
         ),
     ],
 )

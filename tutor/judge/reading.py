@@ -40,6 +40,15 @@ class Call:
         """Line and code, to be put into a sentence."""
         return f"line {self.line}: {self.code}"
 
+    def instead(self, old: str, new: str) -> str:
+        """The line with one of its arguments (or what stands behind them) written otherwise, as it should be."""
+        called, bracket, arguments = self.code.partition("(")
+        return self.becomes(f"{called}{bracket}{arguments.replace(old, new, 1)}")
+
+    def becomes(self, code: str) -> str:
+        """The line with this call in it: "line 8: self.timer = self.create_timer(1.0, self.tick)"."""
+        return f"line {self.line}: {f'{self.kept} = ' if self.kept else ''}{code}"
+
 
 @dataclass(frozen=True, slots=True)
 class Line:
@@ -204,8 +213,8 @@ def _call(node: ast.Call, around: Mapping[ast.AST, ast.AST]) -> Call:
     kept = parent.targets[0] if isinstance(parent, ast.Assign) and parent.value is node else None
     tests = tuple(
         Line(each.lineno, f"if {ast.unparse(each.test)}:")
-        for each in _parents(node, around)
-        if isinstance(each, ast.If)
+        for each, child in _steps_out(node, around)
+        if isinstance(each, ast.If) and child not in each.orelse
     )
     return Call(
         name=_last_name(node.func),
@@ -233,6 +242,8 @@ def _assigned(node: ast.AST, around: Mapping[ast.AST, ast.AST]) -> Iterator[Assi
         targets, value = node.targets, node.value
     elif isinstance(node, ast.AnnAssign) and node.value is not None:
         targets, value = [node.target], node.value
+    elif isinstance(node, ast.AugAssign):
+        targets, value = [node.target], ast.BinOp(node.target, node.op, node.value)
     else:
         return
     for target in targets:
@@ -268,6 +279,13 @@ def _added(node: ast.expr) -> Iterator[str]:
             yield ast.unparse(inner)
         case _:
             yield ast.unparse(node)
+
+
+def _steps_out(node: ast.AST, around: Mapping[ast.AST, ast.AST]) -> Iterator[tuple[ast.AST, ast.AST]]:
+    """Each parent, from the inside out, with the child that leads to the node."""
+    while (parent := around.get(node)) is not None:
+        yield parent, node
+        node = parent
 
 
 def _parents(node: ast.AST, around: Mapping[ast.AST, ast.AST]) -> Iterator[ast.AST]:

@@ -39,14 +39,14 @@ def overridden(source: Source, name: str) -> Cause | None:
                 f"{call.where}: with ignore_override=True, the value given at start-up is not taken",
                 f"leave ignore_override=True out of line {call.line}",
             )
-    holder = _holder(source, name)
-    if holder is None:
+    kept = holder(source, name)
+    if kept is None:
         return None
-    for later in source.assignments(holder.target):
-        if later.constant and (later.line > holder.line if later.within == holder.within else later.within != _IN_INIT):
+    for later in source.assignments(kept.target):
+        if later.constant and (later.line > kept.line if later.within == kept.within else later.within != _IN_INIT):
             return Cause(
                 "value overwritten by the node",
-                f"{later.where} overwrites what line {holder.line} has read of {name}",
+                f"{later.where} overwrites what line {kept.line} has read of {name}",
                 f"remove line {later.line}",
             )
     return None
@@ -61,23 +61,23 @@ def not_followed(source: Source, name: str) -> Cause | None:
     """What keeps a value that is set while the node runs from being used."""
     if (cause := overridden(source, name) or not_called(source)) is not None:
         return cause
-    holder, tick = _holder(source, name), timers.callback(source)
-    if holder is None:
+    kept, tick = holder(source, name), timers.callback(source)
+    if kept is None:
         return _never_read(source, name)
-    if tick is None or not holder.target.startswith("self."):
+    if tick is None or not kept.target.startswith("self."):
         return None
-    again = f"begin {tick.name} (line {tick.line}) with: {holder.target} = self.get_parameter('{name}').value"
+    again = f"begin {tick.name} (line {tick.line}) with: {kept.target} = self.get_parameter('{name}').value"
     if (early := _reads_early(source, name)) is not None:
         return _old_value(source, early, name)
     changed = callback(source)
     if changed is None:
-        text = f"{holder.where} is run once, when the node starts; nothing reads {name} after that"
+        text = f"{kept.where} is run once, when the node starts; nothing reads {name} after that"
         return Cause("parameter ignored", text, again)
     if not any(name in function.texts for function in source.reached(changed.name)):
         return Cause("parameter ignored", f"{changed.name} (line {changed.line}) does nothing for '{name}'", again)
     return Cause(
         "parameter ignored",
-        f"what {tick.name} uses, {holder.target}, is not what {changed.name} (line {changed.line}) sets",
+        f"what {tick.name} uses, {kept.target}, is not what {changed.name} (line {changed.line}) sets",
         again,
     )
 
@@ -143,6 +143,14 @@ def checked_too_late(source: Source, name: str) -> str | None:
     """The step where a value is looked at when something has been done with it already, or with another one."""
     checker = callback(source, _ON)
     return _check_first(source, checker, name) if checker is not None else None
+
+
+def without_reason(source: Source, name: str) -> str | None:
+    """The step where a refusal gives no reason."""
+    for call in source.calls("SetParametersResult"):
+        if call.named.get("successful") == "False" and "reason" not in call.named:
+            return call.becomes(f"{call.code[:-1]}, reason='{name} must be > 0')")
+    return checked_too_late(source, name)
 
 
 def checked_at_start(source: Source, name: str) -> str | None:
@@ -236,7 +244,7 @@ def _never_read(source: Source, name: str) -> Cause | None:
     reading = ("get_parameter", "get_parameter_or", "get_parameters", "get_parameters_by_prefix")
     if not source.calls("declare_parameter", "declare_parameters") or source.calls("get_parameters_by_prefix"):
         return None
-    if any(_says(call.code, name) for call in source.calls(*reading)) or _holder(source, name) is not None:
+    if any(_says(call.code, name) for call in source.calls(*reading)) or holder(source, name) is not None:
         return None
     changed, tick = callback(source), timers.callback(source)
     if changed is not None and any(name in function.texts for function in source.reached(changed.name)):
@@ -244,7 +252,7 @@ def _never_read(source: Source, name: str) -> Cause | None:
     value = f"self.get_parameter('{name}').value"
     made = next(iter(source.calls("create_timer")), None)
     if "rate" in name and made is not None and made.given:
-        hint = f"line {made.line}: {made.code.replace(made.given[0], f'1.0 / {value}', 1)}"
+        hint = made.instead(made.given[0], f"1.0 / {value}")
     elif name == "enabled" and tick is not None:
         hint = f"begin {tick.name} (line {tick.line}) with:\nif not {value}:\n    return"
     else:
@@ -253,7 +261,7 @@ def _never_read(source: Source, name: str) -> Cause | None:
     return Cause("parameter ignored", f"{name} is declared, but its value is read nowhere", hint)
 
 
-def _holder(source: Source, name: str) -> Assignment | None:
+def holder(source: Source, name: str) -> Assignment | None:
     """Where the parameter's value is kept."""
     for each in source.assignments():
         if any(f"{reading}('{name}'" in each.value for reading in _READING):

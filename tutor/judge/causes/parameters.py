@@ -127,12 +127,12 @@ def rate_as_period(name: str, source: Source = UNREAD) -> Cause:
     )
 
 
-def period_as_rate(name: str) -> Cause:
+def period_as_rate(name: str, source: Source = UNREAD) -> Cause:
     """The period's number is taken for Hz."""
     return Cause(
         "period used as a rate",
         f"{name} is given as a period, but the node publishes that many times a second",
-        f"give {name} to create_timer as it is, or call it a rate",
+        timers.as_rate(source) or f"give {name} to create_timer as it is, or call it a rate",
     )
 
 

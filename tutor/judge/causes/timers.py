@@ -45,8 +45,36 @@ def post_set(source: Source, name: str) -> str:
 def as_period(source: Source, name: str) -> str | None:
     """The step for a rate that is given to a timer as it is, with the lines that do so."""
     wrong = [call for call in source.calls("create_timer") if _is_rate(source, call)]
-    right = [call.code.replace(call.given[0], f"1.0 / {_bracketed(call.given[0])}", 1) for call in wrong]
-    return "\n".join(f"line {call.line}: {code}" for call, code in zip(wrong, right, strict=True)) or None
+    right = [call.instead(call.given[0], f"1.0 / {_bracketed(call.given[0])}") for call in wrong]
+    return "\n".join(right) or None
+
+
+def as_rate(source: Source) -> str | None:
+    """The step for a period that a timer gets divided."""
+    for call in source.calls("create_timer"):
+        for line, text in _spots(source, call):
+            if found := re.match(r"\d[\d.]* / (.+)", text):
+                return f"line {line}: write {found[1]} instead of {text}"
+    return None
+
+
+def ended_for_good(source: Source, name: str) -> str | None:
+    """The step where a timer is cancelled when `name` is false, and never made again."""
+    tick = callback(source)
+    if tick is None:
+        return None
+    inside = {each.name for each in source.all_functions()} - {"main", "__init__"}
+    for call in source.calls("cancel", "destroy_timer"):
+        test = next(iter(call.tests), None)
+        made = [each for each in source.calls("create_timer") if each.within == call.within and each.line > call.line]
+        if call.within not in inside or test is None or (made and made[0].line <= call.line + 2):
+            continue
+        value = f"self.get_parameter('{name}').value"
+        looks = (
+            "" if name in tick.code else f"\nbegin {tick.name} (line {tick.line}) with:\nif not {value}:\n    return"
+        )
+        return f"remove lines {test.line} to {call.line}, which end the timer: {test.code} {call.code}{looks}"
+    return None
 
 
 def idle(source: Source, topic: str) -> Cause | None:
@@ -80,11 +108,11 @@ def other_unit(source: Source) -> Cause | None:
             found = re.match(r"(?P<number>\d[\d.]*(?:e\d+)?) / ", text)
             if found and float(found["number"]) != 1:
                 right = text.replace(found["number"], "1.0", 1)
-                code = call.code.replace(period, right, 1) if line == call.line else right
+                step = call.instead(period, right) if line == call.line else f"line {line}: {right} instead of {text}"
                 return Cause(
                     "wrong timer period",
                     f"line {line}: the period {text} is not the one of this rate: create_timer takes seconds",
-                    f"line {line}: {code}",
+                    step,
                 )
     return None
 
@@ -97,7 +125,7 @@ def fixed(source: Source, name: str, holder: str) -> Cause | None:
             return Cause(
                 "parameter ignored",
                 f"{call.where} has the period {period}, whatever {name} says",
-                f"line {call.line}: {call.code.replace(period, f'1.0 / {holder}', 1)}",
+                call.instead(period, f"1.0 / {holder}"),
             )
     return None
 
@@ -109,7 +137,7 @@ def several(source: Source) -> Cause | None:
     inner = next((call for call in made if tick is not None and call.within == tick.name), None)
     if inner is not None and not source.calls("cancel", "destroy_timer"):
         return Cause(
-            "a timer in each callback",
+            "wrong rate",
             f"{inner.where} is in {inner.within}, the timer's own callback: each call makes one more timer",
             f"remove line {inner.line}: one timer, made in __init__, goes on by itself",
         )
@@ -120,7 +148,7 @@ def several(source: Source) -> Cause | None:
             (call for call in first if re.fullmatch(r"[\d.]+", call.argument(0, "timer_period_sec"))), first[-1]
         )
         return Cause(
-            "two timers",
+            "wrong rate",
             f"lines {' and '.join(str(call.line) for call in first)} make a timer each, and both call {same.pop()}",
             f"remove line {extra.line}: {extra.code}",
         )

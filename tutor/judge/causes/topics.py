@@ -137,7 +137,7 @@ def _renamed(source: Source, create: str, topic: str, name: str) -> str | None:
     for made in source.calls(create, create.replace("create_", "create_lifecycle_")):
         written = made.argument(1, "topic")
         if written.strip("'").endswith(last):
-            return f"line {made.line}: {made.code.replace(written, repr(topic), 1)}"
+            return made.instead(written, repr(topic))
     return None
 
 
