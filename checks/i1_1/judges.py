@@ -195,7 +195,7 @@ def _why_rate(group: Sequence[RateProbe], wrong: RateProbe, declared: tuple[Para
     if declared is not None and wrong.name not in {parameter.name for parameter in declared}:
         return _rate_not_declared()
     if wrong.rate is not None and wrong.rate.in_bursts:
-        return timers.whole_division(source) or causes.in_bursts(wrong.name)
+        return timers.whole_division(source) or timers.several(source) or causes.in_bursts(wrong.name)
     measured = [(probe, probe.rate) for probe in group if probe.rate is not None]
     if measured and len(swapped(group)) == len(measured):
         if wrong.unit == "Hz":
@@ -251,6 +251,9 @@ def _why_name(found: Names) -> Cause:
             f"the node answers no parameter call, and {SUGGESTED_NAME} has no effect",
             f"self.declare_parameter('{SUGGESTED_NAME}', 'sensor'), and log its value",
         )
+    silent = next((each.trace for each in found.probes if not each.trace.logs and not each.trace.on(TOPIC)), None)
+    if silent is not None and any(each.topic == TOPIC for each in silent.graph.publishers):
+        return causes.of_silence(silent, TOPIC, TYPE, answers=True)
     own = [probe for probe in found.probes if probe.name in {parameter.name for parameter in found.declared}]
     return steps.name_logged(read(found.probes[0].trace), (own or found.probes)[0].name) or Cause(
         "parameter ignored",

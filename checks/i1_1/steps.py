@@ -94,7 +94,7 @@ def name_logged(source: Source, name: str) -> Cause | None:
     quiet = [call for call in source.calls("debug") if call.within == tick.name]
     if quiet and (value in quiet[0].code or (holder is not None and holder.target in quiet[0].code)):
         return Cause(
-            "logged as debug",
+            "logged at DEBUG",
             f"{quiet[0].where}: debug messages are not shown",
             quiet[0].instead(".debug(", ".info("),
         )

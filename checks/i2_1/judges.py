@@ -46,6 +46,7 @@ def judge_defaults(seen: Survey) -> Verdict:
     if seen.parameters is None:
         cause = causes.of_no_answer(seen.trace, seen.stuck)
         return failed(expected, "the node answers no parameter call", cause, causes.last_words(seen.trace))
+    source = read(seen.trace)
     found = {name: seen.value_of(name) for name in DEFAULTS}
     observed = ", ".join(f"{n} = {_show(p.value)} ({p.type})" if p else f"no {n}" for n, p in found.items())
     for name, parameter in found.items():
@@ -54,7 +55,7 @@ def judge_defaults(seen: Survey) -> Verdict:
             return failed(
                 expected,
                 observed,
-                causes.not_declared(name, value),
+                causes.not_declared(name, value, source),
             )
         if parameter.type != kind:
             name_of_cause = (
@@ -67,7 +68,7 @@ def judge_defaults(seen: Survey) -> Verdict:
                     name_of_cause,
                     f"{name} is of type {parameter.type}, not {kind}: the type "
                     "of the default is the type of the parameter",
-                    f"self.declare_parameter('{name}', {value!r})",
+                    parameter_use.declared_right(source, name, value),
                 ),
             )
         if parameter.value != value:
@@ -77,7 +78,7 @@ def judge_defaults(seen: Survey) -> Verdict:
                 Cause(
                     "wrong default",
                     f"{name} is {_show(parameter.value)}, not {_show(value)}",
-                    f"self.declare_parameter('{name}', {value!r})",
+                    parameter_use.declared_right(source, name, value),
                 ),
             )
     return passed(expected, observed)
@@ -130,7 +131,7 @@ def _why_launch_rate(seen: Launched) -> Cause:
     if (whole := timers.whole_division(source)) is not None:
         return whole
     if rate is not None and rate.in_bursts:
-        return causes.in_bursts(RATE)
+        return timers.several(source) or causes.in_bursts(RATE)
     if rate is not None and (rate.agrees(DEFAULT_HZ) or _are_alike(rate, seen.slow_rate)):
         return _ignored(RATE, seen.trace)
     if rate is None or rate.agrees(1 / LAUNCH_HZ):
@@ -292,6 +293,18 @@ def _not_set(expected: str, answer: SetAnswer, trace: Trace, stuck: Sequence[Fra
     return failed(expected, f'setting {what}: rejected, "{answer.reason}"', cause)
 
 
+def _ended_by(bad: float, expected: str, trace: Trace) -> Verdict | None:
+    """Whether the node has ended because it made a timer of a bad rate: nothing had refused it."""
+    found = tracebacks.last(trace)
+    told = found.raised if found is not None and trace.exit is not None else ""
+    if not told.startswith("ZeroDivisionError") and "timer period must be non-negative" not in told:
+        return None
+    cause = parameter_use.not_refused(read(trace), RATE, bad)
+    if cause is None:
+        return None
+    return failed(expected, f"{RATE} set to {bad} ends the node: {told}", cause, causes.last_words(trace))
+
+
 def judge_validation(seen: Validated, switched: Switched) -> Verdict:
     expected = f"{RATE} 0.0 and -1.0 are rejected with a reason; the value and the rate stay at {seen.base_hz} Hz"
     if not seen.rejected:
@@ -300,7 +313,7 @@ def judge_validation(seen: Validated, switched: Switched) -> Verdict:
     for answer, value in seen.rejected:
         bad = answer.values[RATE]
         if not answer.answered:
-            return _not_set(expected, answer, seen.trace, seen.stuck)
+            return _ended_by(bad, expected, seen.trace) or _not_set(expected, answer, seen.trace, seen.stuck)
         if answer.successful:
             return failed(
                 expected,
@@ -368,7 +381,7 @@ def _why_timer(seen: Retimed, asked: float, rate: Rate | None) -> Cause:
         return cause
     source = read(seen.trace)
     if rate is not None and rate.in_bursts:
-        return timers.whole_division(source) or causes.in_bursts(RATE)
+        return timers.whole_division(source) or timers.several(source) or causes.in_bursts(RATE)
     before = DEFAULT_HZ if asked == UP_HZ else UP_HZ
     faster = seen.steps[0][1]
     left_behind = asked == DOWN_HZ and faster is not None and faster.hz > UP_HZ + DEFAULT_HZ / 2
@@ -400,7 +413,7 @@ def judge_atomic(seen: Atomic, switched: Switched) -> Verdict:
     source = read(seen.trace)
     unanswered = next((answer for answer in seen.answers if not answer.answered), None)
     if unanswered is not None:
-        return _not_set(expected, unanswered, seen.trace, seen.stuck)
+        return _ended_by(BAD_RATES[1], expected, seen.trace) or _not_set(expected, unanswered, seen.trace, seen.stuck)
     if any(answer.successful for answer in seen.answers):
         return failed(
             expected,

@@ -115,7 +115,7 @@ def test_rate(source: Source, cause: str, step: str) -> None:
 @pytest.mark.parametrize(
     ("source", "cause", "step"),
     [
-        (changed((".info(", ".debug(")), "logged as debug", "line 19: self.get_logger().info(f'"),
+        (changed((".info(", ".debug(")), "logged at DEBUG", "line 19: self.get_logger().info(f'"),
         (
             changed(("info(f'", "info('")),
             "no f in front of the text",

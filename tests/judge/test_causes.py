@@ -12,6 +12,7 @@ from tutor.judge.causes import (
     incompatible_service,
     last_words,
     of_deafness,
+    of_lifecycle,
     of_no_answer,
     of_printed,
     of_process,
@@ -293,3 +294,39 @@ TypeError"""
     found = of_process(trace(err=text, exit=exited(1)))
     assert found is not None
     assert found.name == "response not returned"
+
+
+LIFECYCLE = """\
+class Sensor(LifecycleNode):
+    def on_activate(self, state):
+        return TransitionCallbackReturn.SUCCESS
+
+
+def main():
+    sensor = Sensor()
+"""
+
+
+@pytest.mark.parametrize(
+    ("source", "steps"),
+    [
+        ("", ["node.trigger_configure(), then node.trigger_activate()"]),
+        (LIFECYCLE, ["sensor.trigger_configure()", "end on_activate (line 2) with: return super().on_activate(state)"]),
+        (LIFECYCLE + "    sensor.trigger_activate()\n", ["end on_activate (line 2)"]),
+    ],
+)
+def test_a_lifecycle_node_that_nobody_activates(source: str, steps: list[str]) -> None:
+    asleep = graph(services={"/sensor/change_state": "lifecycle_msgs/srv/ChangeState"})
+    seen = trace(graph=asleep, sources={"node.py": source})
+    cause = of_silence(seen, "/chatter", "std_msgs/msg/String", answers=True)
+    assert cause.name == "lifecycle node not activated"
+    for step in steps:
+        assert step in cause.hint
+    awake = trace(
+        graph=asleep,
+        sources={
+            "node.py": LIFECYCLE.replace("TransitionCallbackReturn.SUCCESS", "super().on_activate(state)")
+            + "    sensor.trigger_activate()"
+        },
+    )
+    assert of_lifecycle(awake) is None

@@ -257,3 +257,63 @@ def test_without_a_source_the_plain_words_are_left() -> None:
     assert parameter_use.not_read(UNREAD, "message_prefix") is None
     assert parameter_use.checked_at_start(UNREAD, "publish_rate") is None
     assert "self.timer.cancel()" in causes.timer_not_replaced("publish_rate").hint
+
+
+@pytest.mark.parametrize(
+    ("source", "step"),
+    [
+        (changed(("1.0)", "1)")), "line 10: self.declare_parameter('publish_rate', 1.0)"),
+        (changed(("'publish_rate'", "'rate'")), "write 'publish_rate' instead of 'rate', wherever"),
+        (
+            changed(("        self.declare_parameter('publish_rate', 1.0)\n", "")),
+            "add to __init__: self.declare_parameter('publish_rate', 1.0)",
+        ),
+        (
+            Source("self.declare_parameters('', [('publish_rate', 2.0)])"),
+            "line 1: ('publish_rate', 1.0) in the list of declare_parameters",
+        ),
+    ],
+)
+def test_declared_right(source: Source, step: str) -> None:
+    assert parameter_use.declared_right(source, "publish_rate", 1.0).startswith(step)
+
+
+def test_a_refusal_without_a_reason() -> None:
+    for code in ("", ", reason=''"):
+        source = changed((", reason='must be > 0'", code))
+        assert parameter_use.without_reason(source, "publish_rate") == (
+            "line 20: SetParametersResult(successful=False, reason='publish_rate must be > 0')"
+        )
+
+
+def test_a_timer_that_is_ended_for_good() -> None:
+    ended = "            if not self.on:\n                self.timer.cancel()\n"
+    step = timers.ended_for_good(changed((REPLACED, ended)), "enabled")
+    assert step is not None
+    assert step.startswith("remove lines 21 to 22")
+    assert "begin tick (line 27) with:\nif not self.get_parameter('enabled').value:\n    return" in step
+    assert timers.ended_for_good(Source(NODE), "enabled") is None
+
+
+@pytest.mark.parametrize(
+    ("source", "step"),
+    [
+        (
+            changed(("        self.publisher.publish(String(data=self.prefix))\n", "        pass\n")),
+            "publisher.publish(msg)",
+        ),
+        (
+            changed(("        self.timer = self.create_timer(1.0 / self.rate, self.tick)\n", ""), (REPLACED, "")),
+            "add to the end of __init__: self.timer = self.create_timer(1.0 / self.rate, self.tick)",
+        ),
+        (changed(("1.0 / self.rate", "1000 / self.rate")), "line 14: self.timer = self.create_timer(1.0 / self.rate,"),
+    ],
+)
+def test_a_publisher_that_sends_nothing(source: Source, step: str) -> None:
+    found = timers.idle(source, "/chatter")
+    assert found is not None
+    assert step in found.hint
+
+
+def test_a_period_that_is_turned_over() -> None:
+    assert timers.as_rate(Source(NODE)) == "line 14: write self.rate instead of 1.0 / self.rate"

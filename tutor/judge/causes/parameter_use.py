@@ -6,7 +6,9 @@ Everything here explains a failure that is certain; what the source says only ch
 
 from __future__ import annotations
 
+import difflib
 import re
+from typing import Any
 
 from tutor.judge.causes import timers
 from tutor.judge.reading import Assignment, Call, Function, Source
@@ -139,6 +141,32 @@ def not_refused(source: Source, name: str, bad: float) -> Cause | None:
     )
 
 
+def declared_right(source: Source, name: str, default: Any) -> str:
+    """The step where a parameter is not declared, or has another default or type than it should."""
+    right = f"self.declare_parameter('{name}', {default!r})"
+    for call in source.calls("declare_parameter"):
+        if _says(call.argument(0, "name"), name):
+            given = call.argument(1, "value")
+            return call.instead(given, repr(default)) if given else call.becomes(right)
+    for call in source.calls("declare_parameters"):
+        if _says(call.code, name):
+            return f"line {call.line}: ('{name}', {default!r}) in the list of {call.name}"
+    others = {
+        call.argument(0, "name").strip("'"): call
+        for call in source.calls("declare_parameter")
+        if call.argument(0, "name").startswith("'")
+    }
+    near = [
+        each
+        for each in others
+        if each in name or name in each or difflib.SequenceMatcher(None, each, name).ratio() > 0.6
+    ]
+    if near:
+        lines = ", ".join(map(str, source.lines_with(near[0])))
+        return f"write '{name}' instead of '{near[0]}', wherever it is the parameter's name: line {lines}"
+    return f"add to __init__: {right}"
+
+
 def checked_too_late(source: Source, name: str) -> str | None:
     """The step where a value is looked at when something has been done with it already, or with another one."""
     checker = callback(source, _ON)
@@ -148,8 +176,9 @@ def checked_too_late(source: Source, name: str) -> str | None:
 def without_reason(source: Source, name: str) -> str | None:
     """The step where a refusal gives no reason."""
     for call in source.calls("SetParametersResult"):
-        if call.named.get("successful") == "False" and "reason" not in call.named:
-            return call.becomes(f"{call.code[:-1]}, reason='{name} must be > 0')")
+        if call.named.get("successful") == "False" and call.named.get("reason", "''") in ("''", "' '"):
+            bare = re.sub(r",? reason='\s*'", "", call.code)
+            return call.becomes(f"{bare[:-1]}, reason='{name} must be > 0')")
     return checked_too_late(source, name)
 
 

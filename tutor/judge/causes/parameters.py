@@ -100,12 +100,12 @@ def _accepting(source: Source) -> str | None:
     return None
 
 
-def not_declared(name: str, default: Any) -> Cause:
+def not_declared(name: str, default: Any, source: Source = UNREAD) -> Cause:
     """The node has no such parameter."""
     return Cause(
         "parameter not declared",
         f"the node has no parameter {name}",
-        f"self.declare_parameter('{name}', {default!r})",
+        parameter_use.declared_right(source, name, default),
     )
 
 

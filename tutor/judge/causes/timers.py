@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 
 from tutor.judge.causes import names
-from tutor.judge.reading import Call, Function, Source
+from tutor.judge.reading import Assignment, Call, Function, Source
 from tutor.judge.verdict import Cause
 
 
@@ -86,7 +86,9 @@ def idle(source: Source, topic: str) -> Cause | None:
     tick = callback(source)
     if not sends:
         into = f"at the end of {tick.name} (line {tick.line})" if tick else "in the timer's callback"
-        hint = f"add {into}: {made.kept or 'self.publisher'}.publish(msg), with the message that is to be sent"
+        message = next((each.target for each in source.assignments() if _is_message(each, made, tick)), "")
+        hint = f"add {into}: {made.kept or 'self.publisher'}.publish({message or 'msg'})"
+        hint += "" if message else ", with the message that is to be sent"
         return Cause("no messages", f"there is a publisher on {topic}, but nothing calls publish()", hint)
     timers = source.calls("create_timer")
     if (cause := other_unit(source)) is not None:
@@ -95,9 +97,23 @@ def idle(source: Source, topic: str) -> Cause | None:
         return Cause(
             "no messages",
             f"{sends[0].where} is in {sends[0].within}, which nothing calls: there is no timer",
-            f"add to the end of __init__: self.timer = self.create_timer(1.0, self.{sends[0].within})",
+            "add to the end of __init__: "
+            f"self.timer = self.create_timer({_own_period(source)}, self.{sends[0].within})",
         )
     return None
+
+
+def _is_message(each: Assignment, made: Call, tick: Function | None) -> bool:
+    """Whether a message of the publisher's type is made here."""
+    return tick is not None and each.within == tick.name and each.value.startswith(f"{made.argument(0, 'msg_type')}(")
+
+
+def _own_period(source: Source) -> str:
+    """The period that the file's own rate asks for, in seconds."""
+    for each in source.assignments():
+        if re.search(r"get_parameter\('\w*(?:rate|hz|freq)\w*'\)", each.value) and each.target.startswith("self."):
+            return f"1.0 / {each.target}"
+    return "1.0"
 
 
 def other_unit(source: Source) -> Cause | None:
