@@ -8,10 +8,11 @@ from __future__ import annotations
 import difflib
 import os
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 INDEX = Path("share") / "ament_index" / "resource_index" / "packages"
+_MUCH_LIKE = 0.8
 _LONGEST_INTERPRETER = 110
 """Characters of a path; older kernels read 127 of a script's first line."""
 
@@ -22,7 +23,7 @@ class PackageNotFound(LookupError):
     def __init__(self, package: str) -> None:
         self.package = package
         near = difflib.get_close_matches(package, with_programs())
-        self.hint = hint(near)
+        self.hint = hint(package, with_programs())
         super().__init__(f"package '{package}' not found" + (f"; is it {' or '.join(near)}?" if near else ""))
 
 
@@ -32,12 +33,13 @@ class ExecutableNotFound(LookupError):
     def __init__(self, package: str, executable: str, programs: list[str]) -> None:
         self.package = package
         self.executable = executable
-        self.hint = hint(difflib.get_close_matches(executable, programs))
+        self.hint = hint(executable, programs)
         super().__init__(f"executable '{executable}' not found in package '{package}'; it has: {_listed(programs)}")
 
 
-def hint(near: list[str]) -> str:
-    """A second line of a message that asks whether one of these names was meant; nothing where there is none."""
+def hint(name: str, names: Iterable[str]) -> str:
+    """A second line of a message that asks which of the names was meant; nothing where none is much like it."""
+    near = difflib.get_close_matches(name, list(names), cutoff=_MUCH_LIKE)
     return f"\n(is it {' or '.join(near)}?)" if near else ""
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import difflib
 import os
 from collections.abc import Sequence
 from pathlib import Path
@@ -118,10 +117,9 @@ def _in_package(package: str, name: str) -> Path:
         if name in files:
             found.append(Path(folder) / name)
     if not found:
-        near = difflib.get_close_matches(name, names)
         raise CommandError(
             f"file '{name}' was not found in the share directory of package '{package}' which is at '{share}'"
-            + packages.hint(near)
+            + packages.hint(name, names)
         )
     if len({path.resolve() for path in found}) > 1:
         listed = [str(path) for path in found]

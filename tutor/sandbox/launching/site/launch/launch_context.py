@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from .event import Event
 from .event_handler import BaseEventHandler
+from .logging import get_logger
 from .substitution import Substitution
 
 if TYPE_CHECKING:
@@ -171,11 +172,15 @@ class LaunchContext:
 
     def emit_event_sync(self, event: Event) -> None:
         """Queue an event."""
-        self._event_queue.put_nowait(event)
+        self._queue(event, "emitting event synchronously")
 
     async def emit_event(self, event: Event) -> None:
         """Queue an event."""
-        await self._event_queue.put(event)
+        self._queue(event, "emitting event")
+
+    def _queue(self, event: Event, how: str) -> None:
+        get_logger("launch.launch_context").debug(f"{how}: '{event.name}'")
+        self._event_queue.put_nowait(event)
 
     def perform_substitution(self, substitution: Substitution) -> str:
         return substitution.perform(self)

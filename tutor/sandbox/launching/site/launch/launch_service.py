@@ -153,9 +153,11 @@ class LaunchService:
 
     def _have_handled(self, event: Event) -> None:
         context = self._context
+        self._logger.debug(f"processing event: '{event}'")
         for handler in tuple(context._event_handlers):
             if not handler.matches(event):
                 continue
+            self._logger.debug(f"processing event: '{event}' ✓ '{handler}'")
             context._push_locals()
             try:
                 entities = handler.handle(event, context)

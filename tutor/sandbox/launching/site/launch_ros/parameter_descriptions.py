@@ -54,6 +54,10 @@ class Parameter:
     def value(self) -> Any:
         return self._value.value
 
+    @property
+    def value_type(self) -> Any:
+        return self._value.value_type
+
     def evaluate(self, context: LaunchContext) -> tuple[str, Any]:
         """The name and the value."""
         return perform_substitutions(context, self._name), self._value.evaluate(context)

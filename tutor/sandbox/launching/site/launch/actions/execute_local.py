@@ -108,6 +108,14 @@ class ExecuteLocal(Action):
         return self._output
 
     @property
+    def sigterm_timeout(self) -> Any:
+        return self._sigterm_timeout
+
+    @property
+    def sigkill_timeout(self) -> Any:
+        return self._sigkill_timeout
+
+    @property
     def process_details(self) -> dict[str, Any] | None:
         """action, name, cmd, cwd, env, and pid once it runs; None before it is executed."""
         return self._details
@@ -241,7 +249,7 @@ class ExecuteLocal(Action):
             self._logger.info(f"process has finished cleanly [pid {process.pid}]")
         else:
             self._logger.error(f"process has died [pid {process.pid}, exit code {returncode}, cmd '{shown}'].")
-        context.emit_event_sync(ProcessExited(returncode=returncode, **details))
+        await context.emit_event(ProcessExited(returncode=returncode, **details))
         return True
 
     def _on_start(self, context: LaunchContext, process: _subprocess.Process) -> None:
@@ -251,7 +259,7 @@ class ExecuteLocal(Action):
         context._processes.add(process)
         self._logger.info(f"process started with pid [{process.pid}]")
         self._details["pid"] = process.pid
-        context.emit_event_sync(ProcessStarted(**self._details))
+        context._queue(ProcessStarted(**self._details), "emitting event")
 
     def _wants_tty(self, context: LaunchContext) -> bool:
         word = context.launch_configurations.get("emulate_tty")

@@ -21,6 +21,14 @@ class Command(Substitution):
         self._command = normalize_to_list_of_substitutions(command)
         self._on_stderr = normalize_to_list_of_substitutions(on_stderr)
 
+    @property
+    def command(self) -> list[Substitution]:
+        return self._command
+
+    @property
+    def on_stderr(self) -> list[Substitution]:
+        return self._on_stderr
+
     def describe(self) -> str:
         return f"Command({' + '.join(part.describe() for part in self._command)})"
 

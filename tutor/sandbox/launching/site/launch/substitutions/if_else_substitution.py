@@ -26,6 +26,18 @@ class IfElseSubstitution(Substitution):
         self._if = normalize_to_list_of_substitutions(if_value)
         self._else = normalize_to_list_of_substitutions(else_value)
 
+    @property
+    def condition(self) -> list[Substitution]:
+        return self._condition
+
+    @property
+    def if_value(self) -> list[Substitution]:
+        return self._if
+
+    @property
+    def else_value(self) -> list[Substitution]:
+        return self._else
+
     def describe(self) -> str:
         return f"IfElseSubstitution({self._condition}, {self._if}, {self._else})"
 
