@@ -31,10 +31,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="show the output of all processes, and log it as well",
     )
-    parser.add_argument("--launch-prefix", metavar="COMMAND", help="start every process with this command, in quotes")
-    parser.add_argument(
-        "--launch-prefix-filter", metavar="PATTERN", help="only those whose name this regular expression matches"
-    )
+    parser.add_argument("--launch-prefix", help="start every process with this command, in quotes")
+    parser.add_argument("--launch-prefix-filter", help="only those whose name this regular expression matches")
     parser.add_argument("package", metavar="package_name", help="a package, or the path of a launch file")
     parser.add_argument("file", metavar="launch_file_name", nargs="?", help="the launch file's name in the package")
     parser.add_argument(

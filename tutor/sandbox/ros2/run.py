@@ -18,7 +18,7 @@ _SAYS = "[ros2run]:"
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """[--prefix COMMAND] PACKAGE EXECUTABLE [ARGUMENT ...]."""
-    parser.add_argument("--prefix", metavar="COMMAND", help="start the program with this command, in quotes")
+    parser.add_argument("--prefix", help="start the program with this command, in quotes")
     complete_with(parser.add_argument("package", metavar="package_name", help="the package"), _packages)
     complete_with(parser.add_argument("executable", metavar="executable_name", help="its program"), _programs)
     parser.add_argument("rest", metavar="argv", nargs=argparse.REMAINDER, help="what to pass to the program")
