@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from tests.ros2cli.bench import TALKER, Bench, Ran
+from tests.ros2cli.bench import TALKER, Bench, Ran, command
+from tests.ros2cli.typing_at import terminal
 
 LISTENER = """
 from std_msgs.msg import String
@@ -36,6 +37,13 @@ node = rclpy.create_node("mixed")
 one = node.create_publisher(String, "chatter", 10)
 other = node.create_publisher(String, "chatter", QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT))
 node.create_timer(0.05, lambda: other.publish(String(data="hi")))
+spin(node)
+"""
+ESCAPES = """
+from std_msgs.msg import String
+node = rclpy.create_node("escapes")
+publisher = node.create_publisher(String, "chatter", 10)
+node.create_timer(0.05, lambda: publisher.publish(String(data="\\x1b[2Jred")))
 spin(node)
 """
 
@@ -123,6 +131,15 @@ def test_echo_of_what_does_not_fit_tells_so(bench: Bench) -> None:
 )
 def test_what_cannot_be_echoed(bench: Bench, words: list[str], wanted: Ran) -> None:
     assert bench.ros2("topic", "echo", *words) == wanted
+
+
+def test_no_message_steers_a_terminal(bench: Bench) -> None:
+    with bench.node(ESCAPES):
+        words = command("topic", "echo", "--once", "--field", "data", "/chatter")
+        with terminal(words, bench.env, bench.folder) as echo:
+            assert "\x1b" not in echo.until("---")
+        piped = bench.ros2("topic", "echo", "--once", "--field", "data", "/chatter")
+        assert piped.stdout == "\x1b[2Jred\n---\n"
 
 
 def test_a_bad_name_takes_a_line_or_two_and_no_traceback(bench: Bench) -> None:

@@ -1,7 +1,11 @@
 """`python -m tutor.sandbox.ros2`."""
 
+import signal
 import sys
 
-from tutor.sandbox.ros2.command import main
+try:
+    from tutor.sandbox.ros2.command import main
 
-sys.exit(main(sys.argv[1:]))
+    sys.exit(main(sys.argv[1:]))
+except KeyboardInterrupt:  # while it was being imported
+    sys.exit(int(signal.SIGINT))

@@ -38,6 +38,7 @@ def main(argv: Sequence[str]) -> int:
     try:
         return _run(argv)
     except KeyboardInterrupt:
+        signal.signal(signal.SIGINT, signal.SIG_IGN)  # pressed once more, it would end in a traceback
         return int(signal.SIGINT)
     except _Terminated:
         return int(signal.SIGTERM)
@@ -79,7 +80,7 @@ def _run(argv: Sequence[str]) -> int:
 
 def _write_by_lines(stream: Any) -> None:
     if hasattr(stream, "reconfigure"):
-        stream.reconfigure(line_buffering=True)
+        stream.reconfigure(line_buffering=True, errors="backslashreplace")
 
 
 class _Terminated(BaseException):

@@ -99,19 +99,21 @@ class Domain:
         """What `look` gives, as soon as it is not None; None where it is not there, which all has been seen for."""
         start = changed = polled = time.monotonic()
         seen: object = None
-        longest_poll = _POLL_S
+        longest_poll, late_s = _POLL_S, 0.0
         while True:
             if (found := look()) is not None:
                 return found
             now = time.monotonic()
             # Where we are kept from running, so are those threads of ours to which the others talk.
-            longest_poll, polled = max(longest_poll, now - polled), now
+            longest_poll = max(longest_poll, now - polled)
+            late_s += max(0.0, now - polled - 2 * _POLL_S)
+            polled = now
             if (sees := self._view()) != seen:
                 seen, changed = sees, now
             quiet_s = now - changed
             if quiet_s >= max(_QUIET_S, 2 * longest_poll) and self._all_are_met(quiet_s):
                 return look()
-            if now - start >= self.limit_s:
+            if now - start - late_s >= self.limit_s:
                 return look()
             time.sleep(_POLL_S)
 

@@ -50,14 +50,7 @@ def message_class(domain: Domain, topic: str) -> Any:
     """
     full = full_name(domain, topic)
     types = domain.find(lambda: dict(topics(domain, hidden=True)).get(full))
-    if types is None:
-        return None
-    if len(types) > 1:
-        raise CommandError(f"Cannot echo topic '{topic}', as it contains more than one type: [{', '.join(types)}]")
-    try:
-        return find_interface(types[0], "msg")
-    except UnknownInterface:
-        raise CommandError(f"The message type '{types[0]}' is invalid") from None
+    return None if types is None else _class_of(topic, types)
 
 
 def awaited_class(domain: Domain, topic: str) -> Any:
@@ -65,9 +58,19 @@ def awaited_class(domain: Domain, topic: str) -> Any:
     if (found := message_class(domain, topic)) is not None:
         return found
     warn_of_no_publisher(topic)
-    while (found := message_class(domain, topic)) is None:
+    full = full_name(domain, topic)
+    while (types := dict(topics(domain, hidden=True)).get(full)) is None:
         time.sleep(_LOOK_AGAIN_S)
-    return found
+    return _class_of(topic, types)
+
+
+def _class_of(topic: str, types: Sequence[str]) -> Any:
+    if len(types) > 1:
+        raise CommandError(f"Cannot echo topic '{topic}', as it contains more than one type: [{', '.join(types)}]")
+    try:
+        return find_interface(types[0], "msg")
+    except UnknownInterface:
+        raise CommandError(f"The message type '{types[0]}' is invalid") from None
 
 
 def warn_of_no_publisher(topic: str) -> None:

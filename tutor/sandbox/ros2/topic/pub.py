@@ -139,7 +139,7 @@ def _publish_all(publish: Callable[[], None], message: Any, times: int, period_s
         count += 1
         publish()
         if print_every and count % print_every == 0:
-            print(f"publishing #{count}: {message!r}\n")
+            sys.stdout.write(f"publishing #{count}: {message!r}\n\n")  # in one go: Ctrl+C leaves no half of it
         if count == times:
             return
         due = max(due + period_s, time.monotonic() - period_s)  # a late one is followed at once, many are not made up
