@@ -15,9 +15,14 @@ _PACKAGE = "my_package"
 
 
 def commands(body: str) -> Iterator[list[str]]:
-    """The commands in the shell blocks of a lesson, as words; a line that ends in a backslash goes on in the next."""
+    """The commands in the shell blocks of a lesson, as words; a line that ends in a backslash goes on in the next.
+
+    Where lines of a block begin with `$ `, only those are commands: the others are what they print.
+    """
     for block in _BLOCK.findall(body):
-        for line in block.replace("\\\n", " ").splitlines():
+        lines = block.replace("\\\n", " ").splitlines()
+        typed = [line for line in lines if line.startswith("$ ")]
+        for line in typed or lines:
             try:
                 words = shlex.split(line.removeprefix("$ "), comments=True)
             except ValueError:

@@ -19,7 +19,7 @@ class GraphView(LineView):
     """Lines of the graph, wrapped to the width."""
 
     COMPONENT_CLASSES: ClassVar[set[str]] = {
-        f"line--{kind}" for kind in ("quiet", "title", "name", "bad", "warn", "good")
+        f"line--{kind}" for kind in ("quiet", "title", "name", "bad", "warn", "node", "topic", "arrow")
     }
     DEFAULT_CSS = """
     GraphView {
@@ -28,13 +28,15 @@ class GraphView(LineView):
         & > .line--name { text-style: bold; }
         & > .line--bad { color: $bad; }
         & > .line--warn { color: $warn; }
-        & > .line--good { color: $good; }
+        & > .line--node { color: $foreground; }
+        & > .line--topic { color: $code-type; }
+        & > .line--arrow { color: $good; }
     }
     """
 
 
 class GraphPanel(Vertical):
-    """Every topic with its publishers and subscribers, then every node."""
+    """Nodes and topics as a drawing, what keeps two from being connected, and every node with what it offers."""
 
     BINDINGS: ClassVar[list[BindingType]] = [Binding("u", "all", "All", show=False)]
 

@@ -1,29 +1,29 @@
-"""The graph as lines of text: every topic with who is connected, and what keeps some from being so. Pure."""
+"""The graph: a drawing of it, and in words what keeps some from being connected and what each node offers. Pure."""
 
 from __future__ import annotations
 
 import textwrap
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
-from tutor.live.facts import Endpoint, Graph, Topic
+from tutor.live.facts import Graph, Topic
 from tutor.live.mismatch import connections
+from tutor.tui.live.graph_drawing import drawing
 from tutor.tui.live.state import is_plumbing, is_plumbing_service
-from tutor.tui.live.words import short_type
 from tutor.tui.widgets.line_view import Row
 
-_INDENT = "      "
+_INDENT = "  "
 
 
 def graph_rows(graph: Graph, width: int, everything: bool) -> list[Row]:
     """The whole graph; without `everything` the topics and services that every node has are left out."""
     topics = [topic for topic in graph.topics if everything or not is_plumbing(topic.name)]
     rows = list(_problems(graph, width))
+    rows += drawing(topics, width)
     if topics:
-        rows.append((("Topics", "title"),))
-    for topic in topics:
-        rows += _topic(topic, width)
         rows.append(())
+    for topic in topics:
+        rows += _unconnected(topic, width)
     rows += _nodes(graph, width, everything)
     return rows
 
@@ -40,22 +40,13 @@ def _problems(graph: Graph, width: int) -> Iterator[Row]:
         yield ()
 
 
-def _topic(topic: Topic, width: int) -> Iterator[Row]:
-    yield ((f"  {topic.name}", "name"), (f"  {' ✗ '.join(map(short_type, topic.types))}", "quiet"))
-    if not topic.subscriptions:
-        for publisher in topic.publishers:
-            yield ((f"    {publisher.node} ──▶ ", ""), ("nobody listens", "quiet"), *_qos(publisher))
-    if not topic.publishers:
-        for subscription in topic.subscriptions:
-            yield (("    ", ""), ("nobody publishes", "warn"), (f" ──▶ {subscription.node}", ""), *_qos(subscription))
+def _unconnected(topic: Topic, width: int) -> Iterator[Row]:
     for pair in connections(topic):
-        if not pair.problems:
-            yield ((f"    {pair.publisher.node} ──▶ {pair.subscription.node}", ""), *_qos(pair.publisher))
-            continue
-        text = f"    {pair.publisher.node} ──✗ {pair.subscription.node}"
-        yield ((text, "bad"), ("  not connected", "bad"))
-        for problem in pair.problems:
-            yield from _wrapped(problem, width, "bad", _INDENT)
+        if pair.problems:
+            yield ((f"✗ {pair.publisher.node} ──✗ {pair.subscription.node}", "bad"), ("  not connected", "bad"))
+            for problem in pair.problems:
+                yield from _wrapped(problem, width, "bad", _INDENT)
+            yield ()
 
 
 def _nodes(graph: Graph, width: int, everything: bool) -> Iterator[Row]:
@@ -71,6 +62,8 @@ def _nodes(graph: Graph, width: int, everything: bool) -> Iterator[Row]:
             for service in graph.services
             if node in service.nodes and (everything or not is_plumbing_service(service.name))
         ]
+        if everything:
+            yield from _qos(shown, node)
         for word, names in (("publishes", publishes), ("listens to", listens), ("serves", serves)):
             if names:
                 yield from _wrapped(f"{word:<11}{', '.join(names)}", width, "", "    ", hang=11)
@@ -78,8 +71,13 @@ def _nodes(graph: Graph, width: int, everything: bool) -> Iterator[Row]:
             yield (("    no topic or service of its own", "quiet"),)
 
 
-def _qos(end: Endpoint) -> Row:
-    return ((f"  {end.qos}", "quiet"),)
+def _qos(topics: Sequence[Topic], node: str) -> Iterator[Row]:
+    """What the node offers and asks for on each of its topics."""
+    for topic in topics:
+        for arrow, ends in (("──▶", topic.publishers), ("◀──", topic.subscriptions)):
+            for end in ends:
+                if end.node == node:
+                    yield ((f"    {arrow} {topic.name}", ""), (f"  {end.qos}", "quiet"))
 
 
 def _wrapped(text: str, width: int, kind: str, indent: str, hang: int = 0) -> Iterator[Row]:

@@ -1,0 +1,234 @@
+"""What each lesson says can be seen in the app, seen: its words, our solution, real nodes on a domain of their own."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import AsyncIterator, Iterator
+from contextlib import asynccontextmanager
+from pathlib import Path
+
+import pytest
+
+from tests.tui.conftest import Learner, at
+from tutor.content import load_course
+from tutor.ros.domain import reserve_domain
+from tutor.tui.desk import Desk
+from tutor.workspace import AppState, Workspace
+
+pytestmark = pytest.mark.timeout(300)
+
+
+@pytest.fixture
+def desk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Desk]:
+    """A workspace in which nothing has been done yet, on a domain that nobody else uses."""
+    with reserve_domain() as domain:
+        monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
+        monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
+        yield Desk(load_course(), Workspace(tmp_path / "ws"))
+
+
+class Reader(Learner):
+    """Somebody who does what the lesson says."""
+
+    limit_s = 45.0
+
+    def reads(self, *phrases: str) -> None:
+        """The lesson says so, however its lines are broken."""
+        text = " ".join(self.main.session.lesson.body.split())
+        missing = [phrase for phrase in phrases if phrase not in text]
+        assert not missing, f"the lesson no longer says {missing}"
+
+    async def rate(self, hz: float) -> None:
+        """See a rate near this one."""
+
+        def near() -> bool:
+            found = re.findall(r"([0-9.]+) Hz · jitter", self.screen())
+            return any(abs(float(each) - hz) < 0.1 * hz for each in found)
+
+        await self.until(near, f"{hz} Hz")
+
+
+@asynccontextmanager
+async def reading(desk: Desk, exercise: str) -> AsyncIterator[Reader]:
+    lesson = desk.course.find(exercise)
+    desk.start(lesson)
+    for file in lesson.files:
+        desk.path(file).write_bytes(file.solution.read_bytes())
+    desk.keep(AppState(lesson=lesson.id))
+    async with at(desk) as opened:
+        me = Reader(opened.app, opened.pilot, desk)
+        await me.sees(f"{lesson.id.upper()}  {lesson.title}", "Objective")
+        yield me
+
+
+async def test_i1_1(desk: Desk) -> None:
+    async with reading(desk, "i1.1") as me:
+        me.reads("Run your node with `r`, and turn to Live with `4`")
+        await me.press("r")
+        await me.sees("thermometer_1 publishes 2.0")
+        await me.press("4")
+        me.reads("A timer of 0.5 s gives 2.00 Hz", "two dashed lines at 20 and 30", "a dot for each message")
+        await me.sees("/sensor/temperature  std_msgs/Float64", "data: 2", "asked: 20 to 30", "╌╌", "•")
+        await me.rate(2.0)
+        me.reads("**Parameters** (`P`): both of yours", "The node says *accepted*, and yet goes on as before")
+        await me.press("P")
+        await me.sees("publish_rate", "sensor_name", "double", "string")
+        await me.press("down", "enter", "ctrl+u", *"roof", "enter")
+        await me.sees("sensor_name = roof  accepted")
+        me.reads("**Graph** (`G`): your node, the topic, and that nobody listens yet")
+        await me.press("escape", "G")
+        await me.sees("/temperature_publisher", "/sensor/temperature", "nobody listens")
+        me.reads("write `publish_rate:=5.0` and `sensor_name:=kitchen` in two lines, and press F5")
+        await me.press("o")
+        await me.sees("F5 runs")
+        await me.press(*"publish_rate:=5.0", "enter", *"sensor_name:=kitchen", "f5")
+        me.reads("The rate is now 5.00 Hz, and the log speaks of the kitchen")
+        await me.sees("kitchen: ")
+        await me.press("T")
+        await me.rate(5.0)
+
+
+async def test_i1_2(desk: Desk) -> None:
+    async with reading(desk, "i1.2") as me:
+        me.reads("Run it with `r`, then press `b`: that starts a talker beside it", "`[` and `]` turn from one log")
+        await me.press("r")
+        await me.sees("Waiting for messages")
+        await me.press("b")
+        await me.sees("● running  talker", "Hello World: 0")
+        me.reads("`/chatter` with 1.00 Hz, one publisher (Pub) and one subscriber (Sub), and the messages")
+        await me.press("T")
+        await me.sees("data: 'Hello World: ")
+        await me.rate(1.0)
+        row = next(line for line in me.screen().splitlines() if "●  /chatter" in line)
+        assert re.search(r"/chatter .* 1 +1 +std_msgs/String", row)
+        me.reads("`M` publishes a message by hand. Send `Hello World: 99`", "your node has a gap to report")
+        await me.press("M")
+        await me.sees("Publish a message", "data string")
+        await me.until(
+            lambda: me.app.focused is not None and not me.app.focused.id, "the message's field has the focus"
+        )
+        await me.press(*"Hello World: 99", "enter")
+        await me.sees("✓ published once on /chatter")
+        await me.press("3", "left_square_bracket")
+        await me.sees("messages are missing between")
+        me.reads("Press `b` again to stop the talker, and once more to start it again, from 0")
+        await me.press("b")
+        await me.sees("■ talker")
+        await me.press("b")
+        await me.sees("● talker")
+        await me.press("left_square_bracket")
+        await me.sees("The publisher was restarted: 0 comes after")
+        me.reads("**Graph** (`G`): the talker, `/chatter`, and your node, with arrows from one to the next")
+        await me.press("G")
+        await me.sees("/talker", "/chatter", "/message_stats", "──▶")
+
+
+async def test_i1_3(desk: Desk) -> None:
+    async with reading(desk, "i1.3") as me:
+        me.reads(
+            "`r` runs the file that is shown",
+            "`j` runs the other file beside it, so that your client meets your server",
+        )
+        await me.press("r")
+        await me.sees("Calculator is up")
+        await me.press("j")
+        await me.sees("add(10, 5) = 15", "■ ended  calculator_client.py")
+        me.reads("`b` starts ours instead: our client beside your server")
+        await me.press("b")
+        await me.sees("■ ended  our client", "multiply(10, -5) = -50")
+        me.reads("`/add`, `/subtract`, `/multiply` and `/divide`, their type, and the node that offers them")
+        await me.press("S")
+        await me.sees(
+            "/add", "/subtract", "/multiply", "/divide", "example_interfaces/AddTwoInts", "/calculator_server"
+        )
+        me.reads("Enter, fill in `a` and `b`, and Enter again")
+        await me.press("enter")
+        await me.until(lambda: me.app.focused is not None and not me.app.focused.id, "the first field has the focus")
+        await me.press("ctrl+u", *"10", "tab", "ctrl+u", *"5", "enter")
+        await me.sees("/add a=10, b=5", "answered in", "sum: 15")
+        me.reads("Choose `/divide` in the list, and try 0 for `b`", "an error in the log of the server")
+        await me.press("escape", "down", "enter")
+        await me.sees("/divide  example_interfaces/AddTwoInts")
+        await me.until(lambda: me.app.focused is not None and not me.app.focused.id, "the first field has the focus")
+        await me.press("ctrl+u", *"1", "enter")
+        await me.sees("/divide a=1, b=0", "sum: 0")
+        await me.press("3", "left_square_bracket", "left_square_bracket")
+        await me.sees("Cannot divide 1 by zero")
+
+
+async def test_i2_1(desk: Desk) -> None:
+    async with reading(desk, "i2.1") as me:
+        await me.press("r")
+        await me.sees("Published: Hello")
+        me.reads("`enabled`, `message_prefix` and `publish_rate`, with type and value", "A new prefix is *accepted*")
+        await me.press("P")
+        await me.sees("enabled", "message_prefix", "publish_rate", "boolean", "string", "double")
+        await me.press("down", "enter", "ctrl+u", *"Ahoy", "enter")
+        await me.sees("message_prefix = Ahoy  accepted")
+        me.reads("A rate of `0.0` is to be *rejected*, with your reason beside it")
+        await me.press("down", "enter", "ctrl+u", *"0.0", "enter")
+        await me.sees("publish_rate = 0.0  rejected", "publish_rate must be")
+        await me.press("enter", "ctrl+u", *"10.0", "enter")
+        await me.sees("publish_rate = 10.0  accepted")
+        me.reads("the messages begin with it", "After a rate of 10.0, the **Rate** goes up to 10.0 Hz")
+        await me.press("escape", "T")
+        await me.sees("data: 'Ahoy")
+        await me.rate(10.0)
+        me.reads("while `enabled` is false, the topic is *silent*")
+        await me.press("P", "up", "up", "enter", "ctrl+u", *"false", "enter")
+        await me.sees("enabled = false  accepted")
+        await me.press("escape", "T")
+        await me.sees("silent")
+        me.reads("`b` starts a listener beside your node", "Try `publish_rate:=0.0`, too: what does the log say?")
+        await me.press("b")
+        await me.sees("● running  listener")
+        await me.press("o")
+        await me.press(*"publish_rate:=0.0", "f5")
+        await me.sees("publish_rate must be", "ended")
+
+
+async def test_i2_2(desk: Desk) -> None:
+    async with reading(desk, "i2.2") as me:
+        me.reads("`r` launches your file, and the log shows both nodes")
+        await me.press("r")
+        await me.sees("I heard: ", "Publishing: ")
+        me.reads(
+            "`b` starts a listener of ours on `/chatter`. It hears your publisher while the topic's name is `chatter`"
+        )
+        await me.press("b")
+        await me.sees("● running  listener", "I heard: [Hello World: ")
+        me.reads("write `topic:=my_topic` and `namespace:=robot1`, and press F5")
+        await me.press("o")
+        await me.sees("Launch arguments")
+        await me.press(*"topic:=my_topic", "enter", *"namespace:=robot1", "f5")
+        await me.sees("robot1.minimal_publisher")
+        me.reads("`/robot1/minimal_publisher`, `/robot1/my_topic` and `/robot1/minimal_subscriber`, with arrows")
+        await me.press("G")
+        await me.sees("/robot1/minimal_publisher", "/robot1/my_topic", "/robot1/minimal_subscriber", "──▶")
+        me.reads("`/robot1/my_topic` is followed by itself, with 2.00 Hz")
+        await me.press("T")
+        await me.sees("/robot1/my_topic  std_msgs/String", "data: 'Hello World: ")
+        await me.rate(2.0)
+
+
+async def test_i2_3(desk: Desk) -> None:
+    async with reading(desk, "i2.3") as me:
+        me.reads("turn to Live with `4`, and to its services with `S`. The form of `/slow_add` is open: Enter, fill in")
+        await me.press("r")
+        await me.sees("Ready: /slow_add")
+        await me.press("4", "S")
+        await me.sees("/slow_add", "a int64")
+        await me.press("enter")
+        await me.until(lambda: me.app.focused is not None and not me.app.focused.id, "the first field has the focus")
+        await me.press("ctrl+u", *"5", "tab", "ctrl+u", *"3", "enter")
+        me.reads("It says *waiting* for three seconds, then the answer and the time that it took")
+        await me.sees("/slow_add  waiting")
+        await me.sees("sum: 8", "answered in 3")
+        me.reads("`b` calls `/slow_add` three times at once, and logs how long each answer took: 3 seconds each")
+        await me.press("escape", "b")
+        await me.sees(
+            "Called /slow_add 3 times at once", "5 + 1 = 6, answered after 3.", "5 + 3 = 8, answered after 3."
+        )
+        me.reads("Meanwhile the ticks in the log (`3`) must go on")
+        await me.press("3", "left_square_bracket")
+        await me.sees("Tick ")
