@@ -159,6 +159,42 @@ class Album:
                     await pilot.pause(0.7)
                     await self.take(pilot, f"live-{name}")
 
+    async def partner(self) -> None:
+        """The solution of the second lesson with a talker beside it; then a name that is nearly right."""
+        with world() as around, tempfile.TemporaryDirectory() as scratch:
+            for name in ("ROS_DOMAIN_ID", "ROS_AUTOMATIC_DISCOVERY_RANGE"):
+                os.environ[name] = around.environ[name]
+            desk = Desk(load_course(), Workspace(Path(scratch) / "ros_tutor_ws"))
+            for lesson in desk.lessons[:2]:
+                desk.start(lesson)
+                desk.path(lesson.files[0]).write_bytes(lesson.files[0].solution.read_bytes())
+            first = desk.path(desk.lessons[0].files[0])
+            first.write_text(first.read_text().replace("/sensor/temperature", "/sensor/temprature"))
+            async with self.app(desk) as pilot:
+                main = screen(pilot)
+                await pilot.press("n", "r")
+                await until(pilot, lambda: bool(main.nodes.running))
+                await pilot.press("b")
+                await until(pilot, lambda: len(main.nodes.running) == 2)
+                await until(pilot, lambda: any(len(each.state.lines) > 8 for each in main.nodes.running))
+                await self.take(pilot, "log-two")
+                await pilot.press("4")
+                await until(pilot, lambda: main.pages.live is not None and "/chatter" in main.pages.live.state.topics)
+                topics = main.query_one(TopicsPanel)
+                await until(pilot, lambda: topics.view is not None and topics.view.came > 16)
+                await self.take(pilot, "live-talker")
+                await pilot.press("G")
+                await pilot.pause(0.7)
+                await self.take(pilot, "live-talker-graph")
+                await pilot.press("M")
+                await pilot.pause(1.0)
+                await self.take(pilot, "publish")
+                await pilot.press("escape", "p", "r")
+                await until(pilot, lambda: len(main.nodes.running) == 1)
+                await pilot.press("T")
+                await until(pilot, lambda: topics.view is not None and len(topics.view.points) > 8)
+                await self.take(pilot, "live-near-miss")
+
     async def check(self, passing: bool) -> None:
         async with self.opened() as (pilot, desk):
             main = screen(pilot)
@@ -248,7 +284,8 @@ async def main(folder: Path, only: str = "") -> None:
     folder.mkdir(parents=True, exist_ok=True)
     for size in SIZES:
         album = Album(folder, size)
-        for group in (album.welcome, album.rest, album.busy, album.live, album.checked, album.ready, album.crash):
+        states = (album.welcome, album.rest, album.busy, album.live, album.partner)
+        for group in (*states, album.checked, album.ready, album.crash):
             if only in f"{size[0]}x{size[1]} {group.__name__}":
                 await group()
     print(f"{len(list(folder.glob('*.svg')))} pictures in {folder}")

@@ -125,6 +125,26 @@ async def test_i_start_the_talker_beside_my_node_and_end_it_and_nothing_is_left_
         assert not any(Path(f"/proc/{pid}").exists() for pid in pids)
 
 
+async def test_the_log_is_beside_live_where_there_is_room(desk: Desk) -> None:
+    async with doing(desk, "i1.1") as me:
+        await me.press("r")
+        await me.sees("Lessons", "● running  temperature_publisher.py")
+        await me.press("4")
+        await me.sees("data: 2", "asked: 20 to 30", "● running  temperature_publisher.py", "INFO")
+        await me.press("3")
+        await me.until(lambda: me.app.focused is not None and me.app.focused.id == "log-view", "the log has the focus")
+        await me.sees("asked: 20 to 30")
+        await me.press("L")
+        await me.sees_no("asked: 20 to 30")
+        await me.press("L")
+        await me.sees("asked: 20 to 30", "INFO")
+        await me.pilot.resize_terminal(80, 24)
+        await me.sees_no("asked: 20 to 30")
+        await me.press("4")
+        await me.sees("asked: 20 to 30")
+        assert "INFO" not in me.screen()
+
+
 async def test_our_server_answers_my_client_and_my_own_server_runs_beside_it_too(desk: Desk) -> None:
     async with doing(desk, "i1.3") as me:
         await me.press("f")

@@ -118,6 +118,7 @@ GROUPS: tuple[tuple[str, tuple[Command, ...]], ...] = (
             Command("live_topics", ("T",), "Topics", "Live: show the topics, with echo, rate and plot", help=_LIVE),
             Command("live_parameters", ("P",), "Parameters", "Live: show the parameters, and set them", help=_LIVE),
             Command("live_services", ("S",), "Services", "Live: show the services, and call them", help=_LIVE),
+            Command("side_by_side", ("L",), "Side by side", "Show the log beside Live: on or off"),
             Command("publish", ("M",), "Publish", "Live: publish a message, or stop that"),
             Command("live_graph", ("G",), "Graph", "Live: show the graph of nodes and topics", help=_LIVE),
             Command("lesson_command", ("R",), "Run command", "Run a command of the lesson in the terminal"),

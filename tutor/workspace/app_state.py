@@ -37,6 +37,7 @@ class AppState:
     zoomed: bool = False
     check_on_save: bool = False
     restart_on_save: bool = False
+    side_by_side: bool = True
     runs: Mapping[str, RunOptions] = field(default_factory=dict)
 
     def run_of(self, exercise: str) -> RunOptions:
@@ -62,6 +63,8 @@ def decode(text: str) -> AppState:
         plain = AppState()
         values: dict[str, Any] = {}
         for known in fields(AppState):
+            if known.name == "side_by_side" and known.name not in document:
+                continue  # written before there was such a thing
             if known.name != "runs":
                 values[known.name] = _of_type(type(getattr(plain, known.name)), document[known.name])
         runs = {str(key): _run(value) for key, value in document["runs"].items()}

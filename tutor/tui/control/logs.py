@@ -14,7 +14,7 @@ class Logs:
         self._stage, self._pane = stage, pane
 
         def filled() -> bool:
-            return pane.has_class("-filled") and stage.page == "log"
+            return pane.has_class("-filled") and (stage.page == "log" or pane.has_focus_within)
 
         self.deeds = {
             "level": Deed(pane.next_level, filled),

@@ -18,6 +18,10 @@ from tutor.tui.terminal.pane import TerminalPane
 from tutor.tui.widgets.code_pane import CodePane
 from tutor.tui.widgets.lesson_list import LessonList
 from tutor.tui.widgets.lesson_view import LessonView
+from tutor.tui.widgets.log_pane import LogPane
+
+SIDE_BY_SIDE_FROM = 112
+"""From so many columns on there is room for the log beside Live."""
 
 PAGES = ("lesson", "code", "log", "live", "terminal", "criteria")
 
@@ -33,6 +37,7 @@ class Pages:
         self.deeds |= {f"live_{name}": Deed(partial(self.show_live, name)) for name in TABS}
         self.deeds["publish"] = Deed(self.publish)
         self.deeds |= {"lessons": Deed(self.toggle_lessons), "zoom": Deed(self.zoom)}
+        self.deeds["side_by_side"] = Deed(self.switch_side_by_side)
 
     @property
     def folded(self) -> bool:
@@ -77,6 +82,7 @@ class Pages:
             self.open_terminal()
         if name != "criteria":
             self._stage.query_one(ContentSwitcher).current = name
+        self.put_side_by_side()
         self._memory.note(page=name)
         self._stage.refresh_bindings()
 
@@ -120,10 +126,35 @@ class Pages:
         """The terminal page, if it has been opened."""
         return next(iter(self._stage.query(TerminalPane)), None)
 
+    # --- log and Live side by side ---
+
+    def put_side_by_side(self) -> None:
+        """Show the log beside Live, where there is something in both, and room; else the page alone."""
+        stage, log, live = self._stage, self._stage.query_one(LogPane), self._stage.query_one("#live", Container)
+        full = self.live is not None and log.has_class("-filled")
+        wanted = stage.session.state.side_by_side and full and stage.size.width >= SIDE_BY_SIDE_FROM
+        both = wanted and self.current in ("log", "live")
+        if not both and not stage.has_class("-split"):
+            return
+        stage.set_class(both, "-split")
+        for name, page in (("log", log), ("live", live)):
+            page.display = both or self.current == name
+
+    def switch_side_by_side(self) -> None:
+        """Show the log beside Live from now on, or not."""
+        on = not self._stage.session.state.side_by_side
+        self._memory.note(side_by_side=on)
+        self.put_side_by_side()
+        room = self._stage.size.width >= SIDE_BY_SIDE_FROM
+        text = "Log and Live are shown side by side." if on else "Log and Live are shown one at a time."
+        needs = "" if room or not on else f" That takes {SIDE_BY_SIDE_FROM} columns."
+        self._stage.say(text + needs)
+
     # --- the panels ---
 
     def arrange(self, width: int, height: int) -> None:
         """Lay the panels out for a size."""
+        self.put_side_by_side()
         shape = layout_for(width, height)
         if shape == self._shape:
             return
@@ -148,7 +179,7 @@ class Pages:
     def toggle_lessons(self) -> None:
         """Show or hide the list of lessons."""
         stage, listed = self._stage, self._stage.query_one(LessonList)
-        if stage.has_class("-no-lessons"):
+        if stage.has_class("-no-lessons") or stage.has_class("-split"):
             stage.toggle_class("-drawer")
             shown = stage.has_class("-drawer")
         else:

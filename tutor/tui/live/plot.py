@@ -23,7 +23,7 @@ _HOLE = 4.0
 """A silence of so many usual periods is left open."""
 
 _MARK = "•"
-_FEW = 2
+_FEW = 1.5
 """Samples are marked where there is one for so many cells at most: else the line is all that can be seen of them."""
 
 _BAND = "╌"

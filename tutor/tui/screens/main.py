@@ -297,6 +297,7 @@ class MainScreen(Stage):
         if message.path == self.nodes.shown:
             key = self.nodes.stop_key(message.path)
             self._log.show(message.state, self.session.desk.domain, self.session.paths, key)
+        self.pages.put_side_by_side()
         self._log.show_nodes({path: self.nodes.known[path].state for path in self.nodes.listed}, self.nodes.shown)
         states = [node.state for node in self.nodes.known.values()]
         self.query_one(StatusBar).show_nodes(states, self.session.desk.domain)
