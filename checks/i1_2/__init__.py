@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 from checks.i1_2 import continuity, judges, scenarios
+from checks.i1_2.explaining import explained
 from tutor.judge.check import Check, Criterion
 
 CHECK = Check(
     "i1.2",
     (
-        Criterion("count", judges.judge_count, (scenarios.steady, scenarios.jump)),
-        Criterion("rate", judges.judge_rate, (scenarios.steady, scenarios.jump)),
-        Criterion("summary", judges.judge_summary, (scenarios.steady, scenarios.jump)),
-        Criterion("restart", continuity.judge_restart, (scenarios.restart, scenarios.steady, scenarios.jump)),
-        Criterion("gaps", continuity.judge_gaps, (scenarios.jump, scenarios.steady)),
+        Criterion("count", explained(judges.judge_count), (scenarios.steady, scenarios.jump, scenarios.fast)),
+        Criterion("rate", explained(judges.judge_rate), (scenarios.steady, scenarios.jump)),
+        Criterion("summary", explained(judges.judge_summary), (scenarios.steady, scenarios.jump)),
+        Criterion(
+            "restart", explained(continuity.judge_restart), (scenarios.restart, scenarios.steady, scenarios.jump)
+        ),
+        Criterion("gaps", explained(continuity.judge_gaps), (scenarios.jump, scenarios.steady)),
         Criterion("shutdown", judges.judge_shutdown, (scenarios.steady,), bonus=True),
     ),
     asks_s=5.7,  # jump: 0.4 s until it is met, then 43 messages at 8 a second

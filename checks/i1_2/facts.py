@@ -41,6 +41,11 @@ which none is missing. Who begins to count again with the first jump has counted
 summaries are more than any other start asks for.
 """
 
+FAST_HZ, FAST_MESSAGES = 25.0, 60
+"""A stretch at a rate that is ordinary on a robot: a node that takes ten a second loses a third."""
+FAST_ENOUGH_HZ = 20.0
+"""A machine that does not let us send so fast, on the whole, is too busy."""
+
 RESTART_AFTER, RESTART_MESSAGES = 13, 25
 AWAY_S = 0.7
 """Nobody restarts a talker in less time."""
@@ -53,6 +58,9 @@ SOON_S = 0.5
 
 MOST_STARVED_S = 1.0
 """However busy the machine: what comes later than this excuses belongs to no message."""
+
+ROUGH_S = 0.15
+"""A node kept from running for longer may have lost messages, and one that was fed so unevenly measured no one rate."""
 
 STALL_S = 0.1
 """Who was kept from running for so long between two messages may not have been back in time for the second."""

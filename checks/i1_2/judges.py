@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from checks.i1_2 import rates
-from checks.i1_2.facts import EVERY, OURS, Feeding
+from checks.i1_2 import backlog, rates, slowness
+from checks.i1_2.facts import EVERY, FAST_HZ, OURS, Feeding
 from checks.i1_2.reading import labelled, read
 from checks.i1_2.reports import Report, find, in_time, milestone, totals
 from tutor.judge import causes, ending
@@ -13,11 +13,31 @@ from tutor.judge.bench import MachineTooBusy
 from tutor.judge.trace import LogRecord
 from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped
 
+EXPECTED_COUNT = "each summary states how many messages have come"
 NO_SUMMARY = "not judged, because there is no summary to read: see `summary`"
 
 
-def judge_count(steady: Feeding, jump: Feeding) -> Verdict:
-    expected = "each summary states how many messages have come"
+def judge_count(steady: Feeding, jump: Feeding, fast: Feeding) -> Verdict:
+    """Judge `count`."""
+    verdict = judge_slow_count(steady, jump)
+    if not verdict.passed:
+        return verdict
+    lost = backlog.lost(fast, steady)
+    if lost.excused if lost else not backlog.fast_enough(fast):
+        raise MachineTooBusy("this machine is too busy to send messages fast")
+    if lost is None:
+        return verdict
+    return failed(
+        f"{EXPECTED_COUNT}, at {FAST_HZ:g} a second, too",
+        f"{lost.counted} messages up to the last that it quotes; {lost.report}",
+        slowness.of_lost(fast.trace, lost),
+        [str(report) for report in find(fast)[:6]],
+    )
+
+
+def judge_slow_count(steady: Feeding, jump: Feeding) -> Verdict:
+    """Judge what `count` asks for where the messages come slowly."""
+    expected = EXPECTED_COUNT
     if not find(steady):
         return skipped(NO_SUMMARY)
     seen = [(feeding, report) for feeding in (steady, jump) for report in find(feeding)]

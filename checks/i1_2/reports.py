@@ -100,10 +100,10 @@ def find(feeding: Feeding) -> tuple[Report, ...]:
     """The summaries among what was logged, complete or not, oldest first."""
     times = Counter(line.kind for line in feeding.lines)
     usual = {kind for kind, count in times.items() if count >= max(3, ORDINARY * len(feeding.sent))}
-    special = _together([line for line in feeding.lines if line.kind not in usual], feeding)
+    special = together([line for line in feeding.lines if line.kind not in usual], feeding)
     if complete := _but_of_the_break([report for report in special if _complete(report, feeding)], feeding):
         return _alone(_like(complete, special), special, feeding)
-    everything = _together(feeding.lines, feeding)
+    everything = together(feeding.lines, feeding)
     complete = [report for report in everything if report.messages > 1 and _complete(report, feeding)]
     if len(complete) > len(feeding.sent) / 4:
         return _alone(_like(complete, everything), everything, feeding)
@@ -186,7 +186,7 @@ def _likeliest(candidates: Sequence[Report], feeding: Feeding) -> tuple[Report, 
     return best if best and worth(best)[0] else ()
 
 
-def _together(lines: Sequence[Line], feeding: Feeding) -> tuple[Report, ...]:
+def together(lines: Sequence[Line], feeding: Feeding) -> tuple[Report, ...]:
     """Lines that were logged at once, or between the same two messages; and groups that only together are complete.
 
     What was said just before a summary was due is none of it.

@@ -7,10 +7,12 @@ from collections.abc import Awaitable, Callable, Iterable
 from contextlib import suppress
 from dataclasses import replace
 
-from checks.i1_2 import continuity, judges
+from checks.i1_2 import backlog, continuity, judges
 from checks.i1_2.facts import (
     AGAIN_AFTER,
     AWAY_S,
+    FAST_HZ,
+    FAST_MESSAGES,
     FILE,
     JUMP_AFTER,
     JUMP_MESSAGES,
@@ -18,6 +20,7 @@ from checks.i1_2.facts import (
     QUIET_S,
     RESTART_AFTER,
     RESTART_MESSAGES,
+    ROUGH_S,
     SOON_S,
     SOONER_HZ,
     STEADY_HZ,
@@ -43,8 +46,8 @@ MOST_SAID_S = 1.0
 """A node that goes on logging for ever is not heard out longer than this."""
 
 STUCK_S = 1.5
-ROUGH_S = 0.15
-"""A node kept from running for longer may have lost messages, and one that was fed so unevenly measured no one rate."""
+
+FAST_ASKS_S = MEET_S + FAST_MESSAGES / FAST_HZ
 
 
 @confirmed
@@ -67,7 +70,7 @@ async def steady(bench: Bench) -> Feeding:
 
     async def fair(fed: Feeding) -> bool:
         nothing = replace(fed, sent=())
-        of_steady = (judges.judge_count, judges.judge_rate, judges.judge_summary)
+        of_steady = (judges.judge_slow_count, judges.judge_rate, judges.judge_summary)
         with suppress(MachineTooBusy):
             return all(judge(fed, nothing).passed for judge in of_steady)
         return False
@@ -103,7 +106,28 @@ async def jump(bench: Bench) -> Feeding:
     async def fair(fed: Feeding) -> bool:
         even = await bench.facts(steady)
         told = bool(fed.breaks) and continuity.judge_gaps(fed, even).passed
-        return told and judges.judge_count(even, fed).passed and judges.judge_summary(even, fed).passed
+        return told and judges.judge_slow_count(even, fed).passed and judges.judge_summary(even, fed).passed
+
+    return await _fairly(once, fair)
+
+
+async def fast(bench: Bench) -> Feeding:
+    """Feed it for a short while as fast as many a sensor does."""
+
+    async def once() -> Feeding:
+        async with bench.start(FILE, asks_s=FAST_ASKS_S) as run, run.publisher(TOPIC, TYPE) as feed:
+            spins = await _meet(run, feed, MEET_S)
+            if not feed.subscribers:
+                return Feeding(run.trace(), spins=spins)
+            starved = run.starved_s()
+            sent: list[Sent] = []
+            first = random.randint(0, 50)
+            await _send(bench, run, feed, sent, range(first, first + FAST_MESSAGES), FAST_HZ)
+            lost = run.starved_s() - starved
+            return await _hear_out(run, Feeding(run.trace(), tuple(sent), starved_s=lost, spins=spins))
+
+    async def fair(fed: Feeding) -> bool:
+        return backlog.fast_enough(fed) and backlog.lost(fed, await bench.facts(steady)) is None
 
     return await _fairly(once, fair)
 

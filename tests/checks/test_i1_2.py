@@ -11,8 +11,18 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from checks.i1_2 import continuity, judges
-from checks.i1_2.facts import AGAIN_AFTER, JUMP_AFTER, JUMP_MESSAGES, RESTART_AFTER, RESTART_MESSAGES, Feeding, Sent
+from checks.i1_2 import CHECK, continuity, judges
+from checks.i1_2.facts import (
+    AGAIN_AFTER,
+    FAST_HZ,
+    FAST_MESSAGES,
+    JUMP_AFTER,
+    JUMP_MESSAGES,
+    RESTART_AFTER,
+    RESTART_MESSAGES,
+    Feeding,
+    Sent,
+)
 from checks.i1_2.reading import read, values
 from checks.i1_2.reports import find
 from tests.checks.made import CRASH, NO_NODE, START, UP, assert_failed, assert_passed, ending, exited, trace
@@ -116,6 +126,10 @@ def jump(node: Counter, missed: int = 5, *, first: int = 95, **more: object) -> 
     return fed(node, numbers, 8.0, breaks=JUMP_AFTER, again=AGAIN_AFTER, **more)  # type: ignore[arg-type]
 
 
+def fast(node: Counter, **more: object) -> Feeding:
+    return fed(node, range(7, 7 + FAST_MESSAGES), FAST_HZ, **more)  # type: ignore[arg-type]
+
+
 def restart(node: Counter, **more: object) -> Feeding:
     numbers = [*range(4, 4 + RESTART_AFTER), *range(RESTART_MESSAGES - RESTART_AFTER)]
     return fed(node, numbers, 8.0, breaks=RESTART_AFTER, away_s=1.5, **more)  # type: ignore[arg-type]
@@ -126,7 +140,7 @@ def judged(make: Callable[[], Counter], **more: object) -> dict[str, Verdict]:
     even, jumped = steady(make(), **more), jump(make(), **more)  # type: ignore[arg-type]
     restarted = restart(make(), **more)
     return {
-        "count": judges.judge_count(even, jumped),
+        "count": judges.judge_count(even, jumped, fast(make(), **more)),
         "rate": judges.judge_rate(even, jumped),
         "summary": judges.judge_summary(even, jumped),
         "restart": continuity.judge_restart(restarted, even, jumped),
@@ -554,7 +568,7 @@ def test_right_ones_in_any_format(
             yield 20, text.replace("F", self.first).replace("L", self.last)
 
     even, jumped = steady(Formatted(), hz, late_s=late_s), jump(Formatted(), missed, late_s=late_s)
-    assert_passed(judges.judge_count(even, jumped))
+    assert_passed(judges.judge_slow_count(even, jumped))
     assert_passed(judges.judge_rate(even, jumped))
     assert_passed(judges.judge_summary(even, jumped))
     assert_passed(continuity.judge_gaps(jumped, even))
@@ -671,7 +685,7 @@ def test_the_third_summary_may_wait_for_a_slow_timer() -> None:
     jumped = jump(ByASlowTimer())
     assert [report.messages for report in find(jumped)] == [11, 21, 35, 41]
     assert_passed(judges.judge_summary(steady(Counter()), jumped))
-    assert_passed(judges.judge_count(steady(Counter()), jumped))
+    assert_passed(judges.judge_slow_count(steady(Counter()), jumped))
 
 
 class PerMinuteLater(Counter):
@@ -1071,7 +1085,7 @@ def test_a_late_summary_of_a_wrong_count_is_no_missing_one() -> None:
     assert bisect_right([each.at for each in even.sent], after_9.stamp) == 9
     late = replace(after_9, stamp=even.sent[9].at + 0.01)
     seen = replace(even, trace=replace(even.trace, logs=(late, *others)))
-    assert_failed(judges.judge_count(seen, jump(CountsFromOne())), "off by one")
+    assert_failed(judges.judge_slow_count(seen, jump(CountsFromOne())), "off by one")
     verdict = judges.judge_summary(seen, jump(CountsFromOne()))
     assert verdict.status is Status.SKIPPED, verdict
 
@@ -1089,7 +1103,7 @@ def test_who_drops_the_first_message_after_a_restart_counts_too_few(late_s: floa
 
 @pytest.mark.parametrize("late_s", [0.0005, 0.15, 0.24, 0.3])
 def test_a_late_summary_with_a_newer_last_message_counts_too_few(late_s: float) -> None:
-    verdict = judges.judge_count(steady(ForgetsOne(), late_s=late_s), jump(ForgetsOne(), late_s=late_s))
+    verdict = judges.judge_slow_count(steady(ForgetsOne(), late_s=late_s), jump(ForgetsOne(), late_s=late_s))
     assert verdict.status is Status.FAILED, verdict
 
 
@@ -1120,7 +1134,7 @@ def test_an_alarm_beside_a_summary_is_none_of_its_lines(first: int, late_s: floa
     logs = [replace(log, stamp=stamp, received_at=stamp) if log is alarm else log for log in jumped.trace.logs]
     jumped = replace(jumped, trace=replace(jumped.trace, logs=tuple(logs)), starved_s=starved_s)
     assert_passed(judges.judge_summary(even, jumped))
-    assert_passed(judges.judge_count(even, jumped))
+    assert_passed(judges.judge_slow_count(even, jumped))
     assert_failed(continuity.judge_gaps(jumped, even), "false alarm")
 
 
@@ -1139,10 +1153,10 @@ def test_a_wrong_number_is_found_in_any_format(written: str, by: int, factor: fl
             yield 20, written.format(n=self.total + off, r=self.rate() * scale, f=self.first, l=self.last)
 
     off, scale = by, 1.0
-    assert judges.judge_count(steady(Wrong(), hz), jump(Wrong())).status is Status.FAILED
+    assert judges.judge_slow_count(steady(Wrong(), hz), jump(Wrong())).status is Status.FAILED
     assert judges.judge_rate(steady(Wrong(), hz), jump(Wrong())).status is Status.PASSED
     off, scale = 0, factor
-    assert judges.judge_count(steady(Wrong(), hz), jump(Wrong())).status is Status.PASSED
+    assert judges.judge_slow_count(steady(Wrong(), hz), jump(Wrong())).status is Status.PASSED
     assert judges.judge_rate(steady(Wrong(), hz), jump(Wrong())).status is Status.FAILED
 
 
@@ -1183,7 +1197,7 @@ def test_why_there_is_no_summary() -> None:
 def test_without_a_summary_nothing_else_is_judged() -> None:
     nothing = replace(steady(Counter()), trace=trace(graph=LISTENING))
     for verdict in (
-        judges.judge_count(nothing, nothing),
+        judges.judge_slow_count(nothing, nothing),
         judges.judge_rate(nothing, nothing),
         continuity.judge_restart(restart(Counter()), nothing, nothing),
         continuity.judge_gaps(nothing, nothing),
@@ -1205,6 +1219,154 @@ def test_a_node_that_ends_when_the_publisher_goes_or_n_jumps() -> None:
 def test_shutdown() -> None:
     assert_passed(judges.judge_shutdown(replace(steady(Counter()), ending=ending())))
     assert_failed(judges.judge_shutdown(replace(steady(Counter()), ending=ending(still_there=True))), "SIGINT ignored")
+
+
+# Messages that come fast.
+
+
+class Naps(Counter):
+    """Takes in ten messages a second at most: of what comes faster, it never hears the rest."""
+
+    most_hz: float = 10.0
+
+    def take(self, now: float, data: str) -> Iterator[Log]:
+        if not self.times or now - self.times[-1] > 0.99 / self.most_hz:
+            yield from super().take(now, data)
+
+    def jumped(self, last: int, number: int) -> Iterator[Log]:
+        yield from ()
+
+
+class NapsALittle(Naps):
+    most_hz: float = 16.0
+
+
+class DropsTwo(Counter):
+    """A queue of one, and a scheduler that was away for a moment."""
+
+    def take(self, now: float, data: str) -> Iterator[Log]:
+        if data not in ("Hello World: 30", "Hello World: 31"):
+            yield from super().take(now, data)
+
+
+NAPS = """
+while rclpy.ok():
+    rclpy.spin_once(node, timeout_sec=0.1)
+    time.sleep(0.1)
+"""
+SLEEPS = """
+class Stats(Node):
+    def __init__(self):
+        self.create_subscription(String, 'chatter', self.heard, 10)
+    def heard(self, msg):
+        self.work(msg)
+    def work(self, msg):
+        time.sleep(0.2)
+"""
+SHORT = "node.create_subscription(String, 'chatter', heard, 1)"
+
+
+def judged_fast(node: type[Counter], source: str = "", **more: object) -> Verdict:
+    seen = fast(node(), **more)
+    seen = replace(seen, trace=replace(seen.trace, sources={"node.py": source}))
+    return judges.judge_count(steady(node()), jump(node()), seen)
+
+
+@pytest.mark.parametrize(
+    ("source", "cause", "step"),
+    [
+        (NAPS, "nap between messages", "time.sleep(0.1) in line 4"),
+        (SLEEPS, "slow callback", "time.sleep(0.2) in line 8"),
+        (SLEEPS.replace("self.heard,", "lambda msg: self.heard(msg),"), "slow callback", "line 8"),
+        (SHORT, "queue too short", "10"),
+        ("", "cannot keep up", "rclpy.spin(node)"),
+    ],
+)
+def test_who_loses_messages_that_come_fast_is_told_why(source: str, cause: str, step: str) -> None:
+    for node in (Naps, NapsALittle):
+        assert_failed(judged_fast(node, source), cause, step)
+
+
+@pytest.mark.parametrize("late_s", [0.0005, 0.1, 0.5, 1.0])
+def test_who_loses_none_may_be_late(late_s: float) -> None:
+    for node in (Counter, OneLineEach, Noisy, AllOfThem, QuotesTheFirst, DropsTwo):
+        assert_passed(judged_fast(node, NAPS, late_s=late_s))
+
+
+def test_what_a_busy_machine_may_have_cost_is_no_verdict() -> None:
+    with pytest.raises(MachineTooBusy):
+        judged_fast(NapsALittle, starved_s=1.2)
+    assert_failed(judged_fast(Naps, starved_s=0.2), "cannot keep up")
+    assert_passed(judged_fast(Counter, starved_s=3.0))
+    slowly = fed(Counter(), range(FAST_MESSAGES), 19.0)
+    with pytest.raises(MachineTooBusy):
+        judges.judge_count(steady(Counter()), jump(Counter()), slowly)
+    assert_failed(judges.judge_count(steady(CountsFromOne()), jump(CountsFromOne()), slowly), "off by one")
+
+
+# One cause behind several failures.
+
+CHECKED = {criterion.id: criterion.judge for criterion in CHECK.criteria}
+TWO_SUBSCRIPTIONS = """
+self.one = self.create_subscription(String, 'chatter', self.heard, 10)
+
+self.other = self.create_subscription(String, 'chatter', self.heard, 10)
+"""
+
+
+def checked(
+    node: Callable[[], Counter], source: str = "", subscriptions: int = 1, *, late_s: float = 0.0005
+) -> dict[str, Verdict]:
+    """The verdicts as the check gives them, of a node with this source."""
+
+    def of(seen: Feeding) -> Feeding:
+        network = replace(LISTENING, subscriptions=subscriptions * LISTENING.subscriptions)
+        return replace(seen, trace=replace(seen.trace, graph=network, sources={"node.py": source}))
+
+    even, jumped = of(steady(node(), late_s=late_s)), of(jump(node(), late_s=late_s))
+    restarted, quick = of(restart(node(), late_s=late_s)), of(fast(node(), late_s=late_s))
+    return {
+        "count": CHECKED["count"](even, jumped, quick),
+        "rate": CHECKED["rate"](even, jumped),
+        "summary": CHECKED["summary"](even, jumped),
+        "restart": CHECKED["restart"](restarted, even, jumped),
+        "gaps": CHECKED["gaps"](jumped, even),
+    }
+
+
+class TakesTwice(Counter):
+    """Has two subscriptions."""
+
+    def take(self, now: float, data: str) -> Iterator[Log]:
+        yield from super().take(now, data)
+        yield from super().take(now + 1e-4, data)
+
+
+def test_who_has_two_subscriptions_is_told_so_by_each_criterion() -> None:
+    failures = {n: v for n, v in checked(TakesTwice, TWO_SUBSCRIPTIONS, 2).items() if v.status is Status.FAILED}
+    assert len(failures) >= 2
+    for verdict in failures.values():
+        assert_failed(verdict, "two subscriptions", "lines 2 and 4", "line 4 out")
+
+
+def test_who_counts_twice_with_one_subscription_or_once_with_two_is_told_of_something_else() -> None:
+    for verdict in (
+        *checked(TakesTwice, TWO_SUBSCRIPTIONS, 1).values(),
+        *checked(CountsFromOne, TWO_SUBSCRIPTIONS, 2).values(),
+    ):
+        assert "two subscriptions" not in verdict.cause
+
+
+def test_who_is_kept_waiting_by_its_own_sleep_is_told_so_by_each_criterion() -> None:
+    failures = {n: v for n, v in checked(Counter, SLEEPS, late_s=1.6).items() if v.status is Status.FAILED}
+    assert len(failures) >= 1
+    for verdict in failures.values():
+        assert_failed(verdict, "slow callback", "time.sleep(0.2) in line 8")
+
+
+def test_who_sleeps_but_keeps_up_is_told_what_else_is_wrong() -> None:
+    for node in (CountsFromOne, FirstOverwritten, GapBlind, OneLineEach):
+        assert not any("slow" in verdict.cause for verdict in checked(node, SLEEPS).values())
 
 
 # A busy machine.

@@ -31,6 +31,27 @@ def test_names_calls_and_assignments_are_found_and_comments_are_not() -> None:
     assert source.assigned(seen, "create_client") == [("self.add_client", 4), ("", 7)]
 
 
+NODE = """
+class Stats(Node):
+    def __init__(self):
+        self.create_subscription(String, "chatter", self.heard, 10)
+        self.create_timer(1.0, lambda: self.tick(1))
+    def heard(self, message):
+        self.count(message)
+        self.heard(None)
+    def count(self, message): ...
+    def tick(self, by): ...
+    def other(self): ...
+"""
+
+
+@pytest.mark.parametrize(
+    ("create", "found"), [("create_subscription", ["heard", "count"]), ("create_timer", ["tick"]), ("create", [])]
+)
+def test_callbacks_are_found_with_what_they_call(create: str, found: list[str]) -> None:
+    assert [each.name for each in source.callbacks(trace(sources={"node.py": NODE}), create)] == found
+
+
 @pytest.mark.parametrize("text", ["def broken(:", "\0", "(" * 5000])
 def test_a_file_that_python_cannot_read_says_nothing(text: str) -> None:
     seen = trace(sources={"node.py": text})

@@ -50,9 +50,32 @@ def assigned(trace: Trace, *names: str) -> list[tuple[str, int]]:
     return sorted(found, key=lambda each: each[1])
 
 
+def callbacks(trace: Trace, create: str) -> list[ast.FunctionDef | ast.AsyncFunctionDef]:
+    """The functions that are given to `create`, such as "create_subscription", and those that they call, by name."""
+    functions: dict[str, list[ast.FunctionDef | ast.AsyncFunctionDef]] = {}
+    for node in nodes(trace):
+        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
+            functions.setdefault(node.name, []).append(node)
+    given = [each for call in calls(trace, create) for each in (*call.args, *(k.value for k in call.keywords))]
+    inside = (node for each in given if isinstance(each, ast.Lambda) for node in ast.walk(each))
+    waiting = [_name(each) for each in given] + [called(node) for node in inside if isinstance(node, ast.Call)]
+    found: dict[str, None] = {}
+    while waiting:
+        name = waiting.pop(0)
+        if name in functions and name not in found:
+            found[name] = None
+            inside = (node for function in functions[name] for node in ast.walk(function))
+            waiting += [called(node) for node in inside if isinstance(node, ast.Call)]
+    return [function for name in found for function in functions[name]]
+
+
 def called(call: ast.Call) -> str:
     """The last part of the name of what is called; empty where it has none."""
-    match call.func:
+    return _name(call.func)
+
+
+def _name(expression: ast.expr) -> str:
+    match expression:
         case ast.Attribute(attr=name) | ast.Name(id=name):
             return name
     return ""
