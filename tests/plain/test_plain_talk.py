@@ -87,7 +87,7 @@ def test_lesson_check_hints_and_checklist_by_a_pipe(tmp_path: Path, env: dict[st
         "To edit: ~/ros_tutor_ws/src/my_package/my_package/temperature_publisher.py",
         "Already there, and not changed: ~/ros_tutor_ws/src/my_package/my_package/temperature_publisher.py",
         "shutdown (bonus): Ctrl+C ends the node cleanly.",
-        "rate: waiting for the first message",
+        "Waiting for the first message.",
         "publishes: passed.",
         "rate: failed.",
         "i1.1 Sensor Publisher: not passed yet. 5 of 6 passed, bonus 1 of 1, after 1.0 s.",
@@ -108,6 +108,7 @@ def test_lesson_check_hints_and_checklist_by_a_pipe(tmp_path: Path, env: dict[st
         "tick NUMBER: tick an item of the checklist.",
     ):
         assert f"{line}\n" in said, line
+    assert said.count("aiting for the first message") == 1  # though every criterion waits for it
     assert re.search(r"^1: not ticked: .* Evidence: i1\.1 .*passed, today\.$", said, re.MULTILINE)
     assert re.search(r"^Hint 1 of 3: \w", said, re.MULTILINE)
     assert said.endswith("Command: \nThe input has ended.\nGoodbye. Your progress is kept.\n")
@@ -206,3 +207,52 @@ def test_it_goes_without_a_command(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["--plain", "list"]) == 2
     told = "ros-tutor: --plain goes without a command: list writes lines of text as it is\n"
     assert capsys.readouterr() == ("", told)
+
+
+def test_what_the_nodes_do_is_asked_for(tmp_path: Path, env: dict[str, str]) -> None:
+    workspace = Workspace(tmp_path / "ws")
+    course = load_course()
+    for name in ("i2.1", "i1.3"):
+        main(["start", name, "--workspace", str(workspace.root)])
+        for file in course.find(name).files:
+            workspace.path_of(file.name).write_text(file.solution.read_text())
+    service = "service call /add example_interfaces/srv/AddTwoInts '{a: 2, b: 40}'"
+    typed = says(
+        *("i2.1", "run", "echo /chatter 2", "param set /parameterized_publisher message_prefix Moin"),
+        *("echo /chatter 1", "param get /parameterized_publisher publish_rate", "topic list", "echo", "param 'set"),
+        *("i1.3", "run", service, "quit"),
+    )
+    ran = subprocess.run(
+        [sys.executable, "-c", PROGRAM, "--plain", "--workspace", str(workspace.root)],
+        input=typed,
+        capture_output=True,
+        text=True,
+        timeout=2 * LIMIT_S,
+        check=False,
+        env={**env, "ROS_DOMAIN_ID": "91"},
+    )
+    said = ran.stdout
+    assert ran.returncode == 0
+    first, second = said.split("Command: echo /chatter 2\n")[1].split("Command:")[0].splitlines()
+    assert re.fullmatch(r"data: .Hello.*", first), said
+    assert second != first
+    assert "Set parameter successful\n" in said
+    assert re.search(r"Command: echo /chatter 1\ndata: .Moin.*\nCommand", said), said
+    assert "Double value is: 1.0\n" in said
+    assert re.search(r"^/chatter$", said, re.MULTILINE)
+    assert "Which topic? As in: echo /chatter." in said
+    assert "A quotation mark is missing.\n" in said
+    assert "sum=42" in said, said
+
+
+def test_a_topic_on_which_nothing_comes_is_said(tmp_path: Path, env: dict[str, str]) -> None:
+    ran = subprocess.run(
+        [sys.executable, "-c", PROGRAM, "--plain"],
+        input=says("echo /nothing", "quit"),
+        capture_output=True,
+        text=True,
+        timeout=LIMIT_S,
+        check=False,
+        env={**env, "ROS_DOMAIN_ID": "90"},
+    )
+    assert "0 messages in 10 seconds on /nothing.\n" in ran.stdout

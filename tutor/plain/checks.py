@@ -15,7 +15,7 @@ class Checks:
     def __init__(self, here: Here) -> None:
         self._here = here
         self._found: dict[str, ExerciseResult] = {}
-        self._doing: dict[str, str] = {}
+        self._said: set[str] = set()
         self.commands = (
             Command("check", "check your node by what it does", self.check),
             Command("why", "read the diagnosis of a criterion again, with the evidence", self.why, "CRITERION"),
@@ -27,7 +27,7 @@ class Checks:
         submission = find_submission(lesson, None, desk.workspace)
         from tutor import engine  # late: nothing but a check needs ROS
 
-        self._doing.clear()
+        self._said.clear()
         try:
             report = await engine.check([submission], desk.course, only=None, on_event=self._tell)
         except engine.EngineError as error:
@@ -47,9 +47,9 @@ class Checks:
             case CheckStarted():
                 count = speech.counted(len(event.criteria), "criterion").replace("criterions", "criteria")
                 self._here.say(f"Checking {event.exercise}, {count}. This takes some seconds.")
-            case Progress() if event.doing and self._doing.get(event.criterion) != event.doing:
-                self._doing[event.criterion] = event.doing
-                self._here.say(f"{event.criterion}: {event.doing}")
+            case Progress() if event.doing and event.doing not in self._said:  # one run serves many criteria
+                self._said.add(event.doing)
+                self._here.say(f"{event.doing[0].upper()}{event.doing[1:]}.")
             case CriterionJudged():
                 self._here.say(speech.headline(event.result))
 

@@ -9,6 +9,7 @@ from collections.abc import Callable
 from difflib import get_close_matches
 
 from tutor.judge.verdict import Status
+from tutor.plain.asking import Asking
 from tutor.plain.assessing import Assessing
 from tutor.plain.checks import Checks
 from tutor.plain.here import Command, Here, Refused, short
@@ -65,6 +66,7 @@ class Dialog:
         self._commands = (
             *Lessons(self._here).commands,
             *self._nodes.commands,
+            *Asking(self._here).commands,
             *Checks(self._here).commands,
             *Assessing(self._here).commands,
             Command("help", "say what you can do", self._help, others=("?",)),

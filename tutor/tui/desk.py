@@ -13,6 +13,7 @@ import shutil
 import sys
 import tempfile
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -171,15 +172,20 @@ class Desk:
 
     def partner_command(self, partner: Partner) -> NodeCommand:
         """How to run a node of ours beside the learner's, in their own ROS domain; raises what `node_command` does."""
+        if partner.file is not None:
+            ros, env = self._world(None)
+            typed = f"python3 {partner.file.name}"
+            return NodeCommand(partner.name, (str(ros.python), str(partner.file)), env, partner.file.parent, typed)
+        return replace(self.ros2_command(["run", *partner.run]), file=partner.name)
+
+    def ros2_command(self, words: Sequence[str]) -> NodeCommand:
+        """How to run `ros2` with these words in the learner's own ROS domain; raises what `node_command` does."""
         from tutor.sandbox.ros2 import starting  # late: the first paint does not wait for it
 
         ros, env = self._world(None)
-        if partner.file is not None:
-            typed = f"python3 {partner.file.name}"
-            return NodeCommand(partner.name, (str(ros.python), str(partner.file)), env, partner.file.parent, typed)
-        typed = shlex.join(["ros2", "run", *partner.run])
-        argv = (*starting.ros2(ros, env), "run", *partner.run)
-        return NodeCommand(partner.name, argv, env, self.workspace.root, typed)
+        folder = self.workspace.root if self.workspace.exists else Path.home()
+        typed = shlex.join(["ros2", *words])
+        return NodeCommand("ros2", (*starting.ros2(ros, env), *words), env, folder, typed)
 
     def _world(self, package: Path | None) -> tuple[RosEnvironment, dict[str, str]]:
         """The ROS that nodes are run with, and their environment; `package` is the folder of a Python package."""
