@@ -107,24 +107,19 @@ def test_what_is_wrong_is_told_in_one_line(
 
 
 @pytest.mark.parametrize(
-    ("words", "said"),
+    ("words", "asked"),
     [
-        (["run", "demo_nodes_py", "taker"], ["No executable found", "(is it talker?)"]),
-        (["run", "demo_node_py", "talker"], ["Package 'demo_node_py' not found", "(is it demo_nodes_py"]),
-        (
-            ["launch", "demo_nodes_cpp", "talker_listener.py"],
-            ["file 'talker_listener.py' was", "(is it talker_listener_launch"],
-        ),
+        (["run", "demo_nodes_py", "taker"], "No executable found (is it talker?)"),
+        (["run", "demo_node_py", "talker"], "Package 'demo_node_py' not found (is it demo_nodes_py"),
+        (["launch", "demo_nodes_cpp", "talker_listener.py"], "(is it talker_listener_launch"),
     ],
 )
 def test_a_name_that_is_nearly_right_is_told_what_is_there(
-    tmp_path: Path, env: dict[str, str], words: list[str], said: list[str]
+    tmp_path: Path, env: dict[str, str], words: list[str], asked: str
 ) -> None:
-    (tmp_path / "my_launch.py").write_text(LAUNCH_FILE)
     ran = ros2(*words, env=env, cwd=tmp_path)
-    assert ran.returncode == 1
-    for line, start in zip(ran.stderr.splitlines(), said, strict=True):
-        assert line.startswith(start)
+    assert (ran.returncode, ran.stderr.count("\n")) == (1, 1)
+    assert asked in ran.stderr
 
 
 @pytest.mark.parametrize("code", [0, 3, -9])

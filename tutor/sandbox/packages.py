@@ -38,9 +38,9 @@ class ExecutableNotFound(LookupError):
 
 
 def hint(name: str, names: Iterable[str]) -> str:
-    """A second line of a message that asks which of the names was meant; nothing where none is much like it."""
+    """The end of a message that asks which of the names was meant; nothing where none is much like it."""
     near = difflib.get_close_matches(name, list(names), cutoff=_MUCH_LIKE)
-    return f"\n(is it {' or '.join(near)}?)" if near else ""
+    return f" (is it {' or '.join(near)}?)" if near else ""
 
 
 def find_executable(package: str, executable: str) -> list[str]:
