@@ -6,7 +6,7 @@ import asyncio
 import os
 import sys
 import time
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -112,7 +112,8 @@ def _compare(criterion: CriterionResult, expected: Expected, some_failed: bool, 
         outcome.false_pass |= status is Status.PASSED
     elif must_fail or criterion.id in expected.fails_any:
         if status is Status.FAILED:
-            outcome.wrong += _wrong_cause(expected, criterion.id, cause)
+            outcome.wrong += _wrong_words("cause", expected.causes, expected, criterion.id, cause)
+            outcome.wrong += _wrong_words("step", expected.steps, expected, criterion.id, criterion.verdict.hint)
     elif criterion.id in expected.not_passed:
         if status is Status.PASSED:
             outcome.wrong.append(f"should not pass: {told}")
@@ -127,12 +128,14 @@ def _fine(status: Status, some_failed: bool) -> bool:
     return status is Status.PASSED or (status is Status.SKIPPED and some_failed)
 
 
-def _wrong_cause(expected: Expected, criterion: str, cause: str) -> list[str]:
-    general = () if criterion in expected.bonus_failed else expected.causes.get("", ())
-    texts = expected.causes.get(criterion, general)
-    if not texts or any(text.casefold() in cause.casefold() for text in texts):
+def _wrong_words(
+    what: str, all_texts: Mapping[str, tuple[str, ...]], expected: Expected, criterion: str, said: str
+) -> list[str]:
+    general = () if criterion in expected.bonus_failed else all_texts.get("", ())
+    texts = all_texts.get(criterion, general)
+    if not texts or any(text.casefold() in said.casefold() for text in texts):
         return []
-    return [f"{criterion}: cause is “{cause}”, not {' or '.join(texts)}"]
+    return [f"{criterion}: {what} is “{said}”, not {' or '.join(texts)}"]
 
 
 def _left(text: str) -> list[str]:

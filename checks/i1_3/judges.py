@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Sequence
 from typing import Any
 
@@ -16,7 +17,7 @@ from checks.i1_3.facts import (
     missing_of,
     right_result,
 )
-from tutor.judge import causes, ending
+from tutor.judge import causes, ending, source
 from tutor.judge.trace import CallAnswer, Service, Trace
 from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped
 
@@ -29,7 +30,7 @@ def judge_services(seen: Calls) -> Verdict:
         cause = _why_missing(seen.trace, missing)
         return failed(expected, f"missing: {', '.join(missing)}", cause, causes.last_words(seen.trace))
     if unanswered is not None:
-        observed = f"no answer from {unanswered.service} in {ANSWER_S:g} s"
+        observed = f"{unanswered.service}: {causes.unanswered(seen.trace, ANSWER_S)}"
         silent = [service for service in seen.trace.graph.services if service.name == unanswered.service]
         cause = causes.incompatible_service(silent) or causes.of_no_answer(seen.trace, seen.stuck, spins=seen.spins)
         return failed(expected, observed, cause, causes.last_words(seen.trace))
@@ -85,12 +86,13 @@ def judge_operations(seen: Calls) -> Verdict:
         if answer.response is None:
             return failed(
                 f"{question} = {right}",
-                f"no answer in {ANSWER_S:g} s",
+                causes.unanswered(seen.trace, ANSWER_S),
                 causes.of_process(seen.trace)
                 or Cause(
                     "no answer",
                     "the service does not answer this call",
-                    "return the response at the end of the callback",
+                    f"let the callback of {answer.service} come to its end, and return its response; `services` tells "
+                    "where it is held up, if it fails as well",
                 ),
                 causes.last_words(seen.trace),
             )
@@ -155,7 +157,9 @@ def judge_division(seen: Division) -> Verdict:
         cause = causes.of_process(seen.trace) or Cause(
             "no answer", "the callback does not answer when b is 0", "return the response in that case too"
         )
-        return failed(expected, f"10 ÷ 0 got no answer in {ANSWER_S:g} s", cause, causes.last_words(seen.trace))
+        return failed(
+            expected, f"10 ÷ 0: {causes.unanswered(seen.trace, ANSWER_S)}", cause, causes.last_words(seen.trace)
+        )
     complaints = complaints_in(seen.ordinary, seen.said)
     # What a node says as it ends may be lost on its way to us: then its end is what is told of.
     gone = seen.trace.exit is not None and any(answer.response is None for answer in seen.after)
@@ -164,7 +168,7 @@ def judge_division(seen: Division) -> Verdict:
         cause = printed or Cause(
             "no error message",
             "nothing that the node logs says that this is an error",
-            "self.get_logger().error('division by zero') before you return the response",
+            _where_to_log(seen.trace),
         )
         return failed(
             expected,
@@ -194,6 +198,19 @@ def judge_division(seen: Division) -> Verdict:
         f"answered {seen.by_zero.response['sum']}, and {len(seen.after)} calls after it",
         [str(complaints[0])],
     )
+
+
+def _where_to_log(trace: Trace) -> str:
+    """Where the error of a division by zero is to be logged."""
+    log = "self.get_logger().error('division by zero')"
+    for handler in source.handlers(trace):
+        if isinstance(handler.body[0], ast.Pass):
+            return f"write in place of pass, line {handler.body[0].lineno}: {log}"
+        if handler.type is not None and "ZeroDivision" in ast.unparse(handler.type):
+            return f"write above line {handler.body[0].lineno}, with the same indentation: {log}"
+    for test in source.comparisons(trace, 0):
+        return f"write above line {test.body[0].lineno}, with the same indentation: {log}"
+    return f"{log} before you return the response"
 
 
 def judge_shutdown(seen: Calls) -> Verdict:

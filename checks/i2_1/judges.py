@@ -288,7 +288,8 @@ def _not_set(expected: str, answer: SetAnswer, trace: Trace, stuck: Sequence[Fra
     what = ", ".join(f"{name} to {_show(value)}" for name, value in answer.values.items())
     if not answer.answered:
         cause = causes.of_no_answer(trace, stuck, spins=True)
-        return failed(expected, f"setting {what}: no answer in {ANSWER_S:g} s", cause, causes.last_words(trace))
+        observed = f"setting {what}: {causes.unanswered(trace, ANSWER_S)}"
+        return failed(expected, observed, cause, causes.last_words(trace))
     cause = causes.of_refusal(answer.reason, answer.values, read(trace))
     return failed(expected, f'setting {what}: rejected, "{answer.reason}"', cause)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
+from dataclasses import replace
 
 from checks.i2_3 import steps
 from checks.i2_3.facts import SERVICE, SHORTEST_S, TYPE, Lone, Quiet, Three, right_sum
@@ -67,6 +68,11 @@ def of_no_answer(seen: Lone) -> Cause:
         return empty
     if not seen.spins or causes.in_call(seen.stuck):
         return causes.of_no_answer(seen.trace, seen.stuck)
+    blocked = causes.of_blocked(seen.trace, seen.stuck, spins=True)
+    if blocked is not None and blocked.name != "blocked executor":
+        return blocked
+    if (locked := causes.waiting_for_lock(seen.trace, seen.stuck)) is not None:
+        return replace(locked, name="no answer")
     own = tracebacks.own(seen.stuck, seen.trace.folder)
     return Cause(
         "no answer",
@@ -168,6 +174,8 @@ def of_disturbed_timer(seen: Lone, heard: During) -> Cause:
             held,
         )
     if _in_worker(seen.stuck):
+        if (locked := causes.waiting_for_lock(seen.trace, seen.stuck)) is not None:
+            return locked
         return Cause(
             "blocked executor",
             f"the timer stands still while the service works{where}: {steps.held_by(source)}",

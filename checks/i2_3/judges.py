@@ -67,7 +67,8 @@ def _judge_answer(seen: Lone) -> Verdict:
         )
     best = seen.quickest
     if best is None:
-        return failed(expected, f"no answer in {ANSWER_S:g} s", why.of_no_answer(seen), causes.last_words(seen.trace))
+        observed = causes.unanswered(seen.trace, ANSWER_S)
+        return failed(expected, observed, why.of_no_answer(seen), causes.last_words(seen.trace))
     for call in seen.calls:
         answer = call.answer
         if answer.response is not None and answer.response["sum"] != right_sum(answer):

@@ -44,6 +44,7 @@ from tutor.judge.verdict import Status
 
 ALL = graph(services=dict.fromkeys(SIGNS, TYPE))
 SERVING = trace(graph=ALL)
+EXECUTING = frame("await_or_execute", "/venv/rclpy/executors.py")
 IN_CALL = (frame("wait", "/usr/lib/python3.12/threading.py"), frame("call", "/venv/rclpy/client.py"), frame("divide"))
 
 
@@ -91,7 +92,7 @@ def test_services() -> None:
         ),
         (Calls(SERVING, (called("/add", 6, 3, None),), spins=False), "no spin", "/node"),
         (Calls(SERVING, (called("/add", 6, 3, None),), stuck=IN_CALL), "deadlock by call()", "line 12"),
-        (Calls(SERVING, (called("/add", 6, 3, None),), stuck=(frame("add"),)), "blocked executor", "line 12"),
+        (Calls(SERVING, (called("/add", 6, 3, None),), stuck=(frame("add"), EXECUTING)), "blocked executor", "line 12"),
         (Calls(SERVING, (*ANSWERS[:3], called("/divide", 6, 3, None))), "blocked executor", "/divide"),
         (Calls(trace(graph=ALL, err=CRASH, exit=exited(1)), (called("/add", 6, 3, None),)), "unhandled exception", ""),
         (Calls(SERVING, ()), "service missing", "/add"),

@@ -45,8 +45,10 @@ from tutor.judge.verdict import Status, Verdict
 
 SERVING = graph(services={SERVICE: TYPE})
 ASKED = START + 0.3
-IN_WORKER = (frame("slow_add"), frame("_worker", "/usr/lib/python3.12/concurrent/futures/thread.py"))
-IN_CALL = (frame("call", "/venv/rclpy/client.py"), frame("slow_add"))
+EXECUTING = frame("await_or_execute", "/venv/rclpy/executors.py")
+ASLEEP = frame("slow_add", code="time.sleep(3.0)")
+IN_WORKER = (ASLEEP, EXECUTING, frame("_worker", "/usr/lib/python3.12/concurrent/futures/thread.py"))
+IN_CALL = (frame("call", "/venv/rclpy/client.py"), frame("slow_add"), EXECUTING)
 
 Text = Callable[[int], str]
 
@@ -251,7 +253,7 @@ def test_a_timer_that_stands_still_is_found_out(text: Text, every: int) -> None:
     blocked = ticking(text, every=every, stands_still=(0.3, 3.31), until_s=8)
     seen = lone(blocked, until=START + 8, stuck=IN_WORKER)
     assert_failed(judge_timer(alone, seen), "blocked executor", "line 12", "default group")
-    alone_thread = lone(blocked, until=START + 8, stuck=(frame("slow_add"),))
+    alone_thread = lone(blocked, until=START + 8, stuck=(frame("slow_add"), EXECUTING))
     assert_failed(judge_timer(alone, alone_thread), "blocked executor", "one thread")
 
 

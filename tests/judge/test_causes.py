@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 import pytest
@@ -250,6 +251,29 @@ CONSOLE = "[INFO] [1763716000.125] [node]: kx7 is up"
 def test_what_was_printed_instead_of_logged(seen: Trace, after: str, cause: str) -> None:
     found = of_printed(seen, lambda text: "kx7" in text, "the name", after=lines(after, "stdout"))
     assert (found.name if found else "") == cause
+
+
+ROSOUT = "Failed to publish log message to rosout: publisher's context is invalid, at ./src/rcl/publisher.c:423"
+RCL = "rclpy._rclpy_pybind11.RCLError: failed to shutdown: rcl_shutdown already called on the given context"
+SHUTDOWN = f"""Traceback (most recent call last):
+  File "{FOLDER}/node.py", line 30, in main
+    rclpy.shutdown()
+{RCL}"""
+
+
+@pytest.mark.parametrize(
+    ("seen", "after"),
+    [
+        (trace(), ROSOUT),
+        (trace(), f"{RCL}, at /project/src/rcl/init.c:253"),
+        (trace(), SHUTDOWN),
+        (trace(err=ROSOUT), ""),
+        (trace(err=SHUTDOWN), ""),
+        (trace(err="[ERROR] [1763716000.125] [rcl.logging_rosout]: Failed to publish"), ""),
+    ],
+)
+def test_what_ros_says_by_itself_is_not_the_learners_print(seen: Trace, after: str) -> None:
+    assert of_printed(seen, re.compile("(?i)error|fail").search, "the error", after=lines(after)) is None
 
 
 @pytest.mark.parametrize(

@@ -23,7 +23,8 @@ class Expected:
 
     `passes`: every required criterion is. `fails` are failed; of `fails_any` at least one is; `not_passed` are failed
     or skipped; `either` may be anything but an error; `bonus_failed` are bonus criteria that are failed. `causes` maps
-    a criterion ("" stands for all that fail) to texts, one of which is in its cause. `gone` is in the command line of
+    a criterion ("" stands for all that fail) to texts, one of which is in its cause, `steps` likewise to what is in its
+    next step. `gone` is in the command line of
     no process afterwards. `ros` is the only kind of ROS that this holds for, where it is not empty.
     """
 
@@ -35,6 +36,7 @@ class Expected:
     either: tuple[str, ...] = ()
     bonus_failed: tuple[str, ...] = ()
     causes: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    steps: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     gone: str = ""
     ros: str = ""
 
@@ -84,7 +86,8 @@ def read_expected(file: Path) -> Expected:
         not_passed=fields.texts("not_passed", optional=True),
         either=fields.texts("either", optional=True),
         bonus_failed=fields.texts("bonus_failed", optional=True),
-        causes=_causes(fields),
+        causes=_texts_of_criteria(fields, "cause"),
+        steps=_texts_of_criteria(fields, "step"),
         gone=fields.text("gone", optional=True),
         ros=fields.text("ros", optional=True),
     )
@@ -110,13 +113,13 @@ def read_case(folder: Path) -> Case:
     return Case(exercise, kind, folder, read_expected(folder / EXPECT))
 
 
-def _causes(fields: Fields) -> Mapping[str, tuple[str, ...]]:
-    value = fields.anything("cause")
+def _texts_of_criteria(fields: Fields, key: str) -> Mapping[str, tuple[str, ...]]:
+    value = fields.anything(key)
     found = value if isinstance(value, dict) else {"": value or []}
-    causes: dict[str, tuple[str, ...]] = {}
+    texts_of: dict[str, tuple[str, ...]] = {}
     for name, said in found.items():
         texts = [said] if isinstance(said, str) else said
         if not isinstance(texts, list) or not all(isinstance(text, str) for text in texts):
-            raise fields.error("cause", "expected a text, or for criteria each a text or a list of texts")
-        causes[str(name)] = tuple(texts)
-    return {name: texts for name, texts in causes.items() if texts}
+            raise fields.error(key, "expected a text, or for criteria each a text or a list of texts")
+        texts_of[str(name)] = tuple(texts)
+    return {name: texts for name, texts in texts_of.items() if texts}

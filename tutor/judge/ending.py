@@ -6,7 +6,7 @@ import signal
 from functools import wraps
 from typing import Protocol
 
-from tutor.judge import causes, tracebacks
+from tutor.judge import causes, closing, tracebacks
 from tutor.judge.bench import Bench, Scenario
 from tutor.judge.trace import Ending, Exit, Trace
 from tutor.judge.verdict import Cause, Verdict, failed, passed
@@ -15,6 +15,10 @@ _CRASHES = signal.SIGSEGV, signal.SIGBUS, signal.SIGABRT
 _CONTEXT_GONE = "the given context is not valid"
 _AGAIN = 2
 """So many more starts are looked at, at most, where it may be chance that a process did not end cleanly on Ctrl+C."""
+
+_CONTEXT_OVER = "context is invalid", "context is not valid", "context argument is null"
+_ENDS_A_SPIN = "KeyboardInterrupt", "ExternalShutdownException"
+"""What rclpy ends a spin with on Ctrl+C."""
 
 _SHUT_DOWN_TWICE = "rcl_shutdown already called", "Context must be initialized before it can be shutdown"
 EXPECTED = "on Ctrl+C the process ends within {limit:g} s, without a traceback, with exit code 0 or 130"
@@ -85,7 +89,7 @@ def judge(trace: Trace, ending: Ending | None) -> Verdict:
             Cause(
                 "SIGINT ignored",
                 "the process goes on after Ctrl+C",
-                "let KeyboardInterrupt end the program: no bare `except:` around spin, no loop without rclpy.ok()",
+                closing.letting_go(trace),
             ),
             causes.last_words(trace),
         )
@@ -98,7 +102,7 @@ def judge(trace: Trace, ending: Ending | None) -> Verdict:
     other = Cause(
         "non-zero exit",
         f"the process ended with {ending.exit}",
-        "return normally from main() after Ctrl+C; call no sys.exit() with another code",
+        closing.returning(trace),
     )
     crash = _of_crash(ending.exit, ending, trace) if _crashed(ending) else None
     cause = causes.of_torn_thread(ending.exit, ending.output) or crash or other
@@ -132,27 +136,26 @@ def _race_in_rclpy(found: tracebacks.Traceback) -> bool:
 
 
 def _of_traceback(found: tracebacks.Traceback, trace: Trace) -> Cause:
+    own = found.own(trace.folder)
+    uncaught = any(found.origin.type.endswith(name) for name in _ENDS_A_SPIN)
     if any(words in found.message for words in _SHUT_DOWN_TWICE):
+        step = closing.shutting_down(trace)
+        if uncaught:
+            step = f"{step}; then {closing.catching(trace, found.origin.own(trace.folder))}"
         return Cause(
             "shutdown() after Ctrl+C",
             "rclpy has shut its context down already when Ctrl+C arrives, so rclpy.shutdown() raises RCLError",
-            "call rclpy.try_shutdown() instead",
+            step,
         )
-    if found.type == "KeyboardInterrupt":
+    if any(found.type.endswith(name) for name in _ENDS_A_SPIN):
         return Cause(
             "traceback on exit",
-            "KeyboardInterrupt reaches the end of the program",
-            "put rclpy.spin(node) in a try block: except (KeyboardInterrupt, ExternalShutdownException): pass",
+            f"{found.type.rsplit('.', 1)[-1]} reaches the end of the program" + (f" ({own})" if own else ""),
+            closing.catching(trace, own),
         )
-    if found.type.endswith("ExternalShutdownException"):
-        return Cause(
-            "traceback on exit",
-            "ExternalShutdownException reaches the end of the program",
-            "catch it beside KeyboardInterrupt: from rclpy.executors import ExternalShutdownException",
-        )
-    own = found.own(trace.folder)
+    known = causes.known(found, trace) if not any(words in found.message for words in _CONTEXT_OVER) else None
     return Cause(
         "traceback on exit",
         f"{found.raised}" + (f" ({own})" if own else ""),
-        "after Ctrl+C the node can neither publish nor log over ROS: stop before that, or catch the exception",
+        known.hint if known else closing.leaving_out(own),
     )

@@ -69,6 +69,25 @@ def callbacks(trace: Trace, create: str) -> list[ast.FunctionDef | ast.AsyncFunc
     return [function for name in found for function in functions[name]]
 
 
+def handlers(trace: Trace) -> list[ast.ExceptHandler]:
+    """The `except` clauses, in the order in which they are written."""
+    return sorted((node for node in nodes(trace) if isinstance(node, ast.ExceptHandler)), key=lambda each: each.lineno)
+
+
+def comparisons(trace: Trace, value: object) -> list[ast.If]:
+    """The `if` statements that ask whether something is equal to this value, in the order in which they are written."""
+
+    def asks(test: ast.expr) -> bool:
+        return (
+            isinstance(test, ast.Compare)
+            and isinstance(test.ops[0], ast.Eq)
+            and any(isinstance(each, ast.Constant) and each.value == value for each in (test.left, *test.comparators))
+        )
+
+    found = [node for node in nodes(trace) if isinstance(node, ast.If) and asks(node.test)]
+    return sorted(found, key=lambda each: each.lineno)
+
+
 def called(call: ast.Call) -> str:
     """The last part of the name of what is called; empty where it has none."""
     return _name(call.func)

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from itertools import groupby
 
 from tutor.judge.trace import OutputLine, Trace
 
@@ -13,6 +14,7 @@ _HEADER = "Traceback (most recent call last):"
 _FRAME = re.compile(r'^\s*File "(?P<path>[^"]+)", line (?P<line>\d+)(?:, in (?P<function>.+))?$')
 _RAISED = re.compile(r"^(?P<type>[^\W\d][\w.]*(?:\.<locals>\.[\w.]+)*)(?:: (?P<message>.*))?$")
 _DUMPED = re.compile(r'^  File "(?P<path>[^"]+)", line (?P<line>\d+) in (?P<function>.+)$')
+_THREAD = re.compile(r"^(?:Current thread|Thread) 0x[0-9a-f]+.*\(most recent call first\):$")
 _COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 _GROUP = re.compile(r"^\s*\+ Exception Group Traceback \(most recent call last\):$")
 _MARGIN = re.compile(r"^ {2,}(?:\| ?|\+ |\+(?:-\+)?-+(?: (?:\d+|\.\.\.) -+)?$)")
@@ -24,12 +26,16 @@ _CHAINED = (
 
 @dataclass(frozen=True, slots=True)
 class Frame:
-    """One step of a traceback. `function` is empty for a syntax error, which has no function yet."""
+    """One step of a traceback. `function` is empty for a syntax error, which has no function yet.
+
+    `thread`: in a dump of all threads' stacks, the number of the thread that it is of, from 1 on.
+    """
 
     path: str
     line: int
     function: str
     code: str
+    thread: int = field(default=0, compare=False)
 
     @property
     def name(self) -> str:
@@ -81,8 +87,21 @@ def find(output: Iterable[OutputLine]) -> tuple[Traceback, ...]:
 
 def dumped(output: Iterable[OutputLine]) -> tuple[Frame, ...]:
     """The frames of a stack dump as faulthandler writes it on a fatal signal: all threads, innermost frame first."""
-    found = (_DUMPED.match(line.text) for line in output if line.stream == "stderr")
-    return tuple(Frame(m["path"], int(m["line"]), m["function"], "") for m in found if m)
+    frames: list[Frame] = []
+    thread = 0
+    for line in output:
+        if line.stream != "stderr":
+            continue
+        if _THREAD.match(line.text):
+            thread += 1
+        elif m := _DUMPED.match(line.text):
+            frames.append(Frame(m["path"], int(m["line"]), m["function"], "", thread))
+    return tuple(frames)
+
+
+def threads(frames: Iterable[Frame]) -> tuple[tuple[Frame, ...], ...]:
+    """The frames of each thread of a stack dump, innermost first."""
+    return tuple(tuple(each) for _, each in groupby(frames, key=lambda frame: frame.thread))
 
 
 def own(frames: Iterable[Frame], folder: str) -> Frame | None:

@@ -1,6 +1,7 @@
 """Likely causes, by name: pure recognisers from what was seen to a `Cause`, shared by all checks."""
 
-from tutor.judge.causes.exceptions import of_traceback
+from tutor.judge.causes.blocking import in_call, in_groups, in_threads, of_blocked, waiting_for_lock
+from tutor.judge.causes.exceptions import known, of_traceback
 from tutor.judge.causes.output import of_printed
 from tutor.judge.causes.parameters import (
     RCLPYS_OWN,
@@ -15,13 +16,13 @@ from tutor.judge.causes.parameters import (
 )
 from tutor.judge.causes.process import (
     QUICK_S,
-    in_call,
     last_words,
     no_spin,
     of_no_answer,
     of_process,
     of_torn_thread,
     same_name,
+    unanswered,
 )
 from tutor.judge.causes.topics import (
     incompatible_qos,
@@ -38,11 +39,15 @@ __all__ = [
     "RCLPYS_OWN",
     "in_bursts",
     "in_call",
+    "in_groups",
+    "in_threads",
     "incompatible_qos",
     "incompatible_service",
+    "known",
     "last_words",
     "no_spin",
     "not_declared",
+    "of_blocked",
     "of_deafness",
     "of_lifecycle",
     "of_no_answer",
@@ -59,5 +64,7 @@ __all__ = [
     "rate_as_period",
     "same_name",
     "timer_not_replaced",
+    "unanswered",
+    "waiting_for_lock",
     "wrong_topic",
 ]

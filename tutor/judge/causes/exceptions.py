@@ -11,18 +11,22 @@ from tutor.judge.verdict import Cause
 
 def of_traceback(found: Traceback, trace: Trace) -> Cause:
     """Name an exception, with the learner's own line; of a chain, the one that tells most, from its origin on."""
-    chain = [found]
-    while (before := chain[-1].follows) is not None:
-        chain.append(before)
-    for each in reversed(chain):
-        if (cause := _known(each, found, trace)) is not None:
-            return cause
+    if (cause := known(found, trace)) is not None:
+        return cause
     own = found.origin.own(trace.folder) or found.own(trace.folder)
     return Cause(
         names.UNHANDLED_EXCEPTION,
         _told(found.origin, found, trace),
         f"fix line {own.line} of {own.name}: {own.code}" if own else "look at the last lines of the output, and fix it",
     )
+
+
+def known(found: Traceback, trace: Trace) -> Cause | None:
+    """What the table of known exceptions says of the first of a chain that it knows."""
+    chain = [found]
+    while (before := chain[-1].follows) is not None:
+        chain.append(before)
+    return next((cause for each in reversed(chain) if (cause := _known(each, found, trace)) is not None), None)
 
 
 def _told(each: Traceback, last: Traceback, trace: Trace) -> str:

@@ -3,14 +3,23 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 
+from tutor.judge import tracebacks
 from tutor.judge.causes import names
 from tutor.judge.trace import OutputLine, Trace
 from tutor.judge.verdict import Cause
 
 _LOGGED = re.compile(r"^(?:\x1b\[\d+m)?\[(?:DEBUG|INFO|WARN|ERROR|FATAL)\] \[\d+\.\d+\] \[(?P<logger>[^\]]*)\]")
 """How the line begins that rclpy writes for a log message, beside sending it to /rosout."""
+
+_ROS_COMPLAINS = re.compile(
+    r"^Failed to publish log message to rosout|^>>> \[rcutils|^This error state is being overwritten"
+    r"|^with this new error message|^rcutils_reset_error|^Exception ignored in|, at \S+\.(?:c|cpp|hpp):\d+$"
+)
+"""What the C and C++ libraries of ROS write by themselves, mostly when something is used after the shutdown."""
+
+_ROS_LOGGER = re.compile(r"^(?:rcl|rclcpp|rmw_\w+)(?:\.|$)")
 
 
 def of_printed(
@@ -21,7 +30,7 @@ def of_printed(
     `what` it is, to be named in a sentence. `after`: what the process wrote later, when it was ended: what appears only
     there was held back in a buffer until then.
     """
-    printed = [line.text for line in trace.output if _is_print(line) and says(line.text)]
+    printed = [text for text in _prints(trace.output) if says(text)]
     if printed:
         return Cause(
             "printed, not logged",
@@ -30,7 +39,8 @@ def of_printed(
             "holds them back",
         )
     seen = {log.text for log in trace.logs}
-    logged = [found for line in trace.output if (found := _LOGGED.match(line.text)) and says(line.text)]
+    matches = [found for line in trace.output if (found := _LOGGED.match(line.text)) and says(line.text)]
+    logged = [found for found in matches if not _ROS_LOGGER.match(found["logger"])]
     if logged and not any(found.string.endswith(each) for found in logged for each in seen):
         own = {node.strip("/").replace("/", ".") for node in trace.graph.nodes}
         if not trace.logs and any(found["logger"] in own for found in logged):
@@ -44,7 +54,7 @@ def of_printed(
             f"{what} is logged by a logger that belongs to no node, so it does not reach /rosout: {logged[0].string}",
             "use self.get_logger(): rclpy.logging.get_logger(...) writes to the terminal only",
         )
-    late = [line.text for line in after if _is_print(line) and says(line.text)]
+    late = [text for text in _prints(tuple(after)) if says(text)]
     if late:
         return Cause(
             names.HELD_BACK,
@@ -55,5 +65,11 @@ def of_printed(
     return None
 
 
-def _is_print(line: OutputLine) -> bool:
-    return _LOGGED.match(line.text) is None
+def _prints(output: Sequence[OutputLine]) -> list[str]:
+    """What the learner's code printed: no log messages, no exceptions, and nothing that ROS itself complains of."""
+    raised = {each.raised for each in tracebacks.find(output)}
+    return [
+        text
+        for text in tracebacks.without(output)
+        if text not in raised and not _LOGGED.match(text) and not _ROS_COMPLAINS.search(text)
+    ]

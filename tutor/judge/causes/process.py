@@ -7,9 +7,10 @@ from collections.abc import Sequence
 
 from tutor.judge import tracebacks
 from tutor.judge.causes import names
-from tutor.judge.causes.exceptions import of_traceback
+from tutor.judge.causes.blocking import of_blocked
+from tutor.judge.causes.exceptions import known, of_traceback
 from tutor.judge.trace import Exit, OutputLine, Trace
-from tutor.judge.tracebacks import Frame
+from tutor.judge.tracebacks import Frame, Traceback
 from tutor.judge.verdict import Cause
 
 QUICK_S = 3.0
@@ -48,6 +49,8 @@ def _of_exit(trace: Trace) -> Cause:
         return torn
     if trace.exit.signal is not None:
         return Cause("killed", f"{ended} ({_signal_name(trace.exit.signal)})", "see the last lines of its output")
+    if (refused := _of_usage(trace)) is not None:
+        return refused
     if trace.exit.code == 0 and trace.exit.after_s <= QUICK_S + 0.5:
         return Cause(
             names.EXIT_AT_ONCE,
@@ -55,6 +58,13 @@ def _of_exit(trace: Trace) -> Cause:
             "a node lives as long as rclpy.spin(node) runs: is it called, and is anything ending it?",
         )
     return Cause(names.EXIT_AT_ONCE, ended, "let rclpy.spin(node) run until Ctrl+C; see the last lines of its output")
+
+
+def _of_usage(trace: Trace) -> Cause | None:
+    """Whether the program refused its command line, as argparse and others do: with a message, and exit code 2."""
+    said = [line.text for line in trace.output if line.stream == "stderr" and " error: " in line.text]
+    assert trace.exit is not None
+    return known(Traceback("SystemExit", said[-1], ()), trace) if trace.exit.code == 2 and said else None
 
 
 def of_torn_thread(ended: Exit, output: Sequence[OutputLine]) -> Cause | None:
@@ -67,6 +77,13 @@ def of_torn_thread(ended: Exit, output: Sequence[OutputLine]) -> Cause | None:
         "its own was still spinning, which aborts it",
         "end that thread first: call rclpy.shutdown() or executor.shutdown(), then thread.join(), also for a daemon",
     )
+
+
+def unanswered(trace: Trace, limit_s: float) -> str:
+    """That a request got no answer: within the limit, or since the process had ended before."""
+    if trace.exit is None:
+        return f"no answer in {limit_s:g} s"
+    return f"no answer: the process ended by itself, {trace.exit.after_s:.1f} s after its start, with {trace.exit}"
 
 
 def no_spin(trace: Trace) -> Cause:
@@ -86,27 +103,7 @@ def of_no_answer(trace: Trace, stuck: Sequence[Frame], *, spins: bool = False) -
     broken = of_process(trace)
     if broken is not None:
         return broken
-    own = tracebacks.own(stuck, trace.folder)
-    where = f", at {own}" if own else ""
-    if in_call(stuck):
-        return Cause(
-            names.DEADLOCK,
-            f"the callback waits for another service's answer{where}, which cannot come: the "
-            "executor is busy with this callback",
-            "use call_async() and await it in an async callback",
-        )
-    if spins or tracebacks.called_by_executor(stuck, trace.folder):
-        return Cause(
-            names.BLOCKED_EXECUTOR,
-            f"the node is up, but one of its callbacks does not come to an end{where}; all others wait for it",
-            "let every callback return at once: no loop and no sleep in it; let a timer do what has to wait",
-        )
-    return no_spin(trace)
-
-
-def in_call(stuck: Sequence[Frame]) -> bool:
-    """Whether a thread waits in rclpy's blocking `Client.call()`."""
-    return any(frame.function == "call" and frame.path.endswith("rclpy/client.py") for frame in stuck)
+    return of_blocked(trace, stuck, spins=spins) or no_spin(trace)
 
 
 def same_name(trace: Trace) -> Cause | None:

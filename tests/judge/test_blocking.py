@@ -1,0 +1,150 @@
+"""A node that no longer answers: where a callback is held up, and the step that lets it go on."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from tests.checks.made import FOLDER, lines, trace
+from tutor.judge.causes import in_threads, of_blocked
+from tutor.judge.trace import Trace
+from tutor.judge.tracebacks import Frame, dumped, threads
+
+
+def node(*body: str) -> Trace:
+    """A node whose file has these lines, from line 1 on."""
+    return replace(trace(), sources={"node.py": "\n".join(body)})
+
+
+def own(line: int, code: str, function: str = "tick", thread: int = 1) -> Frame:
+    return Frame(f"{FOLDER}/node.py", line, function, code, thread)
+
+
+def rclpy(function: str, file: str = "executors", thread: int = 1) -> Frame:
+    return Frame(f"/lib/rclpy/{file}.py", 90, function, "", thread)
+
+
+WORKER = (rclpy("await_or_execute"), Frame("/lib/concurrent/futures/thread.py", 58, "run", "", 1))
+MAIN = (rclpy("spin", thread=2), own(42, "executor.spin()", "main", 2))
+
+
+@pytest.mark.parametrize(
+    ("seen", "stuck", "cause", "words", "step"),
+    [
+        (
+            node("x", "self.cli = self.create_client(AddTwoInts, 'add')"),
+            (rclpy("call", "client"), own(31, "response = self.cli.call(request)"), *WORKER, *MAIN),
+            "deadlock by call()",
+            "line 31",
+            "line 31 becomes: response = await self.cli.call_async(request) (with async def tick(...)); give line 2 "
+            "callback_group=self.group, with",
+        ),
+        (
+            node("self.cli = self.create_client(A, 'add')", "executor = MultiThreadedExecutor()"),
+            (rclpy("call", "client"), own(31, "response = self.cli.call(request)"), *WORKER, *MAIN),
+            "deadlock by call()",
+            "line 31",
+            "give line 1 callback_group=self.group",
+        ),
+        (
+            node("g = MutuallyExclusiveCallbackGroup()", "self.create_client(A, 'add', callback_group=g)"),
+            (rclpy("spin_once"), own(9, "rclpy.spin_until_future_complete(self, future)"), *WORKER, *MAIN),
+            "blocked executor",
+            "line 9",
+            "line 9 becomes: await future (with async def tick(...)); write ReentrantCallbackGroup() in place of "
+            "MutuallyExclusiveCallbackGroup() in line 1",
+        ),
+        (
+            node(),
+            (rclpy("spin_once"), own(9, "rclpy.spin_once(self)"), *WORKER, *MAIN),
+            "blocked executor",
+            "line 9",
+            "delete line 9",
+        ),
+        (
+            node("self.lock = threading.Lock()"),
+            (own(8, "with self.lock:"), *WORKER, *MAIN),
+            "blocked executor",
+            "waits for self.lock",
+            "line 1: threading.RLock() in place of threading.Lock()",
+        ),
+        (
+            node("self.lock = threading.Lock()"),
+            (
+                own(20, "time.sleep(3.0)", thread=3),
+                rclpy("await_or_execute", thread=3),
+                own(8, "with self.lock:"),
+                *WORKER,
+                *MAIN,
+            ),
+            "blocked executor",
+            "another one holds at node.py, line 20",
+            "take line 20 out of the lock",
+        ),
+        (
+            node("while not future.done():", "    time.sleep(0.1)"),
+            (own(2, "time.sleep(0.1)"), *WORKER, *MAIN),
+            "blocked executor",
+            "line 2",
+            "write await future in place of the loop",
+        ),
+        (
+            node("rclpy.spin(node)"),
+            (Frame("/lib/threading.py", 3, "wait", "", 1), own(8, "self.event.wait()"), *WORKER, *MAIN),
+            "blocked executor",
+            "line 8",
+            "in place of line 1, rclpy.spin(node): executor = MultiThreadedExecutor(num_threads=4); "
+            "executor.add_node(node); executor.spin()",
+        ),
+        (node(), (own(8, "while True:"), *WORKER, *MAIN), "blocked executor", "line 8", "one round"),
+        (
+            node("class N(Node):", "  def tick(self):", "    rclpy.spin_until_future_complete(self, future)"),
+            MAIN,
+            "blocked executor",
+            "line 3, rclpy.spin_until_future_complete(self, future), spins the node within one of its own callbacks",
+            "line 3 becomes await future",
+        ),
+        (
+            node("async def add(self, req, resp):", "  other = await self.cli.call_async(req)"),
+            MAIN,
+            "deadlock by await",
+            "line 2: await self.cli.call_async(req)",
+            "callback_group=self.group",
+        ),
+        (node("x = 1"), MAIN, "blocked executor", "does not come to an end;", "let every callback return"),
+    ],
+)
+def test_what_holds_it_up(seen: Trace, stuck: tuple[Frame, ...], cause: str, words: str, step: str) -> None:
+    found = of_blocked(seen, stuck, spins=True)
+    assert found is not None
+    assert found.name == cause
+    assert words in found.text
+    assert "line 42" not in found.text  # main() is where it should be
+    assert step in found.hint
+
+
+def test_a_node_that_was_never_seen_to_spin_is_not_blocked() -> None:
+    assert of_blocked(node("x = 1"), MAIN) is None
+
+
+def test_steps_do_not_ask_for_what_is_there() -> None:
+    seen = node("executor = MultiThreadedExecutor(num_threads=4)", "rclpy.spin(node)")
+    assert in_threads(seen) == "write executor.spin() in place of line 2, rclpy.spin(node)"
+    everything = node("g = ReentrantCallbackGroup()", "self.create_client(A, 'add', callback_group=g)")
+    found = of_blocked(everything, (rclpy("call", "client"), own(3, "self.cli.call(request)"), *WORKER), spins=True)
+    assert found is not None
+    assert "callback_group" not in found.hint
+
+
+def test_the_threads_of_a_dump_are_kept_apart() -> None:
+    text = """Fatal Python error: Aborted
+
+Thread 0x00007f16a3a3e740 (most recent call first):
+  File "/home/me/ws/node.py", line 8 in tick
+  File "/lib/rclpy/executors.py", line 9 in handler
+
+Current thread 0x00007f16a3a3e741 (most recent call first):
+  File "/lib/rclpy/executors.py", line 3 in spin
+  File "/home/me/ws/node.py", line 42 in main"""
+    assert [[frame.line for frame in thread] for thread in threads(dumped(lines(text)))] == [[8, 9], [3, 42]]
