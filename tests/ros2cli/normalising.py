@@ -10,6 +10,10 @@ TRACEBACK = "TRACEBACK"
 _REPLACED = [
     (r"\x1b\[[0-9;]*m", ""),
     (r"\[\d{10}\.\d{9}\]", "[TIME]"),
+    # A workspace that is not built has its package in src, one that is, in install.
+    (r"\$WORKSPACE/(install/my_package/lib/python3\.12/site-packages|src/my_package)/my_package/", "$PACKAGE/"),
+    (r"\$WORKSPACE/(install/my_package/lib|src)/my_package/", "$PROGRAMS/"),
+    (r"A message was lost!!!\n\s*total count change:\d+\n\s*total count: \d+---\n", ""),
     (r"\b\d{19}\b", "NANOSECONDS"),
     (r"\b(sec|nanosec): \d+", r"\1: N"),
     (r"(publication_sequence_number|reception_sequence_number): (\d+|null)", r"\1: N"),

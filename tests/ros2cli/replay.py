@@ -21,7 +21,7 @@ import tempfile
 import time
 import tomllib
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import groupby
 from pathlib import Path
@@ -60,7 +60,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if (given.only in record.name or given.only in record.command) and given.session in (None, record.session)
     ]
     counts: Counter[str] = Counter()
-    for result in replay(records):
+    for result in replay(records):  # each as it comes
         counts[result.kind] += 1
         print(f"{result.kind:13}  {result.record.name[:7].rstrip('_'):7} {result.record.command}", flush=True)
         if result.reason:
@@ -76,13 +76,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return 1 if counts[DIFFERS] else 0
 
 
-def replay(records: Sequence[Record]) -> list[Result]:
+def replay(records: Sequence[Record]) -> Iterator[Result]:
     """Run each record among the nodes that were up, and hold what it prints beside what was recorded."""
-    results: list[Result] = []
     with tempfile.TemporaryDirectory(prefix="ros2-replay-") as name:
         folder = Path(name)
         workspace = sessions.make_workspace(folder)
-        env = {**sessions.shell_environment(workspace), "TMP": str(folder), "WORKSPACE": str(workspace)}
+        env = {
+            **sessions.shell_environment(workspace, folder / "tools"),
+            "TMP": str(folder),
+            "WORKSPACE": str(workspace),
+        }
         files = folder / "files"
         files.mkdir()
         for file, text in sessions.FILES.items():
@@ -91,10 +94,7 @@ def replay(records: Sequence[Record]) -> list[Result]:
             with sessions.running(sessions.commands_of(running), env, files):
                 for record in group:
                     output = run(record, env, files)
-                    results.append(judge(record, output, {str(workspace): "$WORKSPACE", **_prefixes()}))
-                    print(".", end="", file=sys.stderr, flush=True)
-    print(file=sys.stderr)
-    return results
+                    yield judge(record, output, {str(workspace): "$WORKSPACE", **_prefixes()})
 
 
 def run(record: Record, env: Mapping[str, str], cwd: Path) -> Output:

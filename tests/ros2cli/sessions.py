@@ -13,6 +13,10 @@ import time
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
+from tutor.ros.environment import detect
+from tutor.sandbox.ros2.sourced import sourced_environment
+from tutor.workspace import Workspace, domain_of
+
 ROOT = Path(__file__).resolve().parents[2]
 TOOL = str(Path(sys.executable).with_name("ros-tutor"))
 
@@ -42,14 +46,9 @@ def make_workspace(folder: Path) -> Path:
     return workspace
 
 
-def shell_environment(workspace: Path) -> dict[str, str]:
-    """What a command finds in its environment in `ros-tutor shell`."""
-    done = subprocess.run(
-        [TOOL, "--workspace", str(workspace), "shell", "-c", "env -0"],
-        cwd=ROOT, check=True, capture_output=True,
-    )  # fmt: skip
-    pairs = done.stdout.decode().split("\0")
-    return dict(pair.split("=", 1) for pair in pairs if "=" in pair)
+def shell_environment(workspace: Path, tools: Path) -> dict[str, str]:
+    """What a command finds in its environment in `ros-tutor shell`; `tools` is to live as long as it is used."""
+    return sourced_environment(detect(), workspace, domain_of(Workspace(workspace)), tools)
 
 
 def commands_of(running: str) -> list[str]:

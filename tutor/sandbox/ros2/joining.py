@@ -27,7 +27,7 @@ LIMIT_S = 3.0
 
 _POLL_S = 0.01
 _QUIET_S = 0.05  # what belongs together arrives within milliseconds
-_LONG_QUIET_S = 0.5  # a DDS program that is no ROS node never gets a node's name
+_LONG_QUIET_S = 1.5  # a DDS program that is no ROS node never gets a node's name
 _UNKNOWN = "_NODE_NAME_UNKNOWN_"
 _BOOKKEEPING = "ros_discovery_info"  # the DDS topic on which each participant says which nodes it has
 
