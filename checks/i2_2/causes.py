@@ -100,6 +100,8 @@ def of_launch(trace: Trace) -> Cause | None:
     for process in writers(trace.output):
         if left := tracebacks.find(by_stream(written_by(trace.output, process))):
             return causes.of_traceback(left[-1], trace)
+    if (piece := steps.one_word(source)) is not None:
+        return piece
     if trace.exit is not None:
         return Cause(
             "nothing to launch",

@@ -5,6 +5,7 @@ The source only chooses the words; what is wrong has been seen of the launch.
 
 from __future__ import annotations
 
+import ast
 import re
 from collections.abc import Sequence
 
@@ -189,7 +190,29 @@ def other_node(source: Source, keyword: str, right: str) -> str | None:
 
 def commands(source: Source) -> list[Call]:
     """The processes that are started by a command instead of a Node(...)."""
-    return source.calls("ExecuteProcess") if not nodes(source) else []
+    used = [node for node in nodes(source) if not node.kept or source.uses(node.kept)]
+    return [] if used else source.calls("ExecuteProcess")
+
+
+def one_word(source: Source) -> Cause | None:
+    """Whether a command is given as one text, which is taken for the name of a program."""
+    for call in source.calls("ExecuteProcess"):
+        try:
+            words = ast.literal_eval(call.named.get("cmd", ""))
+        except (SyntaxError, ValueError):
+            continue
+        if isinstance(words, list) and len(words) == 1 and " " in str(words[0]) and "shell" not in call.named:
+            return Cause(
+                "command in one piece",
+                f"line {call.line}: cmd={call.named['cmd']} asks for a program that is called '{words[0]}', blanks "
+                "included",
+                "\n".join(
+                    f"line {each.line}: cmd={each.named['cmd'][2:-2].split()!r}"
+                    for each in source.calls("ExecuteProcess")
+                    if len(each.named.get("cmd", "").split(",")) == 1
+                ),
+            )
+    return None
 
 
 def _in_command(source: Source, cause: str, rule: str) -> Cause | None:

@@ -217,3 +217,35 @@ def test_what_cannot_be_read_leaves_the_plain_words() -> None:
     assert steps.namespace(UNREAD) is None
     assert steps.missing(UNREAD, "publisher") is None
     assert steps.remapping(UNREAD, "chatter") == "remappings=[('chatter', LaunchConfiguration('topic'))]"
+
+
+COMMANDS = """\
+def generate_launch_description():
+    topic = LaunchConfiguration('topic')
+    return LaunchDescription([
+        ExecuteProcess(cmd=['ros2', 'run', 'demo_nodes_py', 'talker']),
+        ExecuteProcess(cmd=['ros2', 'run', 'demo_nodes_py', 'listener']),
+    ])
+"""
+
+
+def test_commands_instead_of_nodes_are_remapped_in_the_command() -> None:
+    found = steps.topic(Source(COMMANDS), "chatter")
+    assert found is not None
+    assert found.hint == "in lines 4 and 5, at the end of cmd=[...]: '--ros-args', '-r', ['chatter:=', topic]"
+    assert steps.one_word(Source(COMMANDS)) is None
+
+
+def test_a_command_in_one_piece() -> None:
+    found = steps.one_word(
+        Source(
+            COMMANDS.replace("'ros2', 'run', 'demo_nodes_py', ", "'ros2 run demo_nodes_py ")
+            .replace("py 't", "py t")
+            .replace("py 'l", "py l")
+        )
+    )
+    assert found is not None
+    assert found.hint.splitlines() == [
+        "line 4: cmd=['ros2', 'run', 'demo_nodes_py', 'talker']",
+        "line 5: cmd=['ros2', 'run', 'demo_nodes_py', 'listener']",
+    ]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 
 from tests.cli.fake_engine import FAILURE
 from tutor.content import load_course
@@ -52,6 +53,8 @@ def test_a_verdict_is_said_in_words() -> None:
         "Cause: no spin: no callback ran",
         "Next step: call rclpy.spin(node)",
     ]
+    step = CriterionResult("rate", "Right", False, replace(FAILURE, hint="begin tick with:\nif off:\n    return"), 1.0)
+    assert speech.diagnosis(step)[-3:] == ["Next step: begin tick with:", "if off:", "    return"]
     assert speech.evidence(failed) == ["Evidence, 1 line:", "a line"]
     left_out = CriterionResult("echo", "It echoes", True, skipped("not judged, because `rate` did not pass"), 1.0)
     assert speech.diagnosis(left_out) == ["echo (bonus): skipped. Not judged, because rate did not pass."]

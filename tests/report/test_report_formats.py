@@ -231,3 +231,14 @@ def test_no_text_from_a_learner_breaks_a_format(text: str, line: str, status: St
         assert not re.search("[\x00-\x08\x0b-\x1f\x7f-\x9f]", rendered)
     assert_report_shape(json.loads(render(it, "json")))
     assert_junit(ElementTree.fromstring(render(it, "junit")))
+
+
+def test_the_code_of_a_next_step_keeps_its_lines() -> None:
+    """Whoever follows the step copies it: without its lines and their indentation, it is no Python."""
+    step = "begin tick (line 3) with:\nif not self.on:\n    return"
+    one = report(criterion("rate", failed("1 Hz", "2 Hz", Cause("wrong rate", "too fast", step))))
+    for kind in ("text", "markdown", "junit"):
+        lines = [line.strip("|") for line in render(one, kind).splitlines()]
+        at = next(i for i, line in enumerate(lines) if line.rstrip().endswith("if not self.on:"))
+        indented = len(lines[at]) - len(lines[at].lstrip())
+        assert lines[at + 1].removesuffix("</failure>").rstrip() == " " * (indented + 4) + "return", kind

@@ -84,10 +84,18 @@ def headline(criterion: CriterionResult) -> str:
 
 def diagnosis(criterion: CriterionResult) -> list[str]:
     """What there is to say about a criterion that was not passed."""
-    said = [(label.capitalize(), one_line(text, 1000).replace("`", "")) for label, text in details(criterion.verdict)]
+    found = details(criterion.verdict)
+    code = [line for label, text in found if label == "next step" for line in text.split("\n")[1:]]
+    said = [(label.capitalize(), _line(label, text)) for label, text in found]
     if criterion.verdict.status is Status.SKIPPED:  # there are many where one thing is wrong: a line each
         return [" ".join([headline(criterion), *(f"{text[:1].upper()}{text[1:]}." for _, text in said)])]
-    return [headline(criterion), f"The criterion: {criterion.text}.", *(f"{label}: {text}" for label, text in said)]
+    told = [f"{label}: {text}" for label, text in said]
+    return [headline(criterion), f"The criterion: {criterion.text}.", *told, *code]
+
+
+def _line(label: str, text: str) -> str:
+    """A part of a diagnosis in one line; the code of a next step, which has lines of its own, left out."""
+    return one_line(text.split("\n")[0] if label == "next step" else text, 1000).replace("`", "")
 
 
 def evidence(criterion: CriterionResult) -> list[str]:

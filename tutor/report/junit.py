@@ -66,7 +66,10 @@ def _case(suite: Element, exercise: ExerciseResult, criterion: CriterionResult) 
         outcome = SubElement(case, "error", type="could not be judged", message=message)
     else:
         outcome = SubElement(case, "failure", type=one_line(verdict.cause.partition(":")[0], 80), message=message)
-    lines = [one_line(criterion.text), *(f"{label}: {one_line(text, _LONGEST)}" for label, text in details(verdict))]
+    lines = [one_line(criterion.text)]
+    for label, text in details(verdict):
+        first, *code = text.split("\n") if label == "next step" else [text]
+        lines += [f"{label}: {one_line(first, _LONGEST)}", *code]
     lines += [f"  {line}" for line in evidence_lines(verdict)]
     outcome.text = "\n".join(lines)
 

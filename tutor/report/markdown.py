@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from html import escape as escape_html
 
 from tutor.judge.result import CriterionResult, ExerciseResult, Report
@@ -82,14 +82,22 @@ def _diagnosis(criterion: CriterionResult) -> Iterator[str]:
     yield f"<details{unfolded}><summary>{title}</summary>"
     yield ""
     for label, text in details(verdict):
-        yield f"- **{label}:** {escape(one_line(text, _LONGEST))}"
+        first, *code = text.split("\n") if label == "next step" else [text]
+        yield f"- **{label}:** {escape(one_line(first, _LONGEST))}"
+        if code:  # to be copied as it is
+            yield ""
+            yield from _fenced(code)
     if verdict.evidence:
-        evidence = evidence_lines(verdict)
-        longest = max((len(run) for line in evidence for run in re.findall("`+", line)), default=0)
-        fence = "`" * max(3, longest + 1)
         yield ""
-        yield f"{fence}text"
-        yield from evidence
-        yield fence
+        yield from _fenced(evidence_lines(verdict))
     yield ""
     yield "</details>"
+
+
+def _fenced(lines: Sequence[str]) -> Iterator[str]:
+    """The lines as a block of text in which nothing is markup."""
+    longest = max((len(run) for line in lines for run in re.findall("`+", line)), default=0)
+    fence = "`" * max(3, longest + 1)
+    yield f"{fence}text"
+    yield from lines
+    yield fence
