@@ -213,6 +213,15 @@ def test_packages_are_found_at_any_depth_but_not_within_others(use: Use, tmp_pat
     assert not any(map(packages.has, ("inner", "built", "off")))
 
 
+def test_a_folder_that_is_no_workspace_is_not_searched_through(use: Use, tmp_path: Path) -> None:
+    home = tmp_path / "home"
+    for name, at in (("near", "a"), ("far", "b/c/d")):
+        package(home / at, name)
+    use(write(home / "my_launch.py"))
+    assert packages.has("near")
+    assert not packages.has("far")
+
+
 def test_demo_nodes_in_cpp_that_are_not_built_do_not_hide_ours(use: Use, tmp_path: Path) -> None:
     write(tmp_path / "ws/src/demos/demo_nodes_cpp/package.xml", "<package><name>demo_nodes_cpp</name></package>")
     write(tmp_path / "ws/src/demos/demo_nodes_cpp/CMakeLists.txt")

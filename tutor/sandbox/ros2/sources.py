@@ -18,6 +18,7 @@ TEMPLATE = Path(__file__).resolve().parents[2] / "workspace" / "template" / "src
 _MARKER = ".ros-tutor"
 _RUN_SETUP_S = 10.0
 _DEEPEST = 5
+_NEAR = 2
 _MOST = 2000
 _BUILT = frozenset({"build", "install", "log", "node_modules", "venv"})
 _IGNORED = ("COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE")
@@ -78,11 +79,12 @@ def _folders(root: Path) -> Iterator[Path]:
     """The folders of packages in a folder, as colcon finds them: at any depth, but none within another.
 
     What is hidden, built or has a file COLCON_IGNORE is left out. A folder that is no workspace may be large, such as
-    the home folder: `_DEEPEST` levels are searched, and `_MOST` folders.
+    the home folder: it is searched `_NEAR` levels deep.
     """
     level = [root]
     seen = 0
-    for depth in range(_DEEPEST + 1):
+    is_workspace = root.name == "src" or (root / "src").is_dir() or (root / _MARKER).is_dir()
+    for depth in range((_DEEPEST if is_workspace else _NEAR) + 1):
         below: list[Path] = []
         for folder in level:
             if depth and (folder / "package.xml").is_file():
