@@ -45,7 +45,9 @@ def of_waits(trace: Trace, text: str) -> Cause | None:
                     "message. Or write rclpy.spin(node) instead of the loop",
                 )
     for function in source.callbacks(trace, "create_subscription"):
-        for nap in _naps(function):
+        # In a loop that waits for something, it is not the nap that keeps it.
+        waiting = {nap for loop in ast.walk(function) if isinstance(loop, ast.While) for nap in _naps(loop)}
+        for nap in (nap for nap in _naps(function) if nap not in waiting):
             return Cause(
                 "slow callback",
                 f"{text}, since its callback sleeps: line {nap.lineno}: {ast.unparse(nap)}",

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import ast
+import re
 from collections.abc import Sequence
 
 from checks.i1_3.facts import CLIENT, CLIENT_S, LATER_S, SERVER, SIGNS, Demonstration
@@ -70,6 +72,7 @@ def _why_not_called(seen: Demonstration, missing: Sequence[str]) -> Cause:
         )
     return (
         causes.incompatible_service(seen.clients)
+        or _returns_early(seen)
         or _unmet(seen, missing)
         or Cause(
             "not called",
@@ -92,11 +95,38 @@ def _why_hanging(seen: Demonstration, missing: Sequence[str]) -> Cause:
             f"the client waits for ever{where}: call() blocks the thread that would have to take in the answer",
             "use call_async() and rclpy.spin_until_future_complete(node, future), outside of callbacks",
         )
-    return _unmet(seen, missing) or Cause(
+    if (unmet := _unmet(seen, missing)) is not None:
+        return unmet
+    if own is not None and not missing and re.search(r"\bspin\(", own.code):
+        return Cause(
+            "did not end",
+            f"the client was still busy{where}: spin() goes on until someone presses Ctrl+C",
+            f"take {own.code} in line {own.line} out: the client has nothing more to wait for",
+        )
+    return Cause(
         "did not end",
         f"the client was still busy{where}" if where else "the client does not end by itself",
         "wait for each service, use call_async(), spin until its future is done, and return after the last answer",
     )
+
+
+def _returns_early(seen: Demonstration) -> Cause | None:
+    """Whether it made the first call only, and a return stands in the loop over its calls."""
+    assert seen.trace is not None
+    if len(seen.served) != 1:
+        return None
+    for loop in source.nodes(seen.trace):
+        if not isinstance(loop, ast.For) or len(loop.body) < 2 or not isinstance(loop.body[-1], ast.Return):
+            continue
+        step = loop.body[-1]
+        return Cause(
+            "return in the loop",
+            f"line {step.lineno}: {ast.unparse(step)} ends the loop with its first turn, after "
+            f"{seen.served[0].service}",
+            f"indent line {step.lineno} ({ast.unparse(step)}) less, as deep as the for in line {loop.lineno}, so that "
+            "it comes after the loop",
+        )
+    return None
 
 
 def _unmet(seen: Demonstration, missing: Sequence[str]) -> Cause | None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 from checks.i1_3.facts import (
@@ -17,7 +18,7 @@ from checks.i1_3.facts import (
     missing_of,
     right_result,
 )
-from tutor.judge import causes, ending, source
+from tutor.judge import causes, ending, source, tracebacks
 from tutor.judge.trace import CallAnswer, Service, Trace
 from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped
 
@@ -100,7 +101,7 @@ def judge_operations(seen: Calls) -> Verdict:
             return failed(
                 f"{question} = {right}",
                 f"{answer.response['sum']}",
-                _why_wrong(answer, right),
+                _negatives_refused(answer, seen.answers) or _why_wrong(answer, right),
                 [f"{name} answered {result}" for name, result in _answered(seen.of(answer.service))],
             )
     if late := _never_called(seen):
@@ -116,6 +117,24 @@ def _answered(answers: Sequence[CallAnswer]) -> list[tuple[str, Any]]:
         for a in answers
         if a.response is not None
     ]
+
+
+def _negatives_refused(answer: CallAnswer, answers: Sequence[CallAnswer]) -> Cause | None:
+    """Whether the service answers the same to whatever has a negative operand, and else rightly."""
+    negative: list[tuple[int, int]] = []
+    others: list[tuple[int, int]] = []
+    for each in answers:
+        if each.service == answer.service and each.response is not None:
+            of = negative if min(each.request["a"], each.request["b"]) < 0 else others
+            of.append((each.response["sum"], right_result(each.service, each.request["a"], each.request["b"])))
+    same = len({got for got, _ in negative}) == 1 and len({right for _, right in negative}) > 1
+    if len(negative) < 2 or not others or not same or any(got != right for got, right in others):
+        return None
+    return Cause(
+        "negative operands refused",
+        f"{answer.service} answers {negative[0][0]} whenever an operand is negative, and rightly where none is",
+        "take the test for negative numbers out of the callback: it computes with them as with any others",
+    )
 
 
 def _why_wrong(answer: CallAnswer, right: int) -> Cause:
@@ -144,6 +163,24 @@ def _why_wrong(answer: CallAnswer, right: int) -> Cause:
     return Cause("wrong result", f"{got} instead of {right}", f"look at the callback of {name}")
 
 
+def _not_caught(trace: Trace) -> Cause | None:
+    """Why the process ended with a division by zero; of a ZeroDivisionError, with the line to write above it."""
+    cause, found = causes.of_process(trace), tracebacks.last(trace)
+    own = found.own(trace.folder) if found else None
+    if cause is None or found is None or own is None or found.type != "ZeroDivisionError":
+        return cause
+    function = source.function_at(trace, own.name, own.line)
+    if function is None or len(function.args.args) < 2:
+        return cause
+    *before, request, response = (each.arg for each in function.args.args)
+    logger = f"{before[0]}.get_logger()" if before else "rclpy.logging.get_logger('calculator')"
+    return replace(
+        cause,
+        hint=f"above line {own.line}, with the same indentation: if {request}.b == 0: {logger}.error('division by "
+        f"zero'); {response}.sum = 0; return {response}",
+    )
+
+
 def judge_division(seen: Division) -> Verdict:
     expected = "dividing by zero gets an answer, the node says that it is an error, and the next calls go well"
     if seen.before is None or seen.before.response is None or seen.by_zero is None:
@@ -154,7 +191,7 @@ def judge_division(seen: Division) -> Verdict:
             causes.last_words(seen.trace),
         )
     if seen.by_zero.response is None:
-        cause = causes.of_process(seen.trace) or Cause(
+        cause = _not_caught(seen.trace) or Cause(
             "no answer", "the callback does not answer when b is 0", "return the response in that case too"
         )
         return failed(

@@ -1364,6 +1364,11 @@ def test_who_is_kept_waiting_by_its_own_sleep_is_told_so_by_each_criterion() -> 
         assert_failed(verdict, "slow callback", "time.sleep(0.2) in line 8")
 
 
+def test_a_nap_in_a_loop_that_waits_is_not_what_keeps_the_callback() -> None:
+    waits = SLEEPS.replace("        time.sleep", "        while not self.total: time.sleep")
+    assert not any("slow callback" in verdict.cause for verdict in checked(Counter, waits, late_s=1.6).values())
+
+
 def test_who_sleeps_but_keeps_up_is_told_what_else_is_wrong() -> None:
     for node in (CountsFromOne, FirstOverwritten, GapBlind, OneLineEach):
         assert not any("slow" in verdict.cause for verdict in checked(node, SLEEPS).values())

@@ -463,6 +463,62 @@ def test_a_client_that_asks_for_its_service_is_not_told_to(text: str) -> None:
         assert "not waited" not in judge_client(seen).cause
 
 
+LOOP = """
+def run(self):
+    for name in NAMES:
+        client = self.create_client(AddTwoInts, name)
+        client.wait_for_service()
+        future = client.call_async(AddTwoInts.Request())
+        rclpy.spin_until_future_complete(self, future)
+        return future.result().sum
+"""
+
+
+def test_who_returns_from_the_loop_is_told_so() -> None:
+    assert_failed(judge_client(asking(LOOP, SERVED[:1])), "return in the loop", "line 8", "for in line 3")
+    assert_failed(judge_client(asking(LOOP.replace("return", "print"), SERVED[:1])), "not called")
+    assert_failed(judge_client(asking(LOOP, SERVED[:3])), "not called")
+
+
+def test_who_spins_after_the_last_call_is_told_to_take_that_out() -> None:
+    spins = (frame("spin", "/venv/rclpy/__init__.py"), frame("main", line=31, code="rclpy.spin(node)"))
+    assert_failed(judge_client(asking(WAITS, SERVED, None, stuck=spins)), "did not end", "rclpy.spin(node) in line 31")
+
+
+DIVIDES = """
+class Calculator(Node):
+    def __init__(self):
+        super().__init__('calculator')
+
+    def divide(self, req, resp):
+        self.get_logger().info('divide')
+        # // keeps it whole
+
+
+
+
+        resp.sum = req.a // req.b
+        return resp
+"""
+BY_ZERO = CRASH.replace("AttributeError: 'Sensor' object has no attribute 'nothing'", "ZeroDivisionError: by zero")
+
+
+def test_a_division_that_nothing_guards_is_told_what_to_write_above_it() -> None:
+    crashed = trace(graph=ALL, err=BY_ZERO, exit=exited(1), sources={"node.py": DIVIDES})
+    seen = Division(crashed, right("/divide", 84, 7), called("/divide", 10, 0, None))
+    guard = "above line 12, with the same indentation: if req.b == 0: self.get_logger().error("
+    assert_failed(judge_division(seen), "unhandled exception", guard, "resp.sum = 0; return resp")
+
+
+def test_a_server_that_refuses_negative_operands() -> None:
+    def refuse(service: str, a: int, b: int) -> CallAnswer:
+        return called(service, a, b, 0) if min(a, b) < 0 else right(service, a, b)
+
+    asked = [("/add", 6, 3), ("/add", -40, 4), ("/add", 50, -5), ("/add", 7, 7)]
+    seen = Calls(SERVING, tuple(refuse(*each) for each in asked))
+    assert_failed(judge_operations(seen), "negative operands refused", "/add answers 0")
+
+
 def test_who_crashes_of_itself_is_told_of_that() -> None:
     assert_failed(judge_client(asking(ASKS, code=1, err=CRASH)), "unhandled exception", "line 12")
 

@@ -88,6 +88,16 @@ def comparisons(trace: Trace, value: object) -> list[ast.If]:
     return sorted(found, key=lambda each: each.lineno)
 
 
+def function_at(trace: Trace, file: str, line: int) -> ast.FunctionDef | ast.AsyncFunctionDef | None:
+    """The innermost function of the file that this line is in."""
+    found = [
+        node
+        for node in ast.walk(_parsed(trace.sources.get(file, "")))
+        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef) and node.lineno <= line <= (node.end_lineno or 0)
+    ]
+    return max(found, key=lambda node: node.lineno, default=None)
+
+
 def called(call: ast.Call) -> str:
     """The last part of the name of what is called; empty where it has none."""
     return _name(call.func)
