@@ -12,7 +12,7 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from tutor.ros.domain import participants_here
 from tutor.sandbox.ros2.errors import CommandError
@@ -22,13 +22,20 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 
-LIMIT_S = 3.0
-"""The longest wait for participants whose ports are there, but who do not answer."""
+LIMIT_S = 4.0
+"""The longest wait for participants whose ports are there, but who do not answer.
+
+Where the answer to our announcement is lost, the next announcement of theirs comes within 3 s.
+"""
 
 _POLL_S = 0.01
 _QUIET_S = 0.05  # what belongs together arrives within milliseconds
+_SURE_QUIET_S = 0.2  # before it is said that something is not there
 _LONG_QUIET_S = 1.5  # a DDS program that is no ROS node never gets a node's name
+_UNCOUNTED_QUIET_S = 0.5  # where it cannot be known how many there are
+_SLOW_QUIET_S = 1.0  # the longest, where all comes slowly
 _UNKNOWN = "_NODE_NAME_UNKNOWN_"
+_HOST = 4  # so many bytes of a participant's id are those of its machine
 _BOOKKEEPING = "ros_discovery_info"  # the DDS topic on which each participant says which nodes it has
 
 
@@ -93,25 +100,28 @@ class Domain:
 
     def complete(self) -> None:
         """Wait until everything that is on the domain has been seen."""
-        self.find(lambda: None)
+        self._until(lambda: None, _QUIET_S)
 
     def find(self, look: Callable[[], T | None]) -> T | None:
         """What `look` gives, as soon as it is not None; None where it is not there, which all has been seen for."""
+        return self._until(look, _SURE_QUIET_S)
+
+    def _until(self, look: Callable[[], T | None], least_quiet_s: float) -> T | None:
         start = changed = polled = time.monotonic()
-        seen: object = None
-        longest_poll, late_s = _POLL_S, 0.0
+        seen = self._view()
+        slowest_s, late_s = _POLL_S, 0.0
         while True:
             if (found := look()) is not None:
                 return found
             now = time.monotonic()
             # Where we are kept from running, so are those threads of ours to which the others talk.
-            longest_poll = max(longest_poll, now - polled)
             late_s += max(0.0, now - polled - 2 * _POLL_S)
-            polled = now
+            slowest_s, polled = max(slowest_s, now - polled), now
             if (sees := self._view()) != seen:
+                slowest_s = max(slowest_s, now - changed)  # what comes slowly may have more to come
                 seen, changed = sees, now
             quiet_s = now - changed
-            if quiet_s >= max(_QUIET_S, 2 * longest_poll) and self._all_are_met(quiet_s):
+            if quiet_s >= max(least_quiet_s, min(2 * slowest_s, _SLOW_QUIET_S)) and self._all_are_met(quiet_s):
                 return look()
             if now - start - late_s >= self.limit_s:
                 return look()
@@ -131,20 +141,19 @@ class Domain:
         met = self._participants()
         expected = participants_here(self.node.context.get_domain_id())
         if expected is None:
-            return quiet_s >= _LONG_QUIET_S
+            return quiet_s >= _UNCOUNTED_QUIET_S
         if len(met) < expected:
             return False
         return quiet_s >= _LONG_QUIET_S or self._all_have_names()
 
     def _participants(self) -> set[bytes]:
-        """Those of this machine, ourselves included: the first half of a participant's id tells its machine."""
-        ids = [
-            bytes(info.endpoint_gid[:12])
-            for info in self.node.get_publishers_info_by_topic(_BOOKKEEPING, no_mangle=True)
-        ]
-        own = self.node.get_publishers_info_by_topic("/rosout")
-        host = next((bytes(info.endpoint_gid[:4]) for info in own if info.node_name == self.node.get_name()), None)
-        return {each for each in ids if host is None or each[:4] == host}
+        """Those of this machine, ourselves included, of which something that they publish and subscribe to is known."""
+        node = self.node
+        asks = (node.get_publishers_info_by_topic, node.get_subscriptions_info_by_topic)
+        senders, readers = ({_id(info) for info in ask(_BOOKKEEPING, no_mangle=True)} for ask in asks)
+        own = (_id(info) for info in node.get_publishers_info_by_topic("/rosout") if info.node_name == node.get_name())
+        host = next((each[:_HOST] for each in own), b"")
+        return {each for each in senders & readers if each.startswith(host)}
 
     def _all_have_names(self) -> bool:
         return not any(
@@ -153,3 +162,8 @@ class Domain:
             for ask in (self.node.get_publishers_info_by_topic, self.node.get_subscriptions_info_by_topic)
             for info in ask(topic)
         )
+
+
+def _id(info: Any) -> bytes:
+    """The id of the participant that an endpoint belongs to."""
+    return bytes(info.endpoint_gid[:12])

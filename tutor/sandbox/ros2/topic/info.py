@@ -20,10 +20,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def main(arguments: argparse.Namespace) -> None:
     """Print what is known about the topic. Raises CommandError where there is none of this very name."""
     with joined(arguments) as domain:
-        domain.complete()
-        types = dict(topics(domain, hidden=True)).get(arguments.topic_name)
+        types = domain.find(lambda: dict(topics(domain, hidden=True)).get(arguments.topic_name))
         if types is None:
             raise CommandError(f"Unknown topic '{arguments.topic_name}'")
+        domain.complete()
         _print(domain, arguments.topic_name, types[0] if len(types) == 1 else types, arguments.verbose)
 
 
