@@ -14,6 +14,8 @@ from tests.engine.made import FILE, PUBLISHES, WAITS, Scene, node
 from tutor.engine.errors import EngineError
 from tutor.judge import tracebacks
 from tutor.judge.bench import Run
+from tutor.judge.causes import of_process
+from tutor.judge.exceptions import parse
 
 CHATTER = {"/chatter": "std_msgs/msg/String"}
 ADD = "example_interfaces/srv/AddTwoInts"
@@ -316,3 +318,13 @@ async def test_of_those_that_wait_the_one_that_asks_for_longer_starts_first(scen
         up()
         await asyncio.gather(*waiting)
     assert began == [7.0, 2.0, 0.5]
+
+
+async def test_the_known_exceptions_of_a_check_reach_its_judges(scene: Scene) -> None:
+    known = parse('[[known]]\ntype = "ValueError"\nsays = "x"\nstep = "in line {number}: our own words"')
+    bench = replace(scene.bench("raise ValueError('no')"), exceptions=known)
+    async with bench.start(FILE) as run:
+        await run.ends(UP_S)
+        cause = of_process(run.trace())
+    assert cause is not None
+    assert cause.hint == "in line 1: our own words"

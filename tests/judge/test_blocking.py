@@ -37,8 +37,8 @@ MAIN = (rclpy("spin", thread=2), own(42, "executor.spin()", "main", 2))
             (rclpy("call", "client"), own(31, "response = self.cli.call(request)"), *WORKER, *MAIN),
             "deadlock by call()",
             "line 31",
-            "line 31 becomes: response = await self.cli.call_async(request) (with async def tick(...)); give line 2 "
-            "callback_group=self.group, with",
+            "line 31 becomes: response = await self.cli.call_async(request) (with async in front of def tick(...)); "
+            "give line 2 callback_group=self.group, with",
         ),
         (
             node("self.cli = self.create_client(A, 'add')", "executor = MultiThreadedExecutor()"),
@@ -52,8 +52,8 @@ MAIN = (rclpy("spin", thread=2), own(42, "executor.spin()", "main", 2))
             (rclpy("spin_once"), own(9, "rclpy.spin_until_future_complete(self, future)"), *WORKER, *MAIN),
             "blocked executor",
             "line 9",
-            "line 9 becomes: await future (with async def tick(...)); write ReentrantCallbackGroup() in place of "
-            "MutuallyExclusiveCallbackGroup() in line 1",
+            "line 9 becomes: await future (with async in front of def tick(...)); write ReentrantCallbackGroup() in "
+            "place of MutuallyExclusiveCallbackGroup() in line 1",
         ),
         (
             node(),
@@ -122,6 +122,13 @@ def test_what_holds_it_up(seen: Trace, stuck: tuple[Frame, ...], cause: str, wor
     assert words in found.text
     assert "line 42" not in found.text  # main() is where it should be
     assert step in found.hint
+
+
+def test_what_is_taken_of_an_answer_is_taken_once_it_is_there() -> None:
+    code = "r.sum = c.call(AddTwoInts.Request(a=q.a, b=-q.b)).sum"
+    found = of_blocked(node(), (rclpy("call", "client"), own(3, code), *WORKER))
+    assert found is not None
+    assert "r.sum = (await c.call_async(AddTwoInts.Request(a=q.a, b=-q.b))).sum" in found.hint
 
 
 def test_a_node_that_was_never_seen_to_spin_is_not_blocked() -> None:

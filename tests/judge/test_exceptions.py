@@ -7,6 +7,9 @@ from pathlib import Path
 
 import pytest
 
+from tests.checks.made import exited, trace
+from tests.judge.real import crash
+from tutor.judge.causes import of_process
 from tutor.judge.exceptions import Example, Known, Seen, TableError, find, load, parse, shipped
 from tutor.judge.tracebacks import Frame, Traceback
 
@@ -106,6 +109,15 @@ def test_what_is_said_names_the_line_and_what_it_led_to() -> None:
     example = Example("ValueError: 5", "", line="int(x)")
     found = find(seen(example), parse(ENTRY), cause=OWN, after="; then it ended")
     assert str(found) == f"{OWN}: ValueError: 5 (node.py, line 1: int(x)); then it ended: no"
+
+
+def test_the_entries_of_a_check_come_before_those_of_the_program() -> None:
+    crashed = trace(err=crash("raise ValueError('rate')"), exit=exited(1))
+    (own,) = parse(ENTRY)
+    found = of_process(replace(crashed, exceptions=(own,)))
+    assert found is not None
+    assert found.hint == "do"
+    assert of_process(crashed) != found
 
 
 def test_an_entry_that_asks_for_a_line_does_not_fit_where_there_is_none() -> None:

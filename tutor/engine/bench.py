@@ -15,6 +15,7 @@ from tutor.engine.admission import Admission
 from tutor.engine.errors import EngineError
 from tutor.engine.run import Facts, LiveRun
 from tutor.judge.bench import Run, Scenario
+from tutor.judge.exceptions import Known
 from tutor.judge.submission import Submission
 from tutor.process import LearnerProcess, ProcessError
 from tutor.ros.domain import NoFreeDomain, reserve_domain
@@ -41,7 +42,7 @@ class LiveBench:
     """The `Bench` of `tutor.judge.bench` for one scenario.
 
     `asks_s`: how many seconds of the clock its check asks for; where several are to start, the longest goes first (a
-    start may say how many it asks for itself).
+    start may say how many it asks for itself). `exceptions`: the check's own known ones.
     """
 
     submission: Submission
@@ -50,6 +51,7 @@ class LiveBench:
     tell: Callable[[float, str], None]
     admission: Admission = field(default_factory=Admission)
     asks_s: float = 0.0
+    exceptions: tuple[Known, ...] = ()
 
     @asynccontextmanager
     async def start(
@@ -136,7 +138,7 @@ class LiveBench:
                 async with await LearnerProcess.start(
                     argv, env=env, cwd=path.parent, terminal=terminal, on_change=facts.change
                 ) as process:
-                    yield LiveRun(path, parameters, domain_id, process, observer, facts)
+                    yield LiveRun(path, parameters, domain_id, process, observer, facts, self.exceptions)
             finally:
                 observer.close()
 

@@ -10,6 +10,7 @@ from types import ModuleType
 from tutor.content import Lesson
 from tutor.engine.errors import EngineError
 from tutor.judge.check import Check
+from tutor.judge.exceptions import TableError
 
 
 def load_check(lesson: Lesson) -> Check:
@@ -20,7 +21,10 @@ def load_check(lesson: Lesson) -> Check:
     source = lesson.check
     if not source.is_file():
         raise EngineError(f"there is no check for {lesson.id}: {source} is missing", f"write {source}")
-    check = getattr(_module(lesson.folder.name, source), "CHECK", None)
+    try:
+        check = getattr(_module(lesson.folder.name, source), "CHECK", None)
+    except TableError as error:
+        raise EngineError(f"the check of {lesson.id} has a table that cannot be used: {error}", "fix it") from error
     if not isinstance(check, Check):
         raise EngineError(f"{source} defines no CHECK", "assign a tutor.judge.check.Check to CHECK there")
     return check

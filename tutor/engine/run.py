@@ -19,6 +19,7 @@ from tutor.engine.errors import EngineError
 from tutor.engine.source import launch_arguments, sources, uncalled_main
 from tutor.judge import tracebacks
 from tutor.judge.bench import Handler
+from tutor.judge.exceptions import Known
 from tutor.judge.trace import (
     CallAnswer,
     Echo,
@@ -85,7 +86,9 @@ class LiveRun:
         process: LearnerProcess,
         observer: Observer,
         facts: Facts,
+        exceptions: tuple[Known, ...] = (),
     ) -> None:
+        self._exceptions = exceptions
         self._path = path
         self._given = dict(given)
         self._domain_id = domain_id
@@ -299,6 +302,7 @@ class LiveRun:
             file=self._path.name,
             folder=str(self._path.parent),
             **self._source,
+            exceptions=self._exceptions,
             parameters=self._given,
             started_at=self.started_at,
             samples={topic: tuple(samples) for topic, samples in self._observer.samples.items()},

@@ -78,7 +78,8 @@ class Runner:
             def tell(fraction: float, text: str) -> None:
                 self._tell(scenario, fraction, text)
 
-            bench = LiveBench(self._submission, self._ros, self._ask, tell, self._admission, self._check.asks_s)
+            known = self._check.exceptions
+            bench = LiveBench(self._submission, self._ros, self._ask, tell, self._admission, self._check.asks_s, known)
             self._scenarios[scenario] = asyncio.ensure_future(scenario(bench))
         return self._scenarios[scenario]
 

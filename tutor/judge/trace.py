@@ -9,7 +9,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import IntEnum
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from tutor.judge.exceptions.table import Known
 
 
 class Level(IntEnum):
@@ -194,6 +197,7 @@ class Trace:
     were not kept. `uncalled_main`: the file defines `main` and calls it nowhere; `launch_arguments`: the names
     that it declares as launch arguments; `sources`: the text of the file, and of those beside it that it imports, by
     file name (all three for the words of a diagnosis, never for a verdict: see `tutor.judge.source`).
+    `exceptions`: known ones of the check's own.
     """
 
     file: str
@@ -201,6 +205,7 @@ class Trace:
     uncalled_main: bool = False
     launch_arguments: tuple[str, ...] = ()
     sources: Mapping[str, str] = field(default_factory=dict)
+    exceptions: tuple[Known, ...] = ()
     parameters: Mapping[str, Any] = field(default_factory=dict)
     started_at: float = 0.0
     samples: Mapping[str, tuple[Sample, ...]] = field(default_factory=dict)

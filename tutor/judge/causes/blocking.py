@@ -101,14 +101,25 @@ def _of_call(trace: Trace, at: Frame | None) -> Cause:
     several = source.mentions(trace, "MultiThreadedExecutor")
     becomes = ""
     if at is not None and ".call(" in at.code:
-        becomes = re.sub(r"((?:\w+\.)*\w+)\.call\(", r"await \1.call_async(", at.code)
-        becomes = f"line {at.line} becomes: {becomes} ({_as_coroutine(trace, at)}); "
+        becomes = f"line {at.line} becomes: {_awaited(at.code)} ({_as_coroutine(trace, at)}); "
     return Cause(
         names.DEADLOCK,
         f"the callback waits for another service's answer{where}, which cannot come: the executor is busy with this "
         "callback",
         ("" if several else becomes or "use await client.call_async(request), in an async def; ") + in_groups(trace),
     )
+
+
+def _awaited(code: str) -> str:
+    """A line with `client.call(request)`, with `await client.call_async(request)` in its place."""
+    found = re.search(r"((?:\w+\.)*\w+)\.call\(", code)
+    assert found is not None
+    depth, end = 1, found.end()
+    while depth and end < len(code):
+        depth += {"(": 1, ")": -1}.get(code[end], 0)
+        end += 1
+    call = f"await {found[1]}.call_async({code[found.end() : end]}"
+    return code[: found.start()] + (f"({call})" if code[end:].startswith(".") else call) + code[end:]
 
 
 def _of_spinning(trace: Trace, at: Frame) -> Cause:
@@ -200,7 +211,7 @@ def _as_coroutine(trace: Trace, at: Frame) -> str:
     """How the function that this line is in becomes one that may await."""
     if any(isinstance(each, ast.AsyncFunctionDef) and each.name == at.function for each in source.nodes(trace)):
         return f"{at.function} is async def already"
-    return f"with async def {at.function}(...)"
+    return f"with async in front of def {at.function}(...)"
 
 
 def in_threads(trace: Trace) -> str:

@@ -44,7 +44,7 @@ def _known(each: Traceback, last: Traceback, trace: Trace) -> Cause | None:
     file = own.name if own and own.name in trace.sources else trace.file
     seen = exceptions.Seen(each, trace.folder, own, file, trace.sources.get(file, ""))
     # Whatever the program raises itself, on account of another exception, tells less than that one.
-    table = exceptions.shipped() if each is last.origin else [k for k in exceptions.shipped() if k.type != ".*"]
+    table = [k for k in (*trace.exceptions, *exceptions.shipped()) if k.type != ".*" or each is last.origin]
     found = exceptions.find(seen, table, cause=names.UNHANDLED_EXCEPTION, after=_after(each, last))
     if found is None and each.type.endswith("InvalidParameterTypeException"):
         return parameters.of_types(_told(each, last, trace))
