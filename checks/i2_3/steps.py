@@ -140,6 +140,8 @@ def apart(source: Source) -> str | None:
     working = service(source)
     if working is None:
         return None
+    if (callback := _works(source)) is not None and (held := re.search(r"with (self\.\w+):", callback.code)):
+        return f"leave `{held[0]}` out of {callback.name} (line {callback.line}): it lets in one call at a time"
     group, steps = working.named.get(_GROUP, ""), []
     made = next((each for each in source.assignments(group) if "CallbackGroup" in each.value), None) if group else None
     imported = "" if source.imports("ReentrantCallbackGroup") else _IMPORT

@@ -187,6 +187,7 @@ def test_a_lock_that_both_hold() -> None:
         ("        self.count += 1\n", "        with self.lock:\n            self.count += 1\n"),
     )
     assert str(steps.lock(locked)).startswith("leave `with self.lock:` out of tick")
+    assert str(steps.apart(locked)).startswith("leave `with self.lock:` out of add (line 17)")
 
 
 def test_what_cannot_be_read_leaves_the_plain_words() -> None:
