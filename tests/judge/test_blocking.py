@@ -67,7 +67,7 @@ MAIN = (rclpy("spin", thread=2), own(42, "executor.spin()", "main", 2))
             (own(8, "with self.lock:"), *WORKER, *MAIN),
             "blocked executor",
             "waits for self.lock",
-            "line 1: threading.RLock() in place of threading.Lock()",
+            "threading.RLock() in place of threading.Lock() in line 1",
         ),
         (
             node("self.lock = threading.Lock()"),

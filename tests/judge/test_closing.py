@@ -106,3 +106,5 @@ def test_leaving_out_what_needs_ros() -> None:
     line = Frame(f"{FOLDER}/node.py", 7, "main", "node.get_logger().info('bye')")
     assert closing.leaving_out(line).startswith("leave out line 7, node.get_logger().info('bye')")
     assert "stop before that" in closing.leaving_out(spin(7))
+    broken = Frame(f"{FOLDER}/node.py", 9, "slow_add", "raise RuntimeError('interrupted')")
+    assert closing.leaving_out(broken).startswith("write return in place of line 9")

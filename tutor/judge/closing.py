@@ -82,8 +82,15 @@ def returning(trace: Trace) -> str:
     return "return normally from main() after Ctrl+C; call no sys.exit() with another code"
 
 
+def raises(own: Frame | None) -> bool:
+    """Whether the line raises an exception by itself."""
+    return own is not None and own.code.startswith("raise")
+
+
 def leaving_out(own: Frame | None) -> str:
-    """What to do about a line that needs ROS when it is shut down already."""
+    """What to do about a line that raises, or that needs ROS when it is shut down already."""
+    if own is not None and raises(own):
+        return f"write return in place of line {own.line}, {own.code}: Ctrl+C is a normal end, and no error"
     if own is None or re.search(r"\bspin\w*\(", own.code):
         return "after Ctrl+C the node can neither publish nor log over ROS: stop before that, or catch the exception"
     return (

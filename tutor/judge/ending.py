@@ -157,5 +157,5 @@ def _of_traceback(found: tracebacks.Traceback, trace: Trace) -> Cause:
     return Cause(
         "traceback on exit",
         f"{found.raised}" + (f" ({own})" if own else ""),
-        known.hint if known else closing.leaving_out(own),
+        known.hint if known and not closing.raises(own) else closing.leaving_out(own),
     )

@@ -155,12 +155,13 @@ def _of_lock(trace: Trace, stuck: Sequence[Frame], at: Frame) -> Cause:
             f"take line {holders[0].line} out of the lock: what takes long goes above `with {lock}:`, or below it with "
             "less indentation",
         )
-    line = f"line {made.lineno}: threading.RLock() in place of threading.Lock(), which" if made else "an RLock, which"
+    where = f" in line {made.lineno}" if made else ""
     return Cause(
         names.BLOCKED_EXECUTOR,
         f"a callback waits for {lock}, at {at}, for ever: it is held already, by the same callback or by one that did "
         "not release it",
-        f"use {line} one thread may take twice; and with {lock}: in place of acquire() and release()",
+        f"write threading.RLock() in place of threading.Lock(){where}: one thread may take it twice; and with {lock}: "
+        "in place of acquire() and release()",
     )
 
 
