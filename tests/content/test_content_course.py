@@ -98,3 +98,16 @@ def test_every_item_of_a_lesson_is_shown_by_one_of_its_criteria() -> None:
     for lesson in lessons():
         assert set(lesson.checklist) == {item for criterion in lesson.criteria for item in criterion.shows}, lesson.id
     assert load_course().checklist.ready_title == "Ready for Advanced?"
+
+
+def test_no_line_of_a_skeleton_is_wider_than_the_code_page_of_the_app() -> None:
+    """72 columns: at 120x36 the page has 80, of which line numbers and scrollbar take some."""
+    skeletons = [file.skeleton for lesson in load_course().lessons for file in lesson.files]
+    assert skeletons
+    wide = [
+        f"{path}:{number}"
+        for path in skeletons
+        for number, line in enumerate(path.read_text().splitlines(), start=1)
+        if len(line) > 72
+    ]
+    assert not wide

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -132,8 +133,7 @@ async def test_a_check_goes_on_while_another_lesson_is_read(learner: Any) -> Non
         await me.sees("I1.3  Calculator Service", "checking I1.1")
         await me.told(*made.ending(made.GOOD))
         me.desk.engine.close()
-        await me.sees("I1.1 passed.")
-        assert me.criterion("rate").startswith("○ rate")
+        await me.sees("I1.1 passed.", "○ Criteria  publishes, range, rate")
 
 
 async def test_quitting_ends_the_check(learner: Any) -> None:
@@ -219,3 +219,55 @@ async def test_after_a_restart_the_last_check_is_told(tmp_path: Path) -> None:
         await me.sees("Criteria", "last check today", "2 of 3 met", "✓ publishes", "○ rate")
         await me.press("down", "down", "down", "enter")
         await me.sees("Not met at the last check, today", "Press c")
+
+
+LONG = replace(
+    made.BAD,
+    expected="a rate that can be set: " + "words " * 20,
+    hint="Change this " + "and that in the same place " * 11 + "and then check again.",
+)
+
+
+async def test_the_next_step_comes_first_and_is_in_sight_whole_with_no_note_over_it(learner: Any) -> None:
+    async with learner((120, 36)) as me:
+        await begin(me)
+        await me.told(*made.ending(LONG))
+        await me.sees("Next step  Change this", "then check again.", "Cause")
+        me.main.say("A note that is as long as notes are. " * 5)
+        await me.sees("A note that", "Next step  Change this", "check again.", "Cause")
+        lines = me.screen().split("\n")
+        step, cause = (next(n for n, line in enumerate(lines) if word in line) for word in ("Next step", "Cause"))
+        assert step < cause
+        assert "✗ failed" not in me.screen()
+        assert "passed  " not in me.criterion("publishes")
+
+
+async def test_a_hint_begins_with_what_failed_and_goes_on_with_the_general_ones(learner: Any) -> None:
+    async with learner() as me:
+        await begin(me)
+        await me.told(*made.ending(made.BAD))
+        await me.sees("Next step")
+        await me.press("h")
+        await me.sees("I1.1: a hint for what failed", "✗ rate", "Declare it.", "h: general hint")
+        assert "Think of a timer." not in me.screen()
+        await me.press("h")
+        await me.sees("hint 1 of 3", "Declare it.", "Think of a timer.")
+        await me.press("escape", "h")
+        await me.sees("hint 1 of 3", "Declare it.", "Think of a timer.")
+
+
+async def test_while_reading_the_unchecked_criteria_are_one_line_that_opens(learner: Any) -> None:
+    async with learner() as me:
+        whole = "Float64 messages arrive on /sensor/temperature"
+        await me.sees("○ Criteria  publishes, range, rate, 1 bonus", "5 opens")
+        assert whole not in me.screen()
+        await me.press("5")
+        await me.sees(whole, "not checked yet")
+        await me.press("1")
+        await me.sees_no(whole)
+        await me.press("2")
+        await me.sees(whole)
+        await me.press("1")
+        await begin(me)
+        await me.told(*made.ending(made.BAD))
+        await me.sees("Next step", "✗ rate")

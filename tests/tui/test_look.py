@@ -7,19 +7,17 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from textual.binding import Binding
 from textual.color import Color
 from textual.css.stylesheet import Stylesheet
 from textual.events import Paste
-from textual.widgets import Static
 from textual.widgets._footer import FooterKey
 from textual.widgets.markdown import MarkdownBlock
 
 from tests.tui import made
+from tutor.tui.screens.help import KeyTable
 from tutor.tui.screens.layout import Criteria, Layout, layout_for
 from tutor.tui.themes import DARK, GROUNDS, INKS, LIGHT
 from tutor.tui.widgets.criteria import CriteriaPanel
-from tutor.tui.widgets.editor import CodeEditor
 
 SIZES = [(120, 36), (80, 24)]
 
@@ -147,16 +145,24 @@ async def test_the_focus_moves_its_frame_and_leaves_the_text_and_the_keys_alone(
         assert [*me.main.query(FooterKey)] == keys
 
 
+async def test_the_header_says_how_far_i_am(learner: Any) -> None:
+    async with learner() as me:
+        await me.until(lambda: "0 of 3 passed" in me.screen().partition("\n")[0])
+        await me.pilot.resize_terminal(80, 24)
+        await me.until(lambda: "0/3" in me.screen().partition("\n")[0])
+
+
 async def test_help_names_every_key(learner: Any) -> None:
     async with learner() as me:
         await me.press("question_mark")
-        await me.sees("Run your node in your own ROS domain", "Stop everything and leave", "Ctrl+P")
-        help = "\n".join(str(part.render()) for part in me.app.screen.query(Static))
-        editing = {binding.key for binding in CodeEditor.BINDINGS if isinstance(binding, Binding)}
-        assert {key for key in ("ctrl+f", "ctrl+a", "ctrl+home", "ctrl+end") if key not in editing} == set()
+        await me.sees("Run your node in your own ROS domain", "Ctrl+P")
+        tables = me.app.screen.query(KeyTable)
+        help = "\n".join(str(table.render()) for table in tables)
+        assert "Stop everything and leave" in help
         assert not [key for key in ("Ctrl+F", "Ctrl+G", "Ctrl+A", "Ctrl+Home", "Ctrl+End", "Ctrl+Z") if key not in help]
+        assert all(len(line) <= table.size.width for table in tables for line in str(table.render()).split("\n"))
         await me.press("escape")
-        await me.until(lambda: "Stop everything and leave" not in me.screen())
+        await me.sees_no("Run your node in your own ROS domain")
 
 
 async def test_the_palette_goes_to_a_lesson(learner: Any) -> None:

@@ -46,7 +46,7 @@ class Seated:
         """The app is there, and takes keys."""
         assert self.app is not None
         self.app.press(b"?")
-        self.app.until(b"Stop everything and leave")
+        self.app.until(b"Read the lesson, start")
 
 
 @pytest.fixture

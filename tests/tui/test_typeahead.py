@@ -71,7 +71,7 @@ async def test_keys_work_on_after_the_widget_that_had_them_is_gone(learner: Any)
         ahead(me, "down", "end")
         await editor.remove()
         ahead(me, "f1")
-        await me.sees("Stop everything and leave")
+        await me.sees("Read the lesson, start")
 
 
 def test_a_burst_of_bytes_in_a_real_terminal_becomes_the_text_that_was_meant(tmp_path: Path) -> None:

@@ -26,9 +26,12 @@ class TutorApp(App[int]):
     """Opens on the welcome screen where there is no workspace yet, else on the lessons."""
 
     TITLE = "ROS Tutor"
+    # Notes come beside the tabs: further down they would cover a diagnosis.
     # An emoji is two cells wide in some terminals and one in others.
     CSS = """
     SearchIcon { display: none; }
+    ToastRack { dock: top; align: right top; margin: 0; }
+    Toast { padding: 0 1; }
     CommandPalette > Vertical { max-width: 84; border: round $border; background: $surface; }
     """
 

@@ -83,7 +83,7 @@ GROUPS: tuple[tuple[str, tuple[Command, ...]], ...] = (
             Command("start", ("s",), "Start", "Put the skeleton into your workspace"),
             Command("edit", ("e",), "Edit", "Edit your file here, until Esc", footer=True),
             Command("save", ("ctrl+s",), "Save", "Save (it is also saved as you go)"),
-            Command("find", ("ctrl+f",), "Find", "Find a text in your code: Enter next, ↑ previous"),
+            Command("find", ("ctrl+f",), "Find", "Find a text in your code"),
             Command("find_next", ("ctrl+g",), "Find next", "Find the same text again"),
             Command("own_editor", ("E",), "$EDITOR", "Open it in your own editor ($EDITOR)"),
             Command("next_file", ("f",), "File", "Show the exercise's other file"),

@@ -13,17 +13,22 @@ class TemperaturePublisher(Node):
 
     def __init__(self) -> None:
         super().__init__("temperature_publisher")
-        # TODO 2: create a publisher of Float64 on /sensor/temperature, with a queue of 10 messages.
+        # TODO 2: create a publisher of Float64 on /sensor/temperature,
+        #         with a queue of 10 messages.
 
-        # TODO 3: declare the parameter publish_rate (a float, in messages per second) and read its value.
+        # TODO 3: declare the parameter publish_rate (a float, in
+        #         messages per second) and read its value.
 
-        # TODO 4: declare the parameter sensor_name (a string) and keep its value for the log messages.
+        # TODO 4: declare the parameter sensor_name (a string) and keep
+        #         its value for the log messages.
 
-        # TODO 5: create a timer that calls self.timer_callback publish_rate times per second.
+        # TODO 5: create a timer that calls self.timer_callback
+        #         publish_rate times per second.
 
     def timer_callback(self) -> None:
         """Publish one reading. The timer calls this."""
-        # TODO 6: make a Float64 and give it a random temperature between 20.0 and 30.0.
+        # TODO 6: make a Float64 and give it a random temperature
+        #         between 20.0 and 30.0.
 
         # TODO 7: publish it.
 

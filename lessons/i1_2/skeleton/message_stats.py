@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Exercise I1.2: count what comes on /chatter, and sum it up every ten messages."""
+"""Exercise I1.2: count what comes on /chatter, and sum it up."""
 
 # TODO 1: import time, and dataclass from dataclasses.
 
@@ -8,7 +8,8 @@ from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from std_msgs.msg import String
 
-# TODO 2: write a dataclass MessageStats: total_count, first_message, last_message, start_time, messages_per_second.
+# TODO 2: write a dataclass MessageStats: total_count, first_message,
+#         last_message, start_time, messages_per_second.
 
 
 class MessageStatsNode(Node):
@@ -16,20 +17,29 @@ class MessageStatsNode(Node):
 
     def __init__(self) -> None:
         super().__init__("message_stats")
-        # TODO 3: make a MessageStats, and remember that there has been no number yet: self.last_number = None.
+        # TODO 3: make a MessageStats, and remember that there has been
+        #         no number yet: self.last_number = None.
 
-        self.subscription = self.create_subscription(String, "chatter", self.on_message, 10)
+        self.subscription = self.create_subscription(
+            String,
+            "chatter",
+            self.on_message,
+            10,
+        )
         self.get_logger().info("Waiting for messages on /chatter")
 
     def on_message(self, message: String) -> None:
         """Take in one message. rclpy calls this for each."""
         # TODO 4: if it is the first one, keep its content and the time.
 
-        # TODO 5: count it, keep its content as the last one, and compute the messages per second.
+        # TODO 5: count it, keep its content as the last one, and
+        #         compute the messages per second.
 
-        # TODO 6: compare its number with the last one; warn if any are missing between the two.
+        # TODO 6: compare its number with the last one; warn if any are
+        #         missing between the two.
 
-        # TODO 7: every ten messages, log a summary: count, rate, first and last message.
+        # TODO 7: every ten messages, log a summary: count, rate, first
+        #         and last message.
 
 
 def main() -> None:

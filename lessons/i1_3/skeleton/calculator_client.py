@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Exercise I1.3: a node that calls the four services of the calculator, then ends."""
+"""Exercise I1.3: a node that calls the four services, then ends."""
 
 import sys
 
@@ -18,11 +18,14 @@ class CalculatorClient(Node):
 
     def run(self) -> bool:
         """Make all calls. Returns whether every one was answered."""
-        # TODO 6: for each of add, subtract, multiply and divide (and once more divide, by zero):
+        # TODO 6: for each of add, subtract, multiply and divide (and
+        #         once more divide, by zero):
         #         - create a client for the service,
-        #         - wait for the service, but not for ever: log an error and return False if it does not come,
+        #         - wait for the service, but not for ever: log an error
+        #           and return False if it does not come,
         #         - call it with call_async(),
-        #         - let rclpy.spin_until_future_complete() run until the answer is here, again with a time limit,
+        #         - let rclpy.spin_until_future_complete() run until the
+        #           answer is here, again with a time limit,
         #         - log the result.
 
         self.get_logger().warning("This client calls nothing yet")
@@ -30,7 +33,10 @@ class CalculatorClient(Node):
 
 
 def main() -> None:
-    """Run the client once. This part is complete: exit code 0 if all went well, 1 if not."""
+    """Run the client once. This part is complete.
+
+    The exit code is 0 if all went well, 1 if not.
+    """
     rclpy.init()
     node = CalculatorClient()
     done = False

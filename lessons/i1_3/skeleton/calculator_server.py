@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Exercise I1.3: a node that offers four services, one for each kind of sum."""
+"""Exercise I1.3: a node with four services, one for each operation."""
 
 import rclpy
 from rclpy.executors import ExternalShutdownException
@@ -13,15 +13,18 @@ class CalculatorServer(Node):
 
     def __init__(self) -> None:
         super().__init__("calculator_server")
-        # TODO 2: create the services add, subtract, multiply and divide, all of type AddTwoInts.
-        #         Start with one, check it, then write the others.
+        # TODO 2: create the services add, subtract, multiply and
+        #         divide, all of type AddTwoInts. Start with one, check
+        #         it, then write the others.
 
         self.get_logger().info("Calculator is up")
 
-    # TODO 3: write one callback for each service. It is given a request (a and b) and an empty response:
-    #         fill in response.sum, log what was computed, and return the response.
+    # TODO 3: write one callback for each service. It is given a request
+    #         (a and b) and an empty response: fill in response.sum,
+    #         log what was computed, and return the response.
 
-    # TODO 4: in the callback of divide, look at b first. If it is 0, log an error and still return the response.
+    # TODO 4: in the callback of divide, look at b first. If it is 0,
+    #         log an error and still return the response.
 
 
 def main() -> None:

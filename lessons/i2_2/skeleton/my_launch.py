@@ -1,14 +1,21 @@
 #!/usr/bin/env python3
-"""Exercise I2.2: one command that starts a publisher and a subscriber, and can be told where they talk."""
+"""Exercise I2.2: one command that starts a publisher and a subscriber.
+
+It can be told where they talk.
+"""
 
 from launch import LaunchDescription
 from launch_ros.actions import Node
 
 
 def generate_launch_description() -> LaunchDescription:
-    """Describe what is to be started. Launch calls this. So far it is one node, which nobody listens to."""
-    # TODO 2: declare the argument topic, with the default "chatter": DeclareLaunchArgument, from launch.actions.
-    #         Its value is LaunchConfiguration("topic"), from launch.substitutions.
+    """Describe what is to be started. Launch calls this.
+
+    So far it is one node, which nobody listens to.
+    """
+    # TODO 2: declare the argument topic, with the default "chatter":
+    #         DeclareLaunchArgument, from launch.actions. Its value is
+    #         LaunchConfiguration("topic"), from launch.substitutions.
 
     # TODO 4: declare the argument namespace, with the default "".
 
@@ -16,11 +23,14 @@ def generate_launch_description() -> LaunchDescription:
         package="my_package",
         executable="minimal_publisher",
         output="screen",
-        # TODO 3: remap "chatter" to the value of topic: remappings=[(..., ...)].
+        # TODO 3: remap "chatter" to the value of topic:
+        #         remappings=[(..., ...)].
         # TODO 5: put the node into the namespace: namespace=...
     )
 
-    # TODO 1: start minimal_subscriber in the same way. Once the publisher has them, it needs TODO 3 and TODO 5, too.
+    # TODO 1: start minimal_subscriber in the same way. Once the
+    #         publisher has them, it needs TODO 3 and TODO 5, too.
 
-    # Only what is in this list is started; the arguments belong into it as well.
+    # Only what is in this list is started; the arguments belong into it
+    # as well.
     return LaunchDescription([publisher])

@@ -1,8 +1,14 @@
 #!/usr/bin/env python3
-"""Exercise I2.3: a service that takes three seconds, and a timer that must not wait for it."""
+"""Exercise I2.3: a service that takes three seconds, beside a timer.
+
+The timer must not wait for the service.
+"""
 
 import rclpy
-from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.executors import (
+    ExternalShutdownException,
+    SingleThreadedExecutor,
+)
 from rclpy.node import Node
 
 # TODO 1: import AddTwoInts from example_interfaces.srv.
@@ -18,12 +24,14 @@ class ConcurrentService(Node):
 
         # TODO 3: create a timer of 10 Hz that calls self.tick.
 
-        # TODO 4: put both into callback groups, so that the timer need not wait for the service.
+        # TODO 4: put both into callback groups, so that the timer need
+        #         not wait for the service.
 
         self.get_logger().info("Concurrent service is up")
 
-    # TODO 5: write the service's callback. It is given a request (a and b) and an empty response: wait for three
-    #         seconds, fill in response.sum, and return the response.
+    # TODO 5: write the service's callback. It is given a request (a and
+    #         b) and an empty response: wait for three seconds, fill in
+    #         response.sum, and return the response.
 
     def tick(self) -> None:
         """Count, and log every tenth tick. This part is complete."""
@@ -36,7 +44,8 @@ def main() -> None:
     """Run the node until Ctrl+C."""
     rclpy.init()
     node = ConcurrentService()
-    # TODO 6: this executor has one thread only. Use one that has several.
+    # TODO 6: this executor has one thread only. Use one that has
+    #         several.
     executor = SingleThreadedExecutor()
     executor.add_node(node)
     try:

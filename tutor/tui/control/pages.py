@@ -16,6 +16,7 @@ from tutor.tui.screens.stage import Deed, Stage
 from tutor.tui.terminal.history import History
 from tutor.tui.terminal.pane import TerminalPane
 from tutor.tui.widgets.code_pane import CodePane
+from tutor.tui.widgets.criteria import CriteriaPanel
 from tutor.tui.widgets.lesson_list import LessonList
 from tutor.tui.widgets.lesson_view import LessonView
 from tutor.tui.widgets.log_pane import LogPane
@@ -48,7 +49,7 @@ class Pages:
         """Turn to a page, and focus what is on it."""
         if name == "criteria" and not self.folded:
             self._stage.remove_class("-zoomed")
-            self._focus(name)
+            self._stage.query_one(CriteriaPanel).open()
             return
         self._turn(name)
         self._stage.query_one(Tabs).active = f"tab-{name}"
@@ -80,6 +81,7 @@ class Pages:
             self._open_live()
         elif name == "terminal":
             self.open_terminal()
+        self._stage.query_one(CriteriaPanel).show_reading(name == "lesson")
         if name != "criteria":
             self._stage.query_one(ContentSwitcher).current = name
         self.put_side_by_side()

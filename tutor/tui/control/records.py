@@ -6,7 +6,9 @@ import asyncio
 from collections.abc import Callable
 from typing import Any
 
+from tutor.content import CriterionText
 from tutor.judge.result import ExerciseResult
+from tutor.judge.verdict import Status
 from tutor.tui import messages
 from tutor.tui.screens.hint import HintScreen
 from tutor.tui.screens.stage import Deed, Stage
@@ -30,11 +32,23 @@ class Records:
         self._work(self._stage.session.desk.record, result)
 
     def hint(self) -> None:
-        """Show the hints that were shown before, or the first."""
+        """Show the hint for what has failed, and the general ones that were shown before; else the first of these."""
         session = self._stage.session
-        self._show_hints(max(1, session.progress.of(session.lesson.id).hints))
+        failed = self._failed()
+        self._show_hints(max(0 if failed else 1, session.progress.of(session.lesson.id).hints), failed)
 
-    def _show_hints(self, count: int) -> None:
+    def _failed(self) -> CriterionText | None:
+        """The criterion that is chosen, if it has failed; else the first that has."""
+        session = self._stage.session
+        failed = [
+            finding.id
+            for finding in sorted(session.findings[session.lesson.id].criteria, key=lambda finding: finding.bonus)
+            if finding.verdict is not None and finding.verdict.status is Status.FAILED
+        ]
+        wanted = self._stage.chosen_criterion if self._stage.chosen_criterion in failed else next(iter(failed), "")
+        return next((each for each in session.lesson.criteria if each.id == wanted and each.hint), None)
+
+    def _show_hints(self, count: int, failed: CriterionText | None) -> None:
         session = self._stage.session
         lesson = session.lesson
         if count > session.progress.of(lesson.id).hints:
@@ -42,9 +56,9 @@ class Records:
 
         def answered(more: bool | None) -> None:
             if more:
-                self._show_hints(count + 1)
+                self._show_hints(count + 1, failed)
 
-        self._stage.app.push_screen(HintScreen(lesson, count), answered)
+        self._stage.app.push_screen(HintScreen(lesson, count, failed), answered)
 
     def attempts(self) -> None:
         """Show the attempts at this exercise."""

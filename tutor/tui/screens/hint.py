@@ -1,4 +1,4 @@
-"""The hints of a lesson, as many as were asked for."""
+"""The hints of a lesson: that of the criterion that has failed, then the general ones, as many as were asked for."""
 
 from __future__ import annotations
 
@@ -10,27 +10,30 @@ from textual.containers import VerticalScroll
 from textual.content import Content
 from textual.widgets import Static
 
-from tutor.content import Lesson
+from tutor.content import CriterionText, Lesson
 from tutor.tui import words
 from tutor.tui.screens.dialog import Dialog
 
 
 class HintScreen(Dialog[bool]):
-    """Gives True where the next hint is wanted."""
+    """Gives True where the next general hint is wanted; `failed` is the criterion to begin with, if there is one."""
 
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("h", "another", "Next hint"),
         Binding("enter", "close", show=False),
     ]
 
-    def __init__(self, lesson: Lesson, shown: int) -> None:
+    def __init__(self, lesson: Lesson, shown: int, failed: CriterionText | None = None) -> None:
         super().__init__()
-        self._lesson, self._shown = lesson, shown
+        self._lesson, self._shown, self._failed = lesson, shown, failed
 
     def compose(self) -> ComposeResult:
-        hints = self._lesson.hints
-        more = "h: next hint · " if self._shown < len(hints) else ""
+        hints, name = self._lesson.hints, words.label(self._lesson)
+        more = f"h: {'next' if self._shown else 'general'} hint · " if self._shown < len(hints) else ""
         parts: list[Content | str | tuple[str, str]] = []
+        if self._failed is not None:
+            parts += [("✗ ", "bold $bad"), (self._failed.id, "bold"), "  ", (self._failed.text, "$quiet"), "\n"]
+            parts += [self._failed.hint, "\n\n" if self._shown else ""]
         for number, hint in enumerate(hints[: self._shown], start=1):
             last = number == self._shown
             parts += [
@@ -39,7 +42,8 @@ class HintScreen(Dialog[bool]):
                 "" if last else "\n\n",
             ]
         with VerticalScroll(classes="window") as window:
-            window.border_title = f"{words.label(self._lesson)}: hint {self._shown} of {len(hints)}"
+            count = f"hint {self._shown} of {len(hints)}" if self._shown else "a hint for what failed"
+            window.border_title = f"{name}: {count}"
             window.border_subtitle = f"{more}Esc closes"
             yield Static(Content.assemble(*parts), classes="dialog-text")
 

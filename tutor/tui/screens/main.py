@@ -218,6 +218,11 @@ class MainScreen(Stage):
     def page(self) -> str:
         return self.pages.current
 
+    @property
+    def chosen_criterion(self) -> str:
+        chosen = self.query_one(CriteriaPanel).chosen
+        return chosen.id if chosen is not None else ""
+
     def show_page(self, name: str) -> None:
         self.pages.show(name)
 
@@ -233,7 +238,9 @@ class MainScreen(Stage):
         """
         around = focused.ancestors if focused is not None else []
         if self._framed:
-            self.query_one(CriteriaPanel).show_typing(isinstance(focused, CodeEditor))
+            criteria = self.query_one(CriteriaPanel)
+            criteria.show_typing(isinstance(focused, CodeEditor))
+            criteria.show_entered(criteria in around)
         for panel in self._framed:
             if panel.has_class("-focused") != (panel in around):
                 panel.set_class(panel in around, "-focused", update=False)

@@ -40,6 +40,11 @@ class Stage(Screen[None]):
         """The page that is shown."""
         raise NotImplementedError
 
+    @property
+    def chosen_criterion(self) -> str:
+        """The id of the criterion whose diagnosis is shown; empty where none is."""
+        raise NotImplementedError
+
     def show_page(self, name: str) -> None:
         """Turn to a page, and focus what is on it."""
         raise NotImplementedError

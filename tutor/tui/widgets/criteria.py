@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from textual import on
+from textual import events, on
 from textual.app import ComposeResult
 from textual.containers import Container
 from textual.content import Content
+from textual.widget import Widget
 from textual.widgets import ListItem, ListView, Static
 
 from tutor.content import Lesson
@@ -62,6 +63,31 @@ def _bar(fraction: float, width: int) -> Content:
     return Content.assemble(("━" * full, "$busy"), ("━" * (width - full), "$line"), f" {fraction:4.0%}")
 
 
+class BriefLine(Widget, can_focus=True):
+    """The criteria in one line, while the lesson is read and there is no verdict. The focus opens them."""
+
+    def __init__(self, id: str) -> None:
+        super().__init__(id=id)
+        self._findings: Findings | None = None
+
+    def show(self, findings: Findings) -> None:
+        """Name them."""
+        self._findings = findings
+        self.refresh()
+
+    def render(self) -> Content:
+        """Their names, or how many they are where there is no room, and the key that opens them."""
+        found = self._findings.criteria if self._findings else ()
+        required, bonus = [each for each in found if not each.bonus], sum(each.bonus for each in found)
+        more = [f"{bonus} bonus"] if bonus else []
+        named = ", ".join([*(f"{'✓ ' if each.before else ''}{each.id}" for each in required), *more])
+        counted = ", ".join([f"{len(required)} to meet", *more])
+        head, key = Content.styled("○ Criteria  ", "bold"), Content.assemble("  ", ("5", "bold $accent"), " opens")
+        room = self.content_size.width - head.cell_length - key.cell_length
+        names = Content.styled(named if len(named) <= room else counted, "$quiet")
+        return Content.assemble(head, names.pad_right(max(0, room - names.cell_length)), key)
+
+
 class CriteriaPanel(Container):
     """The list, and beside or below it the diagnosis of the criterion that is chosen."""
 
@@ -75,6 +101,12 @@ class CriteriaPanel(Container):
             &:focus { background-tint: transparent 0%; }
         }
         & > ListView > CriterionRow { height: 1; padding: 0 1; text-wrap: nowrap; }
+        & > BriefLine {
+            display: none;
+            height: 1;
+            padding: 0 1;
+            text-wrap: nowrap;
+        }
         & > Diagnosis { display: none; }
         & > #attempts { display: none; }
         &.-detail > Diagnosis { display: block; }
@@ -82,6 +114,7 @@ class CriteriaPanel(Container):
     """
 
     def compose(self) -> ComposeResult:
+        yield BriefLine(id="criteria-brief")
         yield RowList(id="criteria-list", initial_index=None)
         yield Diagnosis(id="diagnosis")
         yield Static(id="attempts")
@@ -90,6 +123,7 @@ class CriteriaPanel(Container):
         self._findings: Findings | None = None
         self._following: Lesson | None = None
         self._typing = False
+        self._reading = self._entered = False
         self.others_open = 0
         """How many other exercises are not passed yet."""
 
@@ -116,6 +150,31 @@ class CriteriaPanel(Container):
     def show_attempts(self, lesson: Lesson, progress: ExerciseProgress) -> None:
         """Show the latest attempts, where there is room for them."""
         self.query_one("#attempts", Static).update(history(lesson, progress, most=6))
+
+    def show_reading(self, reading: bool) -> None:
+        """Fold to a line while the lesson is read, where there is no verdict to show."""
+        self._reading = reading
+        self._show_brief()
+
+    def show_entered(self, entered: bool) -> None:
+        """Unfold while the focus is in here."""
+        self._entered = entered
+        self._show_brief()
+
+    def _show_brief(self) -> None:
+        found = self._findings
+        known = found is None or found.judged or found.checking or bool(found.note)
+        self.set_class(self._reading and not known and not self._entered, "-brief")
+
+    @on(events.DescendantFocus)
+    def _open(self, event: events.DescendantFocus) -> None:
+        if isinstance(event.widget, BriefLine):
+            self.open()
+
+    def open(self) -> None:
+        """Unfold, and put the focus into the list."""
+        self.show_entered(True)
+        self.screen.set_focus(self.query_one("#criteria-list"), scroll_visible=False)
 
     def show_typing(self, typing: bool) -> None:
         """Name the keys that work now: letters type while the editor has the focus."""
@@ -145,6 +204,8 @@ class CriteriaPanel(Container):
         self.border_title = "Criteria: your code has changed since this check" if outdated else "Criteria"
         self.border_subtitle = _headline(findings, typing=self._typing)
         self.set_class(outdated, "-outdated")
+        self.query_one(BriefLine).show(findings)
+        self._show_brief()
         self.set_class(bool(findings.result and findings.result.verdict is Status.PASSED), "-passed")
 
     def _turn_to_result(self) -> None:

@@ -60,6 +60,7 @@ class Diagnosis(VerticalScroll):
         & > #diagnosis-step {
             display: none;
             height: auto;
+            margin: 1 0;
             padding: 0 1;
             background: $panel;
             border-left: outer $accent;

@@ -36,6 +36,10 @@ class StatusBar(Horizontal):
     }
     """
 
+    def __init__(self) -> None:
+        super().__init__()
+        self._passed = 0, 0
+
     def compose(self) -> ComposeResult:
         yield Static("ROS Tutor", id="bar-name")
         yield Static(id="bar-lesson")
@@ -53,9 +57,21 @@ class StatusBar(Horizontal):
 
     def show_progress(self, passed: int, total: int) -> None:
         """Say how many exercises are passed; of the bar, each has two cells."""
-        words = f"{passed} of {total} passed" if self.app.size.width >= WIDE else f"{passed}/{total}"
-        bar = (("━━" * passed, "$good"), ("━━" * (total - passed), "$line")) if self.app.size.width >= WIDE else ()
-        self.query_one("#bar-progress", Static).update(Content.assemble(*bar, f" {words}"))
+        self._passed = passed, total
+        self._show_progress()
+
+    def on_resize(self) -> None:
+        """In a narrow terminal the numbers alone."""
+        self._show_progress()
+
+    def _show_progress(self) -> None:
+        passed, total = self._passed
+        if self.app.size.width >= WIDE:
+            bar = (("━━" * passed, "$good"), ("━━" * (total - passed), "$line"))
+            text = Content.assemble(*bar, f" {passed} of {total} passed")
+        else:
+            text = Content(f"{passed}/{total}" if total else "")
+        self.query_one("#bar-progress", Static).update(text)
 
     def show_check(self, findings: Findings | None) -> None:
         """Say how far the running check is; nothing where none runs."""
