@@ -55,7 +55,7 @@ async def reading(desk: Desk, exercise: str) -> AsyncIterator[Reader]:
     for file in lesson.files:
         desk.path(file).write_bytes(file.solution.read_bytes())
     desk.keep(AppState(lesson=lesson.id))
-    async with at(desk) as opened:
+    async with at(desk, (180, 48)) as opened:
         me = Reader(opened.app, opened.pilot, desk)
         await me.sees(f"{lesson.id.upper()}  {lesson.title}", "Objective")
         yield me

@@ -65,7 +65,11 @@ class TabStrip(Widget, can_focus=True):
         return [
             Content.styled(f" {label} ", "bold $block-cursor-foreground on $block-cursor-background")
             if name == self.active
-            else Content.assemble(" ", (label[:1], "$accent underline"), (f"{label[1:]} ", "$foreground"))
+            else Content.assemble(
+                " ",
+                (label[:1], "$accent underline" if label[:1].isalpha() else "$good"),
+                (f"{label[1:]} ", "$foreground"),
+            )
             for name, label in self.labels.items()
         ]
 

@@ -22,6 +22,10 @@ UNBROKEN = 16
 """A piece of a line that is not longer than this (cells) is not broken where the line is folded."""
 
 
+NAMED_FROM = 64
+"""From so many columns on a line names its node, also where all are of one."""
+
+
 class LogView(LineView):
     """Follows the end of the log, also while it is hidden, unless the learner has scrolled up or has paused it."""
 
@@ -90,9 +94,11 @@ class LogView(LineView):
 
         for row in self._head:
             add(row)
+        # Where there is little room, the name that all lines share is the first to go.
+        named = width >= NAMED_FROM or len({line.name for line in self._lines if line.level is not None}) > 1
         for line in self._lines:
             place = line.place if line.place is not None and line.place[0] in self.own else None
-            add(_coloured(line, linked=place is not None), place)
+            add(_coloured(line, linked=place is not None, named=named), place)
         if self._tail:
             add(self._tail)
         self._places = places
@@ -101,13 +107,14 @@ class LogView(LineView):
             self.scroll_end(animate=False, immediate=True, x_axis=False)
 
 
-def _coloured(line: LogLine, *, linked: bool) -> Row:
+def _coloured(line: LogLine, *, linked: bool, named: bool) -> Row:
     if line.level is not None:
         at = time.strftime("%H:%M:%S", time.localtime(line.stamp))
         kind = line.level.name.lower()
         loud = "" if line.level is Level.INFO else kind
         head = (f" {line.level.name:<5} ", kind)
-        return (head, (f" {at}  ", "quiet"), (f"{line.name}  ", "name"), (line.said, loud))
+        name = f"{line.name}  " if named else ""
+        return (head, (f" {at}  ", "quiet"), (name, "name"), (line.said, loud))
     if not line.stderr:
         return ((" print  ", "quiet"), (line.text, ""))
     if linked:
