@@ -117,7 +117,7 @@ async def test_i1_2(desk: Desk) -> None:
         await me.press("b")
         await me.sees("● talker")
         await me.press("left_square_bracket")
-        await me.sees("The publisher was restarted: 0 comes after")
+        await me.sees("The publisher was restarted")
         me.reads("**Graph** (`G`): the talker, `/chatter`, and your node, with arrows from one to the next")
         await me.press("G")
         await me.sees("/talker", "/chatter", "/message_stats", "──▶")
