@@ -16,6 +16,7 @@ import sys
 import tempfile
 from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager
+from functools import partial
 from pathlib import Path
 
 from textual.pilot import Pilot
@@ -31,6 +32,8 @@ from tutor.tui.live.topics_panel import TopicsPanel
 from tutor.tui.screens.checklist import ChecklistScreen
 from tutor.tui.screens.main import MainScreen
 from tutor.tui.screens.welcome import WelcomeScreen
+from tutor.tui.terminal.output_view import OutputView
+from tutor.tui.terminal.prompt import Prompt
 from tutor.tui.themes import DARK, LIGHT
 from tutor.tui.widgets.code_pane import CodePane
 from tutor.workspace import Workspace
@@ -195,6 +198,33 @@ class Album:
                 await until(pilot, lambda: topics.view is not None and len(topics.view.points) > 8)
                 await self.take(pilot, "live-near-miss")
 
+    async def terminal(self) -> None:
+        """Three commands at once against the solution of the first lesson, one of which has ended."""
+        with world() as around, tempfile.TemporaryDirectory() as scratch:
+            for name in ("ROS_DOMAIN_ID", "ROS_AUTOMATIC_DISCOVERY_RANGE"):
+                os.environ[name] = around.environ[name]
+            desk = Desk(load_course(), Workspace(Path(scratch) / "ros_tutor_ws"))
+            lesson = desk.lessons[0]
+            desk.start(lesson)
+            desk.path(lesson.files[0]).write_bytes(lesson.files[0].solution.read_bytes())
+            async with self.app(desk) as pilot:
+                main = screen(pilot)
+                await pilot.press("7")
+                await until(pilot, lambda: main.pages.terminal is not None)
+                await pilot.pause(0.5)
+                await self.take(pilot, "terminal-nothing")
+                pane = main.pages.open_terminal()
+                output = pane.query_one(OutputView)
+                for line, seen in (
+                    ("ros2 run my_package temperature_publisher", "°C"),
+                    ("ros2 topic info /sensor/temperature", "Subscription count"),
+                    ("ros2 topic hz /sensor/temperature", "std dev"),
+                ):
+                    pane.run_line(line)
+                    await until(pilot, partial(lambda seen: seen in output.plain, seen))
+                pilot.app.screen.query_one(Prompt).value = "ros2 topic echo /sensor/temp"
+                await self.take(pilot, "terminal")
+
     async def check(self, passing: bool) -> None:
         async with self.opened() as (pilot, desk):
             main = screen(pilot)
@@ -284,7 +314,7 @@ async def main(folder: Path, only: str = "") -> None:
     folder.mkdir(parents=True, exist_ok=True)
     for size in SIZES:
         album = Album(folder, size)
-        states = (album.welcome, album.rest, album.busy, album.live, album.partner)
+        states = (album.welcome, album.rest, album.busy, album.live, album.terminal, album.partner)
         for group in (*states, album.checked, album.ready, album.crash):
             if only in f"{size[0]}x{size[1]} {group.__name__}":
                 await group()
