@@ -218,7 +218,7 @@ class Album:
                 for line, seen in (
                     ("ros2 run my_package temperature_publisher", "°C"),
                     ("ros2 topic info /sensor/temperature", "Subscription count"),
-                    ("ros2 topic hz /sensor/temperature", "std dev"),
+                    ("ros2 topic hz /sensor/temperature", "average rate"),
                 ):
                     pane.run_line(line)
                     await until(pilot, partial(lambda seen: seen in output.plain, seen))

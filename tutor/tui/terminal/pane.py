@@ -35,9 +35,9 @@ LABEL = 26
 class TerminalPane(Vertical):
     """Runs each line as a process of its own, so that a node, an echo and a rate can be watched at once."""
 
-    CSS_PATH = Path(__file__).with_name("pane.tcss")
+    DEFAULT_CSS = Path(__file__).with_name("pane.tcss").read_text(encoding="utf-8")
     BINDINGS: ClassVar[list[BindingType]] = [
-        Binding("ctrl+c", "interrupt", "Ctrl+C", key_display="Ctrl+C"),
+        Binding("ctrl+c", "interrupt", "Stop", key_display="Ctrl+C"),
         Binding("enter,tab", "prompt", "Prompt", show=False),
         Binding("left,ctrl+pageup", "turn(-1)", "Previous command", show=False),
         Binding("right,ctrl+pagedown", "turn(1)", "Next command", show=False),
@@ -56,7 +56,8 @@ class TerminalPane(Vertical):
 
     def compose(self) -> ComposeResult:
         with Horizontal(id="terminal-line"):
-            yield Static("$ ", id="terminal-place", markup=False)
+            yield Static("", id="terminal-place", markup=False)
+            yield Static(" $ ", id="terminal-mark", markup=False)
             yield Prompt(self._history, id="terminal-prompt")
         yield Static(id="terminal-offers", markup=False)
         yield TabStrip({"": ""}, id="terminal-jobs")
@@ -223,7 +224,7 @@ class TerminalPane(Vertical):
 
     def _show_place(self) -> None:
         assert self._shell is not None
-        self.query_one("#terminal-place", Static).update(f"{self._shell.place} $ ")
+        self.query_one("#terminal-place", Static).update(self._shell.place)
 
     # --- completion ---
 

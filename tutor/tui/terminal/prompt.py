@@ -6,7 +6,7 @@ from collections.abc import Awaitable, Callable, Mapping
 from typing import ClassVar
 
 from textual import events
-from textual.binding import BindingType
+from textual.binding import Binding, BindingType
 from textual.message import Message
 from textual.widgets import Input
 
@@ -20,7 +20,12 @@ class Prompt(Input, inherit_bindings=False):
     binding would overtake the letters that still wait to be put in.
     """
 
-    BINDINGS: ClassVar[list[BindingType]] = []
+    # For the footer, and for a click there; the keys themselves come to `_on_key` first.
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("tab", "complete", "Complete", key_display="Tab"),
+        Binding("up", "older", "History", key_display="↑"),
+        Binding("escape", "leave", "Leave", key_display="Esc"),
+    ]
 
     class Interrupted(Message):
         """Ctrl+C."""
@@ -46,7 +51,7 @@ class Prompt(Input, inherit_bindings=False):
         self.history = history
         self._keys: Mapping[str, Callable[[], object]] = {
             "enter": self.action_submit,
-            "up": lambda: self._recall(self.history.older(self.value)),
+            "up": self.action_older,
             "down": lambda: self._recall(self.history.newer(self.value)),
             "left": self.action_cursor_left,
             "right": self.action_cursor_right,
@@ -64,10 +69,10 @@ class Prompt(Input, inherit_bindings=False):
             "ctrl+u": self.action_delete_left_all,
             "ctrl+k": self.action_delete_right_all,
             "ctrl+v": self.action_paste,
-            "tab": lambda: self.post_message(self.Completed()),
+            "tab": self.action_complete,
             "ctrl+c": lambda: self.post_message(self.Interrupted()),
             "ctrl+l": lambda: self.post_message(self.Cleared()),
-            "escape": lambda: self.post_message(self.Left()),
+            "escape": self.action_leave,
             "ctrl+pageup": lambda: self.post_message(self.Turned(-1)),
             "ctrl+pagedown": lambda: self.post_message(self.Turned(1)),
         }
@@ -82,6 +87,18 @@ class Prompt(Input, inherit_bindings=False):
         result = action()
         if isinstance(result, Awaitable) and event.key == "enter":
             await result
+
+    def action_complete(self) -> None:
+        """Ask for what the word before the cursor may become."""
+        self.post_message(self.Completed())
+
+    def action_older(self) -> None:
+        """The command before."""
+        self._recall(self.history.older(self.value))
+
+    def action_leave(self) -> None:
+        """Let the keys of the app work again."""
+        self.post_message(self.Left())
 
     def _recall(self, text: str) -> None:
         self.value = text
