@@ -57,7 +57,7 @@ def measure_in(folder: Path, around: World, rate: int, seconds: float) -> bool:
     start(load_course().lessons[0], workspace)
     run = [sys.executable, "-m", "tests.benchmarks.live", "--app", str(report), str(workspace.root)]
     app = Terminal(run, around.environ)
-    app.until(b"not checked yet")
+    app.until(b"of 6 passed")
     app.press(b"4")
     app.until(b"No node runs")
     publisher = around.run(METRONOME, str(rate), str(int(rate * (seconds + 5))))

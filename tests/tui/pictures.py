@@ -192,7 +192,9 @@ class Album:
                 await pilot.press("M")
                 await pilot.pause(1.0)
                 await self.take(pilot, "publish")
-                await pilot.press("escape", "p", "r")
+                await pilot.press("escape", "p", "r")  # what runs of the other lesson is stopped first
+                await until(pilot, lambda: not main.nodes.running)
+                await pilot.press("r")
                 await until(pilot, lambda: len(main.nodes.running) == 1)
                 await pilot.press("T")
                 await until(pilot, lambda: topics.view is not None and len(topics.view.points) > 8)
