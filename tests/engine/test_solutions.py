@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import asyncio
+
 import pytest
 
 from tests.engine.made import Scene, nothing_shared
@@ -36,4 +38,22 @@ async def test_the_calculator_answers_what_no_int64_can_hold(scene: Scene) -> No
             assert answer.response == {"sum": nearest}, (service, a, b, run.output)
         said = [log.text for log in run.logs if log.level >= 40]
         assert await run.until(lambda: len([log for log in run.logs if log.level >= 40]) == 6, ANSWER_S), said
+        assert run.exit is None
+
+
+@pytest.mark.timeout(200)
+async def test_the_slow_service_answers_what_no_int64_can_hold(scene: Scene) -> None:
+    from tutor.engine.bench import LiveBench
+
+    file = "concurrent_service.py"
+    files = solution(load_course().find("i2.3")).files
+    bench = LiveBench(Submission("i2.3", files), scene.ros, nothing_shared, lambda fraction, text: None)
+    questions = ((MOST, 1, MOST), (LEAST, -1, LEAST), (1, 2, 3))
+    async with bench.start(file) as run:
+        assert await run.until(lambda: "/slow_add" in [each.name for each in run.graph.services], UP_S)
+        answers = await asyncio.gather(
+            *(run.call("/slow_add", ADD, {"a": a, "b": b}, limit_s=ANSWER_S) for a, b, _ in questions)
+        )
+        assert [each.response for each in answers] == [{"sum": nearest} for _, _, nearest in questions], run.output
+        assert await run.until(lambda: len([log for log in run.logs if log.level >= 40]) == 2, ANSWER_S), run.logs
         assert run.exit is None

@@ -11,6 +11,7 @@ from rclpy.node import Node
 
 WORK_S = 3.0
 TICK_S = 0.1
+INT64_MIN, INT64_MAX = -(2**63), 2**63 - 1
 
 
 class ConcurrentService(Node):
@@ -33,9 +34,19 @@ class ConcurrentService(Node):
         self.get_logger().info(f"Working on {request.a} + {request.b}")
         # Like time.sleep(WORK_S), but it returns at once when the node is told to stop.
         if not self.stopping.wait(WORK_S):
-            response.sum = request.a + request.b
-            self.get_logger().info(f"{request.a} + {request.b} = {response.sum}")
+            self.answer(request, response)
         return response
+
+    def answer(self, request: AddTwoInts.Request, response: AddTwoInts.Response) -> None:
+        """Log the sum and put it into the response, or the nearest number that an int64 can hold."""
+        result = request.a + request.b
+        # Python's numbers have no end, but an int64 has: a larger one would raise OverflowError and end the node.
+        response.sum = max(INT64_MIN, min(result, INT64_MAX))
+        question = f"{request.a} + {request.b}"
+        if response.sum == result:
+            self.get_logger().info(f"{question} = {result}")
+        else:
+            self.get_logger().error(f"{question} = {result} does not fit into an int64: answering {response.sum}")
 
     def tick(self) -> None:
         """Count, and log every tenth tick, which is once per second."""
