@@ -6,6 +6,7 @@ import ast
 import re
 from collections.abc import Sequence
 
+from checks.i1_3 import names
 from checks.i1_3.facts import CLIENT, CLIENT_S, LATER_S, SERVER, SIGNS, Demonstration
 from tutor.judge import causes, source, tracebacks
 from tutor.judge.trace import Trace
@@ -44,6 +45,8 @@ def judge_client(seen: Demonstration) -> Verdict:
 
 def _why_not_zero(seen: Demonstration, missing: Sequence[str], ended: str) -> Cause:
     assert seen.trace is not None
+    if (strange := names.of_client(seen, missing)) is not None and _follows_from_silence(seen.trace):
+        return strange
     if (unmet := _unmet(seen, missing)) is not None and _follows_from_silence(seen.trace):
         return unmet
     cause = causes.of_process(seen.trace)
@@ -72,6 +75,7 @@ def _why_not_called(seen: Demonstration, missing: Sequence[str]) -> Cause:
         )
     return (
         causes.incompatible_service(seen.clients)
+        or names.of_client(seen, missing)
         or _returns_early(seen)
         or _unmet(seen, missing)
         or Cause(
@@ -86,6 +90,8 @@ def _why_hanging(seen: Demonstration, missing: Sequence[str]) -> Cause:
     assert seen.trace is not None
     if (mismatched := causes.incompatible_service(seen.clients)) is not None:
         return mismatched
+    if (strange := names.of_client(seen, missing)) is not None:
+        return strange
     own = tracebacks.own(seen.stuck, seen.trace.folder)
     where = f" at {own}" if own else ""
     spins = any(frame.function.startswith("spin") for frame in seen.stuck)

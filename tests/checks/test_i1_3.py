@@ -463,6 +463,55 @@ def test_a_client_that_asks_for_its_service_is_not_told_to(text: str) -> None:
         assert "not waited" not in judge_client(seen).cause
 
 
+NAMED = """
+node = rclpy.create_node('client')
+for name in ('add', 'subtract', 'multiply', 'div'):
+    client = node.create_client(AddTwoInts, name)
+"""
+
+
+def wrongly_named(text: str, *clients: Service, code: int | None = None) -> Demonstration:
+    seen = demonstration(SERVED[:3], code, stuck=SPINNING, sources={"node.py": text + WAITS})
+    return replace(seen, clients=(*MADE, *clients))
+
+
+@pytest.mark.parametrize("code", [None, 0, 1])
+def test_a_client_that_asks_for_a_service_that_nobody_offers_is_told_both_names(code: int | None) -> None:
+    seen = wrongly_named(NAMED, Service("/div", TYPE, "/client"), code=code)
+    assert_failed(
+        judge_client(seen), "wrong service name", "asks for /div,", "/divide", "line 3: write 'divide' instead of 'div'"
+    )
+
+
+@pytest.mark.parametrize(
+    ("text", "name", "step"),
+    [
+        ("c = node.create_client(AddTwoInts, '~/divide')", "/client/divide", "write 'divide' instead of '~/divide'"),
+        ("c = node.create_client(AddTwoInts, 'divide')", "/calc/divide", "write '/divide' instead of 'divide'"),
+        ("c = node.create_client(AddTwoInts, NAMES[3])", "/div", "the name 'divide' in place of '/div'"),
+        (
+            "for each in 'divide', 'modulo': node.create_client(T, each)",
+            "/modulo",
+            "the client for /modulo out: line 1",
+        ),
+    ],
+)
+def test_the_step_names_the_line_with_the_wrong_service(text: str, name: str, step: str) -> None:
+    assert_failed(judge_client(wrongly_named(text, Service(name, TYPE, "/client"))), "wrong service name", step)
+
+
+def test_a_client_for_parameters_is_no_wrong_name() -> None:
+    more = Service("/server/get_parameters", "rcl_interfaces/srv/GetParameters", "/client")
+    assert_failed(judge_client(wrongly_named(NAMED, more)), "did not end")
+    assert_passed(judge_client(replace(demonstration(), clients=(*MADE, Service("/power", TYPE, "/client")))))
+
+
+def test_a_client_with_another_type_is_told_both_types() -> None:
+    text = "\nclient = node.create_client(Trigger, 'divide')\nclient.call_async(Trigger.Request())"
+    seen = wrongly_named(text, Service("/divide", "std_srvs/srv/Trigger", "/client"))
+    assert_failed(judge_client(seen), "wrong type", "std_srvs/srv/Trigger", TYPE, "in place of Trigger in line 2, 3")
+
+
 LOOP = """
 def run(self):
     for name in NAMES:
