@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Literal
 
 from tutor.ros import prefixes
-from tutor.ros.isolation import PROFILE, isolated_discovery, loopback_multicast_works
+from tutor.ros.isolation import PROFILE, isolated_discovery, loopback_multicast_works, prompt_discovery
 from tutor.sandbox import interfaces
 
 __all__ = ["RosEnvironment", "detect", "learner_env", "loopback_multicast_works", "tutor_env"]
@@ -98,7 +98,7 @@ def learner_env(
     host (a check); otherwise the user's own discovery settings hold (a run that their other terminals see).
     """
     env = _ros_env(ros, environ, first_on_path=[] if package_root is None else [package_root])
-    env.update(_discovery(isolated, environ))
+    env.update(_discovery(ros, isolated, environ))
     if not isolated:
         env[UNBUFFERED] = environ.get(UNBUFFERED) or UNBUFFERED_BY_US
     env["ROS_DOMAIN_ID"] = str(domain_id)
@@ -112,7 +112,7 @@ def tutor_env(ros: RosEnvironment, *, isolated: bool, environ: Mapping[str, str]
     A process that is started with it need not start itself anew in `tutor.ros.this_process.use`.
     """
     env = _ros_env(ros, environ, first_on_path=[])
-    env.update(_discovery(isolated, environ))
+    env.update(_discovery(ros, isolated, environ))
     for name in ("ROS_DOMAIN_ID", "ROS_LOG_DIR"):
         if name in environ:
             env[name] = environ[name]
@@ -195,9 +195,11 @@ def _ros_env(ros: RosEnvironment, environ: Mapping[str, str], first_on_path: lis
     return env
 
 
-def _discovery(isolated: bool, environ: Mapping[str, str]) -> dict[str, str]:
+def _discovery(ros: RosEnvironment, isolated: bool, environ: Mapping[str, str]) -> dict[str, str]:
     if isolated:
         return isolated_discovery()
     users = {name: value for name, value in environ.items() if name in _USERS_DISCOVERY or name.startswith(_DISCOVERY)}
     users.pop("RMW_IMPLEMENTATION", None)
-    return {name: value for name, value in users.items() if value != str(PROFILE)}
+    users = {name: value for name, value in users.items() if value != str(PROFILE)}
+    has_profile = any(name.endswith("_DEFAULT_PROFILES_FILE") for name in users)
+    return users if has_profile or ros.kind == "system" else {**prompt_discovery(), **users}

@@ -11,6 +11,7 @@ from functools import cache
 from pathlib import Path
 
 PROFILE = Path(__file__).resolve().with_name("isolated.xml")
+PROMPT_PROFILE = PROFILE.with_name("prompt.xml")
 _GROUP = "239.255.0.1"  # the multicast group of DDS discovery
 _LOOPBACK = "127.0.0.1"
 _OWN_PORTS = (17425, 150)  # as in isolated.xml, which says why
@@ -31,6 +32,11 @@ def isolated_discovery() -> dict[str, str]:
         "ROS_AUTOMATIC_DISCOVERY_RANGE": "SYSTEM_DEFAULT",  # else the RMW layer writes over the profile's transports
         **dict.fromkeys(_PROFILE_VARIABLES, str(PROFILE)),
     }
+
+
+def prompt_discovery() -> dict[str, str]:
+    """The variables with which nodes that are not isolated find each other soon; they change nothing else."""
+    return dict.fromkeys(_PROFILE_VARIABLES, str(PROMPT_PROFILE))
 
 
 def ports_of_checks() -> tuple[int, int]:
