@@ -85,7 +85,7 @@ async def test_i_check_i_mend_and_what_i_have_passed_stands_in_my_checklist(desk
         await me.sees("a save checks")
         editor = await me.edits()
         line = next(n for n, text in enumerate(editor.text.splitlines()) if "request.b - request.a" in text)
-        editor.move_cursor((line, editor.document.get_line(line).index("request.b")))
+        editor.move_cursor((line, editor.document.get_line(line).index("request.b - request.a")))
         await me.press(*["delete"] * len("request.b - request.a"))
         await me.types("request.a - request.b")
         await me.press("ctrl+s")
