@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from itertools import accumulate
 
+from checks.i1_2 import gap_steps
 from checks.i1_2.facts import EVERY, OURS, SOON_S, Feeding
 from checks.i1_2.judges import NO_SUMMARY, counts_truly, judge_summary, true_total
 from checks.i1_2.reading import Line
@@ -119,10 +120,10 @@ def judge_gaps(jump: Feeding, steady: Feeding) -> Verdict:
     jumped = [f"from {jump.sent[index - 1].number} to {jump.sent[index].number}" for index in jump.jumps]
     observed = f"N jumped {', and '.join(jumped)}"
     if told and (again := _goes_on(told, jump)):
-        cause = Cause(
+        cause = gap_steps.of_alarm(jump.trace) or Cause(
             "false alarm",
             f"it still says so when N rises by one again: {again[-1].text}",
-            "set self.last_number = number for each message, whether there was a gap or not",
+            "compare each N with the one right before it, whether there was a gap or not",
         )
         return failed(expected, observed, cause, [line.text for line in again[:6]])
     if (rising := _goes_on_rising(jump, steady)) is not None:
@@ -188,11 +189,11 @@ def _goes_on_rising(jump: Feeding, steady: Feeding) -> tuple[Cause, list[str]] |
             ends = [line.numbers[place].value for line in later[-1:]]
             whole = all(value.is_integer() for value in rose)
             if len(was) == 1 and whole and max(was) < rose[0] < rose[-1] <= min(ends, default=rose[-1]):
-                return Cause(
+                return gap_steps.of_alarm(jump.trace) or Cause(
                     "false alarm",
                     f"what it says is lost goes on rising while N rises by one again: {since[0].numbers[place].text} "
                     f"after {since[0].messages} messages, {since[-1].numbers[place].text} after {since[-1].messages}",
-                    "set self.last_number = number for each message, whether there was a gap or not",
+                    "compare each N with the one right before it, whether there was a gap or not",
                 ), [line.text for line in (since[0], since[-1], *later[-1:])]
     return None
 
@@ -212,7 +213,7 @@ def _why_unsaid(index: int, jump: Feeding, steady: Feeding) -> Cause:
     calm = [line for fed in (steady, jump) for line in fed.lines if _calm(line, fed)]
     false = [line for line in calm if line.kind in since]
     if 0 < len(false) < 0.7 * (len(steady.sent) + jump.breaks - 2):
-        return Cause(
+        return gap_steps.of_alarm(jump.trace) or Cause(
             "false alarm",
             f"it also says so where N rises by one: {false[0].text}",
             "compare numbers, not texts: int(msg.data.split(':')[1]) must be the last number + 1",
@@ -223,7 +224,7 @@ def _why_unsaid(index: int, jump: Feeding, steady: Feeding) -> Cause:
     if printed is not None:
         return Cause("printed, not logged", f"it is only printed: {printed}", "use self.get_logger().warning(...)")
     missed = jump.missed(index)[-1]
-    return Cause(
+    return gap_steps.of_silence(jump.trace) or Cause(
         "gap not noticed",
         f"{missed} number{'s are' if missed > 1 else ' is'} missing, and nothing tells this from any other message",
         "keep the last N; where the next one is not that + 1, self.get_logger().warning(...) how many are missing",

@@ -1,0 +1,164 @@
+"""I1.2: causes and next steps in the words of the learner's own file."""
+
+from __future__ import annotations
+
+import pytest
+
+from checks.i1_2 import gap_steps
+from tests.checks.made import trace
+from tutor.judge.trace import Trace
+
+NODE = """\
+class Stats(Node):
+    def __init__(self):
+        super().__init__('message_stats')
+        self.create_subscription(String, 'chatter', self.listen, 10)
+        self.total_count = 0
+        self.last_number = None
+
+    def listen(self, msg):
+        self.total_count += 1
+        number = int(msg.data.split(':')[1])
+        if self.last_number is not None and number > self.last_number + 1:
+            self.get_logger().warning(f'{number - self.last_number - 1} messages are missing')
+        self.last_number = number
+"""
+
+
+def started(*pairs: tuple[str, str], code: str = NODE) -> Trace:
+    """A start of the node with something of it written otherwise."""
+    for old, new in pairs:
+        assert old in code
+        code = code.replace(old, new)
+    return trace(sources={"node.py": code})
+
+
+def test_of_a_node_without_a_fault_nothing_is_said() -> None:
+    assert gap_steps.of_alarm(started()) is None
+    assert gap_steps.of_silence(started()) is None
+    assert gap_steps.of_alarm(started(code="def f(:")) is None
+
+
+@pytest.mark.parametrize(
+    ("reads", "what"),
+    [
+        ("int(msg.data[-1:])", "reads 7 out of “Hello World: 107”"),
+        ("int(msg.data[-2])", "reads 0 out of “Hello World: 107”"),
+        ("int(msg.data[-2:])", "reads 7 out of “Hello World: 107”"),
+        ("int(msg.data[-3:])", "reads no number out of “Hello World: 4”"),
+        ("int(msg.data.split()[1])", "reads no number out of “Hello World: 107”"),
+        ("int(msg.data)", "reads no number out of “Hello World: 107”"),
+        ("int(msg.data.strip().replace('Hello', ''))", "reads no number out of"),
+        ("int(msg.data.split(' ')[-1][0])", "reads 1 out of “Hello World: 107”"),
+    ],
+)
+def test_a_number_that_is_taken_from_the_wrong_place(reads: str, what: str) -> None:
+    for seen in (gap_steps.of_alarm, gap_steps.of_silence):
+        cause = seen(started(("int(msg.data.split(':')[1])", reads)))
+        assert cause is not None
+        assert (cause.name, cause.text) == ("number misread", f"line 10: {reads} {cause.text.partition(reads)[2][1:]}")
+        assert what in cause.text
+        assert cause.hint == f"line 10: write int(msg.data.rpartition(':')[2]) instead of {reads}"
+
+
+@pytest.mark.parametrize(
+    "reads",
+    [
+        "int(msg.data.split(':')[-1].strip())",
+        "int(msg.data.rpartition(' ')[2])",
+        "int(msg.data[13:])",
+        "int(msg.data.removeprefix('Hello World: '))",
+        "int(re.findall('[0-9]+', msg.data)[0])",
+        "self.number_of(msg)",
+    ],
+)
+def test_a_number_that_is_read_well_or_in_a_way_that_is_not_known(reads: str) -> None:
+    assert gap_steps.of_alarm(started(("int(msg.data.split(':')[1])", reads))) is None
+
+
+def test_a_number_is_followed_through_a_variable_and_into_a_helper() -> None:
+    steps = ("number = int(msg.data.split(':')[1])", "parts = msg.data.split()\n        number = int(parts[1])")
+    cause = gap_steps.of_silence(started(steps))
+    assert cause is not None
+    assert cause.hint == "line 11: write int(msg.data.rpartition(':')[2]) instead of int(parts[1])"
+    helper = NODE.replace("number = int(", "self.check(msg.data)\n\n    def check(self, data):\n        number = int(")
+    cause = gap_steps.of_alarm(started(("msg.data.split(':')[1]", "data[-1]"), code=helper))
+    assert cause is not None
+    assert cause.hint == "line 13: write int(data.rpartition(':')[2]) instead of int(data[-1])"
+
+
+COMPARES = "self.last_number is not None and number > self.last_number + 1"
+
+
+@pytest.mark.parametrize(
+    ("test", "step"),
+    [
+        ("number != self.total_count", f"line 11: write {COMPARES} instead of number != self.total_count"),
+        ("number > self.total_count - 1", f"line 11: write {COMPARES} instead of number > self.total_count - 1"),
+        ("number - self.total_count > 0", "line 11: write (number - self.last_number - 1 if self.last_number is"),
+    ],
+)
+def test_a_number_that_is_compared_with_the_count(test: str, step: str) -> None:
+    cause = gap_steps.of_alarm(started((COMPARES, test)))
+    assert cause is not None
+    assert cause.name == "number compared with the count"
+    assert step in cause.hint
+    assert "add to the end of listen: self.last_number = number\nand to __init__: self.last_number = None" in cause.hint
+
+
+@pytest.mark.parametrize(
+    ("pairs", "text", "step"),
+    [
+        (
+            [("        self.last_number = number", "        else:\n            self.last_number = number")],
+            "line 14: self.last_number = number is not done for each message",
+            "add to the end of listen, outside of every if: self.last_number = number",
+        ),
+        (
+            [("missing')\n", "missing')\n            return\n")],
+            "line 13: return leaves listen before line 14",
+            "write above line 13, with the same indentation: self.last_number = number",
+        ),
+        (
+            [("        self.last_number = number\n", "")],
+            "self.last_number is never set",
+            "add to the end of listen: self.last_number = number",
+        ),
+        (
+            [
+                (COMPARES, "self.last_number is not None and number > self.last_number"),
+                ("self.last_number = number", "self.last_number += 1"),
+            ],
+            "line 13: self.last_number += 1 goes on counting",
+            "line 13 becomes: self.last_number = number + 1",
+        ),
+        (
+            [("self.last_number = number", "self.last_number += 1")],
+            "line 13: self.last_number += 1 goes on counting",
+            "line 13 becomes: self.last_number = number",
+        ),
+    ],
+)
+def test_a_last_number_that_does_not_follow(pairs: list[tuple[str, str]], text: str, step: str) -> None:
+    cause = gap_steps.of_alarm(started(*pairs))
+    assert cause is not None
+    assert cause.name == "false alarm"
+    assert text in cause.text
+    assert cause.hint == step
+
+
+def test_a_last_number_that_is_replaced_before_it_is_compared() -> None:
+    early = "        number = int(msg.data.split(':')[1])\n"
+    cause = gap_steps.of_silence(
+        started(("        self.last_number = number\n", ""), (early, f"{early}        self.last_number = number\n"))
+    )
+    assert cause is not None
+    assert "line 11: self.last_number = number comes before line 12" in cause.text
+    assert cause.hint == "move line 11, self.last_number = number, to the end of listen"
+
+
+def test_a_comparison_that_is_about_lower_numbers_only() -> None:
+    cause = gap_steps.of_silence(started(("number > self.last_number + 1", "number < self.last_number")))
+    assert cause is not None
+    assert "line 11: number < self.last_number is about lower numbers only" in cause.text
+    assert f"if {COMPARES}:\n    self.get_logger().warning(" in cause.hint
