@@ -27,14 +27,23 @@ from checks.i1_1.facts import (
     outside,
     swapped,
 )
-from tutor.judge import causes, ending, randomness
+from tutor.judge import causes, ending, randomness, tracebacks
 from tutor.judge.causes import timers
 from tutor.judge.rates import TOLERANCE
 from tutor.judge.reading import UNREAD, Source, read
-from tutor.judge.trace import Parameter
+from tutor.judge.trace import Parameter, Trace
 from tutor.judge.verdict import Cause, Verdict, failed, passed
 
 _STOPS = Cause("no messages", "the node stops publishing, or hardly ever does", "publish from a timer's callback")
+
+
+def _of_exception(trace: Trace | None) -> Cause | None:
+    """The exception that ended the node, which tells more than what was missing then."""
+    return causes.of_process(trace) if trace is not None and tracebacks.last(trace) is not None else None
+
+
+def _stopping(trace: Trace | None) -> Cause:
+    return _of_exception(trace) or _STOPS
 
 
 def judge_publishes(seen: Survey) -> Verdict:
@@ -55,7 +64,7 @@ def judge_publishes(seen: Survey) -> Verdict:
 def judge_range(found: Values, more: Values) -> Verdict:
     expected = f"every value in [{LOWEST}, {HIGHEST}] °C"
     if not found.all:
-        return failed(expected, "no values at all", _STOPS)
+        return failed(expected, "no values at all", _stopping(found.trace))
     values = (*found.all, *more.all)
     wrong = outside(values)
     if not wrong:
@@ -107,7 +116,7 @@ def judge_random(found: Values) -> Verdict:
         )
     longest = max(found.runs, key=len)
     if len(longest) < 3:
-        return failed(expected, f"only {len(longest)} values in {LISTEN_S:g} s", _STOPS)
+        return failed(expected, f"only {len(longest)} values in {LISTEN_S:g} s", _stopping(found.trace))
     return passed(expected, f"{len(longest)} values, no pattern", [f"data: {value:g}" for value in longest[:5]])
 
 
@@ -133,7 +142,7 @@ def judge_echo(seen: Survey) -> Verdict:
     expected = f"`ros2 topic echo {TOPIC}` shows the values"
     echo = seen.echo
     if echo is None:  # the first message came when nobody waited for it any more
-        return failed(expected, "the first message came too late", _STOPS)
+        return failed(expected, "the first message came too late", _stopping(seen.trace))
     if echo.samples and len(echo.types) == 1:
         return passed(
             expected,
@@ -147,7 +156,7 @@ def judge_echo(seen: Survey) -> Verdict:
             f"publish nothing but {TYPE} on {TOPIC}",
         )
     elif not echo.types:
-        cause = Cause(
+        cause = _of_exception(seen.trace) or Cause(
             "no publisher", "the publisher was gone when echo looked for it", "keep it for as long as the node lives"
         )
     else:

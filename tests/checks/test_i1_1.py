@@ -165,6 +165,13 @@ def test_echo_not(shown: Echo | None, cause: str) -> None:
     assert_failed(judge_echo(survey(trace(*MESSAGES), echo=shown)), cause)
 
 
+def test_a_node_that_an_exception_has_ended_is_told_so_and_not_to_publish_from_a_timer() -> None:
+    crashed = CRASHED
+    assert_failed(judge_random(Values((drawn(1), ()), crashed)), "unhandled exception")
+    assert_failed(judge_echo(survey(crashed, echo=echo(shown=False))), "unhandled exception")
+    assert_failed(judge_echo(survey(crashed, echo=None)), "unhandled exception")
+
+
 RATE = parameter("publish_rate", "double", 1.0)
 RATES_HZ = (2.0, 8.0, 0.5)
 

@@ -97,6 +97,13 @@ def test_letting_ctrl_c_through(source: str, step: str) -> None:
     assert closing.letting_go(node(source)).startswith(step)
 
 
+def test_each_step_stands_in_a_line_of_its_own() -> None:
+    """What follows a line of code must not look like a part of it."""
+    said = closing.letting_go(node("Thread(target=work).start()\nwhile True:\n  work()"))
+    assert said.splitlines()[0] == "line 2 becomes: while rclpy.ok():"
+    assert said.splitlines()[1].startswith("give the thread of line 1 daemon=True")
+
+
 def test_the_exit_code() -> None:
     assert "in line 2" in closing.returning(node("import sys\nsys.exit(3)"))
     assert "return normally" in closing.returning(node("pass"))

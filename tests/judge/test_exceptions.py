@@ -127,3 +127,21 @@ def test_an_entry_that_asks_for_a_line_does_not_fit_where_there_is_none() -> Non
 def test_the_table_is_as_large_as_it_should_be() -> None:
     assert len(shipped()) >= 100
     assert len(EXAMPLES) >= 80
+
+
+def test_a_line_that_stays_as_it_is_is_no_step() -> None:
+    table = ENTRY.replace("do", "line {number} becomes: {becomes}") + "replace = ['int', 'int']"
+    assert one(table, Example("ValueError: 5", "", line="int(x)")) == ""
+
+
+def test_an_unknown_exception_says_what_python_complains_of_and_not_the_line_again() -> None:
+    found = of_process(trace(err=crash("def f(): raise_it\nx = 1\nx.y = 5"), exit=exited(1)))
+    assert found is not None
+    assert "in line 3 of node.py, change what Python complains of there: AttributeError: 'int'" in found.hint
+    assert "x.y = 5" not in found.hint
+    assert "x.y = 5" in found.text
+
+
+@pytest.mark.parametrize("entry", shipped(), ids=lambda entry: entry.says[:40])
+def test_words_after_a_line_of_code_are_not_joined_to_it_by_a_semicolon(entry: Known) -> None:
+    assert "{becomes};" not in entry.step

@@ -69,7 +69,7 @@ def letting_go(trace: Trace) -> str:
                 f"give the thread of line {call.lineno} daemon=True, so that it does not keep the program alive"
             )
     steps = list(dict.fromkeys(steps))[:3]
-    return "; ".join(steps) or (
+    return "\n".join(steps) or (
         "let KeyboardInterrupt end the program: no bare `except:` around spin, no loop without rclpy.ok()"
     )
 

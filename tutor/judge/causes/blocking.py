@@ -248,7 +248,7 @@ def in_groups(trace: Trace) -> str:
         )
     if not steps:
         return "do not call a service of this node from its own callbacks: do the work in the callback itself"
-    return "; ".join(steps)
+    return "\n".join(steps)
 
 
 def _lines(numbers: Sequence[int]) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from tutor.judge import exceptions
 from tutor.judge.causes import names, parameters
 from tutor.judge.trace import Trace
-from tutor.judge.tracebacks import Traceback
+from tutor.judge.tracebacks import Frame, Traceback
 from tutor.judge.verdict import Cause
 
 
@@ -17,8 +17,16 @@ def of_traceback(found: Traceback, trace: Trace) -> Cause:
     return Cause(
         names.UNHANDLED_EXCEPTION,
         _told(found.origin, found, trace),
-        f"fix line {own.line} of {own.name}: {own.code}" if own else "look at the last lines of the output, and fix it",
+        _general(found.origin, own),
     )
+
+
+def _general(raised: Traceback, own: Frame | None) -> str:
+    """What to do about an exception that nothing more is known of: where Python stops, and what it complains of."""
+    said = raised.raised.rstrip(".")
+    if own is None:
+        return f"look in the last lines of the output for the line of yours that leads to it, and change that: {said}"
+    return f"in line {own.line} of {own.name}, change what Python complains of there: {said}"
 
 
 def known(found: Traceback, trace: Trace) -> Cause | None:

@@ -108,12 +108,13 @@ def _of_table(known: Known, seen: Seen, words: Mapping[str, str]) -> dict[str, s
 
 
 def _of_replacing(known: Known, seen: Seen, words: Mapping[str, str]) -> dict[str, str] | None:
-    """What the line becomes."""
+    """What the line becomes; None where it would stay as it is."""
     if known.replace is None:
         return {}
     pattern, by = _put(known.replace.pattern, words, escaped=True), _put(known.replace.by, words)
-    becomes, times = re.subn(pattern, by, words.get("there_code" if known.of_source else "code", ""))
-    return {"becomes": becomes} if times else None
+    before = words.get("there_code" if known.of_source else "code", "")
+    becomes = re.sub(pattern, by, before)
+    return {"becomes": becomes} if becomes != before else None
 
 
 def _groups(match: re.Match[str]) -> dict[str, str]:
