@@ -6,7 +6,7 @@ import signal
 from collections.abc import Sequence
 
 from tutor.judge import tracebacks
-from tutor.judge.causes import names
+from tutor.judge.causes import names, spinning
 from tutor.judge.causes.blocking import of_blocked
 from tutor.judge.causes.exceptions import known, of_traceback
 from tutor.judge.trace import Exit, OutputLine, Trace
@@ -51,6 +51,8 @@ def _of_exit(trace: Trace) -> Cause:
         return Cause("killed", f"{ended} ({_signal_name(trace.exit.signal)})", "see the last lines of its output")
     if (refused := _of_usage(trace)) is not None:
         return refused
+    if trace.exit.code == 0 and (unspun := spinning.ended(trace, ended)) is not None:
+        return unspun
     if trace.exit.code == 0 and trace.exit.after_s <= QUICK_S + 0.5:
         return Cause(
             names.EXIT_AT_ONCE,
@@ -103,7 +105,7 @@ def of_no_answer(trace: Trace, stuck: Sequence[Frame], *, spins: bool = False) -
     broken = of_process(trace)
     if broken is not None:
         return broken
-    return of_blocked(trace, stuck, spins=spins) or no_spin(trace)
+    return of_blocked(trace, stuck, spins=spins) or spinning.staying(trace, stuck, node_names(trace)) or no_spin(trace)
 
 
 def same_name(trace: Trace) -> Cause | None:

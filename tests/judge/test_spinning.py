@@ -1,0 +1,126 @@
+"""A program that does not spin: the line at which it stays, or ends, and what is to be written there."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from tests.checks.made import FOLDER, UP, exited, trace
+from tutor.judge.causes import of_no_answer, of_process
+from tutor.judge.trace import Trace
+from tutor.judge.tracebacks import Frame
+
+NODE = """\
+class Talker(Node):
+    def __init__(self):
+        super().__init__('talker')
+        self.pub = self.create_publisher(String, 'chatter', 10)
+
+    def tick(self):
+        self.pub.publish(String(data='Hello'))
+
+
+def main():
+    rclpy.init()
+    talker = Talker()
+    {body}
+
+
+main()
+"""
+
+
+def started(*body: str, **more: object) -> Trace:
+    return replace(trace(graph=UP, **more), sources={"node.py": NODE.format(body="\n    ".join(body))})  # type: ignore[arg-type]
+
+
+def at(line: int, code: str, function: str = "main") -> tuple[Frame, ...]:
+    me = f"{FOLDER}/node.py"
+    return Frame(me, line, function, code, 1), Frame(me, 99, "<module>", "main()", 1)
+
+
+@pytest.mark.parametrize(
+    ("body", "stuck", "text", "step"),
+    [
+        (
+            ["while rclpy.ok():", "    time.sleep(0.1)"],
+            at(14, "time.sleep(0.1)"),
+            "stays at node.py, line 14: time.sleep(0.1), in the loop of line 13: while rclpy.ok():",
+            "write rclpy.spin(talker) instead of lines 13 to 14: ",
+        ),
+        (
+            ["while True:", "    time.sleep(0.5)", "rclpy.spin(talker)"],
+            at(14, "time.sleep(0.5)"),
+            "while True:",
+            "take lines 13 to 14 out, so that spin() is reached",
+        ),
+        (
+            ["while True:", "    talker.tick()", "    time.sleep(0.5)"],
+            at(15, "time.sleep(0.5)"),
+            "line 15",
+            "write instead of lines 13 to 15:\ntalker.create_timer(0.5, talker.tick)\nrclpy.spin(talker)",
+        ),
+        (
+            ["while True:", "    talker.tick()", "    time.sleep(0.5)", "rclpy.spin(talker)"],
+            at(15, "time.sleep(0.5)"),
+            "line 15",
+            "write instead of lines 13 to 15:\ntalker.create_timer(0.5, talker.tick)",
+        ),
+        (
+            ["while True:", "    m = String()", "    talker.pub.publish(m)", "    time.sleep(1)"],
+            at(16, "time.sleep(1)"),
+            "line 16",
+            "into a method of the node, def tick(self):, and write in place of the loop: talker.create_timer(1, "
+            "talker.tick), and rclpy.spin(talker) below it",
+        ),
+        (["time.sleep(60)"], at(13, "time.sleep(60)"), "line 13", "write rclpy.spin(talker) in place of line 13"),
+        (
+            ["input()", "rclpy.spin(talker)"],
+            at(13, "input()"),
+            "line 13",
+            "take line 13, input(), out",
+        ),
+    ],
+)
+def test_where_it_stays_instead_of_spinning(body: list[str], stuck: tuple[Frame, ...], text: str, step: str) -> None:
+    found = of_no_answer(started(*body), stuck)
+    assert found.name == "no spin"
+    assert text in found.text
+    assert step in found.hint
+    assert ("rclpy.spin" in found.hint) == ("rclpy.spin" in step)
+
+
+def test_a_loop_in_the_constructor_is_left_to_a_timer() -> None:
+    code = NODE.replace("\n    def tick", "        while True:\n            self.tick()\n\n    def tick", 1)
+    seen = replace(started("rclpy.spin(talker)"), sources={"node.py": code.format(body="rclpy.spin(talker)")})
+    found = of_no_answer(seen, at(6, "self.tick()", "__init__"))
+    assert "write instead of lines 5 to 6:\nself.create_timer(1.0, self.tick)" in found.hint
+    assert "rclpy.spin" not in found.hint
+
+
+def test_one_that_does_spin_is_not_told_to() -> None:
+    for stuck in ((), at(13, "rclpy.spin(talker)")):
+        assert "stays" not in of_no_answer(started("rclpy.spin(talker)"), stuck).text
+
+
+@pytest.mark.parametrize(
+    ("body", "step"),
+    [
+        (["rclpy.spin_once(talker)"], "line 13 becomes: rclpy.spin(talker)"),
+        (["rclpy.spin_once(talker, timeout_sec=0.1)"], "line 13 becomes: rclpy.spin(talker)"),
+        (["ex = SingleThreadedExecutor()", "ex.spin_once()"], "line 14 becomes: ex.spin()"),
+        (["talker.tick()"], "right after line 12, with the same indentation: rclpy.spin(talker)"),
+    ],
+)
+def test_one_that_ends_is_told_where_to_spin(body: list[str], step: str) -> None:
+    found = of_process(started(*body, exit=exited(0)))
+    assert found is not None
+    assert (found.name, found.hint) == ("exit at once", step)
+
+
+@pytest.mark.parametrize("body", ["rclpy.spin(talker)", "while ok():\n        rclpy.spin_once(talker)"])
+def test_one_that_ends_though_it_spins_is_told_nothing_of_lines(body: str) -> None:
+    found = of_process(started(body, exit=exited(0)))
+    assert found is not None
+    assert "line 1" not in found.hint

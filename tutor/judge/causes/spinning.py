@@ -1,0 +1,164 @@
+"""Why nobody runs a node's callbacks: the line at which the program stays, or ends, and what belongs there."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Sequence
+
+from tutor.judge import source, tracebacks
+from tutor.judge.causes import names
+from tutor.judge.trace import Trace
+from tutor.judge.tracebacks import Frame
+from tutor.judge.verdict import Cause
+
+_Loop = ast.While | ast.For
+_SPINS = "spin", "spin_once", "spin_some", "spin_until_future_complete"
+
+
+def staying(trace: Trace, stuck: Sequence[Frame], nodes: str) -> Cause | None:
+    """Where the program stays instead of spinning; `stuck`: where its threads are, `nodes` names the node.
+
+    None where this is not known, or where it does spin.
+    """
+    mains = [thread for thread in tracebacks.threads(stuck) if thread[-1].function == "<module>"]
+    at = tracebacks.own(mains[0] if mains else stuck, trace.folder)
+    if at is None or "spin" in at.code or any(frame.path.endswith("rclpy/executors.py") for frame in stuck):
+        return None
+    loop = _loop_at(trace, at)
+    where = f"at {at}" + (f", in the loop of {_line(loop)}" if loop is not None and loop.lineno != at.line else "")
+    return Cause(
+        names.NO_SPIN,
+        f"{nodes} exists, but answers no request: its callbacks are never run. The program stays {where}",
+        _in_place(trace, at, loop),
+    )
+
+
+def _in_place(trace: Trace, at: Frame, loop: _Loop | None) -> str:
+    """What is written in place of the line, or the loop, at which the program stays."""
+    node = _node(trace)
+    spin = f"rclpy.spin({node})"
+    function = source.function_at(trace, at.name, at.line)
+    if (
+        function is not None
+        and function.name != "main"
+        and function.args.args[:1]
+        and function.args.args[0].arg == "self"
+    ):
+        node, spin = "self", ""
+    below = source.calls(trace, *_SPINS)
+    if loop is None:
+        if below or not spin:
+            return f"take line {at.line}, {at.code}, out: what has to wait is done by a timer, while the node spins"
+        return f"write {spin} in place of line {at.line}, {at.code}: spin() waits by itself for work, until Ctrl+C"
+    lines = f"lines {loop.lineno} to {loop.end_lineno}" if loop.end_lineno != loop.lineno else f"line {loop.lineno}"
+    spun = f"\n{spin}" if spin and not _spun(trace, function) else ""
+    work = [each for each in loop.body if not _idle(each)]
+    if not work:
+        if not spin or spun == "":
+            return f"take {lines} out, so that spin() is reached: it waits by itself for work, until Ctrl+C"
+        return f"write {spin} instead of {lines}: spin() waits by itself for work, until Ctrl+C"
+    period = next((ast.unparse(nap.args[0]) for nap in _naps(loop) if nap.args), "1.0")
+    if len(work) == 1 and (called := _plain_call(work[0])) is not None:
+        return f"write instead of {lines}:\n{node}.create_timer({period}, {called}){spun}"
+    more = f", and {spin} below it" if spun else ""
+    return (
+        f"move what the loop does ({lines}, without the sleep) into a method of the node, def tick(self):, and write "
+        f"in place of the loop: {node}.create_timer({period}, {node}.tick){more}"
+    )
+
+
+def ended(trace: Trace, said: str) -> Cause | None:
+    """Why a program ends by itself: it never spins, or spins once only. `said`: that it has ended, and how."""
+    if not trace.sources or source.calls(trace, "spin"):
+        return None
+    in_loops = {id(call) for loop in source.nodes(trace) if isinstance(loop, _Loop) for call in ast.walk(loop)}
+    once = source.calls(trace, "spin_once", "spin_some")
+    if once and not any(id(call) in in_loops for call in once):
+        code = ast.unparse(once[0])
+        return Cause(
+            names.EXIT_AT_ONCE,
+            f"{said}: line {once[0].lineno}, {code}, waits for one piece of work only, and then the program goes on to "
+            "its end",
+            f"line {once[0].lineno} becomes: {_whole(once[0])}",
+        )
+    if source.calls(trace, *_SPINS):
+        return None
+    made = _made(trace)
+    if not made:
+        return None
+    name, line = made
+    return Cause(
+        names.EXIT_AT_ONCE,
+        f"{said}: it makes a node in line {line}, never spins it, and so comes to its end",
+        f"right after line {line}, with the same indentation: rclpy.spin({name})",
+    )
+
+
+def _whole(call: ast.Call) -> str:
+    """spin_once(node, timeout_sec=0.1) as spin(node)."""
+    spun = f"{ast.unparse(call.func).rpartition('.')[0]}.spin" if isinstance(call.func, ast.Attribute) else "rclpy.spin"
+    given = ast.unparse(call.args[0]) if call.args and spun == "rclpy.spin" else ""
+    named = next((ast.unparse(each.value) for each in call.keywords if each.arg == "node"), "")
+    return f"{spun}({given or named})"
+
+
+def _made(trace: Trace) -> tuple[str, int] | None:
+    """What the node is called where it is made, outside of its own class, and the line."""
+    classes = [
+        node.name
+        for node in source.nodes(trace)
+        if isinstance(node, ast.ClassDef) and any("Node" in ast.unparse(base) for base in node.bases)
+    ]
+    found = [each for each in source.assigned(trace, *classes, "Node", "create_node") if each[0]]
+    return found[0] if found else None
+
+
+def _node(trace: Trace) -> str:
+    made = _made(trace)
+    return made[0] if made else "node"
+
+
+def _spun(trace: Trace, function: ast.FunctionDef | ast.AsyncFunctionDef | None) -> bool:
+    """Whether the same function spins already, outside of the loop: that line is reached once the loop is gone."""
+    inside = ast.walk(function) if function is not None else source.nodes(trace)
+    return any(isinstance(each, ast.Call) and source.called(each) == "spin" for each in inside)
+
+
+def _loop_at(trace: Trace, at: Frame) -> _Loop | None:
+    """The outermost loop around a line, in its function."""
+    function = source.function_at(trace, at.name, at.line)
+    inside = ast.walk(function) if function is not None else source.nodes(trace)
+    found = [
+        each
+        for each in inside
+        if isinstance(each, _Loop) and each.lineno <= at.line <= (each.end_lineno or each.lineno)
+    ]
+    return min(found, key=lambda each: each.lineno, default=None)
+
+
+def _idle(statement: ast.stmt) -> bool:
+    """Whether it does nothing but wait."""
+    if isinstance(statement, ast.Pass | ast.Continue):
+        return True
+    return isinstance(statement, ast.Expr) and (
+        isinstance(statement.value, ast.Constant)
+        or (isinstance(statement.value, ast.Call) and source.called(statement.value) in ("sleep", "wait"))
+    )
+
+
+def _plain_call(statement: ast.stmt) -> str | None:
+    """The function of a call without arguments, which a timer can call as well."""
+    if isinstance(statement, ast.Expr) and isinstance(call := statement.value, ast.Call):
+        return None if call.args or call.keywords else ast.unparse(call.func)
+    return None
+
+
+def _naps(loop: _Loop) -> list[ast.Call]:
+    return [each for each in ast.walk(loop) if isinstance(each, ast.Call) and source.called(each) == "sleep"]
+
+
+def _line(loop: _Loop) -> str:
+    head = (
+        f"while {ast.unparse(loop.test)}" if isinstance(loop, ast.While) else f"for {ast.unparse(loop.target)} in ..."
+    )
+    return f"line {loop.lineno}: {head}:"
