@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
+from checks.i1_3 import names
 from checks.i1_3.facts import (
     ANSWER_S,
     SAYS_ERROR,
@@ -63,7 +64,7 @@ def _why_missing(trace: Trace, missing: Sequence[str]) -> Cause:
                 return Cause(
                     "wrong service name",
                     f"there is {service.name} instead of {name}",
-                    f"name it '{name[1:]}', without a namespace or ~ in front",
+                    names.of_server(trace, service.name, name),
                 )
     return Cause(
         "service missing",

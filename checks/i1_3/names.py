@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import difflib
+import re
 from collections.abc import Sequence
 
 from checks.i1_3.facts import SIGNS, TYPE, Demonstration
@@ -29,12 +30,15 @@ def of_client(seen: Demonstration, missing: Sequence[str]) -> Cause | None:
     return _of_type(seen.trace, typed) if typed else None
 
 
-def _renamed(trace: Trace, name: str, missing: Sequence[str]) -> str:
+def _renamed(trace: Trace, name: str, missing: Sequence[str], create: str = "create_client") -> str:
     """The step that makes the client ask for one of the missing services, or for none where it has them all."""
     texts = [each for each in source.nodes(trace) if isinstance(each, ast.Constant) and isinstance(each.value, str)]
     last = name.rpartition("/")[2]
     written = [each for each in texts if _last(each) == last]
     lines = ", ".join(map(str, sorted({each.lineno for each in written})))
+    if len(joined := _joined(last)) > 1:
+        where = f"line {lines}: " if written else ""
+        return f"{where}write a comma after {joined[0]!r}: without it, Python joins it to {joined[1]!r}"
     if f"/{last}" in SIGNS and written:
         wrong = str(written[0].value)
         right = last if wrong != last else f"/{last}"
@@ -44,12 +48,25 @@ def _renamed(trace: Trace, name: str, missing: Sequence[str]) -> str:
         return f"take the client for {name} out{f': line {lines}' if lines else ''}"
     nearest = min(free, key=lambda each: -difflib.SequenceMatcher(None, name, each).ratio())
     if not written:
-        return f"give create_client the name {nearest[1:]!r} in place of {name!r}"
+        return f"give {create} the name {nearest[1:]!r} in place of {name!r}"
     return f"line {lines}: write {nearest[1:]!r} instead of {written[0].value!r}"
+
+
+def _joined(name: str) -> list[str]:
+    """The services' names that this one is put together from, as Python does with two strings and no comma between."""
+    one = "|".join(each[1:] for each in SIGNS)
+    return re.findall(one, name) if re.fullmatch(f"(?:{one})+", name) else []
 
 
 def _last(text: ast.Constant) -> str:
     return str(text.value).rpartition("/")[2]
+
+
+def of_server(trace: Trace, offered: str, missing: str) -> str:
+    """The step for a server that offers one name in place of another, by the line with the name if there is one."""
+    plain = f"name it {missing[1:]!r}, without a namespace or ~ in front"
+    found = _renamed(trace, offered, [missing], "create_service")
+    return found if found.startswith("line ") else plain
 
 
 def _of_type(trace: Trace, client: Service) -> Cause:

@@ -103,6 +103,19 @@ def test_services_not(seen: Calls, cause: str, word: str) -> None:
     assert_failed(judge_services(seen), cause, word)
 
 
+@pytest.mark.parametrize(
+    ("text", "offered", "step"),
+    [
+        ("\nNAMES = ['add', 'multiply' 'divide']", "multiplydivide", "line 2: write a comma after 'multiply'"),
+        ("self.create_service(AddTwoInts, 'div', self.divide)", "div", "line 1: write 'divide' instead of 'div'"),
+        ("self.create_service(AddTwoInts, NAMES[3], self.divide)", "Divide", "name it 'divide', without a namespace"),
+    ],
+)
+def test_a_service_of_another_name_is_told_the_line(text: str, offered: str, step: str) -> None:
+    there = trace(graph=without("/divide", services(**{offered: TYPE})), sources={"node.py": text})
+    assert_failed(judge_services(Calls(there, ANSWERS[:3])), "wrong service name", f"/{offered} instead of", step)
+
+
 def test_a_service_of_another_type_is_missing() -> None:
     assert missing_of(ALL.services) == []
     assert missing_of(services(add=TYPE, subtract="a/srv/B").services) == ["/subtract", "/multiply", "/divide"]
@@ -489,6 +502,16 @@ def test_a_client_that_asks_for_a_service_that_nobody_offers_is_told_both_names(
         ("c = node.create_client(AddTwoInts, '~/divide')", "/client/divide", "write 'divide' instead of '~/divide'"),
         ("c = node.create_client(AddTwoInts, 'divide')", "/calc/divide", "write '/divide' instead of 'divide'"),
         ("c = node.create_client(AddTwoInts, NAMES[3])", "/div", "the name 'divide' in place of '/div'"),
+        (
+            """
+NAMES = [
+    "add",
+    "multiply"
+    "divide",
+]""",
+            "/multiplydivide",
+            "line 4: write a comma after 'multiply'",
+        ),
         (
             "for each in 'divide', 'modulo': node.create_client(T, each)",
             "/modulo",

@@ -294,6 +294,14 @@ def test_why_a_good_value_is_refused(reason: str, cause: str) -> None:
     assert found.hint
 
 
+def test_an_exception_that_nobody_knows_does_not_get_its_line_unchanged_as_the_step() -> None:
+    cause = of_process(trace(err=CRASH.replace("AttributeError: 'Sensor' object has", "OddError: it has")))
+    assert cause is not None
+    assert "self.nothing()" in cause.text
+    assert "line 12 of " in cause.hint
+    assert "self.nothing()" not in cause.hint
+
+
 def test_a_chain_of_exceptions_is_named_by_the_one_that_tells_most() -> None:
     wrapped = "try:\n    import std_msg\nexcept ImportError as error:\n    raise RuntimeError('set it up') from error"
     found = of_process(trace(err=crash(wrapped), exit=exited(1)))

@@ -288,3 +288,9 @@ def test_without_keeps_what_names_the_exception_and_drops_the_source_lines() -> 
 def test_of_one_traceback_nothing_is_read_twice_or_from_the_other_stream() -> None:
     mixed = [line for pair in zip(lines(CRASH), lines(CRASH, "stdout"), strict=True) for line in pair]
     assert len(find(mixed)) == 1
+
+
+def test_without_drops_what_joins_two_exceptions_of_a_chain() -> None:
+    chain = "During handling of the above exception, another exception occurred:"
+    one = 'Traceback (most recent call last):\n  File "/a/node.py", line 1, in main\n    spin()\nKeyboardInterrupt'
+    assert without(lines(f"{one}\n\n{chain}\n\n{one}")) == ("KeyboardInterrupt", "", "", "KeyboardInterrupt")

@@ -136,6 +136,8 @@ def without(output: Sequence[OutputLine]) -> tuple[str, ...]:
             continue
         if inside and (text.startswith((" ", "\t")) or not text.strip()):
             continue
+        if line.stream == "stderr" and text.strip() in _CHAINED:
+            continue
         inside = False
         kept.append(text)
     return tuple(kept)
