@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import difflib
+import functools
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from typing import cast
 
 from checks.i2_2 import steps
 from checks.i2_2.facts import ARGUMENTS, FILE, NAMESPACE, Launched, is_twice, publishers, shared, subscriptions, used
 from checks.i2_2.processes import Gone, by_stream, gone, writers, written_by
 from tutor.judge import causes, tracebacks
 from tutor.judge.bench import OnlyWithRos
-from tutor.judge.reading import read
+from tutor.judge.reading import Source
 from tutor.judge.trace import Endpoint, Graph, Trace
 from tutor.judge.verdict import Cause
 
@@ -33,6 +35,25 @@ _ERROR = re.compile(r"^\[ERROR\] \[launch\]: |Caught exception in launch[^:]*: "
 _REMAP = re.compile(r"(?:-r|--remap) (?P<source>[^\s:=]+):=(?P<target>\S+)")
 
 
+def _read(trace: Trace) -> Source:
+    return Source(trace.sources.get(trace.file, ""), plain=True)
+
+
+def _in_own_names[**P, R: Cause | None](diagnose: Callable[P, R]) -> Callable[P, R]:
+    """What is said of a launch, with the names by which its file calls what it has imported."""
+
+    @functools.wraps(diagnose)
+    def said(*args: P.args, **named: P.kwargs) -> R:
+        cause = diagnose(*args, **named)
+        trace = next(
+            each if isinstance(each, Trace) else each.trace for each in args[::-1] if isinstance(each, Trace | Launched)
+        )
+        return cause if cause is None else cast("R", steps.in_own_names(_read(trace), cause))
+
+    return said
+
+
+@_in_own_names
 def of_launch(trace: Trace) -> Cause | None:
     """Why the launch did not do what it should: its file is broken, or what it starts ends or cannot be found.
 
@@ -40,7 +61,7 @@ def of_launch(trace: Trace) -> Cause | None:
     """
     own = written_by(trace.output, None)
     text = "\n".join(line.text for line in own)
-    source = read(trace)
+    source = _read(trace)
     if found := _NOT_HERE.search(text):
         raise OnlyWithRos(_line_of(text, found.start()))
     if found := _NO_VALUE.search(text):
@@ -51,7 +72,8 @@ def of_launch(trace: Trace) -> Cause | None:
         return Cause(
             "remappings not a list of pairs",
             _line_of(text, found.start()),
-            f"remappings takes a list of pairs, each in round brackets: {steps.remapping(source, 'chatter')}",
+            steps.pairs(source)
+            or f"remappings takes a list of pairs, each in round brackets: {steps.remapping(source, 'chatter')}",
         )
     if any(_UNRESOLVED.search(line.text) for line in trace.output):
         return Cause(
@@ -139,6 +161,7 @@ def _of_dead(dead: Gone, trace: Trace) -> Cause:
     )
 
 
+@_in_own_names
 def of_missing(seen: Launched) -> Cause:
     """Why there are not two nodes of which one publishes and one subscribes."""
     trace = seen.trace
@@ -152,7 +175,7 @@ def of_missing(seen: Launched) -> Cause:
     if (sending or taking) and not (sending and taking):
         missing, there = ("subscriber", sending) if sending else ("publisher", taking)
         verb = "subscribes" if sending else "publishes"
-        source = read(trace)
+        source = _read(trace)
         if (cause := steps.missing(source, missing)) is not None:
             return cause
         return Cause(
@@ -170,11 +193,12 @@ def of_missing(seen: Launched) -> Cause:
     )
 
 
+@_in_own_names
 def of_topic(usual: Launched, seen: Launched, wanted: str) -> Cause:
     """Why, with another topic given, not both nodes use `wanted`, or the default topic is still used."""
     if (cause := _of_broken(seen)) is not None:
         return cause
-    graph, name, source = seen.trace.graph, _own_name(usual), read(seen.trace)
+    graph, name, source = seen.trace.graph, _own_name(usual), _read(seen.trace)
     sends = [each for each in publishers(graph) if each.topic == wanted]
     takes = [each for each in subscriptions(graph) if each.topic == wanted]
     if not sends and not takes:
@@ -216,11 +240,12 @@ def of_topic(usual: Launched, seen: Launched, wanted: str) -> Cause:
     )
 
 
+@_in_own_names
 def of_namespace(usual: Launched, seen: Launched) -> Cause:
     """Why, with a namespace given, not both nodes and their topic are under it."""
     if (cause := _of_broken(seen)) is not None:
         return cause
-    space, source = seen.arguments.get("namespace", NAMESPACE), read(seen.trace)
+    space, source = seen.arguments.get("namespace", NAMESPACE), _read(seen.trace)
     graph, under = seen.trace.graph, f"/{space}/"
     ends = [*publishers(graph), *subscriptions(graph)]
     twice = next((name for each in ends for name in (each.node, each.topic) if is_twice(name, space)), None)
@@ -292,7 +317,7 @@ def _of_added(graph: Graph, wanted: str) -> Cause | None:
 
 def _of_ignored(seen: Launched, argument: str, value: str, usual: Launched | None = None) -> Cause | None:
     """Whether the value that was given reaches no node at all."""
-    source = read(seen.trace)
+    source = _read(seen.trace)
     word = value.rsplit("/", 1)[-1]
     nodes = [command for command in seen.commands if seen.trace.file not in command]  # the launch has it by itself
     if any(word in command for command in nodes):
@@ -346,7 +371,7 @@ def _of_remaps(seen: Launched, wanted: str) -> Cause | None:
         return Cause(
             "remapping the wrong way round",
             f"{source} is remapped to {target}, so that {target} stays what it is",
-            "first the name in the node's code, then the new one: " + steps.right_remapping(read(seen.trace), target),
+            "first the name in the node's code, then the new one: " + steps.right_remapping(_read(seen.trace), target),
         )
     for source, target in _remaps(seen):
         if target.rsplit("/", 1)[-1] != word or source.startswith("__"):
@@ -361,13 +386,13 @@ def _of_remaps(seen: Launched, wanted: str) -> Cause | None:
                 "absolute remapping",
                 f"the remapping from {source} means this one name only; in the namespace, the topic is {names[0]}",
                 "without the slash, the name is taken within the namespace: "
-                + steps.right_remapping(read(seen.trace), source[1:]),
+                + steps.right_remapping(_read(seen.trace), source[1:]),
             )
         if not any(name.rsplit("/", 1)[-1] == source.rsplit("/", 1)[-1] for name in names):
             return Cause(
                 "remapping from an unused name",
                 f"{source} is remapped to {target}, but the node uses {', '.join(names)}",
-                steps.right_remapping(read(seen.trace), names[0].rsplit("/", 1)[-1]),
+                steps.right_remapping(_read(seen.trace), names[0].rsplit("/", 1)[-1]),
             )
     return None
 
@@ -377,6 +402,7 @@ def _remaps(seen: Launched) -> list[tuple[str, str]]:
     return [(m["source"], m["target"]) for command in seen.commands for m in _REMAP.finditer(command)]
 
 
+@_in_own_names
 def of_pair(seen: Launched) -> Cause:
     """Why a publisher and a subscription of two nodes do not come together on one topic."""
     graph = seen.trace.graph

@@ -179,7 +179,62 @@ def right_remapping(source: Source, name: str) -> str:
     call = next(iter(source.calls("SetRemap")), None)
     if call is not None:
         return f"line {call.line}: {call.name}('{name}', {value(source, 'topic')})"
-    return f"in {_lines(nodes(source))}: {remapping(source, name)}"
+    right = remapping(source, name)
+    rights = (right, f"remappings=[('{name}', LaunchConfiguration('topic'))]")
+    wrong = [node for node in nodes(source) if f"remappings={node.named.get('remappings')}" not in rights]
+    return f"in {_lines(wrong or nodes(source), 'remappings')}: {right}"
+
+
+def pairs(source: Source) -> str | None:
+    """The step where remappings are given that are no list of pairs."""
+    found = []
+    for node in nodes(source):
+        written = node.named.get("remappings", "")
+        right = _as_pairs(written)
+        if right not in (written, ""):
+            found.append(f"line {node.lines['remappings']}: remappings={right}")
+    return "\n".join(dict.fromkeys(found)) or None
+
+
+def _as_pairs(written: str) -> str:
+    """A list of pairs in round brackets, of what seems to be meant as one; empty where it is not clear what is."""
+    try:
+        given = ast.parse(written, mode="eval").body
+    except SyntaxError:
+        return ""
+    match given:
+        case ast.Dict(keys=keys, values=values):
+            made = list(zip(keys, values, strict=True))
+        case ast.List(elts=elements) | ast.Tuple(elts=elements):
+            inner = [each.elts for each in elements if isinstance(each, ast.List | ast.Tuple) and len(each.elts) == 2]
+            if len(inner) == len(elements):
+                made = [(first, second) for first, second in inner]
+            elif len(elements) == 2 and not inner:
+                made = [(elements[0], elements[1])]
+            else:
+                return ""
+        case _:
+            return ""
+    return f"[{', '.join(f'({ast.unparse(old)}, {ast.unparse(new)})' for old, new in made if old is not None)}]"
+
+
+def in_own_names(source: Source, cause: Cause) -> Cause:
+    """The cause with what the file calls these classes, and with the import of what it does not have yet."""
+    missing = []
+
+    def named(text: str) -> str:
+        return _CLASS.sub(lambda found: source.own(found[0]), text)
+
+    for name, module in _MODULES.items():
+        known = source.own(name) != name or source.imports(name) or source.imports("*")
+        if source.text and not known and re.search(rf"(?<![\w.']){name}\(", cause.hint):
+            missing.append(f"from {module} import {name}")
+    top = f"\nat the top of the file: {'; '.join(missing)}" if missing else ""
+    return Cause(cause.name, named(cause.text), named(cause.hint) + top)
+
+
+_MODULES = {"LaunchConfiguration": "launch.substitutions", "DeclareLaunchArgument": "launch.actions"}
+_CLASS = re.compile(r"(?<![\w.'])(?:LaunchConfiguration|DeclareLaunchArgument|LaunchDescription|Node|SetRemap)(?=\()")
 
 
 def other_node(source: Source, keyword: str, right: str) -> str | None:
@@ -240,7 +295,7 @@ def topic(source: Source, name: str) -> Cause | None:
                     f"topic given as {what}",
                     f"the Node in line {node.line} gets {keyword}={node.named[keyword]}: the program knows no such "
                     f"{what.split()[-1]}, and goes on using '{name}'; a topic gets another name by a remapping",
-                    f"in {_lines(nodes(source))}, instead of {keyword}=...: {right}",
+                    f"in {_lines(nodes(source), keyword)}, instead of {keyword}=...: {right}",
                 )
     for node in nodes(source):
         for keyword in ("arguments", "ros_arguments"):
@@ -249,7 +304,7 @@ def topic(source: Source, name: str) -> Cause | None:
                     "topic hard-coded",
                     f"the Node in line {node.line} has {keyword}={node.named[keyword]}: a fixed text, not the "
                     "argument's value",
-                    f"in {_lines(nodes(source))}, instead of {keyword}=...: {right}",
+                    f"in {_lines(nodes(source), keyword)}, instead of {keyword}=...: {right}",
                 )
     for call in source.calls("SetRemap"):
         return Cause(
@@ -263,7 +318,7 @@ def topic(source: Source, name: str) -> Cause | None:
                 "topic hard-coded",
                 f"the Node in line {node.line} has remappings={node.named['remappings']}: 'topic' in quotation marks "
                 "is the text topic, not the argument's value",
-                f"in {_lines(nodes(source))}: {right}",
+                f"in {_lines(nodes(source), 'remappings')}: {right}",
             )
     return None
 
@@ -288,7 +343,7 @@ def namespace(source: Source) -> Cause | None:
             return Cause(
                 "namespace not used",
                 f"the Node in line {node.line} has namespace={fixed}, which is a fixed text",
-                f"in {_lines(nodes(source))}: {right}",
+                f"in {_lines(nodes(source), 'namespace')}: {right}",
             )
         for keyword in ("parameters", "arguments", "ros_arguments", "name", "remappings"):
             if not fixed and used.search(node.named.get(keyword, "")):
@@ -362,8 +417,9 @@ def _each(source: Source) -> str:
     return f"every Node(...) ({_lines(found)})" if found else "every Node(...)"
 
 
-def _lines(calls: Sequence[Call]) -> str:
-    numbers = sorted({str(call.line) for call in calls}, key=int)
+def _lines(calls: Sequence[Call], keyword: str = "") -> str:
+    """The lines of the calls; of this argument in them, where they have it."""
+    numbers = sorted({str(call.lines.get(keyword, call.line)) for call in calls}, key=int)
     if not numbers:
         return "every Node(...)"
     return f"line{'s' if len(numbers) > 1 else ''} {' and '.join(numbers)}"

@@ -8,6 +8,7 @@ from checks.i2_2 import steps
 from checks.i2_2.causes import of_launch
 from tests.checks.made import trace
 from tutor.judge.reading import UNREAD, Source
+from tutor.judge.verdict import Cause
 
 LAUNCH = """\
 from launch import LaunchDescription
@@ -249,3 +250,71 @@ def test_a_command_in_one_piece() -> None:
         "line 4: cmd=['ros2', 'run', 'demo_nodes_py', 'talker']",
         "line 5: cmd=['ros2', 'run', 'demo_nodes_py', 'listener']",
     ]
+
+
+ALIAS = changed(
+    ("import LaunchConfiguration", "import LaunchConfiguration as LC"),
+    ("LaunchConfiguration('", "LC('"),
+    (REMAPPED, ", parameters=[{'topic': LC('topic')}]"),
+    ("    name = LC('topic')\n", ""),
+)
+MODULE = changed(
+    ("from launch.substitutions import LaunchConfiguration", "from launch import substitutions as subs"),
+    ("LaunchConfiguration('", "subs.LaunchConfiguration('"),
+    (REMAPPED, ", parameters=[{'topic': subs.LaunchConfiguration('topic')}]"),
+    ("    name = subs.LaunchConfiguration('topic')\n", ""),
+)
+
+
+@pytest.mark.parametrize(("source", "own"), [(ALIAS, "LC"), (MODULE, "subs.LaunchConfiguration")])
+def test_what_is_imported_under_another_name_is_understood_and_called_so(source: Source, own: str) -> None:
+    plain = Source(source.text, plain=True)
+    found = steps.topic(plain, "chatter")
+    assert found is not None
+    assert found.name == "topic given as a parameter"
+    assert f"parameters=[{{'topic': {own}('topic')}}]" in steps.in_own_names(plain, found).text
+    assert steps.in_own_names(plain, found).hint.endswith(f"remappings=[('chatter', {own}('topic'))]")
+
+
+def test_what_a_step_uses_and_the_file_does_not_import_is_imported() -> None:
+    plain = Source(LAUNCH.replace("LaunchConfiguration", "TextSubstitution"), plain=True)
+    said = steps.in_own_names(plain, Cause("a", "b", "line 1: LaunchConfiguration('topic')"))
+    assert said.hint.splitlines() == [
+        "line 1: LaunchConfiguration('topic')",
+        "at the top of the file: from launch.substitutions import LaunchConfiguration",
+    ]
+
+
+def test_keywords_of_a_dict_that_nodes_share_are_read_and_their_line_is_named() -> None:
+    shared = changed(
+        (REMAPPED, ", **common"),
+        ("    talker =", "    common = dict(\n        parameters=[{'topic': name}],\n    )\n    talker ="),
+    )
+    found = steps.topic(shared, "chatter")
+    assert found is not None
+    assert found.hint == "in line 11, instead of parameters=...: remappings=[('chatter', name)]"
+
+
+def test_only_the_remapping_that_is_wrong_is_named_and_by_its_own_line() -> None:
+    wrong = Source(
+        LAUNCH.replace("executable='listener', ", "executable='listener',\n        ").replace(
+            "namespace=space, remappings=[('chatter', name)])\n    return",
+            "namespace=space,\n        remappings=[(name, 'chatter')])\n    return",
+        )
+    )
+    assert steps.right_remapping(wrong, "chatter") == "in line 13: remappings=[('chatter', name)]"
+
+
+@pytest.mark.parametrize(
+    ("written", "pairs"),
+    [
+        ("('chatter', name)", "[('chatter', name)]"),
+        ("['chatter', name]", "[('chatter', name)]"),
+        ("{'chatter': name}", "[('chatter', name)]"),
+        ("[['chatter', name], ['a', 'b']]", "[('chatter', name), ('a', 'b')]"),
+    ],
+)
+def test_remappings_that_are_no_list_of_pairs_become_one_in_their_line(written: str, pairs: str) -> None:
+    source = changed((REMAPPED, f",\n        remappings={written}"))
+    assert steps.pairs(source) == f"line 11: remappings={pairs}\nline 13: remappings={pairs}"
+    assert steps.pairs(changed()) is None

@@ -19,7 +19,8 @@ class Call:
     """One call: `name` is the last part of what is called; `given` and `named` are its arguments, as written.
 
     `code` is the whole call in one line; `within` the function around it, or empty; `kept` what its result is assigned
-    to ("self.timer"), or empty; `tests` are the conditions around it, innermost first.
+    to ("self.timer"), or empty; `tests` are the conditions around it, innermost first. `named` has what comes by
+    `**common`, too, where `common` is a dict in the same file; `lines` are the lines in which `named` are written.
     """
 
     name: str
@@ -30,6 +31,7 @@ class Call:
     within: str = ""
     kept: str = ""
     tests: tuple[Line, ...] = ()
+    lines: Mapping[str, int] = field(default_factory=dict)
 
     def argument(self, position: int, name: str) -> str:
         """One argument, given by position or by name; empty where it is not there."""
@@ -103,37 +105,49 @@ class Text:
 
 @dataclass(frozen=True, slots=True)
 class Source:
-    """A learner's file, by its text."""
+    """A learner's file, by its text. `plain`: as if each imported class went by its own name, whatever it is called.
+
+    With `from a import Name as N`, or `import a`, both N(...) and a.Name(...) read Name(...) then.
+    """
 
     text: str = ""
+    plain: bool = False
+
+    @property
+    def _read(self) -> _Read:
+        return _read(self.text, self.plain)
+
+    def own(self, name: str) -> str:
+        """How the file calls a class: "Name", "N" or "a.Name"; `name` where it knows none of this name."""
+        return next((written for written, plain in _read(self.text).classes if plain == name), name)
 
     def calls(self, *names: str) -> list[Call]:
         """The calls of functions or methods of these names, in the order of the file."""
-        return [call for call in _read(self.text).calls if call.name in names]
+        return [call for call in self._read.calls if call.name in names]
 
     def functions(self, name: str) -> list[Function]:
         """The functions of this name: more than one where a later one replaces an earlier one."""
-        return [function for function in _read(self.text).functions if function.name == name]
+        return [function for function in self._read.functions if function.name == name]
 
     def all_functions(self) -> list[Function]:
         """Every function of the file."""
-        return list(_read(self.text).functions)
+        return list(self._read.functions)
 
     def assignments(self, target: str = "") -> list[Assignment]:
         """What is assigned to `target` ("self.rate"), or all assignments, in the order of the file."""
-        return [each for each in _read(self.text).assignments if not target or each.target == target]
+        return [each for each in self._read.assignments if not target or each.target == target]
 
     def texts(self) -> list[Text]:
         """The texts that are put together from parts."""
-        return list(_read(self.text).texts)
+        return list(self._read.texts)
 
     def bases(self) -> dict[str, tuple[str, ...]]:
         """Each class with its base classes, as written."""
-        return dict(_read(self.text).bases)
+        return dict(self._read.bases)
 
     def reached(self, name: str) -> list[Function]:
         """The function of this name (the last one), and those of the file that it leads to."""
-        last = {function.name: function for function in _read(self.text).functions}
+        last = {function.name: function for function in self._read.functions}
         found: dict[str, Function] = {}
         todo = [name]
         while todo:
@@ -150,7 +164,7 @@ class Source:
 
     def uses(self, name: str) -> int:
         """How often the variable of this name is read."""
-        return _read(self.text).read.count(name)
+        return self._read.read.count(name)
 
     def lines_with(self, word: str) -> list[int]:
         """The numbers of the lines that have this word in them."""
@@ -159,7 +173,7 @@ class Source:
 
     def imports(self, name: str) -> bool:
         """Whether something of this name is imported."""
-        return name in _read(self.text).imported
+        return name in self._read.imported
 
 
 @dataclass(frozen=True)
@@ -171,14 +185,19 @@ class _Read:
     imported: frozenset[str] = frozenset()
     texts: tuple[Text, ...] = ()
     read: tuple[str, ...] = ()
+    classes: tuple[tuple[str, str], ...] = ()
 
 
 @lru_cache(maxsize=16)
-def _read(text: str) -> _Read:
+def _read(text: str, plain: bool = False) -> _Read:
     try:
         tree = ast.parse(text)
     except (SyntaxError, ValueError, RecursionError):
         return _Read()
+    naming = _Plain(tree)
+    if plain:
+        tree = naming.visit(tree)
+    kept = _dicts(tree)
     around = {child: parent for parent in ast.walk(tree) for child in ast.iter_child_nodes(parent)}
     nodes = list(_in_order(tree))
     imported = frozenset(
@@ -188,7 +207,7 @@ def _read(text: str) -> _Read:
         for alias in node.names
     )
     return _Read(
-        tuple(_call(node, around) for node in nodes if isinstance(node, ast.Call)),
+        tuple(_call(node, around, kept) for node in nodes if isinstance(node, ast.Call)),
         tuple(_function(node, around) for node in nodes if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef)),
         tuple(each for node in nodes for each in _assigned(node, around)),
         tuple((node.name, tuple(map(ast.unparse, node.bases))) for node in nodes if isinstance(node, ast.ClassDef)),
@@ -199,7 +218,64 @@ def _read(text: str) -> _Read:
             if isinstance(node, ast.expr) and (parts := _parts(node, around))
         ),
         tuple(node.id for node in nodes if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Load)),
+        tuple(naming.classes()),
     )
+
+
+class _Plain(ast.NodeTransformer):
+    """Puts the name of each imported class in place of what the file calls it."""
+
+    def __init__(self, tree: ast.Module) -> None:
+        self._tree = tree
+        imports = [node for node in ast.walk(tree) if isinstance(node, ast.Import | ast.ImportFrom)]
+        every = [(node, alias) for node in imports for alias in node.names]
+        self._roots = {(alias.asname or alias.name).split(".")[0] for _, alias in every}
+        self._renamed = {
+            alias.asname: alias.name
+            for node, alias in every
+            if isinstance(node, ast.ImportFrom) and alias.asname and alias.name[:1].isupper()
+        }
+
+    def classes(self) -> Iterator[tuple[str, str]]:
+        """Every class that is imported under another name, or by its module: as it is written, and its own name."""
+        yield from self._renamed.items()
+        for node in ast.walk(self._tree):
+            if isinstance(node, ast.Attribute) and self._is_of_module(node):
+                yield ast.unparse(node), node.attr
+
+    def visit_Name(self, node: ast.Name) -> ast.AST:
+        return ast.copy_location(ast.Name(self._renamed.get(node.id, node.id), node.ctx), node)
+
+    def visit_Attribute(self, node: ast.Attribute) -> ast.AST:
+        if self._is_of_module(node):
+            return ast.copy_location(ast.Name(node.attr, node.ctx), node)
+        return self.generic_visit(node)
+
+    def _is_of_module(self, node: ast.Attribute) -> bool:
+        """Whether this is a.b.Name, with `a` imported: all parts but the last in small letters, as modules are."""
+        *path, last = ast.unparse(node).split(".")
+        return (
+            path[0] in self._roots
+            and last[:1].isupper()
+            and all(each.isidentifier() and each.islower() for each in path)
+        )
+
+
+def _dicts(tree: ast.AST) -> dict[str, dict[str, ast.expr]]:
+    """The dicts that the file gives a name: what each has under its keys that are texts."""
+    found: dict[str, dict[str, ast.expr]] = {}
+    for node in ast.walk(tree):
+        match node:
+            case ast.Assign(targets=[ast.Name(id=name)], value=ast.Call(func=ast.Name(id="dict"), keywords=given)):
+                found[name] = {each.arg: each.value for each in given if each.arg}
+            case ast.Assign(targets=[ast.Name(id=name)], value=ast.Dict(keys=keys, values=values)):
+                pairs = zip(keys, values, strict=True)
+                found[name] = {
+                    key.value: each
+                    for key, each in pairs
+                    if isinstance(key, ast.Constant) and isinstance(key.value, str)
+                }
+    return found
 
 
 def _in_order(node: ast.AST) -> Iterator[ast.AST]:
@@ -208,7 +284,13 @@ def _in_order(node: ast.AST) -> Iterator[ast.AST]:
         yield from _in_order(child)
 
 
-def _call(node: ast.Call, around: Mapping[ast.AST, ast.AST]) -> Call:
+def _call(node: ast.Call, around: Mapping[ast.AST, ast.AST], dicts: Mapping[str, Mapping[str, ast.expr]]) -> Call:
+    named: dict[str, ast.expr] = {}
+    for each in node.keywords:
+        if each.arg:
+            named[each.arg] = each.value
+        elif isinstance(each.value, ast.Name):
+            named |= dicts.get(each.value.id, {})
     parent = around.get(node)
     kept = parent.targets[0] if isinstance(parent, ast.Assign) and parent.value is node else None
     tests = tuple(
@@ -221,10 +303,11 @@ def _call(node: ast.Call, around: Mapping[ast.AST, ast.AST]) -> Call:
         line=node.lineno,
         code=ast.unparse(node),
         given=tuple(map(ast.unparse, node.args)),
-        named={each.arg: ast.unparse(each.value) for each in node.keywords if each.arg},
+        named={name: ast.unparse(value) for name, value in named.items()},
         within=_within(node, around),
         kept=ast.unparse(kept) if kept is not None else "",
         tests=tests,
+        lines={name: value.lineno for name, value in named.items()},
     )
 
 
