@@ -1,7 +1,7 @@
 from __future__ import annotations
 
 import pytest
-from hypothesis import example, given
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from tutor.tui.live.plot import draw, limits, short
@@ -69,6 +69,7 @@ def test_the_band_that_is_asked_for_is_drawn_and_what_is_outside_stands_out() ->
     assert any("╌╌╌" in text for text in dots(plot.rows))
 
 
+@settings(deadline=None)  # a bound on time would be one on how busy the machine is
 @given(
     st.lists(st.tuples(st.floats(0, 100), st.floats(-1e300, 1e300)), max_size=50),
     st.integers(12, 200),

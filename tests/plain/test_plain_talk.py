@@ -80,7 +80,7 @@ def test_lesson_check_hints_and_checklist_by_a_pipe(tmp_path: Path, env: dict[st
     for line in (
         "Your workspace will be ~/ros_tutor_ws: start creates it.",
         "1: i1.1 Sensor Publisher, easy, not started. You are here.",
-        "Section 1 of 6: Objective.",
+        "Section 1 of 8: Objective.",
         "Ticks are kept in your workspace, and there is none yet: say start.",
         "No node has been run yet: say run.",
         "No node is running.",

@@ -42,9 +42,8 @@ async def test_one_lesson_in_a_browser(tmp_path: Path) -> None:
         async with browser(tmp_path) as page:
             await page.do("Page.navigate", url=address)
             await page.sees("Press Enter")
-            await page.press_for(
-                "Float64 messages arrive", "Enter"
-            )  # the workspace is there, and the criteria are shown
+            # The workspace is there, and the criteria are shown: by their names, where there is no room for more.
+            await page.press_for("publishes, range, random", "Enter")
             assert workspace.progress().read().of("i1.1").started_at
 
             node.write_text(lesson.files[0].solution.read_text())

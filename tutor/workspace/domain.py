@@ -43,7 +43,7 @@ def _own(root: Path) -> int:
     chosen = claims.claim(root, lambda: _kept(root), _in_use, claims.REGISTRY)
     if chosen is None:  # no registry: the odds are a hundred to one that nobody has the same
         chosen = claims.preferred(root)[0] if kept is None else kept
-    if chosen != kept and (root / MARKER).is_dir():
+    if chosen != kept and os.path.isdir(root / MARKER):
         with contextlib.suppress(StorageError):
             write_atomically(root / MARKER / "domain", f"{chosen}\n")
     return chosen

@@ -11,7 +11,6 @@ LANGUAGES = ("bash", "sh", "shell", "console")
 _FENCE = re.compile(
     rf"^(?P<fence>`{{3,}}|~{{3,}})(?:{'|'.join(LANGUAGES)})[^\n]*\n(?P<text>.*?)^(?P=fence)[ \t]*$", re.M | re.S
 )
-_COMMENT = re.compile(r"(^|\s)#\s.*$")
 
 
 def commands_in(markdown: str) -> tuple[str, ...]:
@@ -42,5 +41,18 @@ def _commands(example: str) -> Iterator[tuple[range, str]]:
             end += 1
         whole = " ".join(line.strip().removesuffix("\\").rstrip() for line in lines[start : end + 1])
         if not prompted or whole.startswith("$ "):
-            yield range(start, end + 1), _COMMENT.sub("", whole.removeprefix("$ ")).strip()
+            yield range(start, end + 1), _without_comment(whole.removeprefix("$ "))
         start = end + 1
+
+
+def _without_comment(command: str) -> str:
+    """A command without a comment at its end; a `#` in quotes begins none."""
+    quote = ""
+    for place, letter in enumerate(command):
+        if quote:
+            quote = "" if letter == quote else quote
+        elif letter in "\"'":
+            quote = letter
+        elif letter == "#" and command[place - 1 : place] in ("", " "):
+            return command[:place].strip()
+    return command.strip()
