@@ -9,6 +9,7 @@ from math import inf
 from checks.i1_2.facts import EVERY, STALL_S, Feeding
 from checks.i1_2.reading import Number
 from checks.i1_2.reports import Report, find, milestone, slots, totals
+from tutor.judge.causes import slips
 from tutor.judge.rates import TOLERANCE
 from tutor.judge.verdict import Cause
 
@@ -154,7 +155,8 @@ def why_wrong(report: Report, reports: Sequence[Report], feeding: Feeding) -> Ca
         if number.value / 60 in true:
             return Cause("rate per minute", f"{number.text} is messages per minute", hint)
         if any(number.value * by in true for by in (1e-3, 1e3, 1e6, 1e9)):
-            return Cause("rate in another unit", f"{number.text} is off by a factor of a thousand, or of several", hint)
+            step = slips.nanoseconds(feeding.trace) or hint
+            return Cause("rate in another unit", f"{number.text} is off by a factor of a thousand, or of several", step)
     waited = [_waited(each, feeding) for each in reports]
     for number, span in _waited(report, feeding):
         if span.high > 0.7 and all(any(span.meets(same) for _, same in each) for each in waited):

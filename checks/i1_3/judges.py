@@ -20,6 +20,7 @@ from checks.i1_3.facts import (
     right_result,
 )
 from tutor.judge import causes, ending, source, tracebacks
+from tutor.judge.causes import slips
 from tutor.judge.trace import CallAnswer, Service, Trace
 from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped
 
@@ -102,7 +103,7 @@ def judge_operations(seen: Calls) -> Verdict:
             return failed(
                 f"{question} = {right}",
                 f"{answer.response['sum']}",
-                _negatives_refused(answer, seen.answers) or _why_wrong(answer, right),
+                _negatives_refused(answer, seen.answers) or _why_wrong(answer, right, seen.trace),
                 [f"{name} answered {result}" for name, result in _answered(seen.of(answer.service))],
             )
     if late := _never_called(seen):
@@ -138,7 +139,7 @@ def _negatives_refused(answer: CallAnswer, answers: Sequence[CallAnswer]) -> Cau
     )
 
 
-def _why_wrong(answer: CallAnswer, right: int) -> Cause:
+def _why_wrong(answer: CallAnswer, right: int, trace: Trace) -> Cause:
     assert answer.response is not None
     got, a, b = answer.response["sum"], answer.request["a"], answer.request["b"]
     name = answer.service
@@ -147,7 +148,8 @@ def _why_wrong(answer: CallAnswer, right: int) -> Cause:
         return Cause(
             "wrong result",
             f"this is what {others[0]} would answer",
-            f"look at the sign in the callback of {name}, and at which callback belongs to which service",
+            slips.late_binding(trace)
+            or f"look at the sign in the callback of {name}, and at which callback belongs to which service",
         )
     if name == "/subtract" and got == b - a:
         return Cause("wrong result", "the operands are the wrong way round", "resp.sum = req.a - req.b")

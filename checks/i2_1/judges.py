@@ -32,7 +32,7 @@ from checks.i2_1.facts import (
     text,
 )
 from tutor.judge import causes, ending, tracebacks
-from tutor.judge.causes import parameter_use, timers
+from tutor.judge.causes import parameter_use, slips, timers
 from tutor.judge.rates import TOLERANCE, Rate, describe
 from tutor.judge.reading import read
 from tutor.judge.trace import Level, SetAnswer, Trace
@@ -200,7 +200,8 @@ def judge_runtime(seen: Switched, retimed: Retimed) -> Verdict:
             or Cause(
                 "does not resume",
                 f"{ENABLED} true does not bring the messages back",
-                timers.ended_for_good(read(seen.trace), ENABLED)
+                slips.truth_as_text(seen.trace)
+                or timers.ended_for_good(read(seen.trace), ENABLED)
                 or "let the timer run on, and only skip publish() while enabled is false; or make the timer again",
             ),
         )
@@ -259,6 +260,9 @@ def _held_back(seen: Switched) -> list[str]:
 
 
 def _ignored_later(name: str, trace: Trace) -> Cause:
+    compared = slips.truth_as_text(trace) if name == ENABLED else None
+    if compared is not None:
+        return Cause("parameter ignored", f"{name} is accepted, but compared with a text", compared)
     return parameter_use.not_followed(read(trace), name) or Cause(
         "parameter ignored",
         f"{name} is accepted, but what the node sends does not follow it",

@@ -1,0 +1,68 @@
+"""Slips of plain Python that raise nothing: what the learner's source says of them, and the step."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from tests.checks.made import trace
+from tutor.judge.causes import slips
+from tutor.judge.trace import Trace
+
+
+def node(text: str) -> Trace:
+    return replace(trace(), sources={"node.py": text})
+
+
+@pytest.mark.parametrize(
+    ("text", "step"),
+    [
+        ("self.on = str(p.value) == 'true'", "in line 1, write p.value in place of str(p.value) == 'true'"),
+        ("\nif p.value == 'True':\n  pass", "in line 2, write p.value in place of p.value == 'True'"),
+        ("self.on = p.value != 'false'", "write p.value in place of"),
+        ("self.on = 'false' == p.value", "write not p.value in place of"),
+    ],
+)
+def test_a_truth_is_no_text(text: str, step: str) -> None:
+    assert step in (slips.truth_as_text(node(text)) or "")
+
+
+@pytest.mark.parametrize(
+    "text", ["x = str(p.value).lower() == 'true'", "if p.name == 'true': pass", "x = p.value == 'a'"]
+)
+def test_a_comparison_that_goes_well(text: str) -> None:
+    assert slips.truth_as_text(node(text)) is None
+
+
+def test_a_lambda_in_a_loop_keeps_the_values_of_its_round() -> None:
+    loop = "for name, f in all.items():\n  made(name,\n    lambda q, r: self.do(name, f, q, r))"
+    step = slips.late_binding(node(loop)) or ""
+    assert step.startswith("in line 3, write lambda q, r, name=name, f=f: self.do(name, f, q, r)\n")
+
+
+@pytest.mark.parametrize(
+    "loop",
+    [
+        "for f in all:\n  made(lambda q, f=f: f(q))",
+        "for f in all:\n  made(lambda q: q)",
+        "for f in all:\n  made(lambda f: f)",
+    ],
+)
+def test_a_lambda_that_is_bound_already(loop: str) -> None:
+    assert slips.late_binding(node(loop)) is None
+
+
+@pytest.mark.parametrize(
+    ("text", "step"),
+    [
+        ("s = (now - t).nanoseconds / 1e6", "in line 1, write (now - t).nanoseconds / 1e9 in place of"),
+        ("s = (now - t).nanoseconds", "in line 1, write ((now - t).nanoseconds / 1e9) in place of"),
+        ("s = (now - t).nanoseconds / 1e9", ""),
+        ("s = time.time() / 1000", ""),
+        ("ns = t.nanoseconds\ns = ns / 1e6", ""),
+    ],
+)
+def test_a_second_has_a_billion_nanoseconds(text: str, step: str) -> None:
+    found = slips.nanoseconds(node(text))
+    assert found is None if not step else step in (found or "")
