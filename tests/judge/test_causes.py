@@ -253,6 +253,45 @@ def test_what_was_printed_instead_of_logged(seen: Trace, after: str, cause: str)
     assert (found.name if found else "") == cause
 
 
+SAYS = """
+import logging
+log = logging.getLogger('me')
+class A(Node):
+    def tick(self):
+        {line}
+"""
+
+
+@pytest.mark.parametrize(
+    ("line", "out", "text", "step"),
+    [
+        ("print(f'sensor {name}')", "sensor kx7", "line 6", "line 6 becomes: self.get_logger().info(f'sensor {name}')"),
+        ("print('name', name)", "name kx7", "line 6", "line 6 becomes: self.get_logger().info(f'name {name}')"),
+        ("log.info('%s up', name)", "INFO:me:kx7 up", "Python's own", ".get_logger().info('%s up' % (name,))"),
+        (
+            "logging.warning(f'{name} up')",
+            "WARNING:root:kx7 up",
+            "Python's own",
+            "self.get_logger().warning(f'{name} up')",
+        ),
+        ("print('is', self.get('key'))", "is kx7", "line 6", "line 6 becomes: self.get_logger().info(f'is {self.get("),
+        ("print(name)", "kx7", "with print(): kx7", "use self.get_logger().info(...)"),
+        ("log.info('%s up', name)", "", "Python's own", "line 6 becomes: self.get_logger().info('%s up' % (name,))"),
+    ],
+)
+def test_what_was_printed_is_told_with_its_line(line: str, out: str, text: str, step: str) -> None:
+    seen = trace(out=out, sources={"node.py": SAYS.format(line=line)})
+    found = of_printed(seen, lambda text: "kx7" in text, "the name")
+    assert found is not None
+    assert text in found.text
+    assert step in found.hint
+
+
+def test_silence_is_laid_to_pythons_logging_only_where_the_node_logs_nothing() -> None:
+    both = SAYS.format(line="log.debug('x'); self.get_logger().debug(name)")
+    assert of_printed(trace(sources={"node.py": both}), lambda text: "kx7" in text, "the name") is None
+
+
 ROSOUT = "Failed to publish log message to rosout: publisher's context is invalid, at ./src/rcl/publisher.c:423"
 RCL = "rclpy._rclpy_pybind11.RCLError: failed to shutdown: rcl_shutdown already called on the given context"
 SHUTDOWN = f"""Traceback (most recent call last):

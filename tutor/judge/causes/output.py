@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import ast
 import re
 from collections.abc import Callable, Iterable, Sequence
 
-from tutor.judge import tracebacks
-from tutor.judge.causes import names
+from tutor.judge import source, tracebacks
+from tutor.judge.causes import names, printing
 from tutor.judge.trace import OutputLine, Trace
 from tutor.judge.verdict import Cause
 
@@ -32,11 +33,15 @@ def of_printed(
     """
     printed = [text for text in _prints(trace.output) if says(text)]
     if printed:
+        if (call := printing.python_logging(trace, printed[0])) is not None:
+            return _of_python_logging(trace, call, what)
+        wrote = printing.print_of(trace, printed[0])
+        at = f" in line {wrote.lineno}" if wrote else ""
+        reaches = "log messages reach /rosout, where others can read them, and no buffering holds them back"
         return Cause(
             "printed, not logged",
-            f"{what} is written with print(): {printed[0]}",
-            "use self.get_logger().info(...): log messages reach /rosout, where others can read them, and no buffering "
-            "holds them back",
+            f"{what} is written with print(){at}: {printed[0]}",
+            f"{printing.logged(trace, wrote)} ({reaches})" if wrote else f"use self.get_logger().info(...): {reaches}",
         )
     seen = {log.text for log in trace.logs}
     matches = [found for line in trace.output if (found := _LOGGED.match(line.text)) and says(line.text)]
@@ -56,13 +61,24 @@ def of_printed(
         )
     late = [text for text in _prints(tuple(after)) if says(text)]
     if late:
+        wrote = printing.print_of(trace, late[0])
+        step = printing.logged(trace, wrote) if wrote else "use self.get_logger().info(...)"
         return Cause(
             names.HELD_BACK,
             f"{what} is printed, not logged, and appears only when the program ends: {late[0]}",
-            "use self.get_logger().info(...): print() into a pipe or a file waits until its buffer is full, a log "
-            "message goes out at once",
+            f"{step}: print() into a pipe or a file waits until its buffer is full, a log message goes out at once",
         )
-    return None
+    unused = None if source.calls(trace, "get_logger") else printing.python_logging(trace)
+    return _of_python_logging(trace, unused, what) if unused is not None else None
+
+
+def _of_python_logging(trace: Trace, call: ast.Call, what: str) -> Cause:
+    return Cause(
+        "printed, not logged",
+        f"{what} goes to Python's own logging module, which knows nothing of ROS: line {call.lineno}: "
+        f"{ast.unparse(call)}",
+        printing.logged(trace, call),
+    )
 
 
 def _prints(output: Sequence[OutputLine]) -> list[str]:

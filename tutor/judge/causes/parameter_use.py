@@ -282,12 +282,27 @@ def _never_read(source: Source, name: str) -> Cause | None:
     made = next(iter(source.calls("create_timer")), None)
     if "rate" in name and made is not None and made.given:
         hint = made.instead(made.given[0], f"1.0 / {value}")
+    elif "rate" in name and made is None and (nap := _nap(source)) is not None:
+        node = "self" if nap.within and nap.within != "main" else _node(source)
+        hint = nap.instead(nap.given[0], f"1.0 / {node}.get_parameter('{name}').value")
     elif name == "enabled" and tick is not None:
         hint = f"begin {tick.name} (line {tick.line}) with:\nif not {value}:\n    return"
     else:
         where = f" in {tick.name} (line {tick.line})" if tick else ""
         hint = f"put {value} where its value is to be used{where}"
     return Cause("parameter ignored", f"{name} is declared, but its value is read nowhere", hint)
+
+
+def _nap(source: Source) -> Call | None:
+    """A sleep of so many seconds, where there is only one: the pace of a loop that does without a timer."""
+    naps = [call for call in source.calls("sleep") if call.given and re.fullmatch(r"[\d.]+", call.given[0])]
+    return naps[0] if len(naps) == 1 else None
+
+
+def _node(source: Source) -> str:
+    """What the node is called outside of its class."""
+    classes = [name for name, bases in source.bases().items() if any("Node" in base for base in bases)]
+    return next((call.kept for call in source.calls(*classes, "create_node") if call.kept), "node")
 
 
 def holder(source: Source, name: str) -> Assignment | None:
