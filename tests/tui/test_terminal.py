@@ -51,6 +51,7 @@ async def test_several_run_at_once_and_ctrl_c_stops_the_one_that_is_shown(learne
         assert alive(second)
         await me.press("ctrl+c")
         await me.until(lambda: not alive(second))
+        await me.sees("■ 2 echo second")  # it was stopped, which is no failure
         assert alive(first)
         await me.press("ctrl+pagedown")
         await me.until(lambda: "first" in output(me))

@@ -18,6 +18,7 @@ class ChooseCommandScreen(Dialog[str]):
 
     DEFAULT_CSS = """
     ChooseCommandScreen OptionList { height: auto; max-height: 20; border: none; background: $surface; }
+    ChooseCommandScreen OptionList:focus { border: none; }
     """
 
     def __init__(self, commands: Sequence[str]) -> None:

@@ -71,16 +71,20 @@ def _described(state: NodeState | None) -> Sequence[Row]:
         rows.append(((f"({state.dropped} lines of a flood are not shown)", "quiet"),))
     rows += [_line(line) for line in state.lines]
     if state.phase is Phase.ENDED and (ending := ended(state)):
-        rows.append(((ending, "error" if state.failed else "quiet"),))
+        rows.append(((ending, "error"),))
     return rows
 
 
 def ended(state: NodeState) -> str:
     """How a command ended, as far as it is worth a word: nothing where it simply did."""
-    note = state.note
-    if note.endswith("exit code 0") or note == "stopped":
-        return ""
-    return f"[{note.removeprefix('ended by itself with ')}]"
+    if broke(state):
+        return f"[{state.note.removeprefix('ended by itself with ')}]"
+    return ""
+
+
+def broke(state: NodeState) -> bool:
+    """Whether a command has ended badly by itself; after Ctrl+C, any exit code is as it should be."""
+    return state.failed and not state.note.startswith("stopped")
 
 
 def _line(line: OutputLine) -> Row:

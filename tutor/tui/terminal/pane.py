@@ -21,7 +21,7 @@ from tutor.tui.live.strip import TabStrip
 from tutor.tui.node import Node, NodeState
 from tutor.tui.terminal.completion import complete
 from tutor.tui.terminal.history import History
-from tutor.tui.terminal.output_view import OutputView, plain
+from tutor.tui.terminal.output_view import OutputView, broke, plain
 from tutor.tui.terminal.prompt import Prompt
 from tutor.tui.terminal.shell import Shell
 
@@ -261,7 +261,7 @@ class TerminalPane(Vertical):
 def _label(name: str, state: NodeState) -> str:
     command = plain(state.command).replace("\n", " ")
     short = command if len(command) <= LABEL else command[: LABEL - 1] + "…"
-    mark = "●" if state.alive else ("!" if state.failed else "■")
+    mark = "●" if state.alive else ("!" if broke(state) else "■")
     return f"{mark} {name} {short}"
 
 
