@@ -13,6 +13,7 @@ _REPLACED = [
     # A workspace that is not built has its package in src, one that is, in install.
     (r"\$WORKSPACE/(install/my_package/lib/python3\.12/site-packages|src/my_package)/my_package/", "$PACKAGE/"),
     (r"\$WORKSPACE/(install/my_package/lib|src)/my_package/", "$PROGRAMS/"),
+    (r"/\S*/ros2-overlay-\w+/prefix/lib/my_package/", "$PROGRAMS/"),
     (r"A message was lost!!!\n\s*total count change:\d+\n\s*total count: \d+---\n", ""),
     (r"\b\d{19}\b", "NANOSECONDS"),
     (r"\b(sec|nanosec): \d+", r"\1: N"),

@@ -38,16 +38,15 @@ def find_interface(name: str, kind: str) -> Any:
 
 
 def interfaces() -> dict[str, list[str]]:
-    """The types of each package that has any, such as `msg/String`, as its index in the ament prefixes names them."""
+    """The types of each package that has any, such as `msg/String`, in the order of its index in the ament prefixes."""
     found: dict[str, list[str]] = {}
     for index in _indices():
         for package in sorted(index.iterdir()):
             if package.name not in found:  # the first prefix counts
                 lines = package.read_text(encoding="utf-8").splitlines()
-                names = {
-                    line.rpartition(".")[0] for line in lines if line.endswith((".msg", ".srv", ".action", ".idl"))
-                }
-                found[package.name] = sorted(name for name in names if "_" not in name.partition("/")[2])
+                kinds = (".msg", ".srv", ".action", ".idl")
+                names = dict.fromkeys(line.rpartition(".")[0] for line in lines if line.endswith(kinds))
+                found[package.name] = [name for name in names if "_" not in name.partition("/")[2]]
     return dict(sorted(found.items()))
 
 

@@ -19,5 +19,5 @@ def main(arguments: argparse.Namespace) -> None:
     for kind in chosen(arguments):
         print(f"{KINDS[kind]}:")
         for package, names in found.items():
-            for name in of_kind(names, kind):
+            for name in sorted(of_kind(names, kind)):
                 print(f"    {package}/{name}")
