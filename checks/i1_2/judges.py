@@ -10,7 +10,8 @@ from checks.i1_2.reading import labelled, read
 from checks.i1_2.reports import Report, find, in_time, milestone, totals
 from tutor.judge import causes, ending
 from tutor.judge.bench import MachineTooBusy
-from tutor.judge.trace import LogRecord
+from tutor.judge.reading import read as read_source
+from tutor.judge.trace import LogRecord, Trace
 from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped
 
 EXPECTED_COUNT = "each summary states how many messages have come"
@@ -216,7 +217,7 @@ def _why_incomplete(report: Report, feeding: Feeding) -> Cause | None:
             return Cause(
                 "first message overwritten",
                 f"“{first.content}” was the first one, but it quotes “Hello World: {others[0]}”",
-                "set self.first_message only while it is None, and never again",
+                _first_kept(feeding.trace),
             )
         return Cause(
             "first message missing",
@@ -238,6 +239,14 @@ def _why_incomplete(report: Report, feeding: Feeding) -> Cause | None:
             "put self.first_message after “first”, and the message that has just come after “last”",
         )
     return None
+
+
+def _first_kept(trace: Trace) -> str:
+    """The step that keeps the first message of all."""
+    for each in read_source(trace).assignments():
+        if "first" in each.target.lower() and each.within not in ("", "__init__") and each.value in ("None", "''"):
+            return f"remove {each.where}: the first message stays the first one, also after a summary"
+    return "set self.first_message only while it is None, and never again"
 
 
 def why_silent(feeding: Feeding) -> Cause:

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from dataclasses import replace
+
 import pytest
 
 from checks.i1_2 import gap_steps
-from tests.checks.made import trace
+from checks.i1_2.judges import judge_summary
+from tests.checks.made import assert_failed, trace
+from tests.checks.test_i1_2 import Counter, Log, jump, steady
 from tutor.judge.trace import Trace
 
 NODE = """\
@@ -162,3 +167,16 @@ def test_a_comparison_that_is_about_lower_numbers_only() -> None:
     assert cause is not None
     assert "line 11: number < self.last_number is about lower numbers only" in cause.text
     assert f"if {COMPARES}:\n    self.get_logger().warning(" in cause.hint
+
+
+def test_a_first_message_that_is_forgotten_with_each_summary_is_told_with_its_line() -> None:
+    class Forgets(Counter):
+        def summary(self) -> Iterator[Log]:
+            yield from super().summary()
+            self.first = ""
+
+    source = "class A:\n    def listen(self, msg):\n        self.first = None\n"
+    seen = steady(Forgets())
+    for text, step in ((source, "remove line 3: self.first = None"), ("", "only while it is None, and never again")):
+        told = replace(seen, trace=replace(seen.trace, sources={"node.py": text}))
+        assert_failed(judge_summary(told, jump(Counter())), "first message overwritten", step)
