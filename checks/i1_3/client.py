@@ -107,12 +107,33 @@ def _why_hanging(seen: Demonstration, missing: Sequence[str]) -> Cause:
         return Cause(
             "did not end",
             f"the client was still busy{where}: spin() goes on until someone presses Ctrl+C",
-            f"take {own.code} in line {own.line} out: the client has nothing more to wait for",
+            _instead_of_spinning(seen.trace, own),
         )
     return Cause(
         "did not end",
         f"the client was still busy{where}" if where else "the client does not end by itself",
         "wait for each service, use call_async(), spin until its future is done, and return after the last answer",
+    )
+
+
+def _instead_of_spinning(trace: Trace, own: tracebacks.Frame) -> str:
+    """What stands in place of a spin() that never ends: the wait for each answer, where it is what brings them."""
+    asked = [made for made in source.assigned(trace, "call_async") if made[0].isidentifier()]
+    spins = re.fullmatch(r"(?P<rclpy>\w+)\.spin\((?P<node>\w+)\)", own.code)
+    if not source.calls(trace, "add_done_callback", "create_timer"):
+        return (
+            f"take {own.code} in line {own.line} out, with pass in its place: the client has nothing more to wait for"
+        )
+    if not asked or spins is None or source.calls(trace, "create_timer"):
+        return "end the program in the callback that gets the last answer: raise SystemExit"
+    future, line = asked[0]
+    return (
+        f"below line {line}, with the same indentation:\n"
+        f"self.futures = [*getattr(self, 'futures', []), {future}]\n"
+        f"in place of line {own.line}, {own.code}, with its indentation:\n"
+        f"for {future} in {spins['node']}.futures:\n"
+        f"    {spins['rclpy']}.spin_until_future_complete({spins['node']}, {future})\n"
+        f"{spins['rclpy']}.spin_once({spins['node']}, timeout_sec=0.5)"
     )
 
 

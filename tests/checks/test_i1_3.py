@@ -608,3 +608,25 @@ def test_shutdown() -> None:
     assert_passed(judge_shutdown(Calls(SERVING, ANSWERS, ending=ending(130))))
     assert_failed(judge_shutdown(Calls(SERVING, ANSWERS, ending=ending(still_there=True))), "SIGINT ignored")
     assert_failed(judge_shutdown(Calls(CRASHED, ())), "unhandled exception")
+
+
+DONE = """\
+future = client.call_async(request)
+future.add_done_callback(self.done)
+rclpy.spin(node)
+"""
+
+
+@pytest.mark.parametrize(
+    ("text", "step"),
+    [
+        (DONE, "in place of line 12, rclpy.spin(node), with its indentation:\nfor future in node.futures:\n    rclpy."),
+        (DONE.replace("future.add", "self.create_timer(1.0, self.ask)\nfuture.add"), "raise SystemExit"),
+        ("rclpy.spin(node)", "take rclpy.spin(node) in line 12 out, with pass"),
+    ],
+)
+def test_a_spin_that_brings_the_answers_is_not_simply_left_out(text: str, step: str) -> None:
+    own = frame("main", line=12, code="rclpy.spin(node)")
+    verdict = judge_client(demonstration(SERVED, code=None, stuck=(own,), sources={"node.py": text}))
+    assert_failed(verdict, "did not end")
+    assert step in verdict.hint
