@@ -20,6 +20,8 @@ _REPLACED = [
     (r"(publication_sequence_number|reception_sequence_number): (\d+|null)", r"\1: N"),
     (r"\bpid \[\d+\]", "pid [PID]"),
     (r"\[pid \d+", "[pid PID"),
+    # How a node of a launch ends depends on what it is doing when Ctrl+C comes.
+    (r"\[(INFO|ERROR)\] (\[\S+\]: process has) (died|finished cleanly) .*", r"\2 ended"),
     (r"process id \d+", "process id PID"),
     (r"_ros2cli_\w+", "_ros2cli_PID"),
     (r"0x[0-9a-f]{6,}", "ADDRESS"),
@@ -57,19 +59,23 @@ def normalise(text: str, paths: Mapping[str, str], *, streams: bool) -> list[str
 
 
 def _fold_tracebacks(lines: list[str]) -> list[str]:
-    """A traceback becomes one word: what its lines say depends on the code that it is of."""
+    """A traceback becomes one word: what its lines say depends on the code that it is of.
+
+    Those of several processes of a launch may be mixed; each has its own `[name-1] ` in front.
+    """
     folded: list[str] = []
-    within: str | None = None
+    within: set[str] = set()
     for line in lines:
-        start = re.match(r"(.*?)Traceback \(most recent call last\):", line)
+        start = re.match(r"((?:\[[\w.]+-\d+\] )?).*Traceback \(most recent call last\):", line)
+        of = re.match(r"\[[\w.]+-\d+\] ", line)
+        prefix = of[0] if of else ""
         if start:
-            within = start[1]
-            folded.append(within + TRACEBACK)
-        elif within is not None and line.startswith(within):
-            if not line.removeprefix(within).startswith(" "):  # the exception's own line ends it
-                within = None
+            within.add(prefix)
+            folded.append(prefix + TRACEBACK)
+        elif prefix in within:
+            if not line.removeprefix(prefix).startswith(" "):  # the exception's own line ends it
+                within.discard(prefix)
         else:
-            within = None
             folded.append(line)
     return folded
 

@@ -41,7 +41,7 @@ def test_types_and_packages_are_listed(bench: Bench) -> None:
     assert "    std_msgs/msg/Float64" in listed
     assert bench.ros2("interface", "list", "-s").stdout.startswith("Services:\n    action_msgs/srv/CancelGoal\n")
     assert bench.ros2("interface", "package", "std_srvs").stdout == (
-        "std_srvs/srv/Empty\nstd_srvs/srv/Trigger\nstd_srvs/srv/SetBool\n"
+        "std_srvs/srv/Empty\nstd_srvs/srv/SetBool\nstd_srvs/srv/Trigger\n"
     )
     assert "std_msgs" in bench.ros2("interface", "packages", "-m").stdout.split()
     assert "std_srvs" not in bench.ros2("interface", "packages", "-m").stdout.split()
