@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import ast
 from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
-from checks.i1_3 import names
+from checks.i1_3 import mixed, names, zero
 from checks.i1_3.facts import (
     ANSWER_S,
     SAYS_ERROR,
@@ -20,7 +19,6 @@ from checks.i1_3.facts import (
     right_result,
 )
 from tutor.judge import causes, ending, source, tracebacks
-from tutor.judge.causes import slips
 from tutor.judge.trace import CallAnswer, Service, Trace
 from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped
 
@@ -103,7 +101,9 @@ def judge_operations(seen: Calls) -> Verdict:
             return failed(
                 f"{question} = {right}",
                 f"{answer.response['sum']}",
-                _negatives_refused(answer, seen.answers) or _why_wrong(answer, right, seen.trace),
+                _negatives_refused(answer, seen.answers)
+                or mixed.of_loop(seen.trace, seen.answers)
+                or _why_wrong(answer, right, mixed.of_service(seen.trace, answer.service)),
                 [f"{name} answered {result}" for name, result in _answered(seen.of(answer.service))],
             )
     if late := _never_called(seen):
@@ -139,7 +139,8 @@ def _negatives_refused(answer: CallAnswer, answers: Sequence[CallAnswer]) -> Cau
     )
 
 
-def _why_wrong(answer: CallAnswer, right: int, trace: Trace) -> Cause:
+def _why_wrong(answer: CallAnswer, right: int, step: str | None) -> Cause:
+    """What the wrong result looks like; `step` is the next one where the source tells the line."""
     assert answer.response is not None
     got, a, b = answer.response["sum"], answer.request["a"], answer.request["b"]
     name = answer.service
@@ -148,13 +149,14 @@ def _why_wrong(answer: CallAnswer, right: int, trace: Trace) -> Cause:
         return Cause(
             "wrong result",
             f"this is what {others[0]} would answer",
-            slips.late_binding(trace)
-            or f"look at the sign in the callback of {name}, and at which callback belongs to which service",
+            step or f"look at the sign in the callback of {name}, and at which callback belongs to which service",
         )
     if name == "/subtract" and got == b - a:
-        return Cause("wrong result", "the operands are the wrong way round", "resp.sum = req.a - req.b")
+        return Cause("wrong result", "the operands are the wrong way round", step or "resp.sum = req.a - req.b")
     if got == -1 and name == "/divide":
-        return Cause("float in an int field", "a / b is a float, and resp.sum takes whole numbers only", "use a // b")
+        return Cause(
+            "float in an int field", "a / b is a float, and resp.sum takes whole numbers only", step or "use a // b"
+        )
     if (got - right) % 2**32 == 0:
         return Cause(
             "wrong result", "the result is cut off to 32 bits", "an int64 has 64: leave the numbers as they are"
@@ -163,7 +165,7 @@ def _why_wrong(answer: CallAnswer, right: int, trace: Trace) -> Cause:
         return Cause("wrong result", "the sign is lost", "no abs(): negative numbers are numbers too")
     if got == 0:
         return Cause("wrong result", "the result is 0: is it put into resp.sum?", "set resp.sum before you return resp")
-    return Cause("wrong result", f"{got} instead of {right}", f"look at the callback of {name}")
+    return Cause("wrong result", f"{got} instead of {right}", step or f"look at the callback of {name}")
 
 
 def _not_caught(trace: Trace) -> Cause | None:
@@ -175,8 +177,8 @@ def _not_caught(trace: Trace) -> Cause | None:
     function = source.function_at(trace, own.name, own.line)
     if function is None or len(function.args.args) < 2:
         return cause
-    *before, request, response = (each.arg for each in function.args.args)
-    logger = f"{before[0]}.get_logger()" if before else "rclpy.logging.get_logger('calculator')"
+    *_, request, response = (each.arg for each in function.args.args)
+    logger = zero.logger(trace, function)
     return replace(
         cause,
         hint=f"above line {own.line}, with the same indentation: if {request}.b == 0: {logger}.error('division by "
@@ -204,11 +206,20 @@ def judge_division(seen: Division) -> Verdict:
     # What a node says as it ends may be lost on its way to us: then its end is what is told of.
     gone = seen.trace.exit is not None and any(answer.response is None for answer in seen.after)
     if not complaints and not gone:
+        if seen.before.response["sum"] != right_result("/divide", **seen.before.request):
+            cause = Cause(
+                "no error message",
+                "nothing is said of an error, since /divide does not divide: 84 ÷ 7 is answered "
+                f"{seen.before.response['sum']}",
+                "let /divide divide first: see `operations`",
+            )
+            observed = f"answered {seen.by_zero.response['sum']}, without a word about an error"
+            return failed(expected, observed, cause, [str(log) for log in seen.said])
         printed = causes.of_printed(seen.trace, SAYS_ERROR.search, "the error", after=seen.at_end)
         cause = printed or Cause(
             "no error message",
             "nothing that the node logs says that this is an error",
-            _where_to_log(seen.trace),
+            zero.where_to_log(seen.trace),
         )
         return failed(
             expected,
@@ -238,19 +249,6 @@ def judge_division(seen: Division) -> Verdict:
         f"answered {seen.by_zero.response['sum']}, and {len(seen.after)} calls after it",
         [str(complaints[0])],
     )
-
-
-def _where_to_log(trace: Trace) -> str:
-    """Where the error of a division by zero is to be logged."""
-    log = "self.get_logger().error('division by zero')"
-    for handler in source.handlers(trace):
-        if isinstance(handler.body[0], ast.Pass):
-            return f"write in place of pass, line {handler.body[0].lineno}: {log}"
-        if handler.type is not None and "ZeroDivision" in ast.unparse(handler.type):
-            return f"write above line {handler.body[0].lineno}, with the same indentation: {log}"
-    for test in source.comparisons(trace, 0):
-        return f"write above line {test.body[0].lineno}, with the same indentation: {log}"
-    return f"{log} before you return the response"
 
 
 def judge_shutdown(seen: Calls) -> Verdict:

@@ -365,6 +365,7 @@ def test_an_error_is_one_among_whatever_else_is_said(text: str, around: list[Log
         (division(by_zero=None), "no answer", "when b is 0"),
         (division(by_zero=None, seen=trace(err=CRASH, exit=exited(1))), "unhandled exception", "line 12"),
         (division(), "no error message", "self.get_logger().error"),
+        (division(before=588), "no error message", "84 ÷ 7 is answered 588"),
         (division(seen=trace(graph=ALL, out="error: division by zero")), "printed, not logged", "error: division"),
         (division(log("division by zero", 40), after=then(None)), "no answer", "after a division by zero"),
         (division(log("division by zero", 40), after=then(6, None)), "no answer", "-9 ÷ 0"),

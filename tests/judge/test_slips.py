@@ -35,24 +35,6 @@ def test_a_comparison_that_goes_well(text: str) -> None:
     assert slips.truth_as_text(node(text)) is None
 
 
-def test_a_lambda_in_a_loop_keeps_the_values_of_its_round() -> None:
-    loop = "for name, f in all.items():\n  made(name,\n    lambda q, r: self.do(name, f, q, r))"
-    step = slips.late_binding(node(loop)) or ""
-    assert step.startswith("in line 3, write lambda q, r, name=name, f=f: self.do(name, f, q, r)\n")
-
-
-@pytest.mark.parametrize(
-    "loop",
-    [
-        "for f in all:\n  made(lambda q, f=f: f(q))",
-        "for f in all:\n  made(lambda q: q)",
-        "for f in all:\n  made(lambda f: f)",
-    ],
-)
-def test_a_lambda_that_is_bound_already(loop: str) -> None:
-    assert slips.late_binding(node(loop)) is None
-
-
 @pytest.mark.parametrize(
     ("text", "step"),
     [

@@ -18,6 +18,11 @@ def nodes(trace: Trace) -> Iterator[ast.AST]:
         yield from ast.walk(_parsed(text))
 
 
+def tree(text: str) -> list[ast.AST]:
+    """All nodes of the syntax tree of one file, by its text: the same ones each time."""
+    return list(ast.walk(_parsed(text)))
+
+
 def mentions(trace: Trace, *names: str) -> bool:
     """Whether one of these names is used anywhere, as a variable, a function or an attribute."""
     wanted = set(names)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
 
 from tutor.judge import source
 from tutor.judge.trace import Trace
@@ -42,29 +41,6 @@ def _value(expression: ast.expr) -> ast.expr | None:
         case ast.Attribute(attr="value" | "bool_value"):
             return expression
     return None
-
-
-def late_binding(trace: Trace) -> str | None:
-    """The step where a lambda made in a loop uses the loop's variables, which have their last values when it runs."""
-    for loop in (node for node in source.nodes(trace) if isinstance(node, ast.For)):
-        names = {node.id for node in ast.walk(loop.target) if isinstance(node, ast.Name)}
-        for each in _lambdas(loop):
-            own = {argument.arg for argument in (*each.args.args, *each.args.kwonlyargs)}
-            used = [node.id for node in ast.walk(each.body) if isinstance(node, ast.Name)]
-            late = [name for name in dict.fromkeys(used) if name in names - own]
-            if late and each.args.vararg is None:
-                given = ast.unparse(each.args)
-                kept = ", ".join(f"{name}={name}" for name in late)
-                return (
-                    f"in line {each.lineno}, write lambda {f'{given}, ' if given else ''}{kept}: "
-                    f"{ast.unparse(each.body)}\n"
-                    f"(without {kept}, every lambda of the loop has the last {late[0]})"
-                )
-    return None
-
-
-def _lambdas(loop: ast.For) -> Iterator[ast.Lambda]:
-    return (node for statement in loop.body for node in ast.walk(statement) if isinstance(node, ast.Lambda))
 
 
 def nanoseconds(trace: Trace) -> str | None:

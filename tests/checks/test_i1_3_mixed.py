@@ -1,0 +1,110 @@
+"""I1.3: services that compute what another one should, and the line that is named for it."""
+
+from __future__ import annotations
+
+import pytest
+
+from checks.i1_3.facts import SIGNS, TYPE, Calls, right_result
+from checks.i1_3.judges import judge_operations
+from checks.i1_3.mixed import of_service
+from tests.checks.made import assert_failed, called, graph, trace
+from tutor.judge.verdict import Status
+
+LAMBDA = """
+for name, function in OPERATIONS.items():
+    self.create_service(AddTwoInts, name, lambda request, response: self.compute(name, function, request, response))
+"""
+BOUND = "lambda request, response, name=name, function=function: self.compute("
+NESTED = """
+for name in OPERATIONS:
+    function = OPERATIONS[name]
+    def callback(req: Request, res: Response) -> Response:
+        res.sum = function(req.a, req.b)
+        return res
+    node.create_service(AddTwoInts, name, callback)
+"""
+LISTED = "[self.create_service(AddTwoInts, n, lambda q, p: self.do(OPS[n], q, p)) for n in OPS]"
+
+
+def seen(text: str, computes: str = "/multiply") -> Calls:
+    """Four services of a server with this source that all compute the same."""
+    answers = [called(name, a, b, right_result(computes, a, b)) for name in SIGNS for a, b in ((20, 4), (-21, 7))]
+    return Calls(trace(graph=graph(services=dict.fromkeys(SIGNS, TYPE)), sources={"node.py": text}), tuple(answers))
+
+
+@pytest.mark.parametrize(
+    ("text", "line", "step"),
+    [
+        (LAMBDA, "the lambda in line 3", f"line 3 becomes: self.create_service(AddTwoInts, name, {BOUND}"),
+        (
+            NESTED,
+            "the function callback in line 4",
+            "line 4 becomes: def callback(req: Request, res: Response, function=function) -> Response:",
+        ),
+        (LISTED, "looks n up", "lambda q, p, n=n: self.do(OPS[n], q, p)) for n in OPS]"),
+    ],
+)
+def test_a_function_made_in_a_loop_is_told_to_bind_the_loops_variables(text: str, line: str, step: str) -> None:
+    assert_failed(judge_operations(seen(text)), "late binding", line, "in node.py, ", step, "what /multiply should")
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        LAMBDA.replace("response: self", "response, name=name, function=function: self"),
+        "for f in FUNCTIONS:\n    self.create_service(AddTwoInts, 'add', lambda q, f: f(q))",
+        "for f in FUNCTIONS:\n    self.create_service(AddTwoInts, 'add', lambda q, r, f=f: f(q, r))",
+        "for name in OPERATIONS:\n    self.create_service(AddTwoInts, name, self.made(name))",
+        "",
+    ],
+)
+def test_who_binds_them_is_not_told_so(text: str) -> None:
+    verdict = judge_operations(seen(text))
+    assert verdict.status is Status.FAILED
+    assert "late binding" not in verdict.cause
+
+
+SERVER = """
+class Calculator(Node):
+    def __init__(self):
+        self.create_service(AddTwoInts, 'add', self.add)
+        self.create_service(AddTwoInts, 'subtract', self.on_subtract)
+        self.create_service(AddTwoInts, 'multiply', self.divide)
+        self.create_service(AddTwoInts, '/divide', callback=self.divide)
+    def add(self, req, resp):
+        resp.sum = req.a - req.b
+        return resp
+    def on_subtract(self, req, resp):
+        resp.sum = 0
+        resp.sum = req.b - req.a
+        return resp
+    def multiply(self, req, resp):
+        resp.sum = req.a * req.b
+        return resp
+    def divide(self, req, resp):
+        resp.sum = int(req.a / req.b)
+        return resp
+"""
+
+
+@pytest.mark.parametrize(
+    ("service", "step"),
+    [
+        ("/add", "in node.py, line 9 becomes: resp.sum = req.a + req.b"),
+        ("/subtract", "in node.py, line 13 becomes: resp.sum = req.a - req.b"),
+        ("/multiply", "in node.py, line 6 becomes: self.create_service(AddTwoInts, 'multiply', self.multiply)"),
+        ("/divide", "in node.py, line 19 becomes: resp.sum = req.a // req.b"),
+    ],
+)
+def test_the_line_that_computes_something_else(service: str, step: str) -> None:
+    assert of_service(trace(sources={"node.py": SERVER}), service) == step
+    assert of_service(trace(sources={"node.py": LAMBDA}), service) is None
+
+
+def test_the_line_is_the_next_step() -> None:
+    assert_failed(
+        judge_operations(seen(SERVER, "/subtract")),
+        "wrong result",
+        "what /subtract would",
+        "becomes: resp.sum = req.a +",
+    )
