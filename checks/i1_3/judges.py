@@ -130,7 +130,8 @@ def _negatives_refused(answer: CallAnswer, answers: Sequence[CallAnswer]) -> Cau
             of = negative if min(each.request["a"], each.request["b"]) < 0 else others
             of.append((each.response["sum"], right_result(each.service, each.request["a"], each.request["b"])))
     same = len({got for got, _ in negative}) == 1 and len({right for _, right in negative}) > 1
-    if len(negative) < 2 or not others or not same or any(got != right for got, right in others):
+    wrong = sum(got != right for got, right in negative)
+    if wrong < 2 or not others or not same or any(got != right for got, right in others):
         return None
     return Cause(
         "negative operands refused",

@@ -555,7 +555,8 @@ def test_who_returns_from_the_loop_is_told_so() -> None:
 
 def test_who_spins_after_the_last_call_is_told_to_take_that_out() -> None:
     spins = (frame("spin", "/venv/rclpy/__init__.py"), frame("main", line=31, code="rclpy.spin(node)"))
-    assert_failed(judge_client(asking(WAITS, SERVED, None, stuck=spins)), "did not end", "rclpy.spin(node) in line 31")
+    text = WAITS + "rclpy.spin_until_future_complete(node, future)\n"
+    assert_failed(judge_client(asking(text, SERVED, None, stuck=spins)), "did not end", "rclpy.spin(node) in line 31")
 
 
 DIVIDES = """
@@ -590,6 +591,11 @@ def test_a_server_that_refuses_negative_operands() -> None:
     asked = [("/add", 6, 3), ("/add", -40, 4), ("/add", 50, -5), ("/add", 7, 7)]
     seen = Calls(SERVING, tuple(refuse(*each) for each in asked))
     assert_failed(judge_operations(seen), "negative operands refused", "/add answers 0")
+
+
+def test_one_wrong_result_is_no_refusal_of_negative_operands() -> None:
+    asked = (right("/divide", 6, 3), right("/divide", -1, -1), called("/divide", 0, -1, 1))
+    assert_failed(judge_operations(Calls(SERVING, (*ANSWERS, *asked))), "wrong result", "1 instead of 0")
 
 
 def test_who_crashes_of_itself_is_told_of_that() -> None:
