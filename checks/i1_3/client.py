@@ -76,6 +76,7 @@ def _why_not_called(seen: Demonstration, missing: Sequence[str]) -> Cause:
     return (
         causes.incompatible_service(seen.clients)
         or names.of_client(seen, missing)
+        or _never_awaited(seen.trace)
         or _returns_early(seen)
         or _unmet(seen, missing)
         or Cause(
@@ -134,6 +135,20 @@ def _instead_of_spinning(trace: Trace, own: tracebacks.Frame) -> str:
         f"for {future} in {spins['node']}.futures:\n"
         f"    {spins['rclpy']}.spin_until_future_complete({spins['node']}, {future})\n"
         f"{spins['rclpy']}.spin_once({spins['node']}, timeout_sec=0.5)"
+    )
+
+
+def _never_awaited(trace: Trace) -> Cause | None:
+    """Whether Python itself says that a coroutine was made, and nobody ran it."""
+    said = (re.search(r"coroutine '(?:[\w<>]+\.)*(\w+)' was never awaited", line.text) for line in trace.output)
+    name = next((found[1] for found in said if found), None)
+    if name is None:
+        return None
+    return Cause(
+        "coroutine not awaited",
+        f"{name} is an async def: calling it only makes a coroutine, and nothing in it runs",
+        f"write def {name} in place of async def {name}, and in it, in place of await future: "
+        "rclpy.spin_until_future_complete(self, future), then future.result()",
     )
 
 

@@ -547,6 +547,12 @@ def run(self):
 """
 
 
+def test_who_calls_a_coroutine_without_await_is_told_so() -> None:
+    warning = "/ws/client.py:27: RuntimeWarning: coroutine 'CalculatorClient.call' was never awaited"
+    seen = asking(WAITS, err=warning)
+    assert_failed(judge_client(seen), "coroutine not awaited", "write def call in place of async def call")
+
+
 def test_who_returns_from_the_loop_is_told_so() -> None:
     assert_failed(judge_client(asking(LOOP, SERVED[:1])), "return in the loop", "line 8", "for in line 3")
     assert_failed(judge_client(asking(LOOP.replace("return", "print"), SERVED[:1])), "not called")
