@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from dataclasses import replace
 from xml.etree import ElementTree
 
 import pytest
@@ -84,10 +85,22 @@ def test_text_says_every_status_in_a_word_and_what_to_do(mixed: Report) -> None:
     assert lines[-2:] == ["✗ failed  in 4.2 s", "ROS 2 jazzy (bundled), rmw_fastrtps_cpp, ros-tutor 0.1.0"]
 
 
+def test_the_code_of_a_next_step_is_not_broken_in_a_file(mixed: Report) -> None:
+    code = "self.rate = self.declare_parameter('publish_rate', 2.0).get_parameter_value().double_value  # " + "x " * 40
+    criterion = next(each for each in mixed.exercises[0].criteria if each.verdict.hint)
+    changed = replace(criterion, verdict=replace(criterion.verdict, hint=f"line 12 becomes: {code.strip()}"))
+    exercise = replace(mixed.exercises[0], criteria=(changed,))
+    text = render(replace(mixed, exercises=(exercise,)), "text", width=60)
+    assert f"    next step  line 12 becomes: {code.strip()}\n" in text
+    others = [line for line in text.splitlines() if "becomes:" not in line]
+    assert max(map(len, others)) <= 60
+
+
 @pytest.mark.parametrize("width", [20, 40, 60, 100, 200])
 def test_text_keeps_to_the_width_and_loses_no_word(mixed: Report, width: int) -> None:
     text = render(mixed, "text", width=width)
-    assert max(map(len, text.splitlines())) <= max(width, 40)
+    others = [line for line in text.splitlines() if not line.startswith("    next step  ")]
+    assert max(map(len, others)) <= max(width, 40)
     words = " ".join(text.split())
     for word in ("publish_rate:=2.0", "timer", "temperature_publisher.py", "rmw_fastrtps_cpp"):
         assert word in words

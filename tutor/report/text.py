@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from dataclasses import dataclass
 from io import StringIO
 
 from rich.console import Console, Group, RenderableType
@@ -17,43 +19,64 @@ STYLES = {Status.PASSED: "green", Status.FAILED: "red", Status.SKIPPED: "yellow"
 
 _INDENT = 4
 
+_UNBROKEN = 4000
+"""So wide is a next step in a file: the code in it is to be copied, so its lines are not broken."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Step:
+    """The row of a next step."""
+
+    row: RenderableType
+
 
 def render(report: Report, *, color: bool, width: int) -> str:
     """Write the report, `width` columns wide. The verdict is always a word too, never a colour alone."""
     out = StringIO()
-    console = Console(
-        file=out,
-        force_terminal=color,
-        force_jupyter=False,
-        color_system="standard" if color else None,
-        no_color=not color,
-        width=max(width, 40),
-        highlight=False,
-        markup=False,
-        emoji=False,
-    )
+    console = _console(out, color=color, width=max(width, 40))
+    steps = console if color else _console(out, color=color, width=_UNBROKEN)
     for exercise in report.exercises:
-        console.print(_exercise(exercise))
+        for part in _exercise(exercise):
+            if isinstance(part, _Step):
+                steps.print(part.row)
+            else:
+                console.print(part)
     console.print(_summary(report))
     lines = (line.rstrip() for line in out.getvalue().split("\n"))
     return "\n".join(lines).rstrip("\n") + "\n"
 
 
-def _exercise(exercise: ExerciseResult) -> RenderableType:
+def _console(out: StringIO, *, color: bool, width: int) -> Console:
+    return Console(
+        file=out,
+        force_terminal=color,
+        force_jupyter=False,
+        color_system="standard" if color else None,
+        no_color=not color,
+        width=width,
+        highlight=False,
+        markup=False,
+        emoji=False,
+    )
+
+
+def _exercise(exercise: ExerciseResult) -> Iterator[RenderableType | _Step]:
     name = (f"{exercise.id} {exercise.title}", "bold")
     verdict = (exercise.verdict.value.upper(), f"bold {STYLES[exercise.verdict]}")
     if exercise.missing:
-        return Padding(Group(Text.assemble(name, "  ", verdict), _missing(exercise)), (0, 0, 1, 0))
+        yield Padding(Group(Text.assemble(name, "  ", verdict), _missing(exercise)), (0, 0, 1, 0))
+        return
     heading = Text.assemble(name, "  ", verdict, (f"  {tally(exercise)}, {seconds(exercise.duration_s)}", "dim"))
     files = Text(printable(", ".join(exercise.submission)), "dim")
-    parts: list[RenderableType] = [heading, *([files] if exercise.submission else []), ""]
+    yield Group(heading, *([files] if exercise.submission else []), "")
     id_width = max((len(criterion.id) for criterion in exercise.criteria), default=0)
     for criterion in exercise.criteria:
-        parts.append(_headline(criterion, id_width))
+        yield _headline(criterion, id_width)
         if not criterion.verdict.passed:
-            below = 0 if criterion.verdict.status is Status.SKIPPED else 1
-            parts.append(Padding(_diagnosis(criterion), (0, 0, below, _INDENT)))
-    return Padding(Group(*parts), (0, 0, 1, 0))
+            yield from _diagnosis(criterion)
+            if criterion.verdict.status is not Status.SKIPPED:
+                yield ""
+    yield ""
 
 
 def _missing(exercise: ExerciseResult) -> RenderableType:
@@ -80,17 +103,23 @@ def _headline(criterion: CriterionResult, id_width: int) -> RenderableType:
     return row
 
 
-def _diagnosis(criterion: CriterionResult) -> RenderableType:
+def _diagnosis(criterion: CriterionResult) -> Iterator[RenderableType | _Step]:
+    if criterion.verdict.status is Status.ERROR:
+        yield _row("", Text("This could not be judged. It is no fault of your code.", "magenta"))
+    for label, text in details(criterion.verdict):
+        step = label == "next step"
+        row = _row(label, Text(text, "bold" if step else ""))
+        yield _Step(row) if step else row
+    for number, line in enumerate(criterion.verdict.evidence):
+        yield _row("" if number else "evidence", Text(printable(line), "dim"))
+
+
+def _row(label: str, text: Text) -> RenderableType:
     grid = Table.grid(padding=(0, 2, 0, 0))
     grid.add_column(width=len("next step"), no_wrap=True, style="dim")
     grid.add_column(overflow="fold")
-    if criterion.verdict.status is Status.ERROR:
-        grid.add_row("", Text("This could not be judged. It is no fault of your code.", "magenta"))
-    for label, text in details(criterion.verdict):
-        grid.add_row(label, Text(text, "bold" if label == "next step" else ""))
-    for number, line in enumerate(criterion.verdict.evidence):
-        grid.add_row("" if number else "evidence", Text(printable(line), "dim"))
-    return grid
+    grid.add_row(label, text)
+    return Padding(grid, (0, 0, 0, _INDENT))
 
 
 def _summary(report: Report) -> RenderableType:
