@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from tutor.tui.terminal.history import History
 from tutor.tui.terminal.lesson_commands import command_at, commands_in
+from tutor.tui.terminal.shell import Shell
 
 TEXT = """\
 Text with `ros2 topic list`.
@@ -52,3 +55,10 @@ def test_history_goes_back_and_returns_to_the_draft() -> None:
     assert [history.older("draft"), history.older("b"), history.older("a")] == ["b", "a", "a"]
     assert [history.newer("a"), history.newer("b"), history.newer("draft")] == ["b", "draft", "draft"]
     assert History().older("x") == "x"
+
+
+def test_programs_write_as_on_a_terminal_but_the_nodes_of_a_launch_do_not() -> None:
+    shell = Shell({}, Path("/"))
+    assert shell.command("python3 node.py").env["PYTHONUNBUFFERED"] == "1"
+    assert shell.command("ros2 run my_package talker").env["PYTHONUNBUFFERED"] == "1"
+    assert "PYTHONUNBUFFERED" not in shell.command("ros2 launch my_package my_launch.py").env

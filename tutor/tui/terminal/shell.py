@@ -27,7 +27,11 @@ class Shell:
 
     def command(self, line: str) -> NodeCommand:
         """How to run a line."""
-        env = {**self.env, "PYTHONUNBUFFERED": "1"}  # a terminal shows each line as it is printed
+        env = dict(self.env)
+        if not re.match(r"\s*ros2\s+launch\b", line):
+            env["PYTHONUNBUFFERED"] = (
+                "1"  # a terminal shows each line as it is printed; the nodes of a launch have none
+            )
         return NodeCommand(line, ("bash", "-c", line), env, self.cwd, line, terminal=True)
 
     def changed_by(self, line: str) -> Shell | str | None:
