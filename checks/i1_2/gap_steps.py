@@ -69,7 +69,9 @@ def _left_behind(function: Function, last: str, right: str) -> tuple[str, str] |
     counted = next((each for each in inside if isinstance(each, ast.AugAssign) and _sets(each, last)), None)
     if counted is not None:
         text = f"{_at(counted)} goes on counting from before the gap, and never follows it"
-        return text, f"line {counted.lineno} becomes: {last} = {right}"
+        if counted in function.body:
+            return text, f"line {counted.lineno} becomes: {last} = {right}"
+        return text, f"add to the end of {function.name}, outside of every if: {last} = {right}"
     kept = [each for each in inside if isinstance(each, ast.Assign) and _sets(each, last)]
     if not kept:
         text = f"{last} is never set to the number of the message that came last"

@@ -142,6 +142,11 @@ def test_a_number_that_is_compared_with_the_count(test: str, step: str) -> None:
             "line 13: self.last_number += 1 goes on counting",
             "line 13 becomes: self.last_number = number",
         ),
+        (
+            [("        self.last_number = number", "        else:\n            self.last_number += 1")],
+            "line 14: self.last_number += 1 goes on counting",
+            "add to the end of listen, outside of every if: self.last_number = number",
+        ),
     ],
 )
 def test_a_last_number_that_does_not_follow(pairs: list[tuple[str, str]], text: str, step: str) -> None:
