@@ -18,6 +18,8 @@ from tutor.judge.verdict import Status
 
 ROOT = Path(__file__).parent / "submissions"
 LIMIT_S = 180.0
+LEFT_LIMIT_S = 60.0
+"""Longer than any check takes, and so than anything that it ends itself."""
 
 
 @dataclass
@@ -83,7 +85,7 @@ async def judge(case: Case) -> Outcome:
     outcome.took_s = took
     if err:
         outcome.wrong.append(f"stderr: {err.decode()[-300:]}")
-    outcome.wrong += [f"left behind: {line}" for line in _left(case.expected.gone)]
+    outcome.wrong += [f"left behind: {line}" for line in await _left(case.expected.gone)]
     return outcome
 
 
@@ -138,13 +140,28 @@ def _wrong_words(
     return [f"{criterion}: {what} is “{said}”, not {' or '.join(texts)}"]
 
 
-def _left(text: str) -> list[str]:
-    if not text:
-        return []
-    commands = []
-    for path in Path("/proc").glob("[0-9]*/cmdline"):
+async def _left(text: str) -> list[str]:
+    """The commands with this text that go on for as long as nothing ends them.
+
+    Others judge their submissions beside us, and what they have started goes when their checks are over.
+    """
+    left = _running(text)
+    ends = time.monotonic() + LEFT_LIMIT_S
+    while left and time.monotonic() < ends:
+        await asyncio.sleep(0.2)
+        there = _running(text)
+        left = {pid: command for pid, command in left.items() if there.get(pid) == command}
+    return list(left.values())
+
+
+def _running(text: str) -> dict[str, str]:
+    """The processes whose command line has this text, by pid; none where there is no text."""
+    found: dict[str, str] = {}
+    for path in Path("/proc").glob("[0-9]*/cmdline") if text else ():
         try:
-            commands.append(path.read_bytes().replace(b"\0", b" ").decode(errors="replace"))
+            command = path.read_bytes().replace(b"\0", b" ").decode(errors="replace")
         except OSError:
             continue
-    return [command for command in commands if text in command]
+        if text in command:
+            found[path.parent.name] = command
+    return found
