@@ -60,8 +60,8 @@ def busy_domains() -> frozenset[int]:
 
 
 def domains_in_use() -> frozenset[int]:
-    """The domain ids of which something on this machine has bound a UDP port that an ordinary ROS node would use."""
-    return _with_ports(*DDS_PORTS)
+    """The domain ids that something on this machine holds, or of which it has a port that a ROS node would use."""
+    return _with_ports(*DDS_PORTS) | _reserved()
 
 
 def participants_here(domain_id: int) -> int | None:
@@ -102,7 +102,8 @@ def _claim(others: Collection[int]) -> AbstractContextManager[int]:
     coordinator: Any = importlib.import_module("domain_coordinator")
     avoided = busy_domains() | _users_domain()
     left = [domain for domain in _next_round() if domain not in avoided]
-    candidates = iter(sorted(left, key=lambda domain: domain in others))
+    last = {*others, *_with_ports(*DDS_PORTS)}  # an ordinary node meets whoever has the ports that it would have
+    candidates = iter(sorted(left, key=lambda domain: domain in last))
 
     def select() -> int:
         domain = next((domain for domain in candidates if domain not in busy_domains()), None)
