@@ -60,7 +60,7 @@ class OutputView(LineView):
             rows += _wrapped(pieces, width)
         self.show_rows(rows)
         if follow:
-            self.scroll_end(animate=False, immediate=True, x_axis=False)
+            self.scroll_end(animate=False, immediate=True, force=True, x_axis=False)
 
 
 def _described(state: NodeState | None) -> Sequence[Row]:

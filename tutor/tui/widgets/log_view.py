@@ -104,7 +104,8 @@ class LogView(LineView):
         self._places = places
         self.show_rows(rows)
         if self.following:
-            self.scroll_end(animate=False, immediate=True, x_axis=False)
+            # Forced: a scrollbar that is not laid out yet would keep it from scrolling at all.
+            self.scroll_end(animate=False, immediate=True, force=True, x_axis=False)
 
 
 def _coloured(line: LogLine, *, linked: bool, named: bool) -> Row:
