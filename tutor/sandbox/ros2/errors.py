@@ -9,3 +9,8 @@ class CommandError(Exception):
     def __init__(self, text: str, code: int = 1) -> None:
         super().__init__(text)
         self.code = code
+
+
+def yaml_problem(error: Exception) -> str:
+    """What a yaml.YAMLError says, in one line and without the place."""
+    return " ".join(str(getattr(error, "problem", None) or error).split())

@@ -9,7 +9,7 @@ from typing import Any
 from tutor.ros.as_yaml import to_yaml
 from tutor.sandbox.ros2.action.names import action_names, action_types
 from tutor.sandbox.ros2.calling import wait_for_answer, wait_until
-from tutor.sandbox.ros2.errors import CommandError
+from tutor.sandbox.ros2.errors import CommandError, yaml_problem
 from tutor.sandbox.ros2.filling import fill
 from tutor.sandbox.ros2.interfaces import UnknownInterface, find_interface
 from tutor.sandbox.ros2.joining import joined
@@ -66,8 +66,7 @@ def _goal(action_class: Any, text: str) -> Any:
     try:
         fill(goal, yaml.safe_load(text))
     except yaml.YAMLError as error:
-        problem = " ".join(str(getattr(error, "problem", None) or error).split())
-        raise CommandError(f"The passed value is no YAML: {problem}") from error
+        raise CommandError(f"The passed value is no YAML: {yaml_problem(error)}") from error
     except Exception as error:  # whatever the setter of a field raises, its text says what is wrong with the value
         raise CommandError(f"Failed to populate message fields: {error!r}") from error
     return goal

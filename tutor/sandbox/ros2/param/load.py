@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
-from tutor.sandbox.ros2.errors import CommandError
+from tutor.sandbox.ros2.errors import CommandError, yaml_problem
 from tutor.sandbox.ros2.param.asking import add_node_arguments, add_timeout, asked, tell
 
 
@@ -37,7 +37,6 @@ def _read(file: str, *, wildcard: bool) -> list[Any]:
     except (RuntimeError, UnicodeDecodeError) as error:
         raise CommandError(str(error)) from error
     except yaml.YAMLError as error:
-        problem = " ".join(str(getattr(error, "problem", None) or error).split())
-        raise CommandError(f"{file} is no YAML: {problem}") from error
+        raise CommandError(f"{file} is no YAML: {yaml_problem(error)}") from error
     except (TypeError, AttributeError, ValueError) as error:  # a list, a text, or nothing where names belong
         raise CommandError(f"{file} is no parameter file: it has no node with ros__parameters") from error

@@ -8,7 +8,7 @@ import time
 from typing import Any
 
 from tutor.sandbox.ros2.calling import wait_for_answer, wait_until
-from tutor.sandbox.ros2.errors import CommandError
+from tutor.sandbox.ros2.errors import CommandError, yaml_problem
 from tutor.sandbox.ros2.filling import fill
 from tutor.sandbox.ros2.interfaces import UnknownInterface, find_interface
 from tutor.sandbox.ros2.joining import Domain, joined
@@ -57,8 +57,7 @@ def _request(service_class: Any, text: str) -> Any:
     try:
         values = yaml.safe_load(text)
     except yaml.YAMLError as error:
-        problem = " ".join(str(getattr(error, "problem", None) or error).split())
-        raise CommandError(f"The passed value is no YAML: {problem}") from error
+        raise CommandError(f"The passed value is no YAML: {yaml_problem(error)}") from error
     request = service_class.Request()
     try:
         fill(request, values)
