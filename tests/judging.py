@@ -56,11 +56,35 @@ def holds_here(case: Case) -> bool:
     return case.expected.ros in ("", detect().kind)
 
 
+class NoVerdict(Exception):
+    """A check that gave none: why."""
+
+
 async def judge(case: Case) -> Outcome:
     """Check the submission as the terminal app does, in a process of its own, and compare."""
     started = time.monotonic()
+    try:
+        result, err = await _checked(case.exercise, case.folder)
+    except NoVerdict as error:
+        return Outcome(case, [str(error)], took_s=time.monotonic() - started)
+    took = time.monotonic() - started
+    outcome = compare(case, result)
+    outcome.took_s = took
+    if err:
+        outcome.wrong.append(f"stderr: {err[-300:]}")
+    outcome.wrong += [f"left behind: {line}" for line in await _left(case.expected.gone)]
+    return outcome
+
+
+async def check_folder(exercise: str, folder: Path) -> ExerciseResult:
+    """Check the files in a folder, in a process of its own. Raises NoVerdict where there is no verdict."""
+    return (await _checked(exercise, folder))[0]
+
+
+async def _checked(exercise: str, folder: Path) -> tuple[ExerciseResult, str]:
+    """The verdict, and what was written to stderr."""
     process = await asyncio.create_subprocess_exec(
-        *(sys.executable, "-m", "tutor.engine", case.exercise, str(case.folder)),
+        *(sys.executable, "-m", "tutor.engine", exercise, str(folder)),
         stdout=asyncio.subprocess.PIPE,
         stderr=asyncio.subprocess.PIPE,
         stdin=asyncio.subprocess.DEVNULL,
@@ -72,21 +96,15 @@ async def judge(case: Case) -> Outcome:
     except TimeoutError:
         process.terminate()
         await process.communicate()
-        return Outcome(case, [f"no verdict in {LIMIT_S:g} s"], took_s=LIMIT_S)
+        raise NoVerdict(f"no verdict in {LIMIT_S:g} s") from None
     except asyncio.CancelledError:
         process.terminate()  # it ends what it started
         await process.communicate()
         raise
     results = [e.result for e in map(decode, out.decode().splitlines()) if isinstance(e, ExerciseJudged)]
-    took = time.monotonic() - started
     if not results:
-        return Outcome(case, [f"no verdict: exit code {process.returncode}: {err.decode()[-500:]}"], took_s=took)
-    outcome = compare(case, results[0])
-    outcome.took_s = took
-    if err:
-        outcome.wrong.append(f"stderr: {err.decode()[-300:]}")
-    outcome.wrong += [f"left behind: {line}" for line in await _left(case.expected.gone)]
-    return outcome
+        raise NoVerdict(f"no verdict: exit code {process.returncode}: {err.decode()[-500:]}")
+    return results[0], err.decode()
 
 
 def compare(case: Case, result: ExerciseResult) -> Outcome:

@@ -1,0 +1,188 @@
+"""Next steps as edits of the learner's own file, tried on a copy first: a step that breaks the file is never told.
+
+The source serves the words of a diagnosis, never a verdict.
+"""
+
+from __future__ import annotations
+
+import ast
+import textwrap
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from pyflakes import checker, messages
+
+_NODE = {
+    *("add_on_set_parameters_callback", "create_client", "create_publisher", "create_rate", "create_service"),
+    *("create_subscription", "create_timer", "declare_parameter", "declare_parameters", "destroy_node"),
+    *("destroy_timer", "executor", "get_clock", "get_logger", "get_name", "get_parameter", "get_parameter_or"),
+    *("has_parameter", "set_parameters"),
+}
+"""What a node has of its own, as far as next steps use it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Edit:
+    """Lines `first` to `last` (counted from 1, both included) become `code`; where `last` is below `first`, none goes.
+
+    `code` has no indentation of its own but what its later lines have more than the first; it gets that of line
+    `like`, and four spaces more if it goes `deeper`.
+    """
+
+    first: int
+    last: int
+    code: str
+    like: int = 0
+    deeper: bool = False
+
+    def __str__(self) -> str:
+        """The edit in words, with its code: on the same line if it is one line, else below, four spaces indented."""
+        lines = self.code.splitlines()
+        code = f" {lines[0]}" if len(lines) == 1 else "".join(f"\n    {line}".rstrip() for line in lines)
+        return f"{self._where}:{code}"
+
+    @property
+    def _where(self) -> str:
+        if self.last > self.first:
+            return f"lines {self.first} to {self.last} become"
+        if self.last == self.first:
+            return f"line {self.first} becomes"
+        if not self.like:
+            return "at the top of the file"
+        if self.like == self.first:
+            return f"write above line {self.first}, with the same indentation"
+        if self.deeper:
+            return f"write below line {self.last}, four spaces deeper"
+        if self.like == self.last:
+            return f"write below line {self.last}, with the same indentation"
+        return f"write below line {self.last}, with the indentation of line {self.like}"
+
+
+def becomes(line: int, code: str, last: int = 0) -> Edit:
+    """Line `line`, or all lines up to `last`, with other code, indented as it is now."""
+    return Edit(line, last or line, code, like=line)
+
+
+def removed(text: str, first: int, last: int = 0) -> Edit:
+    """Lines taken out; where nothing else is left of their block, `pass` takes their place."""
+    edit = Edit(first, last or first, "", like=first)
+    return edit if _parses(apply(text, [edit])) else Edit(first, last or first, "pass", like=first)
+
+
+def above(line: int, code: str) -> Edit:
+    """Code written above a line, indented as it is."""
+    return Edit(line, line - 1, code, like=line)
+
+
+def below(line: int, code: str, *, like: int = 0) -> Edit:
+    """Code written below a line, indented as it is."""
+    return Edit(line + 1, line, code, like=like or line)
+
+
+def inside(line: int, code: str) -> Edit:
+    """Code written below a line that ends in a colon, as the first of its block."""
+    return Edit(line + 1, line, code, like=line, deeper=True)
+
+
+def at_end(function: ast.FunctionDef | ast.AsyncFunctionDef, code: str) -> Edit:
+    """Code written where a function ends: before the `return` at its end, if there is one."""
+    last = function.body[-1]
+    if isinstance(last, ast.Return | ast.Raise):
+        return above(last.lineno, code)
+    if isinstance(last, ast.Pass):
+        return becomes(last.lineno, code)
+    return below(last.end_lineno or last.lineno, code, like=last.lineno)
+
+
+def on_top(text: str, code: str) -> list[Edit]:
+    """An import at the top of the file, below what must come first; nothing where the file has it."""
+    tree = _tree(text)
+    if code in {ast.unparse(each) for each in tree.body if isinstance(each, ast.Import | ast.ImportFrom)}:
+        return []
+    first = [each for each in tree.body if isinstance(each, ast.Import | ast.ImportFrom)]
+    after = [each for each in first if isinstance(each, ast.ImportFrom) and each.module == "__future__"]
+    if after:
+        return [below(after[-1].end_lineno or after[-1].lineno, code)]
+    line = first[0].lineno if first else 1
+    return [Edit(line, line - 1, code)]
+
+
+def instead(text: str, node: ast.expr, new: str) -> Edit:
+    """The lines in which an expression stands, with another one in its place."""
+    lines = text.splitlines()
+    first, last = node.lineno, node.end_lineno or node.lineno
+    head = lines[first - 1].encode()[: node.col_offset].decode()
+    tail = lines[last - 1].encode()[node.end_col_offset or 0 :].decode()
+    return becomes(first, f"{head.lstrip()}{new}{tail}".rstrip(), last)
+
+
+def apply(text: str, edits: Sequence[Edit]) -> str:
+    """The file with all edits done; their line numbers are those of the file as it is."""
+    lines = text.splitlines()
+    for edit in sorted(edits, key=lambda each: (each.first, each.last), reverse=True):
+        lines[edit.first - 1 : max(edit.last, edit.first - 1)] = _indented(lines, edit)
+    return "\n".join(lines) + "\n"
+
+
+def _indented(lines: Sequence[str], edit: Edit) -> list[str]:
+    if not edit.code:
+        return []
+    like = lines[edit.like - 1] if edit.like else ""
+    margin = like[: len(like) - len(like.lstrip())] + ("    " if edit.deeper else "")
+    return textwrap.indent(edit.code, margin).splitlines()
+
+
+def told(text: str, *edits: Edit | Sequence[Edit], file: str = "") -> str | None:
+    """The edits in words, as a next step: None where they would break the file, or would change nothing.
+
+    A file is broken if Python cannot read it any more, or if the new code uses a name that nothing has given a value.
+    """
+    flat = [edit for each in edits for edit in ([each] if isinstance(each, Edit) else each)]
+    edited = apply(text, flat)
+    if edited.split() == text.split() or not _parses(edited) or _unknown(text, edited):
+        return None
+    words = [_said(text, edit) for edit in flat]
+    return (f"in {file}, " if file else "") + "\n".join(words)
+
+
+def _said(text: str, edit: Edit) -> str:
+    if edit.code:
+        return str(edit)
+    if edit.last > edit.first:
+        return f"remove lines {edit.first} to {edit.last}"
+    return f"remove line {edit.first}: {text.splitlines()[edit.first - 1].strip()}"
+
+
+def _unknown(before: str, after: str) -> set[str]:
+    """The names that the edited file uses and never sets, where the file as it was did not."""
+    return set(_undefined(after)) - set(_undefined(before))
+
+
+def _undefined(text: str) -> Iterator[str]:
+    tree = _tree(text)
+    for found in checker.Checker(tree).messages:
+        if isinstance(found, messages.UndefinedName | messages.UndefinedLocal):
+            yield str(found.message_args[0])
+    own = [each for each in ast.walk(tree) if isinstance(each, ast.Attribute) and ast.unparse(each.value) == "self"]
+    kept = {each.attr for each in own if isinstance(each.ctx, ast.Store)} | _NODE
+    for each in ast.walk(tree):
+        if isinstance(each, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
+            kept.add(each.name)
+        elif isinstance(each, ast.Name) and isinstance(each.ctx, ast.Store):
+            kept.add(each.id)  # of the class, not only of the object
+    yield from (f"self.{each.attr}" for each in own if each.attr not in kept)
+
+
+def _parses(text: str) -> bool:
+    try:
+        compile(text, "<edited>", "exec", dont_inherit=True)
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        return False
+    return True
+
+
+def _tree(text: str) -> ast.Module:
+    try:
+        return ast.parse(text)
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        return ast.Module([], [])
