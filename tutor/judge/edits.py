@@ -6,11 +6,14 @@ The source serves the words of a diagnosis, never a verdict.
 from __future__ import annotations
 
 import ast
+import re
 import textwrap
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from pyflakes import checker, messages
+
+Function = ast.FunctionDef | ast.AsyncFunctionDef
 
 _NODE = {
     *("add_on_set_parameters_callback", "create_client", "create_publisher", "create_rate", "create_service"),
@@ -84,7 +87,7 @@ def inside(line: int, code: str) -> Edit:
     return Edit(line + 1, line, code, like=line, deeper=True)
 
 
-def at_end(function: ast.FunctionDef | ast.AsyncFunctionDef, code: str) -> Edit:
+def at_end(function: Function, code: str) -> Edit:
     """Code written where a function ends: before the `return` at its end, if there is one."""
     last = function.body[-1]
     if isinstance(last, ast.Return | ast.Raise):
@@ -92,6 +95,87 @@ def at_end(function: ast.FunctionDef | ast.AsyncFunctionDef, code: str) -> Edit:
     if isinstance(last, ast.Pass):
         return becomes(last.lineno, code)
     return below(last.end_lineno or last.lineno, code, like=last.lineno)
+
+
+def at_start(function: Function, code: str) -> Edit:
+    """Code written as the first of a function, below its docstring."""
+    first = function.body[0]
+    if isinstance(first, ast.Expr) and isinstance(first.value, ast.Constant) and isinstance(first.value.value, str):
+        return below(first.end_lineno or first.lineno, code, like=first.lineno)
+    return above(first.lineno, code)
+
+
+def returned(function: Function, value: str) -> list[Edit]:
+    """What makes every way through a function return this value, where it returned nothing."""
+    inside = _own(function.body)
+    found = [
+        becomes(each.lineno, f"return {value}")
+        for each in inside
+        if isinstance(each, ast.Return) and (each.value is None or ast.unparse(each.value) == "None")
+    ]
+    if _falls_through(function.body):
+        found.append(at_end(function, f"return {value}"))
+    return found
+
+
+def _own(body: Sequence[ast.stmt]) -> Iterator[ast.AST]:
+    """What stands in these statements, without the functions inside."""
+    for each in body:
+        yield from _within(each)
+
+
+def _within(node: ast.AST) -> Iterator[ast.AST]:
+    yield node
+    if not isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef | ast.Lambda):
+        for each in ast.iter_child_nodes(node):
+            yield from _within(each)
+
+
+def _falls_through(body: Sequence[ast.stmt]) -> bool:
+    """Whether there is a way past the last of these statements."""
+    match body[-1] if body else None:
+        case ast.Return() | ast.Raise() | ast.Continue() | ast.Break():
+            return False
+        case ast.If(body=then, orelse=otherwise):
+            return _falls_through(then) or _falls_through(otherwise)
+        case ast.With(body=then) | ast.AsyncWith(body=then):
+            return _falls_through(then)
+        case ast.Try(body=then, handlers=handlers, orelse=otherwise, finalbody=at_last):
+            if at_last and not _falls_through(at_last):
+                return False
+            return _falls_through(otherwise or then) or any(_falls_through(each.body) for each in handlers)
+    return True
+
+
+def statement(text: str, line: int) -> ast.stmt | None:
+    """The innermost statement that this line belongs to; of a compound one, its head does."""
+    found = [
+        each
+        for each in ast.walk(_tree(text))
+        if isinstance(each, ast.stmt) and each.lineno <= line <= (each.end_lineno or each.lineno)
+    ]
+    return max(found, key=lambda each: (each.lineno, -(each.end_lineno or 0)), default=None)
+
+
+def function(text: str, name: str, line: int = 0) -> Function | None:
+    """The function of this name: the one that `line` is in, else the last."""
+    found = [
+        each
+        for each in ast.walk(_tree(text))
+        if isinstance(each, ast.FunctionDef | ast.AsyncFunctionDef) and each.name == name
+    ]
+    around = [each for each in found if each.lineno <= line <= (each.end_lineno or 0)]
+    return max(around or found, key=lambda each: each.lineno, default=None)
+
+
+def every(text: str, pattern: str, by: str) -> list[Edit]:
+    """Each line that a pattern is found in, with it replaced."""
+    found = []
+    for number, line in enumerate(text.splitlines(), start=1):
+        code = line.strip()
+        if (new := re.sub(pattern, by, code)) != code:
+            found.append(becomes(number, new))
+    return found
 
 
 def on_top(text: str, code: str) -> list[Edit]:

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import difflib
 import re
-from collections.abc import Iterable, Mapping
+import textwrap
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
+from tutor.judge import edits
+from tutor.judge.edits import Edit
 from tutor.judge.exceptions.table import WORD, Known
 from tutor.judge.tracebacks import Frame, Traceback, within
 from tutor.judge.verdict import Cause
@@ -37,7 +40,8 @@ def find(seen: Seen, table: Iterable[Known], *, cause: str, after: str = "") -> 
             if known.of_source:
                 own = f"{seen.file}, line {words['there']}: {words['there_code']}"
             told = seen.traceback.raised + (f" ({own})" if own else "") + after
-            return Cause(known.cause or cause, f"{told}: {_put(known.says, words)}", _put(known.step, words))
+            step = _edited(known, seen, words) or _put(known.step, words)
+            return Cause(known.cause or cause, f"{told}: {_put(known.says, words)}", step)
     return None
 
 
@@ -115,6 +119,73 @@ def _of_replacing(known: Known, seen: Seen, words: Mapping[str, str]) -> dict[st
     before = words.get("there_code" if known.of_source else "code", "")
     becomes = re.sub(pattern, by, before)
     return {"becomes": becomes} if becomes != before else None
+
+
+def _edited(known: Known, seen: Seen, words: Mapping[str, str]) -> str | None:
+    """The step as edits of the learner's file; None where the entry has none, or they do not fit."""
+    text, found = seen.source, []
+    for each in known.edits:
+        if "every" in each:
+            pattern, by = list(each["every"])
+            found += edits.every(text, _put(pattern, words, escaped=True), _put(by, words))
+            continue
+        given = {key: _put(str(value), words) for key, value in each.items()}
+        if any(WORD.search(value) for value in given.values()):
+            return None
+        more = _edit(text, given, int(words.get("number", 0)))
+        if more is None:
+            return None
+        found += more
+    return edits.told(text, found) if found else None
+
+
+def _edit(text: str, given: Mapping[str, str], line: int) -> Sequence[Edit] | None:
+    """One edit, with all its words put in; None where there is no such line or function."""
+    match given:
+        case {"line": number, "becomes": code}:
+            return [edits.becomes(int(number), code)]
+        case {"top": code}:
+            return edits.on_top(text, code)
+        case {"function": name}:
+            return _of_function(edits.function(text, name, line), given)
+        case {"moved": number, **place}:
+            return _moved(text, int(number), place)
+        case {"removed": number}:
+            there = edits.statement(text, int(number))
+            return [edits.removed(text, there.lineno, there.end_lineno or 0)] if there else None
+        case {"above": number, "code": code}:
+            there = edits.statement(text, int(number))
+            return [edits.above(there.lineno, code)] if there else None
+        case {"below": number, "code": code}:
+            there = edits.statement(text, int(number))
+            return [edits.below(there.end_lineno or 0, code, like=there.lineno)] if there else None
+    return None
+
+
+def _of_function(function: edits.Function | None, given: Mapping[str, str]) -> Sequence[Edit] | None:
+    if function is None:
+        return None
+    if "returns" in given:
+        return edits.returned(function, given["returns"])
+    if "start" in given:
+        return [edits.at_start(function, given["start"])]
+    return [edits.at_end(function, given["end"])]
+
+
+def _moved(text: str, number: int, place: Mapping[str, str]) -> Sequence[Edit] | None:
+    """A statement taken from one place to another, above or below the statement of a line."""
+    moved = edits.statement(text, number)
+    there = edits.statement(text, int(next(iter(place.values()))))
+    if moved is None or there is None or moved is there:
+        return None
+    lines = text.splitlines()[moved.lineno - 1 : moved.end_lineno]
+    code = textwrap.dedent("\n".join(lines))
+    to = (
+        edits.above(there.lineno, code)
+        if "above" in place
+        else edits.below(there.end_lineno or there.lineno, code, like=there.lineno)
+    )
+    return [to, edits.removed(text, moved.lineno, moved.end_lineno or 0)]
 
 
 def _groups(match: re.Match[str]) -> dict[str, str]:

@@ -20,6 +20,21 @@ GIVEN = frozenset(
 
 _PATTERNS = ("type", "text", "line", "source", "without", "through", "at")
 _TEXTS = ("cause", "says", "step", "look_up")
+EDITS: tuple[set[str], ...] = (
+    {"line", "becomes"},
+    {"above", "code"},
+    {"below", "code"},
+    {"removed"},
+    {"moved", "above"},
+    {"moved", "below"},
+    {"function", "start"},
+    {"function", "end"},
+    {"function", "returns"},
+    {"top"},
+    {"every"},
+)
+"""The kinds of edits, by their keys. Lines are numbers, as the words `{number}` and `{there}` give them."""
+
 _ORDER = ("launch", "parameters", "attributes", "calls", "messages", "process", "imports", "python")
 
 
@@ -56,7 +71,8 @@ class Known:
     `through` is found in "function: line" of one of the learner's lines on the way there, `at` in "path, function" of
     the frame that raised. `source`, `without` and `replace` may use the groups of `text` and `line`.
     `look_up` names a table of words, by whose key that is the group `name` (or, unless `exact`, is nearest to it) the
-    word `found` is given. `of_source`: it is the line that `source` has found, in its group `there` if it has one, that
+    word `found` is given. `edits` are what `step` says as edits of the file: they are told where they fit, `step` where
+    they do not. `of_source`: it is the line that `source` has found, in its group `there` if it has one, that
     is shown and replaced, where the exception comes from a call that rclpy makes.
     """
 
@@ -71,6 +87,7 @@ class Known:
     through: str = ""
     at: str = ""
     replace: Replace | None = None
+    edits: tuple[Mapping[str, str | list[str]], ...] = ()
     look_up: str = ""
     exact: bool = True
     of_source: bool = False
@@ -113,7 +130,7 @@ def parse(text: str, name: str = "exceptions.toml") -> tuple[Known, ...]:
 
 
 def _entry(data: Mapping[str, Any], tables: Mapping[str, Mapping[str, str]], where: str) -> Known:
-    allowed = {*_PATTERNS, *_TEXTS, "replace", "example", "exact", "of_source"}
+    allowed = {*_PATTERNS, *_TEXTS, "replace", "edits", "example", "exact", "of_source"}
     if strange := data.keys() - allowed:
         raise TableError(
             f"{where}: no key is called {', '.join(sorted(strange))}; there are {', '.join(sorted(allowed))}"
@@ -132,6 +149,7 @@ def _entry(data: Mapping[str, Any], tables: Mapping[str, Mapping[str, str]], whe
         exact=bool(data.get("exact", True)),
         of_source=bool(data.get("of_source", False)),
         replace=_replace(data.get("replace"), where),
+        edits=_edits(data.get("edits", []), where),
         examples=tuple(_example(each, where) for each in data.get("example", [])),
         words=dict(tables[table]) if table else {},
     )
@@ -139,6 +157,7 @@ def _entry(data: Mapping[str, Any], tables: Mapping[str, Mapping[str, str]], whe
     asked = made.asked | frozenset(
         WORD.findall(" ".join((made.source, made.without, *((made.replace.by,) if made.replace else ()))))
     )
+    asked |= {word for edit in made.edits for each in edit.values() for word in WORD.findall(str(each))}
     if unknown := asked - groups - GIVEN:
         raise TableError(f"{where}: nothing gives the word {', '.join(sorted(unknown))}")
     return made
@@ -151,6 +170,19 @@ def _replace(data: object, where: str) -> Replace | None:
         raise TableError(f"{where}: replace must be ['pattern', 'text']")
     _groups(data[0], f"{where}, replace")
     return Replace(*data)
+
+
+def _edits(data: object, where: str) -> tuple[Mapping[str, str | list[str]], ...]:
+    """Tables of one edit each, with the keys of one of the kinds in `EDITS`."""
+    if not isinstance(data, list) or not all(isinstance(each, dict) and set(each) in EDITS for each in data):
+        kinds = "; ".join(" and ".join(sorted(kind)) for kind in EDITS)
+        raise TableError(f"{where}: edits must be a list of tables, each with one of these: {kinds}")
+    for each in data:
+        if "every" in each:
+            _replace(each["every"], where)
+        elif not all(isinstance(value, str) for value in each.values()):
+            raise TableError(f"{where}: an edit is made of texts")
+    return tuple(data)
 
 
 def _example(data: object, where: str) -> Example:
