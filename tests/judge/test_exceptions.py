@@ -70,6 +70,11 @@ step = "do"
         (ENTRY + "replace = 'x'", "replace must be"),
         (ENTRY + "replace = ['(', 'x']", "entry 1, replace"),
         (ENTRY + "look_up = 'none'", "[words.none]"),
+        (ENTRY + "edits = 'x'", "edits must be a list"),
+        (ENTRY + "edits = [{ up = '1' }]", "above and code"),
+        (ENTRY + "edits = [{ top = 1 }]", "made of texts"),
+        (ENTRY + "edits = [{ every = ['('] }]", "replace must be"),
+        (ENTRY + "edits = [{ top = 'import {that}' }]", "nothing gives the word that"),
         (ENTRY + "example = [{ raised = 'ValueError' }]", "step"),
     ],
 )
@@ -145,3 +150,59 @@ def test_an_unknown_exception_says_what_python_complains_of_and_not_the_line_aga
 @pytest.mark.parametrize("entry", shipped(), ids=lambda entry: entry.says[:40])
 def test_words_after_a_line_of_code_are_not_joined_to_it_by_a_semicolon(entry: Known) -> None:
     assert "{becomes};" not in entry.step
+
+
+SOURCE = """import rclpy
+from rclpy.node import Node
+
+
+class N(Node):
+    def __init__(self):
+        super().__init__('n')
+        with open('a') as file:
+            self.first = (1,
+                2)
+        self.tick()
+
+    def tick(self):
+        self.count += 1
+"""
+
+
+@pytest.mark.parametrize(
+    ("edits", "step"),
+    {
+        "a line": ("[{ line = '11', becomes = 'pass' }]", "line 11 becomes: pass"),
+        "above a statement of two lines": (
+            "[{ above = '10', code = 'x = 1' }]",
+            "write above line 9, with the same indentation: x = 1",
+        ),
+        "below it": ("[{ below = '9', code = 'x = 1' }]", "write below line 10, with the indentation of line 9: x = 1"),
+        "removed": ("[{ removed = '9' }]", "lines 9 to 10 become: pass"),
+        "moved": (
+            "[{ moved = '10', above = '7' }]",
+            "write above line 7, with the same indentation:\n    self.first = (1,\n        2)\n"
+            "lines 9 to 10 become: pass",
+        ),
+        "at the end": (
+            "[{ function = '__init__', end = 'self.count = 0' }]",
+            "write below line 11, with the same indentation: self.count = 0",
+        ),
+        "unwrapped": (
+            "[{ unwrapped = '8', becomes = 'file = 1' }]",
+            "lines 8 to 10 become:\n    file = 1\n    self.first = (1,\n        2)",
+        ),
+        "async": ("[{ async = '14' }]", "line 13 becomes: async def tick(self):"),
+        "every": ("[{ every = ['self.tick', 'self.tock'] }]", "do"),  # there is no tock
+        "imported": ("[{ top = 'import time' }]", "at the top of the file: import time"),
+        "the first way that is sound": (
+            "[[{ line = '14', becomes = '(' }], [{ line = '14', becomes = 'x' }], [{ line = '14', becomes = 'pass' }]]",
+            "line 14 becomes: pass",
+        ),
+        "no such line": ("[{ removed = '99' }]", "do"),
+        "no such function": ("[{ function = 'other', end = 'x = 1' }]", "do"),
+    }.values(),
+)
+def test_a_step_is_told_as_edits_where_they_leave_the_file_sound(edits: str, step: str) -> None:
+    example = Example("ValueError: 5", "", line="self.count += 1", source=SOURCE)
+    assert one(f"{ENTRY}edits = {edits}", example) == step

@@ -168,6 +168,16 @@ def function(text: str, name: str, line: int = 0) -> Function | None:
     return max(around or found, key=lambda each: each.lineno, default=None)
 
 
+def around(text: str, line: int) -> Function | None:
+    """The innermost function that a line is in."""
+    found = [
+        each
+        for each in ast.walk(_tree(text))
+        if isinstance(each, Function) and each.lineno <= line <= (each.end_lineno or 0)
+    ]
+    return max(found, key=lambda each: each.lineno, default=None)
+
+
 def every(text: str, pattern: str, by: str) -> list[Edit]:
     """Each line that a pattern is found in, with it replaced."""
     found = []

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import difflib
 import re
 import textwrap
@@ -123,43 +124,61 @@ def _of_replacing(known: Known, seen: Seen, words: Mapping[str, str]) -> dict[st
 
 def _edited(known: Known, seen: Seen, words: Mapping[str, str]) -> str | None:
     """The step as edits of the learner's file; None where the entry has none, or they do not fit."""
-    text, found = seen.source, []
-    for each in known.edits:
-        if "every" in each:
-            pattern, by = list(each["every"])
-            found += edits.every(text, _put(pattern, words, escaped=True), _put(by, words))
-            continue
-        given = {key: _put(str(value), words) for key, value in each.items()}
-        if any(WORD.search(value) for value in given.values()):
-            return None
-        more = _edit(text, given, int(words.get("number", 0)))
-        if more is None:
-            return None
-        found += more
-    return edits.told(text, found) if found else None
+    for way in known.edits:
+        found = [_edit(seen.source, each, words) for each in way]
+        if None not in found and (step := edits.told(seen.source, *(each for each in found if each))):
+            return step
+    return None
 
 
-def _edit(text: str, given: Mapping[str, str], line: int) -> Sequence[Edit] | None:
-    """One edit, with all its words put in; None where there is no such line or function."""
+def _edit(text: str, edit: Mapping[str, str | list[str]], words: Mapping[str, str]) -> Sequence[Edit] | None:
+    """One edit, with all its words put in; None where there is no such word, line or function."""
+    if "every" in edit:
+        pattern, by = list(edit["every"])
+        return edits.every(text, _put(pattern, words, escaped=True), _put(by, words))
+    given = {key: _put(str(value), words) for key, value in edit.items()}
+    if any(WORD.fullmatch(word) for value in given.values() for word in re.findall(r"\{[a-z]\w*\}", value)):
+        return None
     match given:
         case {"line": number, "becomes": code}:
             return [edits.becomes(int(number), code)]
         case {"top": code}:
             return edits.on_top(text, code)
+        case {"async": number}:
+            return _made_async(text, int(number))
         case {"function": name}:
-            return _of_function(edits.function(text, name, line), given)
-        case {"moved": number, **place}:
-            return _moved(text, int(number), place)
-        case {"removed": number}:
-            there = edits.statement(text, int(number))
-            return [edits.removed(text, there.lineno, there.end_lineno or 0)] if there else None
-        case {"above": number, "code": code}:
-            there = edits.statement(text, int(number))
-            return [edits.above(there.lineno, code)] if there else None
-        case {"below": number, "code": code}:
-            there = edits.statement(text, int(number))
-            return [edits.below(there.end_lineno or 0, code, like=there.lineno)] if there else None
+            return _of_function(edits.function(text, name, int(words.get("number", 0))), given)
+    return _of_statement(text, given)
+
+
+def _of_statement(text: str, given: Mapping[str, str]) -> Sequence[Edit] | None:
+    number = next(given[key] for key in ("unwrapped", "moved", "removed", "above", "below") if key in given)
+    there = edits.statement(text, int(number))
+    if there is None:
+        return None
+    end = there.end_lineno or there.lineno
+    match given:
+        case {"moved": _, **place}:
+            return _moved(text, there, place)
+        case {"removed": _}:
+            return [edits.removed(text, there.lineno, end)]
+        case {"above": _, "code": code}:
+            return [edits.above(there.lineno, code)]
+        case {"below": _, "code": code}:
+            return [edits.below(end, code, like=there.lineno)]
+        case {"becomes": code} if isinstance(there, ast.With | ast.If | ast.Try):
+            body = textwrap.dedent("\n".join(text.splitlines()[there.body[0].lineno - 1 : there.body[-1].end_lineno]))
+            return [edits.becomes(there.lineno, f"{code}\n{body}", end)]
     return None
+
+
+def _made_async(text: str, number: int) -> Sequence[Edit] | None:
+    """The function that a line is in, as one that may await."""
+    function = edits.around(text, number)
+    if function is None:
+        return None
+    code = text.splitlines()[function.lineno - 1].strip()
+    return [] if code.startswith("async ") else [edits.becomes(function.lineno, f"async {code}")]
 
 
 def _of_function(function: edits.Function | None, given: Mapping[str, str]) -> Sequence[Edit] | None:
@@ -172,20 +191,15 @@ def _of_function(function: edits.Function | None, given: Mapping[str, str]) -> S
     return [edits.at_end(function, given["end"])]
 
 
-def _moved(text: str, number: int, place: Mapping[str, str]) -> Sequence[Edit] | None:
-    """A statement taken from one place to another, above or below the statement of a line."""
-    moved = edits.statement(text, number)
+def _moved(text: str, moved: ast.stmt, place: Mapping[str, str]) -> Sequence[Edit] | None:
+    """A statement taken to another place, above or below the statement of a line."""
     there = edits.statement(text, int(next(iter(place.values()))))
-    if moved is None or there is None or moved is there:
+    if there is None or moved.lineno == there.lineno:
         return None
-    lines = text.splitlines()[moved.lineno - 1 : moved.end_lineno]
-    code = textwrap.dedent("\n".join(lines))
-    to = (
-        edits.above(there.lineno, code)
-        if "above" in place
-        else edits.below(there.end_lineno or there.lineno, code, like=there.lineno)
-    )
-    return [to, edits.removed(text, moved.lineno, moved.end_lineno or 0)]
+    end = moved.end_lineno or moved.lineno
+    code = textwrap.dedent("\n".join(text.splitlines()[moved.lineno - 1 : end]))
+    below = edits.below(there.end_lineno or there.lineno, code, like=there.lineno)
+    return [edits.above(there.lineno, code) if "above" in place else below, edits.removed(text, moved.lineno, end)]
 
 
 def _groups(match: re.Match[str]) -> dict[str, str]:

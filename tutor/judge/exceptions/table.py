@@ -30,6 +30,8 @@ EDITS: tuple[set[str], ...] = (
     {"function", "start"},
     {"function", "end"},
     {"function", "returns"},
+    {"unwrapped", "becomes"},
+    {"async"},
     {"top"},
     {"every"},
 )
@@ -71,9 +73,9 @@ class Known:
     `through` is found in "function: line" of one of the learner's lines on the way there, `at` in "path, function" of
     the frame that raised. `source`, `without` and `replace` may use the groups of `text` and `line`.
     `look_up` names a table of words, by whose key that is the group `name` (or, unless `exact`, is nearest to it) the
-    word `found` is given. `edits` are what `step` says as edits of the file: they are told where they fit, `step` where
-    they do not. `of_source`: it is the line that `source` has found, in its group `there` if it has one, that
-    is shown and replaced, where the exception comes from a call that rclpy makes.
+    word `found` is given. `edits` are what `step` says as edits of the file, or several ways to do it: the first that
+    leaves the file sound is told, `step` where none does. `of_source`: it is the line that `source` has found, in its
+    group `there` if it has one, that is shown and replaced, where the exception comes from a call that rclpy makes.
     """
 
     type: str
@@ -87,7 +89,7 @@ class Known:
     through: str = ""
     at: str = ""
     replace: Replace | None = None
-    edits: tuple[Mapping[str, str | list[str]], ...] = ()
+    edits: tuple[tuple[Mapping[str, str | list[str]], ...], ...] = ()
     look_up: str = ""
     exact: bool = True
     of_source: bool = False
@@ -157,7 +159,7 @@ def _entry(data: Mapping[str, Any], tables: Mapping[str, Mapping[str, str]], whe
     asked = made.asked | frozenset(
         WORD.findall(" ".join((made.source, made.without, *((made.replace.by,) if made.replace else ()))))
     )
-    asked |= {word for edit in made.edits for each in edit.values() for word in WORD.findall(str(each))}
+    asked |= {word for way in made.edits for edit in way for each in edit.values() for word in WORD.findall(str(each))}
     if unknown := asked - groups - GIVEN:
         raise TableError(f"{where}: nothing gives the word {', '.join(sorted(unknown))}")
     return made
@@ -172,17 +174,19 @@ def _replace(data: object, where: str) -> Replace | None:
     return Replace(*data)
 
 
-def _edits(data: object, where: str) -> tuple[Mapping[str, str | list[str]], ...]:
-    """Tables of one edit each, with the keys of one of the kinds in `EDITS`."""
-    if not isinstance(data, list) or not all(isinstance(each, dict) and set(each) in EDITS for each in data):
-        kinds = "; ".join(" and ".join(sorted(kind)) for kind in EDITS)
-        raise TableError(f"{where}: edits must be a list of tables, each with one of these: {kinds}")
-    for each in data:
-        if "every" in each:
-            _replace(each["every"], where)
-        elif not all(isinstance(value, str) for value in each.values()):
-            raise TableError(f"{where}: an edit is made of texts")
-    return tuple(data)
+def _edits(data: object, where: str) -> tuple[tuple[Mapping[str, str | list[str]], ...], ...]:
+    """The ways to do a step, each a list of tables of one edit, with the keys of one of the kinds in `EDITS`."""
+    ways: list[Any] = data if isinstance(data, list) and data and isinstance(data[0], list) else [data]
+    for way in ways:
+        if not isinstance(way, list) or not all(isinstance(each, dict) and set(each) in EDITS for each in way):
+            kinds = "; ".join(" and ".join(sorted(kind)) for kind in EDITS)
+            raise TableError(f"{where}: edits must be a list of tables, each with one of these: {kinds}")
+        for each in way:
+            if "every" in each:
+                _replace(each["every"], where)
+            elif not all(isinstance(value, str) for value in each.values()):
+                raise TableError(f"{where}: an edit is made of texts")
+    return tuple(tuple(way) for way in ways if way)
 
 
 def _example(data: object, where: str) -> Example:
