@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from itertools import accumulate
 
-from checks.i1_2 import gap_steps
+from checks.i1_2 import gap_steps, steps
 from checks.i1_2.facts import EVERY, OURS, SOON_S, Feeding
 from checks.i1_2.judges import NO_SUMMARY, counts_truly, judge_summary, true_total
 from checks.i1_2.reading import Line
@@ -46,7 +46,8 @@ def judge_restart(restart: Feeding, steady: Feeding, jump: Feeding) -> Verdict:
             Cause(
                 "stopped counting",
                 "the node is there, but sums up nothing that the new publisher sends",
-                "do nothing special when N falls: count on, or set everything back and say so",
+                steps.restart(restart.trace)
+                or "do nothing special when N falls: count on, or set everything back and say so",
             ),
             evidence,
         )
@@ -63,14 +64,16 @@ def judge_restart(restart: Feeding, steady: Feeding, jump: Feeding) -> Verdict:
             Cause(
                 "starts over silently",
                 f"it says {anew} after {report.messages} messages, and no log message says that it started over",
-                "go on with the total, or log that the publisher was restarted and that you count from zero",
+                steps.silent(restart.trace)
+                or "go on with the total, or log that the publisher was restarted and that you count from zero",
             )
             if anew
             else Cause(
                 "wrong count after a restart",
                 f"{report.messages} messages in all, {report.messages - before} of them from the new publisher: "
                 "it states neither",
-                "do not compute the total from N; go on counting, or set everything back and say so",
+                steps.restart(restart.trace)
+                or "do not compute the total from N; go on counting, or set everything back and say so",
             )
         )
         return failed(expected, f"{observed}; {report}", cause, evidence)
@@ -87,14 +90,14 @@ def _sums_up_otherwise(after: Sequence[Report], restart: Feeding) -> Cause | Non
         return Cause(
             "summary for every message",
             f"{len(after)} summaries for {new} messages of the new publisher",
-            "once N has fallen, go on as before: a summary for every ten messages",
+            steps.restart(restart.trace) or "once N has fallen, go on as before: a summary for every ten messages",
         )
     own = [report for report in after if report.messages > before + 1]  # not of what came before
     if own and not any(_quotes_new(report, restart) for report in own):
         return Cause(
             "last message missing",
             "no summary quotes what the new publisher has sent last",
-            "self.last_message = msg.data for each message, whatever its N",
+            steps.restart(restart.trace) or "self.last_message = msg.data for each message, whatever its N",
         )
     return None
 
@@ -120,12 +123,13 @@ def judge_gaps(jump: Feeding, steady: Feeding) -> Verdict:
     jumped = [f"from {jump.sent[index - 1].number} to {jump.sent[index].number}" for index in jump.jumps]
     observed = f"N jumped {', and '.join(jumped)}"
     if told and (again := _goes_on(told, jump)):
-        cause = gap_steps.of_alarm(jump.trace) or Cause(
+        texts = [line.text for line in again]
+        cause = gap_steps.of_alarm(jump.trace, texts) or Cause(
             "false alarm",
             f"it still says so when N rises by one again: {again[-1].text}",
-            "compare each N with the one right before it, whether there was a gap or not",
+            steps.gaps(jump.trace, texts) or gap_steps.COMPARE,
         )
-        return failed(expected, observed, cause, [line.text for line in again[:6]])
+        return failed(expected, observed, cause, texts[:6])
     if (rising := _goes_on_rising(jump, steady)) is not None:
         return failed(expected, observed, *rising)
     unused = list(told)
@@ -189,12 +193,13 @@ def _goes_on_rising(jump: Feeding, steady: Feeding) -> tuple[Cause, list[str]] |
             ends = [line.numbers[place].value for line in later[-1:]]
             whole = all(value.is_integer() for value in rose)
             if len(was) == 1 and whole and max(was) < rose[0] < rose[-1] <= min(ends, default=rose[-1]):
-                return gap_steps.of_alarm(jump.trace) or Cause(
+                texts = [line.text for line in (since[0], since[-1], *later[-1:])]
+                return gap_steps.of_alarm(jump.trace, texts) or Cause(
                     "false alarm",
                     f"what it says is lost goes on rising while N rises by one again: {since[0].numbers[place].text} "
                     f"after {since[0].messages} messages, {since[-1].numbers[place].text} after {since[-1].messages}",
-                    "compare each N with the one right before it, whether there was a gap or not",
-                ), [line.text for line in (since[0], since[-1], *later[-1:])]
+                    steps.gaps(jump.trace, texts) or gap_steps.COMPARE,
+                ), texts
     return None
 
 
@@ -213,21 +218,28 @@ def _why_unsaid(index: int, jump: Feeding, steady: Feeding) -> Cause:
     calm = [line for fed in (steady, jump) for line in fed.lines if _calm(line, fed)]
     false = [line for line in calm if line.kind in since]
     if 0 < len(false) < 0.7 * (len(steady.sent) + jump.breaks - 2):
-        return gap_steps.of_alarm(jump.trace) or Cause(
+        texts = [line.text for line in false]
+        return gap_steps.of_alarm(jump.trace, texts) or Cause(
             "false alarm",
             f"it also says so where N rises by one: {false[0].text}",
-            "compare numbers, not texts: int(msg.data.split(':')[1]) must be the last number + 1",
+            steps.gaps(jump.trace, texts)
+            or "compare numbers, not texts: int(msg.data.split(':')[1]) must be the last number + 1",
         )
     words = ("gap", "miss", "lost", "skip", "lücke", "jump")
     after = [line for line in jump.trace.output if line.at >= jump.sent[index].at and line.stream == "stdout"]
     printed = next((line.text for line in after if any(word in line.text.casefold() for word in words)), None)
     if printed is not None:
-        return Cause("printed, not logged", f"it is only printed: {printed}", "use self.get_logger().warning(...)")
+        return Cause(
+            "printed, not logged",
+            f"it is only printed: {printed}",
+            steps.gaps(jump.trace) or "use self.get_logger().warning(...)",
+        )
     missed = jump.missed(index)[-1]
     return gap_steps.of_silence(jump.trace) or Cause(
         "gap not noticed",
         f"{missed} number{'s are' if missed > 1 else ' is'} missing, and nothing tells this from any other message",
-        "keep the last N; where the next one is not that + 1, self.get_logger().warning(...) how many are missing",
+        steps.gaps(jump.trace)
+        or "keep the last N; where the next one is not that + 1, self.get_logger().warning(...) how many are missing",
     )
 
 

@@ -4,25 +4,59 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
+from checks.i1_2 import steps
+from checks.i1_2.listener import find
 from checks.i1_2.parsing import Function, misread
-from tutor.judge import source
+from checks.i1_2.rewriting import first_value
+from tutor.judge import edits, source
 from tutor.judge.trace import Trace
 from tutor.judge.verdict import Cause
 
+COMPARE = "compare each N with the one right before it, whether there was a gap or not"
 
-def of_alarm(trace: Trace) -> Cause | None:
-    """Why it tells of gaps where there are none."""
+
+def of_alarm(trace: Trace, false: Sequence[str] = ()) -> Cause | None:
+    """Why it tells of gaps where there are none; `false`: log messages that do."""
     functions = source.callbacks(trace, "create_subscription")
-    return misread(functions) or _from_the_count(trace, functions) or _not_followed(functions)
+    found = _misread(trace, functions) or _from_the_count(trace, functions) or _not_followed(trace, functions)
+    return _with_step(found, steps.gaps(trace, false))
 
 
 def of_silence(trace: Trace) -> Cause | None:
     """Why it tells nothing of a gap."""
     functions = source.callbacks(trace, "create_subscription")
-    return (
-        misread(functions) or _from_the_count(trace, functions) or _too_early(functions) or _only_backwards(functions)
+    found = (
+        _misread(trace, functions)
+        or _from_the_count(trace, functions)
+        or _too_early(functions)
+        or _only_backwards(functions)
     )
+    return _with_step(found, steps.gaps(trace))
+
+
+def _with_step(found: Cause | None, step: str | None) -> Cause | None:
+    return replace(found, hint=found.hint or step or COMPARE) if found else None
+
+
+def _misread(trace: Trace, functions: Sequence[Function]) -> Cause | None:
+    found = misread(functions)
+    if found is None:
+        return None
+    step = _told(trace, found.node, [edits.instead(_of(trace, found.node)[1], found.node, found.right)])
+    return Cause("number misread", found.text, step)
+
+
+def _told(trace: Trace, node: ast.AST, change: Sequence[edits.Edit]) -> str:
+    """The step that changes the file in which this node is; empty where none is sure."""
+    file, text = _of(trace, node)
+    return edits.told(text, change, file=file if len(trace.sources) > 1 else "") or ""
+
+
+def _of(trace: Trace, node: ast.AST) -> tuple[str, str]:
+    """The file in which this node is, and its text."""
+    return next(each for each in trace.sources.items() if node in source.tree(each[1]))
 
 
 def _from_the_count(trace: Trace, functions: Sequence[Function]) -> Cause | None:
@@ -34,61 +68,58 @@ def _from_the_count(trace: Trace, functions: Sequence[Function]) -> Cause | None
             for number, other in () if _asks(node, ast.Lt, ast.LtE) else ((left, right), (right, left)):
                 counter = other.left if isinstance(other, ast.BinOp) else other
                 if ast.unparse(number) in numbers and ast.unparse(counter) in counters:
-                    return _expected_of_count(function, node, ast.unparse(number), ast.unparse(counter))
+                    return Cause(
+                        "number compared with the count",
+                        f"{_at(node)} compares the N of a message with {ast.unparse(counter)}, how many have come: "
+                        "these differ for anyone who starts late, and for good after a gap",
+                        _with_the_last(trace, function, node, ast.unparse(number)),
+                    )
     return None
 
 
-def _expected_of_count(function: Function, node: ast.expr, number: str, counter: str) -> Cause:
-    test = f"self.last_number is not None and {number} > self.last_number + 1"
-    instead, more = test, ""
-    if not isinstance(node, ast.Compare):
-        instead = f"({number} - self.last_number - 1 if {test} else 0)"
-        more = ", and log a warning where it is above 0"
-    return Cause(
-        "number compared with the count",
-        f"{_at(node)} compares the N of a message with {counter}, how many have come: these differ for anyone who "
-        "starts late, and for good after a gap",
-        f"line {node.lineno}: write {instead} instead of {ast.unparse(node)}{more}\n"
-        f"add to the end of {function.name}: self.last_number = {number}\n"
-        "and to __init__: self.last_number = None",
-    )
+def _with_the_last(trace: Trace, function: Function, node: ast.expr, number: str) -> str:
+    """The step that compares a number with the one before it, in place of this comparison."""
+    listener = find(trace)
+    if listener is None or not isinstance(node, ast.Compare):
+        return ""
+    last = listener.new("last_number", "number_before")
+    test = f"{last} is not None and {number} > {last} + 1"
+    before = first_value(listener, [f"{last} = None"])
+    instead = edits.instead(_of(trace, node)[1], node, test)
+    return _told(trace, node, [before, instead, edits.at_end(function, f"{last} = {number}")])
 
 
-def _not_followed(functions: Sequence[Function]) -> Cause | None:
+def _not_followed(trace: Trace, functions: Sequence[Function]) -> Cause | None:
     """Whether what a number is compared with does not follow the numbers, once there was a gap."""
     for function in functions:
         for number, last, is_last, _ in _compared(function):
-            if (why := _left_behind(function, last, number if is_last else f"{number} + 1")) is not None:
-                return Cause("false alarm", *why)
+            right = f"{last} = {number if is_last else f'{number} + 1'}"
+            if (why := _left_behind(function, last, right)) is not None:
+                text, change = why
+                return Cause("false alarm", text, _told(trace, function, change))
     return None
 
 
-def _left_behind(function: Function, last: str, right: str) -> tuple[str, str] | None:
-    """Why `last` is not set to `right` with each message, and the step."""
+def _left_behind(function: Function, last: str, right: str) -> tuple[str, list[edits.Edit]] | None:
+    """Why `last` is not set with each message, and the edit that sets it: to what `right` says."""
     inside = list(ast.walk(function))
+    at_end = [edits.at_end(function, right)]
     counted = next((each for each in inside if isinstance(each, ast.AugAssign) and _sets(each, last)), None)
     if counted is not None:
         text = f"{_at(counted)} goes on counting from before the gap, and never follows it"
-        if counted in function.body:
-            return text, f"line {counted.lineno} becomes: {last} = {right}"
-        return text, f"add to the end of {function.name}, outside of every if: {last} = {right}"
+        return text, [edits.becomes(counted.lineno, right)] if counted in function.body else at_end
     kept = [each for each in inside if isinstance(each, ast.Assign) and _sets(each, last)]
     if not kept:
-        text = f"{last} is never set to the number of the message that came last"
-        return text, f"add to the end of {function.name}: {last} = {right}"
+        return f"{last} is never set to the number of the message that came last", at_end
     always = [each for each in kept if each in function.body]
     if not always:
-        return (
-            f"{_at(kept[-1])} is not done for each message, only under a condition: after a gap {last} stays behind",
-            f"add to the end of {function.name}, outside of every if: {last} = {right}",
-        )
+        text = f"{_at(kept[-1])} is not done for each message, only under a condition: after a gap {last} stays behind"
+        return text, at_end
     end = next((each for each in inside if isinstance(each, ast.Return) and each.lineno < always[-1].lineno), None)
     if end is None:
         return None
-    return (
-        f"line {end.lineno}: return leaves {function.name} before {_at(always[-1])}",
-        f"write above line {end.lineno}, with the same indentation: {ast.unparse(always[-1])}",
-    )
+    text = f"line {end.lineno}: return leaves {function.name} before {_at(always[-1])}"
+    return text, [edits.above(end.lineno, ast.unparse(always[-1]))]
 
 
 def _too_early(functions: Sequence[Function]) -> Cause | None:
@@ -102,7 +133,7 @@ def _too_early(functions: Sequence[Function]) -> Cause | None:
                         "gap not noticed",
                         f"{_at(each)} comes before line {node.lineno} compares the two, and then they are always the "
                         "same",
-                        f"move line {each.lineno}, {ast.unparse(each)}, to the end of {function.name}",
+                        "",
                     )
     return None
 
@@ -114,16 +145,11 @@ def _only_backwards(functions: Sequence[Function]) -> Cause | None:
         lower = [each for each in found if _asks(each[2], ast.Lt, ast.LtE)]
         if not lower or any(not _asks(each[2], ast.Lt, ast.LtE, ast.Is, ast.IsNot) for each in found):
             continue
-        number, last, node = lower[0]
-        if any(_sets(each, last) for each in function.body if each.lineno < node.lineno):
-            continue
-        return Cause(
-            "gap not noticed",
-            f"{_at(node)} is about lower numbers only, and nothing asks for higher ones",
-            f"right after the line that reads {number}, with the same indentation:\n"
-            f"if {last} is not None and {number} > {last} + 1:\n"
-            f"    self.get_logger().warning(f'{{{number} - {last} - 1}} messages are missing')",
-        )
+        _, last, node = lower[0]
+        if not any(_sets(each, last) for each in function.body if each.lineno < node.lineno):
+            return Cause(
+                "gap not noticed", f"{_at(node)} is about lower numbers only, and nothing asks for higher ones", ""
+            )
     return None
 
 

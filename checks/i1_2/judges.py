@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from checks.i1_2 import backlog, rates, slowness
+from checks.i1_2 import backlog, rates, slowness, steps
 from checks.i1_2.facts import EVERY, FAST_HZ, OURS, Feeding
 from checks.i1_2.reading import labelled, read
 from checks.i1_2.reports import Report, find, in_time, milestone, totals
 from tutor.judge import causes, ending
 from tutor.judge.bench import MachineTooBusy
-from tutor.judge.reading import read as read_source
-from tutor.judge.trace import LogRecord, Trace
+from tutor.judge.trace import LogRecord
 from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped
 
 EXPECTED_COUNT = "each summary states how many messages have come"
@@ -102,30 +101,36 @@ def _quoted_but_first(report: Report, feeding: Feeding, *, before: int) -> list[
 
 
 def _why_miscounted(report: Report, feeding: Feeding) -> Cause:
+    name, text, words = _miscounted(report, feeding)
+    return Cause(name, text, steps.count(feeding.trace) or words)
+
+
+def _miscounted(report: Report, feeding: Feeding) -> tuple[str, str, str]:
+    """The name of the cause, what it says, and a step in words."""
     sent, last = report.messages, feeding.sent[report.messages - 1].number
     missed = sum(feeding.missed(sent - 1))
     if missed and report.states(sent + missed):
-        return Cause(
+        return (
             "missed messages counted",
             f"it says {sent + missed}, but {missed} of these were never sent",
             "count each call of the callback, and nothing else: self.total_count += 1",
         )
     if feeding.breaks and (report.states(last) or report.states(last + 1)):
-        return Cause(
+        return (
             "number taken for the count",
             f"it states the N of “Hello World: {last}”, not how many messages came",
             "whoever starts late hears the N of others: count yourself, self.total_count += 1 in the callback",
         )
     near = next((sent + by for by in (1, -1) if report.states(sent + by)), None)
     if near is not None:
-        return Cause(
+        return (
             "off by one",
             f"it says {near} after {sent} messages",
             "begin with 0, and count each message once, before you write the summary",
         )
     if not report.numbers:
-        return Cause("no count", "there is no number in it", "put self.total_count into the text of the summary")
-    return Cause(
+        return ("no count", "there is no number in it", "put self.total_count into the text of the summary")
+    return (
         "wrong count",
         f"none of its numbers ({', '.join(number.text for number in report.numbers)}) is {sent}",
         "self.total_count += 1 in the callback, once for each message, and put it into the summary",
@@ -182,7 +187,9 @@ def judge_summary(steady: Feeding, jump: Feeding) -> Verdict:
 def _why_not_every_ten(reports: Sequence[Report], feeding: Feeding, messages: int) -> Cause | None:
     due = range(EVERY, messages + 1, EVERY)
     when = [report.messages for report in reports]
-    hint = f"if self.total_count % {EVERY} == 0: write the summary, in the callback, after counting"
+    hint = steps.summary(feeding.trace) or (
+        f"if self.total_count % {EVERY} == 0: write the summary, in the callback, after counting"
+    )
     if len(reports) > 3 and len(reports) >= 0.7 * messages:
         return Cause("summary for every message", f"{len(reports)} summaries for {messages} messages", hint)
     if len(reports) > len(due) or any(report.times > 1 for report in reports):
@@ -217,18 +224,20 @@ def _why_incomplete(report: Report, feeding: Feeding) -> Cause | None:
             return Cause(
                 "first message overwritten",
                 f"“{first.content}” was the first one, but it quotes “Hello World: {others[0]}”",
-                _first_kept(feeding.trace),
+                steps.first_kept(feeding.trace) or "set self.first_message only while it is None, and never again",
             )
         return Cause(
             "first message missing",
             f"“{first.content}” is not in it",
-            "keep the first message's data in self.first_message, and put it into the summary",
+            steps.summary(feeding.trace)
+            or "keep the first message's data in self.first_message, and put it into the summary",
         )
     if not any(each.number in report.quoted for each in recent):
         return Cause(
             "last message missing",
             f"“{recent[0].content}” is not in it",
-            "self.last_message = msg.data for each message, before you write the summary",
+            steps.summary(feeding.trace)
+            or "self.last_message = msg.data for each message, before you write the summary",
         )
     called = {(name, number) for line in report.lines for name, number in labelled(line.text)}
     swapped = [("first", each.number) for each in recent if each.number != first.number]
@@ -236,17 +245,10 @@ def _why_incomplete(report: Report, feeding: Feeding) -> Cause | None:
         return Cause(
             "first and last swapped",
             f"it calls “{first.content}” the last one, and the last one the first",
-            "put self.first_message after “first”, and the message that has just come after “last”",
+            steps.summary(feeding.trace)
+            or "put self.first_message after “first”, and the message that has just come after “last”",
         )
     return None
-
-
-def _first_kept(trace: Trace) -> str:
-    """The step that keeps the first message of all."""
-    for each in read_source(trace).assignments():
-        if "first" in each.target.lower() and each.within not in ("", "__init__") and each.value in ("None", "''"):
-            return f"remove {each.where}: the first message stays the first one, also after a summary"
-    return "set self.first_message only while it is None, and never again"
 
 
 def why_silent(feeding: Feeding) -> Cause:
@@ -265,8 +267,9 @@ def why_silent(feeding: Feeding) -> Cause:
     return Cause(
         "no summary",
         "none of its log messages sums up the messages" if feeding.lines else "no log message follows from a message",
-        f"count in the callback; if self.total_count % {EVERY} == 0: self.get_logger().info(...) with the count, the "
-        "rate, the first and the last message",
+        steps.summary(trace)
+        or f"count in the callback; if self.total_count % {EVERY} == 0: self.get_logger().info(...) with the count, "
+        "the rate, the first and the last message",
     )
 
 

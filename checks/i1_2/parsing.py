@@ -6,8 +6,6 @@ import ast
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from tutor.judge.verdict import Cause
-
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 
 EXAMPLES = ("Hello World: 107", "Hello World: 38", "Hello World: 4")
@@ -80,18 +78,27 @@ class _Reader:
         raise _Unknown
 
 
-def misread(functions: Sequence[Function]) -> Cause | None:
-    """Whether the number is taken from the wrong place of the text: with the line, and what it reads there."""
+@dataclass(frozen=True, slots=True)
+class Misread:
+    """Where a number is taken from the wrong place of the text: what it reads there, and the `right` code."""
+
+    node: ast.Call
+    text: str
+    right: str
+
+
+def misread(functions: Sequence[Function]) -> Misread | None:
+    """Whether the number is taken from the wrong place of the text."""
     for function in functions:
         for node in ast.walk(function):
             if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "int" and node.args:
                 for text in EXAMPLES:
-                    if (cause := _of_one(function, node, text)) is not None:
-                        return cause
+                    if (found := _of_one(function, node, text)) is not None:
+                        return found
     return None
 
 
-def _of_one(function: Function, node: ast.Call, text: str) -> Cause | None:
+def _of_one(function: Function, node: ast.Call, text: str) -> Misread | None:
     base = _text_of(function, node)
     if base is None:
         return None
@@ -106,13 +113,8 @@ def _of_one(function: Function, node: ast.Call, text: str) -> Cause | None:
         if read == right:
             return None
         reads = f"{read!r} out of"
-    code = ast.unparse(node)
-    instead = f"int({base}.rpartition(':')[2])"
-    return Cause(
-        "number misread",
-        f"line {node.lineno}: {code} reads {reads} “{text}”",
-        f"line {node.lineno}: write {instead} instead of {code}",
-    )
+    says = f"line {node.lineno}: {ast.unparse(node)} reads {reads} “{text}”"
+    return Misread(node, says, f"int({base}.rpartition(':')[2])")
 
 
 def _text_of(function: Function, node: ast.expr, depth: int = 0) -> str | None:

@@ -6,10 +6,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from math import inf
 
+from checks.i1_2 import steps
 from checks.i1_2.facts import EVERY, STALL_S, Feeding
 from checks.i1_2.reading import Number
 from checks.i1_2.reports import Report, find, milestone, slots, totals
-from tutor.judge.causes import slips
 from tutor.judge.rates import TOLERANCE
 from tutor.judge.verdict import Cause
 
@@ -141,7 +141,9 @@ def _close(report: Report, feeding: Feeding) -> Iterator[Range]:
 
 def why_wrong(report: Report, reports: Sequence[Report], feeding: Feeding) -> Cause:
     """What kind of mistake leads to the numbers in this one of the reports, which states no true rate."""
-    hint = "self.total_count / (time.time() - self.start_time), where start_time is when the first message came"
+    hint = steps.rate(feeding.trace) or (
+        "self.total_count / (time.time() - self.start_time), where start_time is when the first message came"
+    )
     true = true_rates(report, feeding)
     found = _but_the_count(report, feeding)
     for number in found:
@@ -149,28 +151,27 @@ def why_wrong(report: Report, reports: Sequence[Report], feeding: Feeding) -> Ca
             return Cause(
                 "period instead of a rate",
                 f"{number.text} are the seconds from one message to the next",
-                "messages per second are messages divided by seconds, not seconds by messages",
+                hint,
             )
     for number in found:
         if number.value / 60 in true:
             return Cause("rate per minute", f"{number.text} is messages per minute", hint)
         if any(number.value * by in true for by in (1e-3, 1e3, 1e6, 1e9)):
-            step = slips.nanoseconds(feeding.trace) or hint
-            return Cause("rate in another unit", f"{number.text} is off by a factor of a thousand, or of several", step)
+            return Cause("rate in another unit", f"{number.text} is off by a factor of a thousand, or of several", hint)
     waited = [_waited(each, feeding) for each in reports]
     for number, span in _waited(report, feeding):
         if span.high > 0.7 and all(any(span.meets(same) for _, same in each) for each in waited):
             return Cause(
                 "counted from the node's start",
                 f"{number.text} is right if the clock starts {span.high:.1f} s before the first message",
-                "set self.start_time in the callback, when the first message comes, not in __init__",
+                hint,
             )
     if all(_cut(each, feeding) for each in reports):
         number, whole_s = _cut(report, feeding)[0]
         return Cause(
             "seconds cut off",
             f"{number.text} is {_count(report, feeding)} messages in {whole_s} s, but it took longer",
-            "keep the elapsed time as a float: no int(), and no //",
+            hint,
         )
     if not found:
         return Cause("no rate", "there is no other number than the count in it", hint)

@@ -7,10 +7,11 @@ from dataclasses import replace
 
 import pytest
 
-from checks.i1_2 import gap_steps
+from checks.i1_2 import gap_steps, steps
 from checks.i1_2.judges import judge_summary
 from tests.checks.made import assert_failed, trace
 from tests.checks.test_i1_2 import Counter, Log, jump, steady
+from tests.repairs import follow
 from tutor.judge.trace import Trace
 
 NODE = """\
@@ -38,6 +39,11 @@ def started(*pairs: tuple[str, str], code: str = NODE) -> Trace:
     return trace(sources={"node.py": code})
 
 
+def followed(told: Trace, step: str) -> str:
+    """The file after the step, done word for word."""
+    return follow(step, told.sources)["node.py"]
+
+
 def test_of_a_node_without_a_fault_nothing_is_said() -> None:
     assert gap_steps.of_alarm(started()) is None
     assert gap_steps.of_silence(started()) is None
@@ -63,7 +69,7 @@ def test_a_number_that_is_taken_from_the_wrong_place(reads: str, what: str) -> N
         assert cause is not None
         assert (cause.name, cause.text) == ("number misread", f"line 10: {reads} {cause.text.partition(reads)[2][1:]}")
         assert what in cause.text
-        assert cause.hint == f"line 10: write int(msg.data.rpartition(':')[2]) instead of {reads}"
+        assert cause.hint == "line 10 becomes: number = int(msg.data.rpartition(':')[2])"
 
 
 @pytest.mark.parametrize(
@@ -82,33 +88,29 @@ def test_a_number_that_is_read_well_or_in_a_way_that_is_not_known(reads: str) ->
 
 
 def test_a_number_is_followed_through_a_variable_and_into_a_helper() -> None:
-    steps = ("number = int(msg.data.split(':')[1])", "parts = msg.data.split()\n        number = int(parts[1])")
-    cause = gap_steps.of_silence(started(steps))
+    apart = ("number = int(msg.data.split(':')[1])", "parts = msg.data.split()\n        number = int(parts[1])")
+    cause = gap_steps.of_silence(started(apart))
     assert cause is not None
-    assert cause.hint == "line 11: write int(msg.data.rpartition(':')[2]) instead of int(parts[1])"
+    assert cause.hint == "line 11 becomes: number = int(msg.data.rpartition(':')[2])"
     helper = NODE.replace("number = int(", "self.check(msg.data)\n\n    def check(self, data):\n        number = int(")
     cause = gap_steps.of_alarm(started(("msg.data.split(':')[1]", "data[-1]"), code=helper))
     assert cause is not None
-    assert cause.hint == "line 13: write int(data.rpartition(':')[2]) instead of int(data[-1])"
+    assert cause.hint == "line 13 becomes: number = int(data.rpartition(':')[2])"
 
 
 COMPARES = "self.last_number is not None and number > self.last_number + 1"
 
 
-@pytest.mark.parametrize(
-    ("test", "step"),
-    [
-        ("number != self.total_count", f"line 11: write {COMPARES} instead of number != self.total_count"),
-        ("number > self.total_count - 1", f"line 11: write {COMPARES} instead of number > self.total_count - 1"),
-        ("number - self.total_count > 0", "line 11: write (number - self.last_number - 1 if self.last_number is"),
-    ],
-)
-def test_a_number_that_is_compared_with_the_count(test: str, step: str) -> None:
-    cause = gap_steps.of_alarm(started((COMPARES, test)))
+@pytest.mark.parametrize("test", ["number != self.total_count", "number > self.total_count - 1"])
+def test_a_number_that_is_compared_with_the_count(test: str) -> None:
+    told = started((COMPARES, test))
+    cause = gap_steps.of_alarm(told)
     assert cause is not None
     assert cause.name == "number compared with the count"
-    assert step in cause.hint
-    assert "add to the end of listen: self.last_number = number\nand to __init__: self.last_number = None" in cause.hint
+    fixed = followed(told, cause.hint)
+    assert "if self.number_before is not None and number > self.number_before + 1:" in fixed
+    assert fixed.endswith("self.number_before = number\n")
+    assert "self.number_before = None\n        self.create_subscription(" in fixed
 
 
 @pytest.mark.parametrize(
@@ -117,7 +119,7 @@ def test_a_number_that_is_compared_with_the_count(test: str, step: str) -> None:
         (
             [("        self.last_number = number", "        else:\n            self.last_number = number")],
             "line 14: self.last_number = number is not done for each message",
-            "add to the end of listen, outside of every if: self.last_number = number",
+            "write below line 14, with the indentation of line 11: self.last_number = number",
         ),
         (
             [("missing')\n", "missing')\n            return\n")],
@@ -127,7 +129,7 @@ def test_a_number_that_is_compared_with_the_count(test: str, step: str) -> None:
         (
             [("        self.last_number = number\n", "")],
             "self.last_number is never set",
-            "add to the end of listen: self.last_number = number",
+            "write below line 12, with the indentation of line 11: self.last_number = number",
         ),
         (
             [
@@ -145,7 +147,7 @@ def test_a_number_that_is_compared_with_the_count(test: str, step: str) -> None:
         (
             [("        self.last_number = number", "        else:\n            self.last_number += 1")],
             "line 14: self.last_number += 1 goes on counting",
-            "add to the end of listen, outside of every if: self.last_number = number",
+            "write below line 14, with the indentation of line 11: self.last_number = number",
         ),
     ],
 )
@@ -159,19 +161,26 @@ def test_a_last_number_that_does_not_follow(pairs: list[tuple[str, str]], text: 
 
 def test_a_last_number_that_is_replaced_before_it_is_compared() -> None:
     early = "        number = int(msg.data.split(':')[1])\n"
-    cause = gap_steps.of_silence(
-        started(("        self.last_number = number\n", ""), (early, f"{early}        self.last_number = number\n"))
-    )
+    told = started(("        self.last_number = number\n", ""), (early, f"{early}        self.last_number = number\n"))
+    cause = gap_steps.of_silence(told)
     assert cause is not None
     assert "line 11: self.last_number = number comes before line 12" in cause.text
-    assert cause.hint == "move line 11, self.last_number = number, to the end of listen"
+    assert COMPARES.replace("last_number", "number_before") in followed(told, cause.hint)
 
 
 def test_a_comparison_that_is_about_lower_numbers_only() -> None:
-    cause = gap_steps.of_silence(started(("number > self.last_number + 1", "number < self.last_number")))
+    told = started(("number > self.last_number + 1", "number < self.last_number"))
+    cause = gap_steps.of_silence(told)
     assert cause is not None
     assert "line 11: number < self.last_number is about lower numbers only" in cause.text
-    assert f"if {COMPARES}:\n    self.get_logger().warning(" in cause.hint
+    assert COMPARES.replace("last_number", "number_before") in followed(told, cause.hint)
+
+
+def test_an_alarm_that_was_false_is_taken_out() -> None:
+    told = started((COMPARES, "number % 4 == 0"))
+    fixed = followed(told, steps.gaps(told, ["3 messages are missing"]) or "")
+    assert "if number % 4 == 0:\n            pass\n" in fixed
+    assert fixed.count("warning(") == 1
 
 
 def test_a_first_message_that_is_forgotten_with_each_summary_is_told_with_its_line() -> None:
@@ -180,8 +189,8 @@ def test_a_first_message_that_is_forgotten_with_each_summary_is_told_with_its_li
             yield from super().summary()
             self.first = ""
 
-    source = "class A:\n    def listen(self, msg):\n        self.first = None\n"
+    source = NODE + "        self.first = None\n"
     seen = steady(Forgets())
-    for text, step in ((source, "remove line 3: self.first = None"), ("", "only while it is None, and never again")):
+    for text, step in ((source, "remove line 14: self.first = None"), ("", "only while it is None, and never again")):
         told = replace(seen, trace=replace(seen.trace, sources={"node.py": text}))
         assert_failed(judge_summary(told, jump(Counter())), "first message overwritten", step)

@@ -1,0 +1,179 @@
+"""I1.2: the function that a learner's subscription calls, and the names by which it keeps what it keeps."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+
+from tutor.judge import source
+from tutor.judge.trace import Trace
+
+Function = ast.FunctionDef | ast.AsyncFunctionDef
+
+COUNT, FIRST, LAST, START, NUMBER = "total_count", "first_message", "last_message", "start_time", "last_number"
+_CLOCKS = ("time", "monotonic", "perf_counter", "now", "time_ns", "monotonic_ns", "perf_counter_ns")
+_LEVELS = ("info", "warn", "warning", "error", "fatal")
+
+
+@dataclass(frozen=True)
+class Listener:
+    """The callback of a subscription. `owner`: the class that it is a method of; `outer`: the function that it is in.
+
+    `reached`: it, and the functions that it calls. `names`: for COUNT, FIRST, ... as far as the file has one, the
+    variable that is kept from one message to the next, as written in the callback.
+    """
+
+    file: str
+    text: str
+    created: ast.Call
+    function: Function
+    reached: tuple[Function, ...]
+    owner: ast.ClassDef | None = None
+    outer: Function | None = None
+    names: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def message(self) -> str:
+        """What it calls the message; empty where it takes none."""
+        given = [each.arg for each in self.function.args.args if each.arg not in ("self", "cls")]
+        return given[0] if given else ""
+
+    @property
+    def logger(self) -> str:
+        """The logger, as written in the callback."""
+        node = ast.unparse(self.created.func.value) if isinstance(self.created.func, ast.Attribute) else "node"
+        if self.owner is not None and self.created in ast.walk(self.owner):
+            return f"{node}.get_logger()"
+        calls = [each for function in self.reached for each in ast.walk(function) if isinstance(each, ast.Call)]
+        for call in calls:
+            if isinstance(call.func, ast.Attribute) and call.func.attr in _LEVELS:
+                return ast.unparse(call.func.value)
+        return f"{node}.get_logger()"
+
+    def name(self, role: str) -> str:
+        """The variable of this role, as written in the callback: one of the file's own, or a new one."""
+        return self.names.get(role) or (f"self.{role}" if self.owner else role)
+
+    def new(self, *names: str) -> str:
+        """The first of these names, as written in the callback, that the file does not have; else the last one."""
+        free = [each for each in names if not re.search(rf"\b{each}\b", self.text)]
+        return f"{'self.' if self.owner else ''}{(free or names[-1:])[0]}"
+
+
+def find(trace: Trace) -> Listener | None:
+    """The callback of the node's subscription; None where there is none, or the file is none that can be read."""
+    for file, text in trace.sources.items():
+        tree = source.tree(text)
+        calls = [each for each in tree if isinstance(each, ast.Call) and source.called(each) == "create_subscription"]
+        for call in sorted(calls, key=lambda each: each.lineno):
+            for function in _given(call, tree):
+                owner = next((each for each in tree if isinstance(each, ast.ClassDef) and function in each.body), None)
+                inside = [each for each in tree if isinstance(each, Function) and function in ast.walk(each)]
+                outer = next((each for each in inside if each is not function), None) if owner is None else None
+                reached = tuple(_reached(function, tree))
+                names = dict(_names(function, reached, owner))
+                return Listener(file, text, call, function, reached, owner, outer, names)
+    return None
+
+
+def _given(call: ast.Call, tree: Sequence[ast.AST]) -> Iterator[Function]:
+    """The functions of the file that are given to a call, or called by a lambda that is."""
+    values = [*call.args, *(each.value for each in call.keywords)]
+    mine = next((each for each in tree if isinstance(each, ast.ClassDef) and call in ast.walk(each)), None)
+    functions = [each for each in tree if isinstance(each, Function)]
+    functions.sort(key=lambda each: mine is None or each not in mine.body)
+    for value in values:
+        inner = value.func if isinstance(value, ast.Call) else value
+        parts = ast.walk(value) if isinstance(value, ast.Lambda | ast.Call) else [inner]
+        named = [name for each in parts if (name := _last(each))]
+        yield from (each for name in named for each in functions if each.name == name)
+
+
+def _last(node: ast.AST) -> str:
+    return node.attr if isinstance(node, ast.Attribute) else node.id if isinstance(node, ast.Name) else ""
+
+
+def _reached(function: Function, tree: Sequence[ast.AST]) -> Iterator[Function]:
+    """The function, and those of the file that it leads to, by name."""
+    functions = {each.name: each for each in tree if isinstance(each, Function)}
+    waiting, found = [function], [function]
+    while waiting:
+        for node in ast.walk(waiting.pop(0)):
+            other = functions.get(source.called(node)) if isinstance(node, ast.Call) else None
+            if other is not None and other not in found:
+                found.append(other)
+                waiting.append(other)
+    yield from found
+
+
+def _names(function: Function, reached: Sequence[Function], owner: ast.ClassDef | None) -> Iterator[tuple[str, str]]:
+    """The role of each variable that lasts, with the variable; of two in one role, the one that comes last counts.
+
+    What another class keeps is out of the callback's reach.
+    """
+    mine = [each for each in reached if each is function or (owner is not None and each in owner.body)]
+    for each in mine:
+        for target, value, always in _kept(each):
+            if (role := _role(value, each, always)) and (role != START or not always):
+                yield role, target
+
+
+def _kept(function: Function) -> Iterator[tuple[str, ast.expr, bool]]:
+    """What the function sets and keeps: variable, value, and whether it does so with each call."""
+    whole = [node for node in ast.walk(function) if isinstance(node, ast.Global | ast.Nonlocal)]
+    lasting = {name for node in whole for name in node.names}
+    short = {
+        target.id: ast.unparse(node.value)
+        for node in function.body
+        if isinstance(node, ast.Assign) and isinstance(node.value, ast.Attribute)
+        for target in node.targets
+        if isinstance(target, ast.Name) and ast.unparse(node.value).startswith("self.")
+    }
+    for node in ast.walk(function):
+        always = node in function.body
+        if isinstance(node, ast.AugAssign) and isinstance(node.op, ast.Add):
+            pairs: list[tuple[ast.expr, ast.expr]] = [(node.target, ast.BinOp(node.target, node.op, node.value))]
+        elif isinstance(node, ast.Assign):
+            pairs = [pair for target in node.targets for pair in _pairs(target, node.value)]
+        else:
+            continue
+        for target, value in pairs:
+            root, _, rest = ast.unparse(target).partition(".")
+            name = f"{short.get(root, root)}.{rest}" if rest else root
+            if name.startswith("self.") or root in lasting:
+                yield name, value, always
+
+
+def _pairs(target: ast.expr, value: ast.expr) -> list[tuple[ast.expr, ast.expr]]:
+    if isinstance(target, ast.Tuple) and isinstance(value, ast.Tuple) and len(target.elts) == len(value.elts):
+        return list(zip(target.elts, value.elts, strict=True))
+    return [(target, value)]
+
+
+def _role(value: ast.expr, function: Function, always: bool) -> str:
+    """What a variable is for that is set to this value."""
+    given = {each.arg for each in function.args.args}
+    match value:
+        case ast.BinOp(left=ast.Name() | ast.Attribute(), op=ast.Add(), right=ast.Constant(value=1)):
+            return COUNT if always else ""
+        case ast.Attribute(attr="data", value=ast.Name(id=name)) if name in given:
+            return LAST if always else FIRST
+    local = _local(value, function)
+    called = {source.called(each) for each in ast.walk(local) if isinstance(each, ast.Call)}
+    if isinstance(local, ast.Call) and called.intersection(_CLOCKS):
+        return START
+    return NUMBER if isinstance(local, ast.Call) and source.called(local) == "int" and always else ""
+
+
+def _local(value: ast.expr, function: Function) -> ast.expr:
+    """What a local variable was set to, if it is one and was set once."""
+    if not isinstance(value, ast.Name):
+        return value
+    given = [
+        node.value
+        for node in ast.walk(function)
+        if isinstance(node, ast.Assign) and any(ast.unparse(target) == value.id for target in node.targets)
+    ]
+    return given[0] if len(given) == 1 else value

@@ -1,0 +1,98 @@
+"""I1.2: which line of a learner's file wrote a log message, and which expression each of its values came from."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from tutor.judge import source
+from tutor.judge.trace import Trace
+
+_LEVELS = ("debug", "info", "warn", "warning", "error", "fatal")
+_PLACE = re.compile(r"%%|%\([^)]*\)[^a-zA-Z]*[a-zA-Z]|%[-+ #0-9.*]*[a-zA-Z]")
+_FIELD = re.compile(r"\{\{|\}\}|\{[^{}]*\}")
+
+Part = str | ast.expr
+
+
+@dataclass(frozen=True, slots=True)
+class Logged:
+    """A call that logs. `values`: each expression in its text, with what it came to; `function`: what it is in."""
+
+    file: str
+    text: str
+    call: ast.Call
+    statement: ast.stmt
+    function: ast.FunctionDef | ast.AsyncFunctionDef | None
+    values: tuple[tuple[ast.expr, str], ...]
+
+
+def logged(trace: Trace, message: str) -> Logged | None:
+    """The call that logged this message; None where this is not known."""
+    for file, text in trace.sources.items():
+        tree = source.tree(text)
+        functions = [each for each in tree if isinstance(each, ast.FunctionDef | ast.AsyncFunctionDef)]
+        for call in (each for each in tree if isinstance(each, ast.Call) and source.called(each) in _LEVELS):
+            around = [each for each in functions if call in ast.walk(each)]
+            function = max(around, key=lambda each: each.lineno, default=None)
+            if not call.args or (values := read(call.args[0], message, function)) is None:
+                continue
+            statements = [each for each in tree if isinstance(each, ast.stmt) and call in ast.walk(each)]
+            statement = max(statements, key=lambda each: each.lineno)
+            return Logged(file, text, call, statement, function, tuple(values))
+    return None
+
+
+def read(written: ast.expr, message: str, function: ast.AST | None = None) -> list[tuple[ast.expr, str]] | None:
+    """Each expression in a text that is put together, with what it came to in `message`; None where it does not fit."""
+    parts = list(_parts(written, function))
+    if not any(isinstance(each, str) and each.strip() for each in parts):
+        return None
+    pattern = "".join(re.escape(each) if isinstance(each, str) else "(.*?)" for each in parts)
+    found = re.fullmatch(pattern, message, re.DOTALL)
+    expressions = [each for each in parts if not isinstance(each, str)]
+    return list(zip(expressions, found.groups(), strict=True)) if found else None
+
+
+def _parts(node: ast.expr, function: ast.AST | None, depth: int = 0) -> Iterator[Part]:
+    """The parts of a text: what stands in it as it is, and the expressions between that."""
+    match node:
+        case ast.Constant(value=str() as plain):
+            yield plain
+        case ast.JoinedStr(values=values):
+            for each in values:
+                inner = each.value if isinstance(each, ast.FormattedValue) else each
+                yield from [inner] if isinstance(each, ast.FormattedValue) else _parts(inner, function, depth)
+        case ast.BinOp(left=left, op=ast.Add(), right=right):
+            yield from _parts(left, function, depth)
+            yield from _parts(right, function, depth)
+        case ast.BinOp(left=ast.Constant(value=str() as plain), op=ast.Mod(), right=given):
+            yield from _filled(_PLACE, plain, given.elts if isinstance(given, ast.Tuple) else [given])
+        case ast.Call(func=ast.Attribute(value=ast.Constant(value=str() as plain), attr="format"), args=given):
+            yield from _filled(_FIELD, plain, given)
+        case ast.Call(func=ast.Name(id="str"), args=[inner]):
+            yield inner
+        case ast.Name(id=name) if function is not None and depth < 3:
+            given = [
+                each.value
+                for each in ast.walk(function)
+                if isinstance(each, ast.Assign) and any(ast.unparse(target) == name for target in each.targets)
+            ]
+            yield from _parts(given[0], function, depth + 1) if len(given) == 1 else [node]
+        case _:
+            yield node
+
+
+def _filled(places: re.Pattern[str], plain: str, given: Sequence[ast.expr]) -> Iterator[Part]:
+    """The text between its places, and what is put into them."""
+    waiting, end = list(given), 0
+    for found in places.finditer(plain):
+        yield plain[end : found.start()]
+        end = found.end()
+        if found[0] in ("%%", "{{", "}}"):
+            yield found[0][0]
+        else:
+            yield waiting.pop(0) if waiting else ast.Constant(None)
+    yield plain[end:]
