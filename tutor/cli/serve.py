@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import argparse
-import sys
 
 from tutor.cli import context, terminal
 from tutor.cli.errors import INTERRUPTED, UsageError
+from tutor.process import interpreter
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -31,8 +31,7 @@ def run(arguments: argparse.Namespace) -> int:
     context.load_course(arguments)  # a course that is broken is told here, not in the browser
     lessons = getattr(arguments, "lessons", None)
     more = [] if lessons is None else [str(lessons.absolute())]
-    # -P: a module in the current folder must not take the place of one of ours.
-    argv = [sys.executable, "-P", "-m", "tutor.serve", str(context.place(arguments).root.absolute()), *more]
+    argv = interpreter.of_ours("tutor.serve", str(context.place(arguments).root.absolute()), *more)
     try:
         listener = listen(arguments.host, arguments.port)
     except NoAddress as error:

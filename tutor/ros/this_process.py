@@ -11,6 +11,7 @@ from importlib.machinery import ModuleSpec, PathFinder
 from pathlib import Path
 from types import ModuleType
 
+from tutor.process import interpreter
 from tutor.ros import prefixes
 from tutor.ros.environment import RosEnvironment, tutor_env
 
@@ -42,6 +43,8 @@ def use(ros: RosEnvironment, *, isolated: bool) -> None:
             del os.environ[name]
     os.environ.update({name: value for name, value in env.items() if name.startswith(_OF_ROS)})
     if ros.kind == "system":
+        if sys.flags.isolated:
+            interpreter.add_python_path(env)
         if not any(isinstance(finder, _NoBundledRos) for finder in sys.meta_path):
             sys.meta_path.insert(0, _NoBundledRos())
         return

@@ -10,7 +10,6 @@ import contextlib
 import os
 import shlex
 import shutil
-import sys
 import tempfile
 from collections.abc import Callable, Sequence
 from dataclasses import replace
@@ -19,6 +18,7 @@ from typing import TYPE_CHECKING
 
 from tutor.content import Course, Lesson, LessonFile, Partner
 from tutor.judge.result import ExerciseResult
+from tutor.process import interpreter
 from tutor.tui import run_options
 from tutor.tui.node import NodeCommand
 from tutor.tui.terminal.shell import Shell
@@ -155,8 +155,7 @@ class Desk:
     def check_command(self, lesson: Lesson) -> Sequence[str]:
         """The command that checks the workspace's own files and prints events, to be run in the workspace."""
         more = () if self.extra is None else ("--lessons", str(self.extra))
-        # -P: a module in the learner's folder must not take the place of one of ours.
-        return (sys.executable, "-P", "-m", "tutor.engine", lesson.id, str(self.workspace.root), *more)
+        return interpreter.of_ours("tutor.engine", lesson.id, str(self.workspace.root), *more)
 
     def node_command(self, file: LessonFile, options: RunOptions) -> NodeCommand:
         """How to run one file in the learner's own ROS domain. Raises CommandError where ROS has no `ros2`, OSError."""

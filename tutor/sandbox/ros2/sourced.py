@@ -5,11 +5,11 @@ from __future__ import annotations
 import os
 import shlex
 import shutil
-import sys
 import tempfile
 from collections.abc import Mapping
 from pathlib import Path
 
+from tutor.process import interpreter
 from tutor.ros.environment import RosEnvironment, learner_env
 from tutor.ros.prefixes import entries, is_ours, joined
 from tutor.sandbox.ros2 import sources
@@ -73,9 +73,7 @@ def _write_programs(folder: Path, ros: RosEnvironment, *, with_ros2: bool) -> No
     if with_ros2:
         # -P: a module in the learner's folder must not take the place of one of ours.
         programs["ros2"] = f"{python} -P -m tutor.sandbox.ros2"
-    # -I: nor may one of their workspace, which is on PYTHONPATH here.
-    main = shlex.quote("import sys; from tutor.cli import main; sys.exit(main())")
-    programs["ros-tutor"] = f"{shlex.quote(sys.executable)} -I -c {main}"
+    programs["ros-tutor"] = shlex.join(interpreter.of_ours("tutor"))
     for name, command in programs.items():
         path = folder / name
         path.write_text(f'#!/bin/sh\nexec {command} "$@"\n', encoding="utf-8")

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import os
-import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
+
+from tutor.process import interpreter
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,5 +23,4 @@ def live_command(domain: int, environ: Mapping[str, str] = os.environ) -> LiveCo
     from tutor.ros.environment import detect, tutor_env  # late: the first paint does not wait for it
 
     env = tutor_env(detect(environ), isolated=False, environ=environ)
-    # -P: a module in the learner's folder must not take the place of one of ours.
-    return LiveCommand((sys.executable, "-P", "-m", "tutor.live"), {**env, "ROS_DOMAIN_ID": str(domain)}, domain)
+    return LiveCommand(interpreter.of_ours("tutor.live"), {**env, "ROS_DOMAIN_ID": str(domain)}, domain)
