@@ -11,7 +11,7 @@ from checks.i2_3.facts import SERVICE, SHORTEST_S, TYPE, Lone, Quiet, Three, rig
 from checks.i2_3.pace import During, Fault
 from checks.i2_3.ticks import HZ, Series
 from tutor.judge import causes, tracebacks
-from tutor.judge.reading import UNREAD, Source, read
+from tutor.judge.rewriting.node import NodeFile
 from tutor.judge.trace import CallAnswer, Service, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Cause
@@ -34,7 +34,8 @@ def of_no_service(trace: Trace) -> Cause:
             return Cause(
                 "wrong type",
                 f"{SERVICE} has the type {service.type}, not {TYPE}",
-                f"create it with AddTwoInts: self.create_service(AddTwoInts, '{SERVICE[1:]}', ...)",
+                steps.offering(steps.read(trace))
+                or f"create it with AddTwoInts: self.create_service(AddTwoInts, '{SERVICE[1:]}', ...)",
             )
     same_type = [service for service in offered if service.type == TYPE]
     if (unmatched := causes.incompatible_service(_here(trace))) is not None:
@@ -43,19 +44,15 @@ def of_no_service(trace: Trace) -> Cause:
         return Cause(
             "wrong service name",
             f"there is {service.name} instead of {SERVICE}",
-            _renamed(trace) or f"name it '{SERVICE[1:]}', spelled like this, without a namespace or ~ in front",
+            steps.offering(steps.read(trace))
+            or f"name it '{SERVICE[1:]}', spelled like this, without a namespace or ~ in front",
         )
     return Cause(
         "service missing",
         f"the node is up, but offers no {SERVICE}",
-        f"in __init__: self.create_service(AddTwoInts, '{SERVICE[1:]}', self.slow_add, callback_group=...)",
+        steps.offering(steps.read(trace))
+        or f"in __init__: self.create_service(AddTwoInts, '{SERVICE[1:]}', self.slow_add, callback_group=...)",
     )
-
-
-def _renamed(trace: Trace) -> str | None:
-    made = steps.service(read(trace))
-    given = made.argument(1, "srv_name") if made else ""
-    return made.instead(given, repr(SERVICE[1:])) if made and given else None
 
 
 def of_no_answer(seen: Lone) -> Cause:
@@ -64,44 +61,57 @@ def of_no_answer(seen: Lone) -> Cause:
         return broken
     if (unmatched := causes.incompatible_service(_here(seen.trace))) is not None:
         return unmatched
-    if not seen.spins and (empty := steps.not_added(read(seen.trace))) is not None:
+    if not seen.spins and (empty := steps.not_added(steps.read(seen.trace))) is not None:
         return empty
     if not seen.spins or causes.in_call(seen.stuck):
-        return causes.of_no_answer(seen.trace, seen.stuck)
+        return _fixed(causes.of_no_answer(seen.trace, seen.stuck), steps.read(seen.trace))
     blocked = causes.of_blocked(seen.trace, seen.stuck, spins=True)
     if blocked is not None and blocked.name != "blocked executor":
-        return blocked
+        return _fixed(blocked, steps.read(seen.trace))
     if (locked := causes.waiting_for_lock(seen.trace, seen.stuck)) is not None:
-        return replace(locked, name="no answer")
+        return _fixed(replace(locked, name="no answer"), steps.read(seen.trace))
     own = tracebacks.own(seen.stuck, seen.trace.folder)
     return Cause(
         "no answer",
         f"the callback does not come to an end{f', at {own}' if own else ''}",
-        (steps.waiting(own.code, own.line) if own else None)
+        (steps.waiting(steps.read(seen.trace), own.code, own.line) if own else steps.answering(steps.read(seen.trace)))
         or "let the callback wait 3 s, fill in response.sum and return the response; let nothing wait without a limit",
     )
+
+
+def _fixed(cause: Cause, file: NodeFile) -> Cause:
+    """The cause, with the step that rewrites the callback, or all: it needs no more than one service and one timer."""
+    return replace(cause, hint=steps.answering(file) or cause.hint)
 
 
 def _here(trace: Trace) -> list[Service]:
     return [service for service in trace.graph.services if service.name == SERVICE]
 
 
-def of_wrong_sum(answer: CallAnswer, source: Source = UNREAD) -> Cause:
+def of_wrong_sum(answer: CallAnswer, trace: Trace) -> Cause:
     """What may be wrong with this answer."""
     assert answer.response is not None
+    source = steps.read(trace)
     if answer.took_s < SHORTEST_S and (early := steps.too_early(source)) is not None:
         return early
+    step = steps.answering(source) or "response.sum = request.a + request.b"
     got, right = answer.response["sum"], right_sum(answer)
     if got == 0:
-        return Cause("wrong sum", "the sum is 0: was it put into response.sum?", "response.sum = request.a + request.b")
-    return Cause("wrong sum", f"{got} instead of {right}", "response.sum = request.a + request.b")
+        return Cause("wrong sum", "the sum is 0: was it put into response.sum?", step)
+    return Cause("wrong sum", f"{got} instead of {right}", step)
+
+
+def of_exception(trace: Trace) -> Cause | None:
+    """The exception of the learner's that was seen in the run: it explains whatever fails."""
+    found = tracebacks.last(trace)
+    return causes.of_traceback(found, trace) if found is not None and not found.ignored else None
 
 
 def of_other_pace(alone: Quiet, likely: Series | None) -> Cause:
     """Why no timer of 10 Hz was heard, though nobody called."""
     if (broken := causes.of_process(alone.trace)) is not None:
         return broken
-    source = read(alone.trace)
+    source = steps.read(alone.trace)
     if likely is None:
         after = alone.ending.output if alone.ending else ()
         lines = Counter(shape(line.text) for line in (*alone.trace.output, *after))
@@ -114,7 +124,8 @@ def of_other_pace(alone: Quiet, likely: Series | None) -> Cause:
             or Cause(
                 "no timer messages",
                 "no log message comes back while nobody calls (debug messages are not shown)",
-                f"self.create_timer({1 / HZ:g}, self.tick, ...), and log the tick's number at info, every tenth time",
+                steps.ticks(source)
+                or f"self.create_timer({1 / HZ:g}, self.tick, ...), and log every tenth tick's number at info",
             )
         )
     if likely.numbered or likely.hz > HZ:
@@ -127,7 +138,6 @@ def of_other_pace(alone: Quiet, likely: Series | None) -> Cause:
         "wrong timer period",
         f"{likely.hz:.1f} messages per second, without a number that counts the ticks",
         steps.period(source)
-        or steps.numbered(source)
         or f"let the timer have a period of {1 / HZ:g} s; if it logs every tenth tick only, put the tick's number in",
     )
 
@@ -136,24 +146,25 @@ def of_disturbed_timer(seen: Lone, heard: During) -> Cause:
     """Why the timer does not go on during a call as it does outside one."""
     if (broken := causes.of_process(seen.trace)) is not None:
         return broken
-    source = read(seen.trace)
+    source = steps.read(seen.trace)
     if heard.fault is Fault.FAST:
         return Cause(
             "ticks in a burst",
             "more ticks are logged around a call than the timer makes",
-            "log ticks in the timer's callback only; do not make up for missed ones",
+            steps.held(source) or "log ticks in the timer's callback only; do not make up for missed ones",
         )
     if heard.fault is Fault.SLOW:
         return Cause(
             "slowed timer",
             "the timer ticks during a call, but not as often",
-            "give the timer a callback group of its own and the executor enough threads; let the service sleep",
+            steps.held(source)
+            or "give the timer a callback group of its own and the executor enough threads; let the service sleep",
         )
     if heard.count > 1 and heard.longest_s < WHOLE * heard.for_s:
         return Cause(
             "timer pauses",
             f"the timer goes on during a call, but pauses for {heard.longest_s:.1f} s of it",
-            steps.lock(source) or "let the two callbacks share no lock, and neither of them wait for the other",
+            steps.held(source) or "let the two callbacks share no lock, and neither of them wait for the other",
         )
     own = tracebacks.own(seen.stuck, seen.trace.folder)
     where = f", at {own}" if own else ""
@@ -162,25 +173,15 @@ def of_disturbed_timer(seen: Lone, heard: During) -> Cause:
             "blocked executor",
             "the timer stands still during a call",
             steps.executor(source)
-            or steps.threads(source)
-            or steps.groups(source)
             or "use a MultiThreadedExecutor, and put the timer and the service into different callback groups",
-        )
-    if _in_worker(seen.stuck) and (held := steps.lock(source)) is not None:
-        return Cause(
-            "blocked executor",
-            f"the timer stands still while the service works{where}: its callback waits for a lock that the service "
-            "holds",
-            held,
         )
     if _in_worker(seen.stuck):
         if (locked := causes.waiting_for_lock(seen.trace, seen.stuck)) is not None:
-            return locked
+            return replace(locked, hint=steps.held(source) or locked.hint)
         return Cause(
             "blocked executor",
             f"the timer stands still while the service works{where}: {steps.held_by(source)}",
-            steps.threads(source)
-            or steps.groups(source)
+            steps.held(source)
             or "give the timer a ReentrantCallbackGroup of its own, and the executor at least 2 threads: num_threads=4",
         )
     return Cause(
@@ -195,26 +196,28 @@ def of_lost_calls(trace: Trace, three: Three, answered: Sequence[CallAnswer]) ->
     """Why not every one of three calls at once got its own sum."""
     if (broken := causes.of_process(trace)) is not None:
         return broken
+    source = steps.read(trace)
     if len(answered) < len(three.answers):
         return Cause(
             "no answer",
             f"{len(three.answers) - len(answered)} of {len(three.answers)} calls made at once got no answer",
-            "let every call wait its turn or work beside the others, and return its response; refuse none",
+            steps.answering(source)
+            or "let every call wait its turn or work beside the others, and return its response; refuse none",
         )
-    if any(answer.took_s < SHORTEST_S for answer in answered) and (early := steps.too_early(read(trace))) is not None:
+    if any(answer.took_s < SHORTEST_S for answer in answered) and (early := steps.too_early(source)) is not None:
         return early
     sums = [answer.response["sum"] for answer in answered if answer.response is not None]
     if any(sums.count(right_sum(answer)) > 1 for answer in answered):
         return Cause(
             "shared state",
             "one call was answered with the sum of another: they share a variable",
-            steps.shared(read(trace))
+            steps.answering(source)
             or "keep a and b in local variables of the callback, not in self: several calls are in it at once",
         )
     return Cause(
         "wrong sum",
         f"the sums are {', '.join(map(str, sums))}",
-        "answer every call with its own a + b, also while another one is being worked on",
+        steps.answering(source) or "answer every call with its own a + b, also while another one is being worked on",
     )
 
 

@@ -34,9 +34,8 @@ from checks.i2_3.ticks import HZ, Series, best
 from tutor.judge import causes, ending
 from tutor.judge.bench import MachineTooBusy
 from tutor.judge.rates import TOLERANCE
-from tutor.judge.reading import read
 from tutor.judge.trace import CallAnswer
-from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped
+from tutor.judge.verdict import Cause, Status, Verdict, failed, passed, skipped
 
 
 def judge_blocks(seen: Lone, several: Trio) -> Verdict:
@@ -57,6 +56,13 @@ def _of_both(seen: Lone, judge: Callable[[Lone], Verdict]) -> Verdict:
 
 
 def _judge_answer(seen: Lone) -> Verdict:
+    verdict = _judge_answer_alone(seen)
+    if verdict.status is Status.FAILED and (raised := why.of_exception(seen.trace)) is not None:
+        return replace(verdict, cause=str(raised), hint=raised.hint)
+    return verdict
+
+
+def _judge_answer_alone(seen: Lone) -> Verdict:
     expected = f"{SERVICE} ({TYPE}) answers with the sum after {WORK_S:g} s ({SHORTEST_S:g} to {LONGEST_S:g} s)"
     if not seen.calls:
         return failed(
@@ -72,18 +78,18 @@ def _judge_answer(seen: Lone) -> Verdict:
     for call in seen.calls:
         answer = call.answer
         if answer.response is not None and answer.response["sum"] != right_sum(answer):
-            return failed(expected, _told(answer), why.of_wrong_sum(answer, read(seen.trace)))
-    source = read(seen.trace)
+            return failed(expected, _told(answer), why.of_wrong_sum(answer, seen.trace))
+    source = steps.read(seen.trace)
     told, took = _told(best.answer), f"the work takes {best.answer.took_s:.1f} s"
     if best.answer.took_s < SHORTEST_S:
         if (early := steps.too_early(source)) is not None:
             return failed(expected, told, early)
-        step = steps.work(source) or "let the callback wait: time.sleep(3.0), then answer"
+        step = steps.working_for(source) or "let the callback wait: time.sleep(3.0), then answer"
         return failed(expected, told, Cause("too quick", took, step))
     if not best.in_time:
         if best.near and all(call.busy for call in seen.calls):
             raise MachineTooBusy("this machine is too busy to time the service")
-        step = steps.work(source) or "let the callback wait 3 s once, then answer"
+        step = steps.working_for(source) or "let the callback wait 3 s once, then answer"
         return failed(expected, told, Cause("too slow", took, step))
     return passed(expected, told)
 
@@ -175,7 +181,7 @@ def judge_parallel(one: Lone, several: Trio) -> Verdict:
     cause = Cause(
         "one call at a time",
         "the calls wait for each other",
-        steps.apart(read(several.trace))
+        steps.apart(steps.read(several.trace))
         or "put the service into a ReentrantCallbackGroup, and give the executor threads enough: num_threads=8",
     )
     return failed(expected, observed, cause)

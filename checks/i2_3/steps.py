@@ -1,302 +1,289 @@
 """I2.3: the next step in the words of the learner's own file: its lines, its groups, its executor.
 
-The source only chooses the words; None where it says nothing.
+Each is tried on a copy of the file, the shortest edit first, and the last one rewrites all that it may be due to. The
+source only chooses the words; None where it says nothing.
 """
 
 from __future__ import annotations
 
-import re
+import ast
 
-from checks.i2_3.facts import WORK_S
+from checks.i2_3 import rewriting
+from checks.i2_3.facts import SERVICE, WORK_S
+from checks.i2_3.rewriting import every, service, ticking, timer, working
 from checks.i2_3.ticks import HZ
-from tutor.judge.reading import Call, Function, Source
+from tutor.judge.edits import Edit, becomes, instead, removed
+from tutor.judge.rewriting.node import NodeFile, argument, node_file
+from tutor.judge.rewriting.program import program
+from tutor.judge.source import called
+from tutor.judge.trace import Trace
 from tutor.judge.verdict import Cause
 
 _GROUP = "callback_group"
+_MANY = "MultiThreadedExecutor"
 _THREADS = 8
+_LOGS = ("info", "warning", "warn", "error", "fatal")
 
 
-def service(source: Source) -> Call | None:
-    """Where the service is made."""
-    return next(iter(source.calls("create_service")), None)
+def read(trace: Trace) -> NodeFile:
+    """The learner's file that was started."""
+    return node_file(trace.sources.get(trace.file, ""))
 
 
-def timer(source: Source) -> Call | None:
-    """Where the timer is made."""
-    return next(iter(source.calls("create_timer")), None)
+def everything(file: NodeFile) -> str | None:
+    """The step that rewrites service, timer and program, for what nothing shorter is known to help."""
+    parts = (rewriting.offered(file), rewriting.timed(file), rewriting.answering(file), rewriting.logged(file))
+    return file.step(every(file, *parts, rewriting.spun(file)), every(file, *parts), rewriting.spun(file))
 
 
-def _works(source: Source) -> Function | None:
-    """The service's callback."""
-    made = service(source)
-    return _named(source, made.argument(2, "callback")) if made else None
+def offering(file: NodeFile) -> str | None:
+    """The step where the service is missing, or has another name or type than it should."""
+    made = service(file)
+    name = argument(made, 1, "srv_name") if made is not None else None
+    right = ast.unparse(name).strip("'\"") == SERVICE[1:] if name is not None else False
+    renamed = [instead(file.text, name, repr(SERVICE if right else SERVICE[1:]))] if name is not None else []
+    kind = argument(made, 0, "srv_type") if made is not None else None
+    same = kind is not None and ast.unparse(kind).endswith("AddTwoInts")
+    return file.step(
+        renamed if same else None, every(file, rewriting.offered(file), rewriting.answering(file))
+    ) or everything(file)
 
 
-def _ticks(source: Source) -> Function | None:
-    """The timer's callback."""
-    made = timer(source)
-    return _named(source, made.argument(1, "callback")) if made else None
+def answering(file: NodeFile) -> str | None:
+    """The step where the answer is wrong, or does not come."""
+    return file.step(rewriting.answering(file)) or everything(file)
 
 
-def _named(source: Source, given: str) -> Function | None:
-    return next(iter(source.functions(given.rpartition(".")[2])[-1:]), None)
+def working_for(file: NodeFile) -> str | None:
+    """The step where the work takes another time than it should."""
+    return file.step(_slept(file)) or answering(file)
 
 
-def executor(source: Source) -> str | None:
+def _slept(file: NodeFile) -> list[Edit]:
+    found = working(file)
+    if found is None or any(isinstance(each, ast.While | ast.For | ast.If) for each in ast.walk(found)):
+        return []
+    naps = [each for each in ast.walk(found) if isinstance(each, ast.Call) and called(each) in ("sleep", "wait")]
+    if len(naps) != 1 or len(naps[0].args) != 1:
+        return []
+    return [instead(file.text, naps[0].args[0], str(WORK_S))]
+
+
+def executor(file: NodeFile) -> str | None:
     """The step where one thread runs all callbacks."""
-    spun = next((call for call in source.calls("spin") if call.given), None)
-    own = next((call for call in source.calls("spin") if not call.given), None)
-    many = next(iter(source.calls("MultiThreadedExecutor")), None)
-    single = next(iter(source.calls("SingleThreadedExecutor")), None)
-    steps: list[str] = []
-    if spun is not None and spun.within == "__init__":
-        steps = [f"remove line {spun.line}, {spun.code}: it never ends, so the executor is not reached"]
-    elif spun is not None and many is not None and own is not None:
-        steps = [f"remove line {spun.line}, {spun.code}: it never ends, so that line {own.line} is not reached"]
-    elif spun is not None and many is not None and many.kept:
-        steps = [f"line {spun.line}: {many.kept}.spin() instead of {spun.code}"]
-        if not source.calls("add_node"):
-            steps = [f"right before line {spun.line}: {many.kept}.add_node({spun.given[0]})", *steps]
-    elif spun is not None:
-        steps = [
-            f"instead of line {spun.line}, {spun.code}:",
-            f"executor = MultiThreadedExecutor(num_threads={_THREADS})",
-            f"executor.add_node({spun.given[0]})",
-            "executor.spin()",
-        ]
-    elif single is not None:
-        steps = [single.becomes(f"MultiThreadedExecutor(num_threads={_THREADS})")]
-    if not steps:
-        return None
-    if not source.imports("MultiThreadedExecutor") and many is None:
-        steps.append("at the top of the file: from rclpy.executors import MultiThreadedExecutor")
-    return "\n".join([*steps, *filter(None, [groups(source)])])
+    return file.step(_with_groups(file, _executor(file))) or everything(file)
 
 
-def threads(source: Source) -> str | None:
-    """The step where an executor has one thread only."""
-    made = next(iter(source.calls("MultiThreadedExecutor")), None)
-    if made is None or made.argument(0, "num_threads") != "1":
-        return None
-    return made.becomes(f"MultiThreadedExecutor(num_threads={_THREADS})")
+def _executor(file: NodeFile) -> list[Edit]:
+    spins = file.calls("spin")
+    spun, own = next((each for each in spins if each.args), None), next((each for each in spins if not each.args), None)
+    many, single = next(iter(file.calls(_MANY)), None), next(iter(file.calls("SingleThreadedExecutor")), None)
+    name, imported = file.own(_MANY, "rclpy.executors")
+    if spun is not None and many is not None and own is not None:
+        statement = file.statement(spun)
+        return [removed(file.text, statement.lineno, statement.end_lineno or 0)]
+    if spun is not None and many is not None and (kept := file.kept(many)) and len(spun.args) == 1:
+        node = ast.unparse(spun.args[0])
+        added = "" if file.calls("add_node") else f"{kept}.add_node({node})\n"
+        return [becomes(spun.lineno, f"{added}{kept}.spin()", spun.end_lineno or 0)]
+    if spun is None and many is None and single is not None:
+        return [*imported, instead(file.text, single, f"{name}(num_threads={_THREADS})")]
+    return rewriting.spun(file)
 
 
-def held_by(source: Source) -> str:
+def _with_groups(file: NodeFile, edits: list[Edit]) -> list[Edit]:
+    return every(file, edits, _groups(file)) if edits else []
+
+
+def held(file: NodeFile) -> str | None:
+    """The step where several threads run the callbacks, and the timer waits for the service all the same."""
+    return (
+        file.step(_threads(file), _groups(file), rewriting.answering(file))
+        or file.step(every(file, rewriting.answering(file), rewriting.logged(file)))
+        or everything(file)
+    )
+
+
+def _threads(file: NodeFile) -> list[Edit]:
+    """More threads, for an executor that has one only."""
+    made = next(iter(file.calls(_MANY)), None)
+    given = argument(made, 0, "num_threads") if made is not None else None
+    return [instead(file.text, given, str(_THREADS))] if given is not None and ast.unparse(given) == "1" else []
+
+
+def held_by(file: NodeFile) -> str:
     """What the timer waits for while the service works, though the executor has threads."""
-    ticking = timer(source)
-    if (step := threads(source)) is not None:
-        return f"the executor has too few threads, 1 ({step.partition(':')[0]})"
-    if ticking is None or groups(source) is None:
+    made = timer(file)
+    if edits := _threads(file):
+        return f"the executor has too few threads, 1 (line {edits[0].first})"
+    if made is None or not _groups(file):
         return (
             "they are in one MutuallyExclusiveCallbackGroup (a node's default group is one), or the executor has too "
             "few threads"
         )
-    group = _same(source, ticking.named.get(_GROUP, ""))
+    group = _group(made)
     if not group:
         return "both are in the node's default group, which is a MutuallyExclusiveCallbackGroup"
     return f"both are in {group}, which is a MutuallyExclusiveCallbackGroup"
 
 
-def groups(source: Source) -> str | None:
-    """The step where the timer and the service are in one group."""
-    ticking, working = timer(source), service(source)
-    if ticking is None or working is None:
-        return None
-    mine, other = ticking.named.get(_GROUP, ""), working.named.get(_GROUP, "")
-    if _same(source, mine) != _same(source, other):
-        return None
+def _groups(file: NodeFile) -> list[Edit]:
+    """A group of its own for the timer, where it is in the service's."""
+    ticks, works = timer(file), service(file)
+    if ticks is None or works is None or _group(ticks) != _group(works):
+        return []
+    if _reentrant(file, _group(ticks)):
+        return []
+    name, imported = file.own("ReentrantCallbackGroup", "rclpy.callback_groups")
     spare = next(
         (
-            each.target
-            for each in source.assignments()
-            if each.value.endswith("CallbackGroup()")
-            and each.target.startswith("self.")
-            and each.target != other
-            and each.line < ticking.line
+            kept
+            for each in file.calls("ReentrantCallbackGroup", "MutuallyExclusiveCallbackGroup")
+            if (kept := file.kept(each)).startswith("self.") and kept != _group(works) and each.lineno < ticks.lineno
         ),
-        "ReentrantCallbackGroup()",
+        "",
     )
-    code = _with_group(ticking, spare)
-    imported = "" if spare.startswith("self.") or source.imports("ReentrantCallbackGroup") else _IMPORT
-    return f"{ticking.becomes(code)}{imported}"
+    return [*([] if spare else imported), grouped(file, ticks, spare or f"{name}()")]
 
 
-_IMPORT = "\nat the top of the file: from rclpy.callback_groups import ReentrantCallbackGroup"
+def grouped(file: NodeFile, call: ast.Call, group: str) -> Edit:
+    """A timer or a service, made in another group."""
+    given = next((each.value for each in call.keywords if each.arg == _GROUP), None)
+    if given is not None:
+        return instead(file.text, given, group)
+    code = ast.unparse(call)
+    return instead(file.text, call, f"{code[:-1]}, {_GROUP}={group})")
 
 
-def _same(source: Source, group: str) -> str:
-    """What a group is called that may be the node's default one."""
-    return "" if group in ("", "None", "self.default_callback_group") else group
+def _group(call: ast.Call) -> str:
+    """What a group is called that may be the node's default one, which is told by an empty text."""
+    given = next((ast.unparse(each.value) for each in call.keywords if each.arg == _GROUP), "")
+    return "" if given in ("None", "self.default_callback_group") else given
 
 
-def _with_group(call: Call, group: str) -> str:
-    if _GROUP in call.named:
-        return call.code.replace(f"{_GROUP}={call.named[_GROUP]}", f"{_GROUP}={group}")
-    return f"{call.code[:-1]}, {_GROUP}={group})"
+def _reentrant(file: NodeFile, group: str) -> bool:
+    return "Reentrant" in group or any(file.kept(each) == group for each in file.calls("ReentrantCallbackGroup"))
 
 
-def apart(source: Source) -> str | None:
+def apart(file: NodeFile) -> str | None:
     """The step where calls wait for each other: the service's group, or too few threads."""
-    working = service(source)
-    if working is None:
-        return None
-    if (callback := _works(source)) is not None and (held := re.search(r"with (self\.\w+):", callback.code)):
-        return f"leave `{held[0]}` out of {callback.name} (line {callback.line}): it lets in one call at a time"
-    group, steps = working.named.get(_GROUP, ""), []
-    made = next((each for each in source.assignments(group) if "CallbackGroup" in each.value), None) if group else None
-    imported = "" if source.imports("ReentrantCallbackGroup") else _IMPORT
-    if made is not None and "Reentrant" not in made.value:
-        steps.append(f"line {made.line}: {made.target} = ReentrantCallbackGroup(){imported}")
-    elif made is None and "Reentrant" not in group:
-        steps.append(working.becomes(_with_group(working, "ReentrantCallbackGroup()")) + imported)
-    many = next(iter(source.calls("MultiThreadedExecutor")), None)
-    if many is not None and many.argument(0, "num_threads") in ("1", "2", "3", ""):
-        steps.append(many.becomes(f"MultiThreadedExecutor(num_threads={_THREADS})"))
-    return "\n".join(steps) or executor(source)
+    made = service(file)
+    name, imported = file.own("ReentrantCallbackGroup", "rclpy.callback_groups")
+    edits: list[Edit] = []
+    if made is not None and not _reentrant(file, _group(made)):
+        edits += [*imported, grouped(file, made, f"{name}()")]
+    many = next(iter(file.calls(_MANY)), None)
+    given = argument(many, 0, "num_threads") if many is not None else None
+    if many is not None and (given is None or ast.unparse(given) in ("1", "2", "3")):
+        edits.append(instead(file.text, many, f"{ast.unparse(many.func)}(num_threads={_THREADS})"))
+    return file.step(edits) or answering(file)
 
 
-def not_added(source: Source) -> Cause | None:
+def not_added(file: NodeFile) -> Cause | None:
     """Whether an executor is spun that has no node."""
-    made = next(iter(source.calls("MultiThreadedExecutor", "SingleThreadedExecutor")), None)
-    spun = next((call for call in source.calls("spin") if not call.given), None)
-    if made is None or spun is None or source.calls("add_node"):
+    made = next(iter(file.calls(_MANY, "SingleThreadedExecutor")), None)
+    spun = next((each for each in file.calls("spin") if not each.args), None)
+    if made is None or spun is None or file.calls("add_node"):
         return None
-    node = next((call.kept for name in source.bases() for call in source.calls(name) if call.kept), "node")
+    if (step := file.step(program(file))) is None:
+        return None
     return Cause(
         "node not added to the executor",
-        f"line {spun.line}: {spun.code} runs the callbacks of the nodes that were added to it, and none was",
-        f"right before line {spun.line}: {made.kept or 'executor'}.add_node({node})",
+        f"line {spun.lineno}: {ast.unparse(spun)} runs the callbacks of the nodes that were added to it, and none was",
+        step,
     )
 
 
-def work(source: Source) -> str | None:
-    """The step where the work takes another time than it should."""
-    working = _works(source)
-    if working is None:
-        return None
-    sleeps = [call for call in source.calls("sleep") if call.within == working.name and call.given]
-    if len(sleeps) == 1 and "for " not in working.code and "while " not in working.code:
-        return sleeps[0].instead(sleeps[0].given[0], str(WORK_S))
-    if sleeps or source.calls("wait"):
-        return None
-    imported = "" if source.imports("time") else "\nat the top of the file: import time"
-    return f"begin {working.name} (line {working.line}) with: time.sleep({WORK_S}){imported}"
-
-
-def too_early(source: Source) -> Cause | None:
+def too_early(file: NodeFile) -> Cause | None:
     """Whether the callback answers while another thread is still at work."""
-    working = _works(source)
-    if working is None:
+    found = working(file)
+    inside = [each for each in ast.walk(found) if isinstance(each, ast.Call)] if found is not None else []
+    started = next((each for each in inside if called(each) in ("Thread", "Timer", "submit", "create_task")), None)
+    if found is None or started is None or (step := answering(file)) is None:
         return None
-    started = next(
-        (call for call in source.calls("Thread", "Timer", "submit", "create_task") if call.within == working.name), None
-    )
-    if started is None:
-        return None
-    request, response = (*working.arguments, "request", "response")[:2]
     return Cause(
         "answered too early",
-        f"{started.where} does the work beside {working.name}, which answers at once; the response that is filled in "
-        "later reaches nobody",
-        f"let {working.name} (line {working.line}) do it all, and start nothing:\n"
-        f"time.sleep({WORK_S})\n"
-        f"{response}.sum = {request}.a + {request}.b\n"
-        f"return {response}",
+        f"line {started.lineno}: {ast.unparse(started)} does the work beside {found.name}, which answers at once; the "
+        "response that is filled in later reaches nobody",
+        step,
     )
 
 
-def shared(source: Source) -> str | None:
-    """The step where a callback keeps in self what belongs to one call."""
-    working = _works(source)
-    if working is None:
-        return None
-    kept = [each for each in source.assignments() if each.within == working.name and each.target.startswith("self.")]
-    names = list(dict.fromkeys(each.target for each in kept))
-    if not names:
-        return None
-    return "; ".join(
-        f"in {working.name} (line {working.line}), write {name.removeprefix('self.')} instead of {name}"
-        for name in names
-    )
-
-
-def period(source: Source) -> str | None:
-    """The step where the timer has another period than it should, or its callback takes too long."""
-    made, ticking = timer(source), _ticks(source)
-    if made is None or not made.given:
-        return None
+def period(file: NodeFile) -> str | None:
+    """The step where the timer has another period than it should, its callback takes too long, or bears no number."""
+    made, found = timer(file), ticking(file)
+    given = argument(made, 0, "timer_period_sec") if made is not None else None
+    naps = [each for each in ast.walk(found) if isinstance(each, ast.Call) and called(each) == "sleep"] if found else []
+    if naps:
+        statement = file.statement(naps[0])
+        return file.step([removed(file.text, statement.lineno, statement.end_lineno or 0)]) or ticks(file)
     right = f"{1 / HZ:g}"
-    sleeps = [call for call in source.calls("sleep") if ticking is not None and call.within == ticking.name]
-    if sleeps:
-        return f"remove line {sleeps[0].line}, {sleeps[0].code}: a timer's callback must not wait"
-    texts = [made.given[0], *(each.value for each in source.assignments(made.given[0]))]
-    if any(text in (right, "1 / 10", "1.0 / 10.0", "1.0 / 10", "100 / 1000") for text in texts):
-        return None
-    return made.instead(made.given[0], right)
+    if given is not None and not _is_right(file, given):
+        return file.step([instead(file.text, given, right)]) or ticks(file)
+    return ticks(file)
 
 
-def silent(source: Source) -> Cause | None:
+def _is_right(file: NodeFile, given: ast.expr) -> bool:
+    """Whether the period is written as 0.1, or as something that is set to it."""
+    texts = [given] + [
+        each.value
+        for each in ast.walk(file.tree)
+        if isinstance(each, ast.Assign) and ast.unparse(each.targets[0]) == ast.unparse(given)
+    ]
+    return any(_number(each) == 1 / HZ for each in texts)
+
+
+def _number(expression: ast.expr) -> float | None:
+    match expression:
+        case ast.Constant(value=int() | float() as value):
+            return float(value)
+        case ast.BinOp(left=left, op=ast.Div(), right=right):
+            one, other = _number(left), _number(right)
+            return one / other if one is not None and other else None
+    return None
+
+
+def ticks(file: NodeFile) -> str | None:
+    """The step that rewrites the timer and its callback."""
+    return (
+        file.step(rewriting.logged(file))
+        or file.step(every(file, rewriting.timed(file), rewriting.logged(file)))
+        or everything(file)
+    )
+
+
+def silent(file: NodeFile) -> Cause | None:
     """Why no message of the timer's comes."""
-    made, ticking = timer(source), _ticks(source)
-    if made is None or ticking is None:
-        return None
-    logs = [call for call in source.calls("info", "warning", "warn", "error", "fatal") if call.within == ticking.name]
-    quiet = next((call for call in source.calls("debug") if call.within == ticking.name), None)
+    made, found = timer(file), ticking(file)
+    given = [each for call in file.calls("__init__", "Node") for each in call.keywords]
+    if (off := next((each.value for each in given if each.arg == "enable_rosout"), None)) is not None:
+        louder = file.step([instead(file.text, off, "True")])
+        return _found(f"line {off.lineno}: what the node logs does not leave it", louder)
+    if made is None or found is None:
+        return _found("the node makes no timer", everything(file)) if file.tree.body and not file.timers else None
+    logs = [each for each in ast.walk(found) if isinstance(each, ast.Call) and called(each) in _LOGS]
+    quiet = next((each for each in ast.walk(found) if isinstance(each, ast.Call) and called(each) == "debug"), None)
     if quiet is not None and not logs:
-        return Cause(
-            "no timer messages",
-            f"{quiet.where}: debug messages are not shown",
-            quiet.instead(".debug(", ".info("),
-        )
+        info = instead(file.text, quiet.func, f"{ast.unparse(quiet.func).removesuffix('debug')}info")
+        return _found(f"line {quiet.lineno}: {ast.unparse(quiet)}: debug messages are not shown", file.step([info]))
     if not logs:
-        return Cause(
-            "no timer messages",
-            f"{ticking.name} (line {ticking.line}) logs nothing",
-            f"end {ticking.name} with: self.get_logger().info(f'Tick {{{_counter(source, ticking)}}}')",
-        )
-    if (found := re.fullmatch(r"[\d.]+", made.given[0] if made.given else "")) and float(found[0]) > 2 / HZ:
+        return _found(f"{found.name} (line {found.lineno}) logs nothing", ticks(file))
+    seconds = argument(made, 0, "timer_period_sec")
+    if seconds is not None and (value := _number(seconds)) is not None and value > 2 / HZ:
         return Cause(
             "wrong timer period",
-            f"{made.where} ticks once in {found[0]} s: create_timer takes the seconds between two ticks, not ticks per "
-            "second",
-            str(period(source)),
+            f"line {made.lineno}: {ast.unparse(made)} ticks once in {value:g} s: create_timer takes the seconds "
+            "between two ticks, not ticks per second",
+            str(period(file)),
         )
     return None
 
 
-def numbered(source: Source) -> str | None:
-    """The step where the messages bear no number of the tick."""
-    ticking = _ticks(source)
-    if ticking is None:
-        return None
-    logs = [call for call in source.calls("info", "warning", "warn", "error") if call.within == ticking.name]
-    counter = _counter(source, ticking)
-    if not logs or not counter.startswith("self."):
-        return None
-    return f"line {logs[0].line}: self.get_logger().info(f'Tick {{{counter}}}')"
+def _found(says: str, step: str | None) -> Cause | None:
+    return Cause("no timer messages", says, step) if step else None
 
 
-def _counter(source: Source, ticking: Function) -> str:
-    """What counts the ticks."""
-    for each in source.assignments():
-        if each.within == ticking.name and each.value.startswith(f"{each.target} + "):
-            return each.target
-    return "self.ticks"
-
-
-def waiting(code: str, line: int) -> str | None:
+def waiting(file: NodeFile, code: str, line: int) -> str | None:
     """The step where a callback waits for something that never comes, in this line."""
-    if not re.search(r"\.(?:wait|acquire|get|join|result)\(\)", code):
-        return None
-    return f"line {line}: time.sleep({WORK_S}) instead of {code}"
-
-
-def lock(source: Source) -> str | None:
-    """The step where the timer's callback waits for a lock that the service's holds."""
-    ticking, working = _ticks(source), _works(source)
-    if ticking is None or working is None:
-        return None
-    held = re.search(r"with (self\.\w+):", ticking.code)
-    if held is None or held[0] not in working.code:
-        return None
-    return f"leave `{held[0]}` out of {ticking.name} (line {ticking.line}): it must not wait for {working.name}"
+    limited = [becomes(line, code.replace(".wait()", f".wait({WORK_S})"))] if file.text else []
+    return file.step(limited) or answering(file)

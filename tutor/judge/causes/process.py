@@ -9,6 +9,7 @@ from tutor.judge import tracebacks
 from tutor.judge.causes import names, spinning
 from tutor.judge.causes.blocking import of_blocked
 from tutor.judge.causes.exceptions import known, of_traceback
+from tutor.judge.rewriting.program import main_called, program, step
 from tutor.judge.trace import Exit, OutputLine, Trace
 from tutor.judge.tracebacks import Frame, Traceback
 from tutor.judge.verdict import Cause
@@ -31,7 +32,8 @@ def of_process(trace: Trace) -> Cause | None:
         return Cause(
             "no node",
             f"the process runs, but made no ROS node{' and prints without end' if trace.dropped_lines else ''}",
-            "call rclpy.init(), create your node, then rclpy.spin(node); a loop before that keeps it from happening",
+            step(trace, program)
+            or "call rclpy.init(), create your node, then rclpy.spin(node); a loop before that keeps it from happening",
         )
     return None
 
@@ -43,7 +45,7 @@ def _of_exit(trace: Trace) -> Cause:
         return Cause(
             "no main call",
             f"{ended}: main() is defined, but nothing calls it",
-            'end the file with: if __name__ == "__main__": main()',
+            step(trace, main_called) or 'end the file with: if __name__ == "__main__": main()',
         )
     if (torn := of_torn_thread(trace.exit, trace.output)) is not None:
         return torn
@@ -57,9 +59,11 @@ def _of_exit(trace: Trace) -> Cause:
         return Cause(
             names.EXIT_AT_ONCE,
             f"{ended}, without an error",
-            "a node lives as long as rclpy.spin(node) runs: is it called, and is anything ending it?",
+            step(trace, program)
+            or "a node lives as long as rclpy.spin(node) runs: is it called, and is anything ending it?",
         )
-    return Cause(names.EXIT_AT_ONCE, ended, "let rclpy.spin(node) run until Ctrl+C; see the last lines of its output")
+    told = step(trace, program) or "let rclpy.spin(node) run until Ctrl+C; see the last lines of its output"
+    return Cause(names.EXIT_AT_ONCE, ended, told)
 
 
 def _of_usage(trace: Trace) -> Cause | None:
@@ -93,7 +97,8 @@ def no_spin(trace: Trace) -> Cause:
     return Cause(
         names.NO_SPIN,
         f"{node_names(trace)} exists, but answers no request: its callbacks are never run",
-        "call rclpy.spin(node) (or executor.spin()) after creating the node, and let no callback block",
+        step(trace, program)
+        or "call rclpy.spin(node) (or executor.spin()) after creating the node, and let no callback block",
     )
 
 

@@ -1,0 +1,216 @@
+"""I2.3: the service, the timer and the program of a learner's node, rewritten so that they do what is asked for.
+
+Each part is edits of the learner's own file, with its own names; none where the file gives no hold for it.
+"""
+
+from __future__ import annotations
+
+import ast
+from itertools import pairwise
+
+from checks.i2_3.facts import WORK_S
+from checks.i2_3.ticks import HZ
+from tutor.judge.edits import Edit, above, apply, instead
+from tutor.judge.rewriting.node import Function, NodeFile, argument
+from tutor.judge.rewriting.program import program
+
+_GROUP = "callback_group"
+_REENTRANT = "ReentrantCallbackGroup"
+
+
+def service(file: NodeFile) -> ast.Call | None:
+    """Where the service is made."""
+    made = file.calls("create_service")
+    named = [each for each in made if "slow_add" in ast.unparse(argument(each, 1, "srv_name") or each.func)]
+    return next(iter(named or made), None)
+
+
+def timer(file: NodeFile) -> ast.Call | None:
+    """Where the timer is made: one whose callback logs, if there are several."""
+    made = [each for each in file.timers if argument(each, 1, "callback") is not None]
+    return next((each for each in made if (found := ticking(file, each)) and _logs(found)), next(iter(made), None))
+
+
+def working(file: NodeFile) -> Function | None:
+    """The service's callback."""
+    made = service(file)
+    return file.function(argument(made, 2, "callback")) if made is not None else None
+
+
+def ticking(file: NodeFile, made: ast.Call | None = None) -> Function | None:
+    """The timer's callback."""
+    made = made or timer(file)
+    return file.function(argument(made, 1, "callback")) if made is not None else None
+
+
+def answering(file: NodeFile) -> list[Edit]:
+    """The service's callback as a whole: it works, and answers with the sum."""
+    found, made = working(file), service(file)
+    sleep, imported = _sleep(file)
+    if found is None:
+        if made is None or file.setup is None or file.class_of(file.setup) is None:
+            return []
+        given = argument(made, 2, "callback")
+        code = f"def add_slowly(self, request, response):\n{_indented(_work(sleep, 'request', 'response'))}"
+        edits = [*imported, *file.new_method(code)]
+        return [*edits, instead(file.text, given, "self.add_slowly")] if given is not None else edits
+    names = [each.arg for each in found.args.args]
+    own = file.class_of(found) is not None and not _static(found)
+    if len(names) - own != 2 or found.args.kwonlyargs:
+        first = [*names[:1]] if own else []
+        code = f"def {found.name}({', '.join([*first, 'request', 'response'])}):\n" + _indented(
+            _work(sleep, "request", "response")
+        )
+        return [*imported, Edit(found.lineno, found.end_lineno or found.lineno, code, like=found.lineno)]
+    return [*imported, _body(found, _work(sleep, *names[-2:]))]
+
+
+def _work(sleep: str, request: str, response: str) -> str:
+    return f"{sleep}({WORK_S})\n{response}.sum = {request}.a + {request}.b\nreturn {response}"
+
+
+def offered(file: NodeFile) -> list[Edit]:
+    """The service's creation as a whole: type, name, callback, and a group in which its calls may overlap."""
+    kind, imported = file.own("AddTwoInts", "example_interfaces.srv")
+    group, of_group = file.own(_REENTRANT, "rclpy.callback_groups")
+    made, found = service(file), working(file)
+    if made is None:
+        first = _summing(file)
+        if first is None:
+            return []
+        callback = f"self.{first.name}" if file.class_of(first) is not None else first.name
+        code = f"{file.name}.create_service({kind}, '/slow_add', {callback}, {_GROUP}={group}())"
+        return [*imported, *of_group, *file.adds_to_setup(code)]
+    given = argument(made, 2, "callback")
+    callback = ast.unparse(given) if given is not None and found is not None else "self.add_slowly"
+    code = f"{ast.unparse(made.func)}({kind}, '/slow_add', {callback}, {_GROUP}={group}())"
+    return [*imported, *of_group, instead(file.text, made, code)]
+
+
+def timed(file: NodeFile) -> list[Edit]:
+    """The timer's creation as a whole: its period, its callback, and a group of its own."""
+    group, of_group = file.own(_REENTRANT, "rclpy.callback_groups")
+    made = timer(file)
+    if made is None:
+        return _new_timer(file, group, of_group)
+    given = argument(made, 1, "callback")
+    code = f"{ast.unparse(made.func)}({1 / HZ:g}, {ast.unparse(given or made)}, {_GROUP}={group}())"
+    return [*of_group, instead(file.text, made, code)]
+
+
+def _new_timer(file: NodeFile, group: str, of_group: list[Edit]) -> list[Edit]:
+    setup = file.setup
+    if setup is None or file.class_of(setup) is None:
+        return []
+    unused = next((each for each in file.functions if each.name in ("tick", "on_tick", "timer_callback")), None)
+    name = unused.name if unused is not None else "tick"
+    lines = f"self.ticks = 0\nself.create_timer({1 / HZ:g}, self.{name}, {_GROUP}={group}())"
+    edits = [*of_group, *file.adds_to_setup(lines)]
+    if unused is not None:
+        return edits
+    return [*edits, *file.new_method(f"def {name}(self):\n{_indented(_tick('self.ticks', 'self'))}")]
+
+
+def logged(file: NodeFile) -> list[Edit]:
+    """The timer's callback as a whole: it counts the ticks, and logs their number."""
+    found, made = ticking(file), timer(file)
+    if found is None or made is None:
+        return []
+    if file.class_of(found) is None or not found.args.args:
+        node = file.name if isinstance(found, ast.FunctionDef) else "node"
+        return [_body(found, f"{node}.get_logger().info('Tick')")]
+    own = found.args.args[0].arg
+    counter = _counter(found, own)
+    statement = file.statement(made)
+    setup = (
+        [] if counter and _set(file, counter, found) else [above(statement.lineno, f"{counter or f'{own}.ticks'} = 0")]
+    )
+    return [*setup, _body(found, _tick(counter or f"{own}.ticks", own))]
+
+
+def _tick(counter: str, node: str) -> str:
+    return f"{counter} += 1\nif {counter} % 10 == 0:\n    {node}.get_logger().info(f'Tick {{{counter}}}')"
+
+
+def spun(file: NodeFile) -> list[Edit]:
+    """The program as a whole: its executor has threads enough, and Ctrl+C ends it."""
+    return program(file, threads=True)
+
+
+def every(file: NodeFile, *parts: list[Edit]) -> list[Edit]:
+    """The edits of several parts, without those that are there twice or change nothing; none where two of them meet."""
+    edits = dict.fromkeys(each for part in parts for each in part)
+    found = [each for each in edits if apply(file.text, [each]).split() != file.text.split()]
+    lines = sorted((each.first, each.last) for each in found if each.last >= each.first)
+    return [] if any(first <= last for (_, last), (first, _) in pairwise(lines)) else found
+
+
+def _body(function: Function, code: str) -> Edit:
+    """The lines of a function below its first, and its docstring, with other code."""
+    first, last = function.body[0], function.body[-1]
+    if ast.get_docstring(function) is not None and len(function.body) > 1:
+        first = function.body[1]
+    if first.lineno != function.lineno and isinstance(function, ast.FunctionDef) and not function.decorator_list:
+        return Edit(first.lineno, last.end_lineno or last.lineno, code, like=first.lineno)
+    top = min([function.lineno, *(each.lineno for each in function.decorator_list)])
+    static = "@staticmethod\n" if _static(function) else ""
+    returns = f" -> {ast.unparse(function.returns)}" if function.returns is not None else ""
+    head = f"{static}def {function.name}({ast.unparse(function.args)}){returns}:"
+    return Edit(top, last.end_lineno or last.lineno, f"{head}\n{_indented(code)}", like=top)
+
+
+def _static(function: Function) -> bool:
+    return any(ast.unparse(each) == "staticmethod" for each in function.decorator_list)
+
+
+def _sleep(file: NodeFile) -> tuple[str, list[Edit]]:
+    """How the file calls time.sleep, and the import, where that is missing."""
+    name, edits = file.own("sleep", "time")
+    taken = {node.id for node in ast.walk(file.tree) if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store)}
+    if name == "sleep" and edits and "time" not in taken and not _bound(file, "time"):
+        return "time.sleep", [Edit(edits[0].first, edits[0].last, "import time", like=edits[0].like)]
+    return name, edits
+
+
+def _bound(file: NodeFile, name: str) -> bool:
+    """Whether an import gives this name to anything."""
+    return any(
+        (alias.asname or alias.name) == name
+        for each in ast.walk(file.tree)
+        if isinstance(each, ast.Import | ast.ImportFrom)
+        for alias in each.names
+    )
+
+
+def _summing(file: NodeFile) -> Function | None:
+    """A function that may be meant as the service's callback, where no service is made."""
+    return next((each for each in file.functions if len(each.args.args) >= 2 and "sum" in ast.unparse(each)), None)
+
+
+def _logs(function: Function) -> bool:
+    return any(isinstance(each, ast.Attribute) and each.attr == "get_logger" for each in ast.walk(function))
+
+
+def _counter(function: Function, own: str) -> str:
+    """What counts the ticks, an attribute of the node."""
+    for each in ast.walk(function):
+        if isinstance(each, ast.AugAssign) and isinstance(each.op, ast.Add):
+            target = ast.unparse(each.target)
+            if target.startswith(f"{own}."):
+                return target
+    return ""
+
+
+def _set(file: NodeFile, counter: str, ticking_: Function) -> bool:
+    """Whether it is given a whole number before the timer counts on."""
+    return any(
+        isinstance(each, ast.Assign | ast.AnnAssign)
+        and ast.unparse(each.targets[0] if isinstance(each, ast.Assign) else each.target) == counter
+        and isinstance(each.value, ast.Constant)
+        and file.within(each) is not ticking_
+        for each in ast.walk(file.tree)
+    )
+
+
+def _indented(code: str) -> str:
+    return "".join(f"    {line}\n" for line in code.splitlines()).rstrip()

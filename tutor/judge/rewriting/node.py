@@ -1,0 +1,247 @@
+"""A learner's node, as far as next steps rewrite it: its functions, and what the file calls its parts.
+
+Read by its syntax tree. It serves the words of a diagnosis, never a verdict.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+
+from tutor.judge.edits import Edit, above, at_end, below, on_top, told
+from tutor.judge.source import called
+
+Function = ast.FunctionDef | ast.AsyncFunctionDef
+_MAKING = ("create_publisher", "create_timer", "declare_parameter", "declare_parameters")
+
+
+@dataclass(frozen=True)
+class NodeFile:
+    """One file with one node in it. All that it gives are parts of `tree`, or code."""
+
+    text: str
+
+    @cached_property
+    def tree(self) -> ast.Module:
+        """The file's syntax tree; an empty one where Python cannot read it."""
+        try:
+            return ast.parse(self.text)
+        except (SyntaxError, ValueError, RecursionError, MemoryError):
+            return ast.Module([], [])
+
+    @cached_property
+    def _parents(self) -> dict[ast.AST, ast.AST]:
+        return {child: parent for parent in ast.walk(self.tree) for child in ast.iter_child_nodes(parent)}
+
+    def outwards(self, node: ast.AST) -> Iterator[ast.AST]:
+        """What is around a part, from the inside out."""
+        while (parent := self._parents.get(node)) is not None:
+            yield parent
+            node = parent
+
+    def within(self, node: ast.AST) -> Function | None:
+        """The innermost function around a part."""
+        return next((each for each in self.outwards(node) if isinstance(each, Function)), None)
+
+    def statement(self, node: ast.AST) -> ast.stmt:
+        """The innermost statement that a part belongs to, or is."""
+        return next(each for each in (node, *self.outwards(node)) if isinstance(each, ast.stmt))
+
+    def calls(self, *names: str) -> list[ast.Call]:
+        """The calls of functions and methods of these names, in the order in which they are written."""
+        found = [each for each in ast.walk(self.tree) if isinstance(each, ast.Call) and called(each) in names]
+        return sorted(found, key=lambda each: (each.lineno, each.col_offset))
+
+    def kept(self, call: ast.Call) -> str:
+        """What a call's result is assigned to, such as "self.timer"; empty where it is not."""
+        match self._parents.get(call):
+            case ast.Assign(targets=[*_, target]) | ast.AnnAssign(target=target):
+                return ast.unparse(target)
+        return ""
+
+    @cached_property
+    def functions(self) -> list[Function]:
+        """Every function and method, in the order in which they are written."""
+        found = [each for each in ast.walk(self.tree) if isinstance(each, Function)]
+        return sorted(found, key=lambda each: each.lineno)
+
+    def function(self, callback: ast.expr | None) -> Function | None:
+        """The function that an argument names, by itself or in a lambda or a partial: the last one of that name."""
+        match callback:
+            case ast.Attribute(attr=name) | ast.Name(id=name):
+                return next((each for each in reversed(self.functions) if each.name == name), None)
+            case ast.Lambda(body=ast.Call(func=inner)):
+                return self.function(inner)
+            case ast.Call(args=[first, *_]):
+                return self.function(first)
+        return None
+
+    def reached(self, function: Function) -> list[Function]:
+        """The function, and those of the file that it leads to."""
+        found, todo = [], [function]
+        while todo:
+            each = todo.pop(0)
+            if each not in found:
+                found.append(each)
+                calls = [inner for inner in ast.walk(each) if isinstance(inner, ast.Call)]
+                todo += [led for inner in calls if (led := self.function(inner.func)) is not None]
+        return found
+
+    @cached_property
+    def name(self) -> str:
+        """What the node is called where its publisher, its timer and its parameters are made: "self", mostly."""
+        of = [ast.unparse(each.func.value) for each in self.calls(*_MAKING) if isinstance(each.func, ast.Attribute)]
+        if of:
+            return Counter(of).most_common(1)[0][0]
+        made = next((kept for call in self.calls("create_node", "Node") if (kept := self.kept(call))), "")
+        return made or "self"
+
+    @property
+    def holder(self) -> str:
+        """What a timer is made an attribute of, where it is none yet."""
+        return self.name.partition(".")[0]
+
+    @cached_property
+    def setup(self) -> Function | None:
+        """The function in which the node is put together: `__init__`, mostly; None where there is none."""
+        first = next((each for each in self.calls("create_node", "Node") if self.kept(each) == self.name), None)
+        if first is not None:
+            return self.within(first)
+        made = [each for each in self.calls(*_MAKING) if self.within(each) is not None]
+        inits = [each for each in self.functions if each.name == "__init__" and self.class_of(each) is not None]
+        if inits and (self.name.startswith("self") or not made):
+            return next((each for each in inits if any(self.within(call) is each for call in made)), inits[0])
+        return self.within(made[0]) if made else None
+
+    def class_of(self, function: Function) -> ast.ClassDef | None:
+        """The class that a method belongs to."""
+        return next((each for each in self.outwards(function) if isinstance(each, ast.ClassDef)), None)
+
+    @cached_property
+    def timers(self) -> list[ast.Call]:
+        """Where timers are made."""
+        return self.calls("create_timer")
+
+    @cached_property
+    def first_timer(self) -> ast.Call | None:
+        """Where the timer is made to begin with: in what the set-up leads to, if that makes one."""
+        first = [each for each in self.timers if self.setup and self.within(each) in self.reached(self.setup)]
+        return next(iter(first or self.timers), None)
+
+    @cached_property
+    def tick(self) -> Function | None:
+        """The function that the timer calls; without a timer, the one that publishes."""
+        made = [self.first_timer] if self.first_timer else []
+        named = [found for each in made if (found := self.function(argument(each, 1, "callback"))) is not None]
+        sending = [found for each in self.calls("publish") if (found := self.within(each)) is not None]
+        return next(iter([*named, *sending]), None)
+
+    @cached_property
+    def publisher(self) -> str:
+        """What the publisher is called; empty where there is none."""
+        made = (self.kept(each) for each in self.calls("create_publisher", "create_lifecycle_publisher"))
+        return next((each for each in made if each), "")
+
+    @property
+    def message_class(self) -> str:
+        """The class of what is published, as the file calls it."""
+        made = next(iter(self.calls("create_publisher", "create_lifecycle_publisher")), None)
+        given = argument(made, 0, "msg_type") if made is not None else None
+        return ast.unparse(given) if given is not None else ""
+
+    def value(self, parameter: str) -> str:
+        """The code that reads a parameter's value."""
+        return f"{self.name}.get_parameter({parameter!r}).value"
+
+    def adds_to_setup(self, code: str) -> list[Edit]:
+        """Code that runs when publisher, timer and parameters are there: below the timer, if the set-up makes one."""
+        made = [self.statement(each) for each in self.calls(*_MAKING) if self.within(each) is self.setup]
+        if made:
+            last = max(made, key=lambda each: each.end_lineno or each.lineno)
+            return [below(last.end_lineno or last.lineno, code, like=last.lineno)]
+        return [at_end(self.setup, code)] if self.setup is not None else []
+
+    def begins(self, function: Function, code: str) -> list[Edit]:
+        """Code that a function begins with, below its docstring."""
+        first = function.body[0]
+        text = isinstance(first, ast.Expr) and isinstance(first.value, ast.Constant)
+        if text and len(function.body) > 1:
+            first = function.body[1]
+        elif text:
+            return [below(first.end_lineno or first.lineno, code, like=first.lineno)]
+        if first.lineno == function.lineno:
+            return []
+        return [above(_first_line(first), code)]
+
+    def own(self, name: str, module: str) -> tuple[str, list[Edit]]:
+        """How the file calls what it imports from a module, and the import, where that is missing."""
+        for each in ast.walk(self.tree):
+            if isinstance(each, ast.ImportFrom):
+                for alias in each.names:
+                    if each.module == module and alias.name == name:
+                        return alias.asname or name, []
+                    if f"{each.module}.{alias.name}" == module:
+                        return f"{alias.asname or alias.name}.{name}", []
+            elif isinstance(each, ast.Import):
+                for alias in each.names:
+                    if alias.name == module:
+                        return f"{alias.asname or module}.{name}", []
+        return name, on_top(self.text, f"from {module} import {name}")
+
+    def new_method(self, code: str) -> list[Edit]:
+        """A function of its own: the class's last method, or, for a node without a class, above what uses it."""
+        owner = self.class_of(self.setup) if self.setup is not None else None
+        if owner is not None:
+            like = owner.body[-1]
+            return [below(like.end_lineno or like.lineno, "\n" + code, like=_first_line(like))]
+        return []
+
+    def step(self, *choices: Sequence[Edit] | None) -> str | None:
+        """The first of these edits that leaves a file which Python can run, in words; None where there is none.
+
+        The last lines come first: so the numbers of the others stay true for anyone who does one after the other.
+        """
+        tried = (told(self.text, *_from_below(each)) for each in choices if each)
+        return next((words for words in tried if words is not None), None)
+
+
+def _from_below(edits: Sequence[Edit]) -> list[Edit]:
+    """The edits, the last lines first, without those of lines that another one replaces as a whole."""
+
+    def covered(edit: Edit) -> bool:
+        return any(other.first <= edit.first and edit.last < other.last for other in edits if other is not edit)
+
+    left = [edit for edit in edits if not covered(edit)]
+    return sorted(dict.fromkeys(left), key=lambda edit: edit.first, reverse=True)
+
+
+def argument(call: ast.Call, position: int, name: str) -> ast.expr | None:
+    """One argument of a call, given by position or by name; None where it is not there."""
+    if len(call.args) > position and not any(isinstance(each, ast.Starred) for each in call.args):
+        return call.args[position]
+    return next((each.value for each in call.keywords if each.arg == name), None)
+
+
+def rewritten(function: Function, code: str, *, given: str = "") -> Edit:
+    """The whole function with other lines below its first one; `given`: an argument that it must take."""
+    taken, names = ast.unparse(function.args), [each.arg for each in function.args.args]
+    if given and given not in names:
+        taken = ", ".join([*names[:1], given] if names[:1] in (["self"], ["cls"]) else [given])
+    head = f"{'async ' if isinstance(function, ast.AsyncFunctionDef) else ''}def {function.name}({taken})"
+    returns = f" -> {ast.unparse(function.returns)}" if function.returns is not None else ""
+    lines = [f"{head}{returns}:", *(f"    {line}" for line in code.splitlines())]
+    return Edit(function.lineno, function.end_lineno or function.lineno, "\n".join(lines), like=function.lineno)
+
+
+def _first_line(statement: ast.stmt) -> int:
+    decorators = statement.decorator_list if isinstance(statement, Function | ast.ClassDef) else []
+    return min([statement.lineno, *(each.lineno for each in decorators)])
+
+
+@lru_cache(maxsize=16)
+def node_file(text: str) -> NodeFile:
+    """The node of a file, by its text: the same one each time."""
+    return NodeFile(text)
