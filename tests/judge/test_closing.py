@@ -16,102 +16,100 @@ def node(source: str) -> Trace:
     return replace(trace(), sources={"node.py": source})
 
 
-def spin(line: int) -> Frame:
-    return Frame(f"{FOLDER}/node.py", line, "main", "rclpy.spin(node)")
-
-
 BOTH = "except (KeyboardInterrupt, ExternalShutdownException):"
-IMPORT = ", with from rclpy.executors import ExternalShutdownException at the top"
+IMPORT = "at the top of the file: from rclpy.executors import ExternalShutdownException"
+MAIN = """\
+import rclpy
+from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
+
+
+class Talker(Node):
+    pass
+
+
+def main():
+    rclpy.init()
+    node = Talker("talker")
+    try:
+        rclpy.spin(node)
+    except (KeyboardInterrupt, ExternalShutdownException):
+        pass
+    finally:
+        rclpy.try_shutdown()
+
+
+main()
+"""
+
+
+def changed(*pairs: tuple[str, str]) -> Trace:
+    code = MAIN
+    for old, new in pairs:
+        assert old in code
+        code = code.replace(old, new)
+    return node(code)
 
 
 @pytest.mark.parametrize(
-    ("source", "line", "step"),
+    ("pairs", "steps"),
     [
+        ((("rclpy.try_shutdown", "rclpy.shutdown"),), ("line 18 becomes: rclpy.try_shutdown()",)),
         (
-            "rclpy.spin(node)\nrclpy.shutdown()",
-            1,
-            f"in place of line 1: try: rclpy.spin(node) / {BOTH} pass / finally: rclpy.try_shutdown(){IMPORT}; and "
-            "write rclpy.try_shutdown() in place of rclpy.shutdown() in line 2",
+            ((BOTH, "except KeyboardInterrupt:"), ("from rclpy.executors import ExternalShutdownException\n", "")),
+            (f"line 14 becomes: {BOTH}", IMPORT),
         ),
+        (((BOTH, "except ExternalShutdownException as end:"),), (f"line 15 becomes: {BOTH[:-1]} as end:",)),
         (
-            "rclpy.spin(node)\nrclpy.try_shutdown()",
-            1,
-            f"in place of line 1: try: rclpy.spin(node) / {BOTH} pass{IMPORT}",
+            (
+                (
+                    "    try:\n        rclpy.spin(node)\n    " + BOTH + "\n        pass\n    finally:\n        ",
+                    "    rclpy.spin(node)\n    ",
+                ),
+            ),
+            (f"line 13 becomes:\n    try:\n        rclpy.spin(node)\n    {BOTH}\n        pass",),
         ),
-        ("try:\n  rclpy.spin(node)\nexcept KeyboardInterrupt:\n  pass", 2, f"line 3 becomes: {BOTH}{IMPORT}"),
-        (
-            "from rclpy.executors import ExternalShutdownException\ntry:\n  rclpy.spin(node)\n"
-            "except ExternalShutdownException:\n  pass",
-            3,
-            f"line 4 becomes: {BOTH}",
-        ),
-        (
-            "try:\n  rclpy.spin(node)\nfinally:\n  rclpy.try_shutdown()",
-            2,
-            "write above the finally: of the try block that begins in line 1, with the same indentation: "
-            f"{BOTH} pass{IMPORT}",
-        ),
-        (
-            "try:\n  rclpy.spin(node)\nexcept ValueError:\n  pass",
-            2,
-            f"write above line 3, with the same indentation: {BOTH} pass{IMPORT}",
-        ),
-        ("def broken(", 1, f"in place of line 1: try: rclpy.spin(node) / {BOTH} pass / finally: rclpy.try_shutdown()"),
+        (((BOTH, "except ValueError:"),), (BOTH,)),
     ],
 )
-def test_catching_what_ends_a_spin(source: str, line: int, step: str) -> None:
-    assert closing.catching(node(source), spin(line)).startswith(step)
-
-
-def test_a_thread_that_spins_gets_a_function_that_catches() -> None:
-    assert "Thread(target=spin)" in closing.catching(node("Thread(target=executor.spin).start()"), None)
+def test_catching_what_ends_a_spin(pairs: tuple[tuple[str, str], ...], steps: tuple[str, ...]) -> None:
+    told = closing.catching(changed(*pairs))
+    assert all(each in told for each in steps)
 
 
 @pytest.mark.parametrize(
-    ("source", "step"),
+    ("old", "new"),
     [
-        ("rclpy.shutdown()\nx\nrclpy.shutdown()", "in place of rclpy.shutdown() in lines 1, 3"),
-        ("executor.shutdown()\nrclpy.shutdown()", "in line 2"),
-        ("", "write rclpy.try_shutdown() in place of rclpy.shutdown()"),
+        ("        rclpy.try_shutdown()\n", "        rclpy.try_shutdown()\n        time.sleep(9)\n"),
+        ("        pass\n    finally", "        os.abort()\n    finally"),
+        ("        rclpy.try_shutdown()\n", "        rclpy.try_shutdown()\n    sys.exit(3)\n"),
+        ("    try:\n", "    signal.signal(signal.SIGINT, signal.SIG_IGN)\n    try:\n"),
+        ("    try:\n", "    Thread(target=watch).start()\n    try:\n"),
+        ("        rclpy.spin(node)\n", "        while True:\n            rclpy.spin_once(node)\n"),
     ],
 )
-def test_shutting_down_once(source: str, step: str) -> None:
-    assert closing.shutting_down(node(source)).endswith(step)
+def test_the_program_as_a_whole(old: str, new: str) -> None:
+    told = closing.letting_go(changed((old, new)))
+    assert told.endswith(
+        f"    try:\n        rclpy.spin(node)\n    {BOTH}\n        pass\n    finally:\n        rclpy.try_shutdown()"
+    )
+    assert not any(each in told for each in ("sleep", "abort", "exit", "signal", "Thread", "while"))
 
 
-@pytest.mark.parametrize(
-    ("source", "step"),
-    [
-        ("signal.signal(signal.SIGINT, stop)", "delete line 1, signal.signal(signal.SIGINT, stop)"),
-        (
-            "while True:\n  try:\n    rclpy.spin(n)\n  except KeyboardInterrupt:\n    pass",
-            "write break in place of line 5",
-        ),
-        ("while rclpy.ok():\n  try:\n    rclpy.spin(n)\n  except:\n    pass", "write break in place of line 5"),
-        ("while True:\n  work()", "line 1 becomes: while rclpy.ok():"),
-        ("Thread(target=work).start()", "give the thread of line 1 daemon=True"),
-        ("rclpy.spin(node)", "let KeyboardInterrupt end the program"),
-    ],
-)
-def test_letting_ctrl_c_through(source: str, step: str) -> None:
-    assert closing.letting_go(node(source)).startswith(step)
+def test_what_is_beside_the_program() -> None:
+    kept = changed(("    pass\n\n\ndef", "    def __init__(self):\n        Thread(target=self.watch).start()\n\n\ndef"))
+    assert "line 8 becomes: Thread(target=self.watch, daemon=True).start()" in closing.letting_go(kept)
 
 
-def test_each_step_stands_in_a_line_of_its_own() -> None:
-    """What follows a line of code must not look like a part of it."""
-    said = closing.letting_go(node("Thread(target=work).start()\nwhile True:\n  work()"))
-    assert said.splitlines()[0] == "line 2 becomes: while rclpy.ok():"
-    assert said.splitlines()[1].startswith("give the thread of line 1 daemon=True")
+def test_a_right_program_is_not_written_again() -> None:
+    assert closing.letting_go(node(MAIN)).startswith("let KeyboardInterrupt end the program")
+    assert closing.returning(node("def broken(")).startswith("return normally")
 
 
-def test_the_exit_code() -> None:
-    assert "in line 2" in closing.returning(node("import sys\nsys.exit(3)"))
-    assert "return normally" in closing.returning(node("pass"))
-
-
-def test_leaving_out_what_needs_ros() -> None:
-    line = Frame(f"{FOLDER}/node.py", 7, "main", "node.get_logger().info('bye')")
-    assert closing.leaving_out(line).startswith("leave out line 7, node.get_logger().info('bye')")
-    assert "stop before that" in closing.leaving_out(spin(7))
-    broken = Frame(f"{FOLDER}/node.py", 9, "slow_add", "raise RuntimeError('interrupted')")
-    assert closing.leaving_out(broken).startswith("write return in place of line 9")
+def test_leaving_out_what_raises() -> None:
+    broken = Frame(f"{FOLDER}/node.py", 7, "slow_add", "raise RuntimeError('interrupted')")
+    raising = changed(
+        ("    pass\n\n\ndef", "    def slow_add(self):\n        raise RuntimeError('interrupted')\n\n\ndef")
+    )
+    assert closing.leaving_out(raising, replace(broken, line=8)) == "line 8 becomes: return"
+    assert "stop before that" in closing.leaving_out(node(MAIN), None)

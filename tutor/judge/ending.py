@@ -114,7 +114,7 @@ def _of_crash(ended: Exit, ending: Ending, trace: Trace) -> Cause:
     return Cause(
         "non-zero exit",
         f"after Ctrl+C the process crashes with {ended}" + (f", at {own}" if own else ""),
-        "return normally from main() after Ctrl+C; end what uses the node, such as threads, before you destroy it",
+        closing.returning(trace),
     )
 
 
@@ -137,25 +137,21 @@ def _race_in_rclpy(found: tracebacks.Traceback) -> bool:
 
 def _of_traceback(found: tracebacks.Traceback, trace: Trace) -> Cause:
     own = found.own(trace.folder)
-    uncaught = any(found.origin.type.endswith(name) for name in _ENDS_A_SPIN)
     if any(words in found.message for words in _SHUT_DOWN_TWICE):
-        step = closing.shutting_down(trace)
-        if uncaught:
-            step = f"{step}; then {closing.catching(trace, found.origin.own(trace.folder))}"
         return Cause(
             "shutdown() after Ctrl+C",
             "rclpy has shut its context down already when Ctrl+C arrives, so rclpy.shutdown() raises RCLError",
-            step,
+            closing.catching(trace),
         )
     if any(found.type.endswith(name) for name in _ENDS_A_SPIN):
         return Cause(
             "traceback on exit",
             f"{found.type.rsplit('.', 1)[-1]} reaches the end of the program" + (f" ({own})" if own else ""),
-            closing.catching(trace, own),
+            closing.catching(trace),
         )
     known = causes.known(found, trace) if not any(words in found.message for words in _CONTEXT_OVER) else None
     return Cause(
         "traceback on exit",
         f"{found.raised}" + (f" ({own})" if own else ""),
-        known.hint if known and not closing.raises(own) else closing.leaving_out(own),
+        known.hint if known and not closing.raises(own) else closing.leaving_out(trace, own),
     )

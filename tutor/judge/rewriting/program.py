@@ -76,6 +76,27 @@ def program(file: NodeFile, *, threads: bool = False) -> list[Edit]:
     return [*edits, Edit(first.lineno, last.end_lineno or last.lineno, "\n".join(code), like=first.lineno)]
 
 
+def ending(file: NodeFile) -> list[Edit]:
+    """The whole program, and nothing beside it that keeps the process from ending."""
+    whole = program(file)
+    beside = [
+        each for each in _free(file) if not any(one.first <= each.first and each.last <= one.last for one in whole)
+    ]
+    return [*beside, *whole]
+
+
+def guarded(file: NodeFile, call: ast.Call) -> list[Edit]:
+    """A statement that spins, with what ends a spin caught around it, and rclpy shut down at last."""
+    statement = file.statement(call)
+    if not isinstance(statement, ast.Expr):
+        return []
+    both, imported = _both(file)
+    end = "" if file.calls("try_shutdown", "shutdown") else "\nfinally:\n    rclpy.try_shutdown()"
+    body = textwrap.indent(_code(file, statement), "    ")
+    code = f"try:\n{body}\n{both}:\n    pass{end}"
+    return [*imported, Edit(statement.lineno, statement.end_lineno or statement.lineno, code, like=statement.lineno)]
+
+
 def main_called(file: NodeFile) -> list[Edit]:
     """The call of main() at the end of the file, where nothing calls it."""
     main = next((each for each in file.tree.body if isinstance(each, Function) and each.name == "main"), None)
@@ -105,7 +126,7 @@ def _started(file: NodeFile, scope: _Scope) -> list[Edit]:
     return _called(file, main)
 
 
-def free(file: NodeFile) -> list[Edit]:
+def _free(file: NodeFile) -> list[Edit]:
     """Nothing else keeps the process from ending: threads are daemons, and Ctrl+C and the end are left to rclpy."""
     found = []
     for each in file.calls("Thread", "Timer"):
