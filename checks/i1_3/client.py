@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from functools import partial
 
-from checks.i1_3 import names
+from checks.i1_3 import names, offers, programs, requests
+from checks.i1_3.code import Code, files, stepped
 from checks.i1_3.facts import CLIENT, CLIENT_S, LATER_S, SERVER, SIGNS, Demonstration
-from tutor.judge import causes, source, tracebacks
+from tutor.judge import causes, edits, source, tracebacks
 from tutor.judge.trace import Trace
 from tutor.judge.verdict import Cause, Verdict, failed, passed
 
@@ -29,18 +32,68 @@ def judge_client(seen: Demonstration) -> Verdict:
             Cause("file missing", f"the submission has no {CLIENT}", f"write {CLIENT} beside {SERVER}"),
         )
     called = {served.service for served in seen.served}
-    missing = [name for name in SIGNS if name not in called]
+    missing = _missing(seen)
     calls_made = [f"{s.service} {s.request['a']} {s.request['b']} -> {s.response['sum']}" for s in seen.served[:12]]
     words = (*calls_made, *causes.last_words(seen.trace, 4))
     if seen.exit is None:
         observed = f"still running after {CLIENT_S:g} s; called {_listed(called)}"
-        return failed(expected, observed, _why_hanging(seen, missing), words)
+        return failed(expected, observed, _stepped(_why_hanging(seen, missing), seen), words)
     ended = f"ended after {seen.exit.after_s:.1f} s with {seen.exit}"
     if seen.exit.code != 0:
-        return failed(expected, f"{ended}; called {_listed(called)}", _why_not_zero(seen, missing, ended), words)
+        cause = _stepped(_why_not_zero(seen, missing, ended), seen)
+        return failed(expected, f"{ended}; called {_listed(called)}", cause, words)
     if missing:
-        return failed(expected, f"{ended}; {', '.join(missing)} not called", _why_not_called(seen, missing), words)
+        cause = _stepped(_why_not_called(seen, missing), seen)
+        return failed(expected, f"{ended}; {', '.join(missing)} not called", cause, words)
     return passed(expected, f"{len(seen.served)} calls, {ended}", calls_made)
+
+
+def _stepped(cause: Cause, seen: Demonstration) -> Cause:
+    """The cause with a step that can be followed word for word: one for it, or what waits for each answer, or all."""
+    assert seen.trace is not None
+    trace, own = seen.trace, tracebacks.own(seen.stuck, seen.trace.folder)
+    found = tracebacks.last(trace)
+    raised = own_frame.code if found is not None and (own_frame := found.own(trace.folder)) is not None else ""
+    steps: list[Callable[[Code], str | None]] = []
+    first = True
+    match cause.name:
+        case "service not waited for":
+            steps = [requests.waiting]
+        case "waits too short a time":
+            steps = [requests.lengthened]
+        case "non-zero exit":
+            steps = [programs.ending]
+        case "coroutine not awaited":
+            steps = [lambda code: requests.plain(code, cause.text.partition(" ")[0])]
+        case "incompatible QoS":
+            steps = [offers.reliable]
+        case "not called":
+            steps = [lambda code: programs.without(code, "_exit"), lambda code: programs.listed(code, _missing(seen))]
+        case "did not end" if own is not None and "sleep(" in own.code:
+            steps = [lambda code: programs.without(code, "sleep")]
+        case "did not end" if not _missing(seen) and source.calls(trace, "Thread"):
+            steps = [programs.shut_down]
+        case _:
+            first = _of_no_answer(found)
+    if "input(" in raised or (own is not None and "input(" in own.code):
+        steps, first = [programs.unasked], True
+    each_file = [partial(step, code) for step in steps for code in files(trace)]
+    unmet = cause.name in ("wrong service name", "wrong type", "not called")
+    waits = [] if unmet else [partial(requests.answered, code, trace) for code in files(trace)]
+    last = partial(programs.all_four, next(iter(files(trace)), Code("", "")))
+    if first and (told := next((told for step in (*each_file, *waits) if (told := step()) is not None), None)):
+        return replace(cause, hint=told)
+    return stepped(cause, trace, *each_file, *waits, last)
+
+
+def _of_no_answer(found: tracebacks.Traceback | None) -> bool:
+    """Whether an exception comes from an answer that had not come yet."""
+    return found is not None and any(word in found.message for word in ("'NoneType'", "'Future'"))
+
+
+def _missing(seen: Demonstration) -> list[str]:
+    called = {served.service for served in seen.served}
+    return [name for name in SIGNS if name not in called]
 
 
 def _why_not_zero(seen: Demonstration, missing: Sequence[str], ended: str) -> Cause:
@@ -119,23 +172,23 @@ def _why_hanging(seen: Demonstration, missing: Sequence[str]) -> Cause:
 
 def _instead_of_spinning(trace: Trace, own: tracebacks.Frame) -> str:
     """What stands in place of a spin() that never ends: the wait for each answer, where it is what brings them."""
+    code = next((each for each in files(trace) if each.file == own.name), None)
+    if code is None:
+        return "end the program when the last answer has come"
+    if not source.calls(trace, "add_done_callback", "create_timer"):
+        return code.told(edits.removed(code.text, own.line)) or ""
     asked = [made for made in source.assigned(trace, "call_async") if made[0].isidentifier()]
     spins = re.fullmatch(r"(?P<rclpy>\w+)\.spin\((?P<node>\w+)\)", own.code)
-    if not source.calls(trace, "add_done_callback", "create_timer"):
-        return (
-            f"take {own.code} in line {own.line} out, with pass in its place: the client has nothing more to wait for"
-        )
     if not asked or spins is None or source.calls(trace, "create_timer"):
         return "end the program in the callback that gets the last answer: raise SystemExit"
     future, line = asked[0]
-    return (
-        f"below line {line}, with the same indentation:\n"
-        f"self.futures = [*getattr(self, 'futures', []), {future}]\n"
-        f"in place of line {own.line}, {own.code}, with its indentation:\n"
-        f"for {future} in {spins['node']}.futures:\n"
-        f"    {spins['rclpy']}.spin_until_future_complete({spins['node']}, {future})\n"
-        f"{spins['rclpy']}.spin_once({spins['node']}, timeout_sec=0.5)"
+    lines = (
+        f"for {future} in {spins['node']}.futures:",
+        f"    {spins['rclpy']}.spin_until_future_complete({spins['node']}, {future})",
+        f"{spins['rclpy']}.spin_once({spins['node']}, timeout_sec=0.5)",
     )
+    kept = edits.below(line, f"self.futures = [*getattr(self, 'futures', []), {future}]")
+    return code.told(kept, edits.becomes(own.line, "\n".join(lines))) or ""
 
 
 def _never_awaited(trace: Trace) -> Cause | None:
@@ -157,17 +210,15 @@ def _returns_early(seen: Demonstration) -> Cause | None:
     assert seen.trace is not None
     if len(seen.served) != 1:
         return None
-    for loop in source.nodes(seen.trace):
-        if not isinstance(loop, ast.For) or len(loop.body) < 2 or not isinstance(loop.body[-1], ast.Return):
-            continue
-        step = loop.body[-1]
-        return Cause(
-            "return in the loop",
-            f"line {step.lineno}: {ast.unparse(step)} ends the loop with its first turn, after "
-            f"{seen.served[0].service}",
-            f"indent line {step.lineno} ({ast.unparse(step)}) less, as deep as the for in line {loop.lineno}, so that "
-            "it comes after the loop",
-        )
+    for code in files(seen.trace):
+        if (found := programs.returned_later(code)) is not None:
+            loop, returns, step = found
+            return Cause(
+                "return in the loop",
+                f"line {returns.lineno}: {ast.unparse(returns)} ends the loop of line {loop.lineno} with its first "
+                f"turn, after {seen.served[0].service}",
+                step,
+            )
     return None
 
 
@@ -181,7 +232,7 @@ def _unmet(seen: Demonstration, missing: Sequence[str]) -> Cause | None:
             "service not waited for",
             f"the request was sent before there was a server, and such a request is lost: {missing[0]} came up "
             f"{LATER_S:g} s after the client",
-            _where_to_wait(seen.trace),
+            "before the first request, call wait_for_service(timeout_sec=10.0) of each service client",
         )
     if gave_up(seen):
         assert seen.exit is not None
@@ -199,16 +250,6 @@ def gave_up(seen: Demonstration) -> bool:
     if seen.trace is None or seen.exit is None or seen.served or not source.mentions(seen.trace, *WAITS):
         return False
     return bool(seen.clients) or not source.mentions(seen.trace, "argv", "ArgumentParser")
-
-
-def _where_to_wait(trace: Trace) -> str:
-    """The next step for a client that does not wait, in its own words."""
-    made = [(name, line) for name, line in source.assigned(trace, "create_client") if name]
-    if not made:
-        return "before the first request, call wait_for_service(timeout_sec=10.0) of each service client"
-    name, line = made[0]
-    others = ", and likewise for the other clients" if len(made) > 1 else ""
-    return f"after line {line}, where the client is made: {name}.wait_for_service(timeout_sec=10.0){others}"
 
 
 def _listed(called: set[str]) -> str:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
-from checks.i1_3 import mixed, names, zero
+from checks.i1_3 import mixed, offers, programs, services, zero
+from checks.i1_3.code import Code, files, stepped
 from checks.i1_3.facts import (
     ANSWER_S,
     SAYS_ERROR,
@@ -18,8 +19,9 @@ from checks.i1_3.facts import (
     missing_of,
     right_result,
 )
-from tutor.judge import causes, ending, source, tracebacks
+from tutor.judge import causes, ending, tracebacks
 from tutor.judge.trace import CallAnswer, Service, Trace
+from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped
 
 
@@ -34,6 +36,7 @@ def judge_services(seen: Calls) -> Verdict:
         observed = f"{unanswered.service}: {causes.unanswered(seen.trace, ANSWER_S)}"
         silent = [service for service in seen.trace.graph.services if service.name == unanswered.service]
         cause = causes.incompatible_service(silent) or causes.of_no_answer(seen.trace, seen.stuck, spins=seen.spins)
+        cause = _unanswered(cause, seen.trace, unanswered.service, seen.stuck)
         return failed(expected, observed, cause, causes.last_words(seen.trace))
     return passed(expected, "all four answer", [f"{name} = {result}" for name, result in _answered(seen.answers)])
 
@@ -46,30 +49,53 @@ def _never_called(seen: Calls) -> list[str]:
 def _why_missing(trace: Trace, missing: Sequence[str]) -> Cause:
     broken = causes.of_process(trace)
     if broken is not None:
-        return broken
+        return stepped(broken, trace, lambda: _first(trace, programs.unasked))
     offered = [s for s in trace.graph.services if not _of_every_node(s)]
-    for name in missing:
-        for service in offered:
-            if service.name == name and service.type != TYPE:
-                return Cause(
-                    "wrong type",
-                    f"{name} has the type {service.type}, not {TYPE}",
-                    f"create it with AddTwoInts: self.create_service(AddTwoInts, '{name[1:]}', ...)",
-                )
-    for name in missing:
-        for service in offered:
-            called = service.name.casefold()
-            if service.name not in SIGNS and (called.endswith(name) or name[1:4] in called):
-                return Cause(
-                    "wrong service name",
-                    f"there is {service.name} instead of {name}",
-                    names.of_server(trace, service.name, name),
-                )
-    return Cause(
+    typed = [service for service in offered if service.name in missing and service.type != TYPE]
+    if typed:
+        cause = Cause(
+            "wrong type",
+            f"{typed[0].name} has the type {typed[0].type}, not {TYPE}",
+            f"create it with AddTwoInts: self.create_service(AddTwoInts, '{typed[0].name[1:]}', ...)",
+        )
+        return stepped(cause, trace, lambda: offers.typed(trace, [each.name for each in typed]))
+    strange = [(s.name, name) for name in missing for s in offered if s.name not in SIGNS and _like(s.name, name)]
+    if strange:
+        cause = Cause(
+            "wrong service name",
+            f"there is {strange[0][0]} instead of {strange[0][1]}",
+            f"name it {strange[0][1][1:]!r}, without a namespace or ~ in front",
+        )
+        return stepped(cause, trace, lambda: offers.renamed(trace, strange))
+    cause = Cause(
         "service missing",
         f"{', '.join(missing)} {'is' if len(missing) == 1 else 'are'} not there",
         f"self.create_service(AddTwoInts, '{missing[0][1:]}', self.{missing[0][1:]}_callback)",
     )
+    return stepped(cause, trace, lambda: offers.added(trace, missing))
+
+
+def _like(offered: str, missing: str) -> bool:
+    return offered.casefold().endswith(missing) or missing[1:4] in offered.casefold()
+
+
+def _first(trace: Trace, step: Callable[[Code], str | None]) -> str | None:
+    """The step for the first of the files that there is one for."""
+    return next((told for code in files(trace) if (told := step(code)) is not None), None)
+
+
+def _unanswered(cause: Cause, trace: Trace, service: str, stuck: Sequence[Frame] = ()) -> Cause:
+    """The cause with the step that lets a service answer."""
+    found, at = tracebacks.last(trace), tracebacks.own(stuck, trace.folder)
+    if found is not None and found.frames[-1].function == "send_response":
+        return replace(cause, hint=offers.returning(trace, service) or cause.hint)
+    if at is not None and "sleep(" in at.code:
+        return replace(cause, hint=_first(trace, lambda code: programs.without(code, "sleep")) or cause.hint)
+    if cause.name == "incompatible QoS":
+        return stepped(cause, trace, lambda: _first(trace, offers.reliable))
+    if cause.name == "no spin":
+        return stepped(cause, trace)
+    return stepped(cause, trace, lambda: services.computing(trace, [service], whole=True))
 
 
 def _of_every_node(service: Service) -> bool:
@@ -88,12 +114,16 @@ def judge_operations(seen: Calls) -> Verdict:
             return failed(
                 f"{question} = {right}",
                 causes.unanswered(seen.trace, ANSWER_S),
-                causes.of_process(seen.trace)
-                or Cause(
-                    "no answer",
-                    "the service does not answer this call",
-                    f"let the callback of {answer.service} come to its end, and return its response; `services` tells "
-                    "where it is held up, if it fails as well",
+                _unanswered(
+                    causes.of_process(seen.trace)
+                    or Cause(
+                        "no answer",
+                        "the service does not answer this call",
+                        f"let the callback of {answer.service} come to its end, and return its response; `services` "
+                        "tells where it is held up, if it fails as well",
+                    ),
+                    seen.trace,
+                    answer.service,
                 ),
                 causes.last_words(seen.trace),
             )
@@ -101,9 +131,8 @@ def judge_operations(seen: Calls) -> Verdict:
             return failed(
                 f"{question} = {right}",
                 f"{answer.response['sum']}",
-                _negatives_refused(answer, seen.answers)
-                or mixed.of_loop(seen.trace, seen.answers)
-                or _why_wrong(answer, right, mixed.of_service(seen.trace, answer.service)),
+                mixed.of_loop(seen.trace, seen.answers)
+                or _computing(_negatives_refused(answer, seen.answers) or _why_wrong(answer, right), seen),
                 [f"{name} answered {result}" for name, result in _answered(seen.of(answer.service))],
             )
     if late := _never_called(seen):
@@ -140,8 +169,15 @@ def _negatives_refused(answer: CallAnswer, answers: Sequence[CallAnswer]) -> Cau
     )
 
 
-def _why_wrong(answer: CallAnswer, right: int, step: str | None) -> Cause:
-    """What the wrong result looks like; `step` is the next one where the source tells the line."""
+def _computing(cause: Cause, seen: Calls) -> Cause:
+    """The cause with the step that lets every service that has answered wrongly compute its own."""
+    answers = [(each, right_result(each.service, each.request["a"], each.request["b"])) for each in seen.answers]
+    wrong = list(dict.fromkeys(a.service for a, right in answers if a.response and a.response["sum"] != right))
+    return replace(cause, hint=services.computing(seen.trace, wrong) or cause.hint)
+
+
+def _why_wrong(answer: CallAnswer, right: int) -> Cause:
+    """What the wrong result looks like."""
     assert answer.response is not None
     got, a, b = answer.response["sum"], answer.request["a"], answer.request["b"]
     name = answer.service
@@ -150,14 +186,12 @@ def _why_wrong(answer: CallAnswer, right: int, step: str | None) -> Cause:
         return Cause(
             "wrong result",
             f"this is what {others[0]} would answer",
-            step or f"look at the sign in the callback of {name}, and at which callback belongs to which service",
+            f"look at the sign in the callback of {name}, and at which callback belongs to which service",
         )
     if name == "/subtract" and got == b - a:
-        return Cause("wrong result", "the operands are the wrong way round", step or "resp.sum = req.a - req.b")
+        return Cause("wrong result", "the operands are the wrong way round", "resp.sum = req.a - req.b")
     if got == -1 and name == "/divide":
-        return Cause(
-            "float in an int field", "a / b is a float, and resp.sum takes whole numbers only", step or "use a // b"
-        )
+        return Cause("float in an int field", "a / b is a float, and resp.sum takes whole numbers only", "use a // b")
     if (got - right) % 2**32 == 0:
         return Cause(
             "wrong result", "the result is cut off to 32 bits", "an int64 has 64: leave the numbers as they are"
@@ -166,25 +200,15 @@ def _why_wrong(answer: CallAnswer, right: int, step: str | None) -> Cause:
         return Cause("wrong result", "the sign is lost", "no abs(): negative numbers are numbers too")
     if got == 0:
         return Cause("wrong result", "the result is 0: is it put into resp.sum?", "set resp.sum before you return resp")
-    return Cause("wrong result", f"{got} instead of {right}", step or f"look at the callback of {name}")
+    return Cause("wrong result", f"{got} instead of {right}", f"look at the callback of {name}")
 
 
-def _not_caught(trace: Trace) -> Cause | None:
-    """Why the process ended with a division by zero; of a ZeroDivisionError, with the line to write above it."""
-    cause, found = causes.of_process(trace), tracebacks.last(trace)
-    own = found.own(trace.folder) if found else None
-    if cause is None or found is None or own is None or found.type != "ZeroDivisionError":
-        return cause
-    function = source.function_at(trace, own.name, own.line)
-    if function is None or len(function.args.args) < 2:
-        return cause
-    *_, request, response = (each.arg for each in function.args.args)
-    logger = zero.logger(trace, function)
-    return replace(
-        cause,
-        hint=f"above line {own.line}, with the same indentation: if {request}.b == 0: {logger}.error('division by "
-        f"zero'); {response}.sum = 0; return {response}",
-    )
+def _guarded(cause: Cause, trace: Trace) -> Cause:
+    """The cause with the step that lets /divide answer, and say that it is an error, where b is 0."""
+    found = tracebacks.last(trace)
+    if found is not None and found.frames[-1].function == "send_response":
+        return replace(cause, hint=offers.returning(trace, "/divide") or cause.hint)
+    return replace(cause, hint=services.guarded(trace) or cause.hint)
 
 
 def judge_division(seen: Division) -> Verdict:
@@ -193,13 +217,18 @@ def judge_division(seen: Division) -> Verdict:
         return failed(
             expected,
             "/divide does not answer even 84 ÷ 7",
-            causes.of_process(seen.trace) or Cause("no answer", "the service does not answer", "see `services`"),
+            _unanswered(
+                causes.of_process(seen.trace) or Cause("no answer", "the service does not answer", "see `services`"),
+                seen.trace,
+                "/divide",
+            ),
             causes.last_words(seen.trace),
         )
     if seen.by_zero.response is None:
-        cause = _not_caught(seen.trace) or Cause(
+        cause = causes.of_process(seen.trace) or Cause(
             "no answer", "the callback does not answer when b is 0", "return the response in that case too"
         )
+        cause = _guarded(cause, seen.trace)
         return failed(
             expected, f"10 ÷ 0: {causes.unanswered(seen.trace, ANSWER_S)}", cause, causes.last_words(seen.trace)
         )
@@ -212,7 +241,7 @@ def judge_division(seen: Division) -> Verdict:
                 "no error message",
                 "nothing is said of an error, since /divide does not divide: 84 ÷ 7 is answered "
                 f"{seen.before.response['sum']}",
-                "let /divide divide first: see `operations`",
+                services.computing(seen.trace, ["/divide"]) or "let /divide divide first: see `operations`",
             )
             observed = f"answered {seen.by_zero.response['sum']}, without a word about an error"
             return failed(expected, observed, cause, [str(log) for log in seen.said])
@@ -220,8 +249,10 @@ def judge_division(seen: Division) -> Verdict:
         cause = printed or Cause(
             "no error message",
             "nothing that the node logs says that this is an error",
-            zero.where_to_log(seen.trace),
+            "in the callback of /divide, where b is 0, log an error before you return the response",
         )
+        trace = seen.trace
+        cause = stepped(cause, trace, lambda: zero.where_to_log(trace), lambda: services.guarded(trace))
         return failed(
             expected,
             f"answered {seen.by_zero.response['sum']}, without a word about an error",
@@ -237,6 +268,7 @@ def judge_division(seen: Division) -> Verdict:
                 "the node no longer answers after a division by zero",
                 "let the node go on: only log, and answer, whatever a is",
             )
+            cause = _guarded(cause, seen.trace)
             return failed(expected, f"after it, {a} ÷ {b} got no answer", cause, causes.last_words(seen.trace))
         if b and divides and answer.response["sum"] != right_result("/divide", a, b):
             cause = Cause(
@@ -244,6 +276,7 @@ def judge_division(seen: Division) -> Verdict:
                 "the node divides well until it is asked to divide by zero",
                 "let a division by zero change nothing: only log, and answer",
             )
+            cause = _guarded(cause, seen.trace)
             return failed(expected, f"after it, {a} ÷ {b} was answered {answer.response['sum']}", cause)
     return passed(
         expected,

@@ -10,7 +10,6 @@ from tutor.judge import source
 from tutor.judge.trace import CallAnswer, Trace
 from tutor.judge.verdict import Cause
 
-_PYTHON = {**SIGNS, "/divide": "//"}
 _Closure = ast.Lambda | ast.FunctionDef | ast.AsyncFunctionDef
 
 
@@ -33,15 +32,6 @@ def of_loop(trace: Trace, answers: Sequence[CallAnswer]) -> Cause | None:
         f"{listed} up when it is called, and by then {what} what the last turn of the loop has left",
         f"in {file}, {_bound(trace.sources[file], function, names)}",
     )
-
-
-def of_service(trace: Trace, service: str) -> str | None:
-    """The step that makes a service compute its own: the line with the wrong callback, or the one with its result."""
-    for file, text in trace.sources.items():
-        for call in (each for each in source.tree(text) if isinstance(each, ast.Call)):
-            if source.called(call) == "create_service" and _named(call, service) and (given := _callback(call)):
-                return next((f"in {file}, {step}" for step in _steps(text, given, service)), None)
-    return None
 
 
 def _of(service: str, answer: CallAnswer) -> int:
@@ -84,42 +74,3 @@ def _bound(text: str, function: _Closure, names: Sequence[str]) -> str:
     number, column = max(ends)
     line = text.splitlines()[number - 1].encode()
     return f"line {number} becomes: {(line[:column] + f', {more}'.encode() + line[column:]).decode().strip()}"
-
-
-def _named(call: ast.Call, service: str) -> bool:
-    given = [*call.args, *(each.value for each in call.keywords)]
-    return any(isinstance(each, ast.Constant) and f"/{str(each.value).strip('/')}" == service for each in given)
-
-
-def _callback(call: ast.Call) -> ast.expr | None:
-    named = (each.value for each in call.keywords if each.arg == "callback")
-    return call.args[2] if len(call.args) > 2 else next(named, None)
-
-
-def _steps(text: str, given: ast.expr, service: str) -> Iterator[str]:
-    functions = {each.name: each for each in source.tree(text) if isinstance(each, ast.FunctionDef)}
-    name = given.attr if isinstance(given, ast.Attribute) else given.id if isinstance(given, ast.Name) else ""
-    if name in functions and not _means(name, service):
-        for other in (each for each in functions if _means(each, service)):
-            line = text.splitlines()[given.lineno - 1].encode()
-            end = given.end_col_offset or 0
-            becomes = line[: end - len(name.encode())] + other.encode() + line[end:]
-            yield f"line {given.lineno} becomes: {becomes.decode().strip()}"
-    if name in functions:
-        for each in ast.walk(functions[name]):
-            if isinstance(each, ast.Assign) and isinstance(each.targets[0], ast.Attribute):
-                a, b = (_operand(each.value, one) for one in "ab")
-                if each.targets[0].attr == "sum" and a and b:
-                    target = ast.unparse(each.targets[0])
-                    yield f"line {each.lineno} becomes: {target} = {a} {_PYTHON[service]} {b}"
-
-
-def _means(function: str, service: str) -> bool:
-    """Whether a function is named after this service, and not after another as well."""
-    called = [each for each in SIGNS if each[1:4] in function.casefold()]
-    return called == [service]
-
-
-def _operand(value: ast.expr, name: str) -> str:
-    found = (each for each in ast.walk(value) if isinstance(each, ast.Name | ast.Attribute))
-    return next((ast.unparse(e) for e in found if (e.id if isinstance(e, ast.Name) else e.attr) == name), "")

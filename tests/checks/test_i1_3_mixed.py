@@ -6,7 +6,7 @@ import pytest
 
 from checks.i1_3.facts import SIGNS, TYPE, Calls, right_result
 from checks.i1_3.judges import judge_operations
-from checks.i1_3.mixed import of_service
+from checks.i1_3.services import computing
 from tests.checks.made import assert_failed, called, graph, trace
 from tutor.judge.verdict import Status
 
@@ -97,8 +97,7 @@ class Calculator(Node):
     ],
 )
 def test_the_line_that_computes_something_else(service: str, step: str) -> None:
-    assert of_service(trace(sources={"node.py": SERVER}), service) == step
-    assert of_service(trace(sources={"node.py": LAMBDA}), service) is None
+    assert computing(trace(sources={"node.py": SERVER}), [service]) == step
 
 
 def test_the_line_is_the_next_step() -> None:

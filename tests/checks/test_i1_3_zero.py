@@ -6,8 +6,10 @@ import ast
 
 import pytest
 
+from checks.i1_3.services import guarded
 from checks.i1_3.zero import where_to_log
 from tests.checks.made import trace
+from tutor.judge.following import follow
 
 HEAD = """
 class Calculator(Node):
@@ -33,11 +35,11 @@ def method(*body: str) -> str:
     [
         (
             method("try:", "    resp.sum = req.a // req.b", "except ZeroDivisionError:", "    pass", "return resp"),
-            f"in node.py, write in place of pass, line 9: {LOG}",
+            f"in node.py, line 9 becomes: {LOG}",
         ),
         (
             method("try: resp.sum = int(req.a / req.b)", "except: pass", "return resp"),
-            f"in node.py, line 7 becomes: except: {LOG}",
+            f"in node.py, line 7 becomes:\n    except:\n        {LOG}",
         ),
         (
             method("try:", "    resp.sum = req.a // req.b", "except ZeroDivisionError:", "    return resp"),
@@ -45,7 +47,7 @@ def method(*body: str) -> str:
         ),
         (
             method("if req.b == 0: resp.sum = 0; return resp", "resp.sum = req.a // req.b", "return resp"),
-            f"in node.py, line 6 becomes: if req.b == 0: {LOG}; resp.sum = 0; return resp",
+            f"in node.py, write above line 7, with the same indentation:\n    if req.b == 0:\n        {LOG}",
         ),
         (
             method("if req.b == 0:", "    resp.sum = 0", "else:", "    resp.sum = req.a // req.b", "return resp"),
@@ -57,36 +59,55 @@ def method(*body: str) -> str:
         ),
         (
             method("if req.b:", "    resp.sum = req.a // req.b", "return resp"),
-            f"in node.py, write below line 7, indented as the if in line 6: else: {LOG}",
+            f"in node.py, write below line 7, with the indentation of line 6:\n    else:\n        {LOG}",
         ),
         (
             method("resp.sum = req.a // req.b if req.b else 0", "return resp"),
-            f"in node.py, write above line 6, with the same indentation: if req.b == 0: {LOG}",
+            f"in node.py, write above line 6, with the same indentation:\n    if req.b == 0:\n        {LOG}",
         ),
         (
             method("resp.sum = req.a // max(1, req.b)", "return resp"),
-            f"in node.py, write above line 6, with the same indentation: if req.b == 0: {LOG}",
+            f"in node.py, write above line 6, with the same indentation:\n    if req.b == 0:\n        {LOG}",
         ),
         (
             "node = rclpy.create_node('c')\ndef divide(req, resp):\n    resp.sum = req.b and req.a // req.b\n",
-            "in node.py, write above line 3, with the same indentation: if req.b == 0: "
+            "in node.py, write above line 3, with the same indentation:\n    if req.b == 0:\n        "
             "node.get_logger().error('division by zero')",
         ),
-        ("x = 1", f"in the callback of /divide, where b is 0, before you return the response: {LOG}"),
+        ("x = 1", None),
     ],
 )
-def test_the_line_to_write(text: str, step: str) -> None:
+def test_the_line_to_write(text: str, step: str | None) -> None:
     assert where_to_log(trace(sources={"node.py": text + MAIN})) == step
 
 
 def test_a_lambda_gets_a_function_of_its_own() -> None:
     text = HEAD + LAMBDA + MAIN
-    becomes, where, *body = where_to_log(trace(sources={"node.py": text})).splitlines()
-    assert becomes == ("in node.py, line 5 becomes: self.create_service(AddTwoInts, 'divide', self.divide_callback)")
-    assert where == "and above line 3, indented as it is:"
-    lines = text.splitlines()
-    lines[4] = "        " + becomes.partition("becomes: ")[2]
-    lines[2:2] = [f"    {each}" for each in body]
-    followed = ast.unparse(ast.parse("\n".join(lines)))
+    step = guarded(trace(sources={"node.py": text}))
+    assert step is not None
+    becomes = "line 5 becomes: self.create_service(AddTwoInts, 'divide', self.divide_callback)"
+    assert step.endswith(becomes)
+    followed = ast.unparse(ast.parse(follow(step, {"node.py": text})["node.py"]))
     assert "def divide_callback(self, request, response):" in followed
     assert LOG in followed
+
+
+GUARD = f"if req.b == 0:\n            {LOG}\n            resp.sum = 0\n            return resp"
+
+
+def test_a_division_is_guarded_once_and_then_written_as_a_whole() -> None:
+    text = (
+        HEAD
+        + "        self.create_service(AddTwoInts, 'divide', self.divide)\n\n"
+        + method("self.lock.acquire()", "resp.sum = req.a // req.b", "return resp").removeprefix(HEAD)
+    )
+    step = guarded(trace(sources={"node.py": text}))
+    assert step is not None
+    once = follow(step, {"node.py": text})["node.py"]
+    assert f"def divide(self, req, resp):\n        {GUARD}\n        self.lock.acquire()" in once
+    again = guarded(trace(sources={"node.py": once}))
+    assert again is not None
+    assert (
+        f"{GUARD}\n        resp.sum = req.a // req.b\n        return resp"
+        in follow(again, {"node.py": once})["node.py"]
+    )

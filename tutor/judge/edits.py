@@ -203,11 +203,33 @@ def on_top(text: str, code: str) -> list[Edit]:
 
 def instead(text: str, node: ast.expr, new: str) -> Edit:
     """The lines in which an expression stands, with another one in its place."""
-    lines = text.splitlines()
-    first, last = node.lineno, node.end_lineno or node.lineno
-    head = lines[first - 1].encode()[: node.col_offset].decode()
-    tail = lines[last - 1].encode()[node.end_col_offset or 0 :].decode()
-    return becomes(first, f"{head.lstrip()}{new}{tail}".rstrip(), last)
+    return swapped(text, (node, new))[0]
+
+
+def swapped(text: str, *swaps: tuple[ast.expr, str]) -> list[Edit]:
+    """The lines in which expressions stand, each with another one in its place."""
+    groups: list[list[tuple[ast.expr, str]]] = []
+    end = 0
+    for each in sorted(swaps, key=lambda swap: (swap[0].lineno, swap[0].col_offset)):
+        if not groups or each[0].lineno > end:
+            groups.append([])
+        groups[-1].append(each)
+        end = max(end, each[0].end_lineno or each[0].lineno)
+    return [_swapped(text.splitlines(), group) for group in groups]
+
+
+def _swapped(lines: Sequence[str], group: Sequence[tuple[ast.expr, str]]) -> Edit:
+    first, last = group[0][0].lineno, max(node.end_lineno or node.lineno for node, _ in group)
+    code = list(lines[first - 1 : last])
+    for node, new in reversed(group):
+        start, end = node.lineno - first, (node.end_lineno or node.lineno) - first
+        head = code[start].encode()[: node.col_offset].decode()
+        tail = code[end].encode()[node.end_col_offset or 0 :].decode()
+        code[start : end + 1] = [f"{head}{new}{tail}"]
+    margin = len(code[0]) - len(code[0].lstrip())
+    return becomes(
+        first, "\n".join(line[min(margin, len(line) - len(line.lstrip())) :].rstrip() for line in code), last
+    )
 
 
 def apply(text: str, edits: Sequence[Edit]) -> str:
@@ -233,10 +255,25 @@ def told(text: str, *edits: Edit | Sequence[Edit], file: str = "") -> str | None
     """
     flat = [edit for each in edits for edit in ([each] if isinstance(each, Edit) else each)]
     edited = apply(text, flat)
-    if edited.split() == text.split() or not _parses(edited) or _unknown(text, edited):
+    if not changes(text, edited) or not holds(text, edited):
         return None
+    flat.sort(key=lambda edit: edit.last >= edit.first)  # what is beside a line comes before what becomes of it
     words = [_said(text, edit) for edit in flat]
     return (f"in {file}, " if file else "") + "\n".join(words)
+
+
+def changes(before: str, after: str) -> bool:
+    """Whether more is another than the spaces within lines, and empty lines."""
+
+    def words(text: str) -> list[tuple[int, list[str]]]:
+        return [(len(line) - len(line.lstrip()), line.split()) for line in text.splitlines() if line.strip()]
+
+    return words(before) != words(after)
+
+
+def holds(before: str, after: str) -> bool:
+    """Whether Python can read the file after a change, and knows each name of it that it knew before."""
+    return _parses(after) and not _unknown(before, after)
 
 
 def _said(text: str, edit: Edit) -> str:
