@@ -26,6 +26,8 @@ from tutor.judge.following import InWords, follow
 from tutor.judge.result import CriterionResult, ExerciseResult
 from tutor.judge.verdict import Status
 
+__all__ = ["InWords", "follow", "repair_all", "table"]
+
 
 @dataclass
 class Repair:
