@@ -127,7 +127,7 @@ def returned_later(code: Code) -> tuple[ast.For, ast.Return, str] | None:
         if isinstance(loop, ast.For) and len(loop.body) > 1 and isinstance(step := loop.body[-1], ast.Return):
             end = step.end_lineno or step.lineno
             below = edits.below(loop.end_lineno or end, ast.unparse(step), like=loop.lineno)
-            if (told := code.told(edits.removed(code.text, step.lineno, end), below)) is not None:
+            if (told := code.told(below, edits.removed(code.text, step.lineno, end))) is not None:
                 return loop, step, told
     return None
 

@@ -257,7 +257,6 @@ def told(text: str, *edits: Edit | Sequence[Edit], file: str = "") -> str | None
     edited = apply(text, flat)
     if not changes(text, edited) or not holds(text, edited):
         return None
-    flat.sort(key=lambda edit: edit.last >= edit.first)  # what is beside a line comes before what becomes of it
     words = [_said(text, edit) for edit in flat]
     return (f"in {file}, " if file else "") + "\n".join(words)
 
