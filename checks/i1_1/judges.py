@@ -28,9 +28,7 @@ from checks.i1_1.facts import (
     swapped,
 )
 from tutor.judge import causes, ending, randomness, tracebacks
-from tutor.judge.causes import timers
 from tutor.judge.rates import TOLERANCE
-from tutor.judge.reading import UNREAD, Source, read
 from tutor.judge.trace import Parameter, Trace
 from tutor.judge.verdict import Cause, Verdict, failed, passed
 
@@ -57,7 +55,9 @@ def judge_publishes(seen: Survey) -> Verdict:
             [f"data: {samples[0].message['data']}"],
         )
     answers = seen.parameters is not None
-    cause = causes.of_silence(seen.trace, TOPIC, TYPE, answers=answers, stuck=seen.stuck)
+    cause = causes.of_silence(
+        seen.trace, TOPIC, TYPE, answers=answers, stuck=seen.stuck, step=steps.published(seen.trace)
+    )
     return failed(expected, "no such message", cause, causes.last_words(seen.trace))
 
 
@@ -72,30 +72,21 @@ def judge_range(found: Values, more: Values) -> Verdict:
     return failed(
         expected,
         f"{len(wrong)} of {len(values)} values outside, such as {wrong[0]:g}",
-        _why_outside(wrong, values, _source(found)),
+        _why_outside(wrong, values, found.trace),
         [f"data: {value!r}" for value in wrong[:5]],
     )
 
 
-def _source(found: Values) -> Source:
-    return UNREAD if found.trace is None else read(found.trace)
-
-
-def _why_outside(wrong: Sequence[float], values: Sequence[float], source: Source) -> Cause:
+def _why_outside(wrong: Sequence[float], values: Sequence[float], trace: Trace | None) -> Cause:
     if all(math.isfinite(value) and 0 < abs(value) < 1e-300 for value in wrong):
         return Cause(
             "an int in a float field",
             "a Python int was put into Float64.data: its bits are sent as if they were a float",
-            steps.as_float(source) or "make it a float first: msg.data = float(value)",
+            steps.as_float(trace),
         )
     if all(60 <= value <= 90 for value in values):
-        return Cause(
-            "out of range",
-            "these look like degrees Fahrenheit",
-            steps.draw(source) or f"publish degrees Celsius: random.uniform({LOWEST}, {HIGHEST})",
-        )
-    step = steps.draw(source) or f"random.uniform({LOWEST}, {HIGHEST}) stays within it"
-    return Cause("out of range", "values leave the range", step)
+        return Cause("out of range", "these look like degrees Fahrenheit", steps.drawn(trace))
+    return Cause("out of range", "values leave the range", steps.drawn(trace))
 
 
 def judge_random(found: Values) -> Verdict:
@@ -110,7 +101,7 @@ def judge_random(found: Values) -> Verdict:
             Cause(
                 pattern.name,
                 pattern.text,
-                steps.draw(_source(found)) or "draw a new value in every callback: random.uniform(20.0, 30.0)",
+                steps.drawn(found.trace),
             ),
             [f"data: {value:g}" for value in run[:8]],
         )
@@ -173,7 +164,7 @@ def judge_rate(found: Rates) -> Verdict:
     for agreed in agreeing(found.probes):
         return passed(expected, f"{agreed[0].name} is read in {agreed[0].unit}", [str(probe) for probe in agreed])
     if not found.probes:
-        return failed(expected, "no numeric parameter is declared", _rate_not_declared())
+        return failed(expected, "no numeric parameter is declared", _rate_not_declared(None))
     nearest = max(groups(found.probes), key=lambda group: (agree(group), len(swapped(group))))
     wrong = next((probe for probe in nearest if not probe.agrees), None)
     if wrong is None:
@@ -186,42 +177,40 @@ def judge_rate(found: Rates) -> Verdict:
     return failed(expected, str(wrong), _why_rate(nearest, wrong, found.declared), [str(probe) for probe in nearest])
 
 
-def _rate_not_declared() -> Cause:
+def _rate_not_declared(trace: Trace | None) -> Cause:
     return Cause(
         "parameter not declared",
         "the rate cannot be set from outside",
-        f"self.declare_parameter('{SUGGESTED_RATE}', 1.0), and use its value for the timer's period",
+        steps.pace_declared(trace, SUGGESTED_RATE),
     )
 
 
 def _why_rate(group: Sequence[RateProbe], wrong: RateProbe, declared: tuple[Parameter, ...] | None) -> Cause:
-    source = read(wrong.trace)
-    if (cut := steps.whole_rate(source, wrong.name)) is not None:
+    if (cut := steps.whole_rate(wrong.trace, wrong.name)) is not None:
         return cut
     broken = causes.of_process(wrong.trace)
     if broken is not None:
         return broken
     if declared is not None and wrong.name not in {parameter.name for parameter in declared}:
-        return _rate_not_declared()
+        return _rate_not_declared(wrong.trace)
+    step = steps.paced(wrong.trace, wrong.name, wrong.unit)
     if wrong.rate is not None and wrong.rate.in_bursts:
-        return timers.whole_division(source) or timers.several(source) or causes.in_bursts(wrong.name)
+        return causes.in_bursts(step)
     measured = [(probe, probe.rate) for probe in group if probe.rate is not None]
     if measured and len(swapped(group)) == len(measured):
         if wrong.unit == "Hz":
-            return causes.rate_as_period(wrong.name, source)
-        return causes.period_as_rate(wrong.name, source)
+            return causes.rate_as_period(wrong.name, step)
+        return causes.period_as_rate(wrong.name, step)
     rates_seen = [rate.hz for _, rate in measured]
-    if (seen := causes.same_name(wrong.trace) or steps.rate(source, wrong.name)) is not None:
+    if (seen := causes.same_name(wrong.trace) or steps.why_rate(wrong.trace, wrong.name)) is not None:
         return seen
     if len(rates_seen) > 1 and max(rates_seen) <= min(rates_seen) * (1 + TOLERANCE):
         return Cause(
             "parameter ignored",
             f"the rate stays at {rates_seen[0]:.1f} Hz, whatever {wrong.name} says",
-            f"use self.get_parameter('{wrong.name}').value for the timer's period",
+            step,
         )
-    return Cause(
-        "wrong rate", f"{wrong}", "the timer's period is 1.0 / rate seconds; are there two timers, or a rounding?"
-    )
+    return Cause("wrong rate", f"{wrong}", step)
 
 
 def judge_name(found: Names) -> Verdict:
@@ -237,7 +226,7 @@ def judge_name(found: Names) -> Verdict:
             Cause(
                 "parameter not declared",
                 "the sensor's name cannot be set from outside",
-                f"self.declare_parameter('{SUGGESTED_NAME}', 'sensor'), and put its value into a log message",
+                steps.name_declared(probe.trace, SUGGESTED_NAME),
             ),
         )
     evidence = [str(log) for log in probe.trace.logs[-5:]]
@@ -258,17 +247,13 @@ def _why_name(found: Names) -> Cause:
         return Cause(
             "parameter not declared",
             f"the node answers no parameter call, and {SUGGESTED_NAME} has no effect",
-            f"self.declare_parameter('{SUGGESTED_NAME}', 'sensor'), and log its value",
+            steps.name_declared(found.probes[0].trace, SUGGESTED_NAME),
         )
     silent = next((each.trace for each in found.probes if not each.trace.logs and not each.trace.on(TOPIC)), None)
     if silent is not None and any(each.topic == TOPIC for each in silent.graph.publishers):
-        return causes.of_silence(silent, TOPIC, TYPE, answers=True)
+        return causes.of_silence(silent, TOPIC, TYPE, answers=True, step=steps.published(silent))
     own = [probe for probe in found.probes if probe.name in {parameter.name for parameter in found.declared}]
-    return steps.name_logged(read(found.probes[0].trace), (own or found.probes)[0].name) or Cause(
-        "parameter ignored",
-        f"{', '.join(probe.name for probe in found.probes)} is declared, but not logged",
-        f"self.get_logger().info(f'{{self.get_parameter(\"{found.probes[0].name}\").value}}: ...')",
-    )
+    return steps.name_logged(found.probes[0].trace, (own or found.probes)[0].name)
 
 
 def judge_shutdown(seen: Survey) -> Verdict:

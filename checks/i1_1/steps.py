@@ -1,113 +1,157 @@
-"""I1.1: the next step in the words of the learner's own file. The source only chooses the words."""
+"""I1.1: next steps as edits of the learner's own file. The source only chooses the words.
+
+Where an edit is in the file already, a larger one follows, down to whole functions; plain words are the last resort.
+"""
 
 from __future__ import annotations
 
+import ast
 import re
 
-from checks.i1_1.facts import HIGHEST, LOWEST
-from tutor.judge.causes import parameter_use, timers
-from tutor.judge.reading import Source
+from checks.i1_1.facts import HIGHEST, LOWEST, TOPIC, TYPE
+from tutor.judge.causes import parameter_slips, period_slips
+from tutor.judge.edits import Edit, instead, on_top, removed
+from tutor.judge.rewriting import parameters, publishing
+from tutor.judge.rewriting.node import NodeFile, node_file
+from tutor.judge.trace import Trace
 from tutor.judge.verdict import Cause
 
-DRAW = f"random.uniform({LOWEST}, {HIGHEST})"
+_RANGE = f"({LOWEST}, {HIGHEST})"
 
 
-def draw(source: Source) -> str | None:
-    """The step where the values are not drawn at random, or not from the range."""
-    imported = "" if source.imports("random") else "\nat the top of the file: import random"
-    tick = timers.callback(source)
-    seeded = next((call for call in source.calls("seed") if tick is not None and call.within == tick.name), None)
-    if seeded is not None:
-        return f"remove line {seeded.line}, {seeded.code}: it begins the same row of numbers again"
-    for each in source.assignments():
-        if each.target.endswith(".data"):
-            return f"line {each.line}: {each.target} = {DRAW}{imported}"
-    for call in source.calls("Float64"):
-        if (given := call.named.get("data")) is not None:
-            return call.instead(f"data={given}", f"data={DRAW}") + imported
-    return None
+def file(trace: Trace | None) -> NodeFile:
+    """The learner's file that was started."""
+    return node_file(trace.sources.get(trace.file, "") if trace is not None else "")
 
 
-def as_float(source: Source) -> str | None:
-    """The step where an int is put into the field."""
-    for each in source.assignments():
-        if each.target.endswith(".data"):
-            return f"line {each.line}: {each.target} = float({each.value})"
-    for call in source.calls("Float64"):
-        if (given := call.named.get("data")) is not None:
-            return call.instead(f"data={given}", f"data=float({given})")
-    return None
-
-
-def rate(source: Source, name: str) -> Cause | None:
-    """What keeps the rate from being what a parameter, which is read in Hz, says."""
-    holder = parameter_use.holder(source, name)
-    if holder is not None and (found := re.search(r"\b(?:int|round)\(", holder.value)):
-        right = holder.value.replace(found[0], "float(", 1)
-        return Cause(
-            "rate made a whole number",
-            f"{holder.where} has no decimals: 0.5 becomes 0",
-            f"line {holder.line}: {holder.target} = {right}",
+def drawn(trace: Trace | None) -> str:
+    """Every message has a new value, drawn at random from the range."""
+    read = file(trace)
+    draw, imported = _draw(read)
+    seeding = [
+        removed(read.text, statement.lineno, statement.end_lineno or 0)
+        for call in read.calls("seed")
+        if read.tick is not None and read.within(call) in read.reached(read.tick)
+        for statement in [read.statement(call)]
+    ]
+    return (
+        read.step(
+            seeding,
+            [*publishing.sending(read, draw), *imported],
+            [*publishing.ticking(read, draw), *imported],
         )
-    if (cause := timers.whole_division(source) or timers.other_unit(source) or timers.several(source)) is not None:
+        or f"draw a new value in every callback: random.uniform{_RANGE}"
+    )
+
+
+def published(trace: Trace) -> str:
+    """A publisher, a timer and its callback that sends the messages."""
+    read = file(trace)
+    draw, imported = _draw(read)
+    return read.step([*publishing.publishing(read, TOPIC, TYPE, draw, "1.0"), *imported]) or ""
+
+
+def as_float(trace: Trace | None) -> str:
+    """What is put into the message is a float."""
+    read = file(trace)
+    data = publishing.data_of(read)
+    edits = [instead(read.text, data, f"float({ast.unparse(data)})")] if data is not None else []
+    return read.step(edits) or "make it a float first: msg.data = float(value)"
+
+
+def paced(trace: Trace, name: str, unit: str = "Hz") -> str:
+    """The timer's period follows a parameter, which is a rate in Hz, or a period in s or ms."""
+    read = file(trace)
+    code = {"Hz": f"1.0 / {read.value(name)}", "s": read.value(name), "ms": f"{read.value(name)} / 1000.0"}[unit]
+    return read.step([*publishing.period(read, code), *publishing.only_timer(read)]) or (
+        f"the timer's period is {code}, and there is one timer only"
+    )
+
+
+def pace_declared(trace: Trace | None, name: str) -> str:
+    """There is a rate parameter, and the timer's period follows it."""
+    read = file(trace)
+    return read.step(
+        [*parameters.declared(read, name, 1.0), *publishing.period(read, f"1.0 / {read.value(name)}")]
+    ) or (f"self.declare_parameter('{name}', 1.0), and use its value for the timer's period")
+
+
+def name_declared(trace: Trace, name: str) -> str:
+    """There is a parameter for the sensor's name, and it is logged with every message."""
+    read = file(trace)
+    return read.step([*parameters.declared(read, name, "sensor"), *publishing.logging(read, name)]) or (
+        f"self.declare_parameter('{name}', 'sensor'), and put its value into a log message"
+    )
+
+
+def name_logged(trace: Trace, name: str) -> Cause:
+    """What keeps the sensor's name from the log messages."""
+    read = file(trace)
+    if (cause := _quiet(read) or _without_f(read)) is not None:
         return cause
-    return (
-        parameter_use.not_read(source, name)
-        or (timers.fixed(source, name, holder.target) if holder is not None else None)
-        or _read_elsewhere(source, name)
-    )
+    draw, imported = _draw(read)
+    step = read.step(publishing.logging(read, name), [*publishing.ticking(read, draw, log=name), *imported])
+    words = f"log it with each message: {read.name}.get_logger().info({read.value(name)})"
+    return Cause("parameter ignored", f"{name} is declared, but its value is not logged", step or words)
 
 
-def _read_elsewhere(source: Source, name: str) -> Cause | None:
-    """Whether another parameter is read than the one that is declared."""
-    declared = {call.argument(0, "name") for call in source.calls("declare_parameter")}
-    for call in source.calls("get_parameter", "get_parameter_or"):
-        wanted = call.argument(0, "name")
-        if wanted.startswith("'") and wanted not in declared and f"'{name}'" in declared:
-            return Cause(
-                "parameter ignored",
-                f"{call.where}: no parameter {wanted} is declared",
-                f"line {call.line}: self.get_parameter('{name}')"
-                + (".value" if call.name == "get_parameter_or" else "")
-                + f" instead of {call.code}",
-            )
+def _quiet(read: NodeFile) -> Cause | None:
+    for call in read.calls("debug"):
+        if isinstance(call.func, ast.Attribute):
+            info = instead(read.text, call.func, f"{ast.unparse(call.func.value)}.info")
+            if (step := read.step([info])) is not None:
+                text = f"line {call.lineno}: {ast.unparse(call)}: debug messages are not shown"
+                return Cause("logged at DEBUG", text, step)
     return None
 
 
-def whole_rate(source: Source, name: str) -> Cause | None:
+def _without_f(read: NodeFile) -> Cause | None:
+    for call in read.calls("info", "warning", "warn", "error"):
+        match call.args:
+            case [ast.Constant(value=str() as said) as text, *_] if re.search(r"\{(?:self\.)?\w+", said):
+                if (step := read.step([instead(read.text, text, f"f{said!r}")])) is not None:
+                    words = f"line {call.lineno}: {ast.unparse(call)} logs these words as they are, not the value"
+                    return Cause("no f in front of the text", words, step)
+    return None
+
+
+def why_rate(trace: Trace, name: str) -> Cause | None:
+    """What keeps the rate from being what a parameter, which is read in Hz, says, as far as one line tells it."""
+    read = file(trace)
+    return whole_rate(trace, name) or period_slips.other_unit(read) or parameter_slips.overridden(read, name)
+
+
+def whole_rate(trace: Trace, name: str) -> Cause | None:
     """Whether a rate is cut to a whole number, so that a small one becomes 0."""
-    cause = rate(source, name)
-    return (
-        cause
-        if cause is not None and cause.name in ("rate made a whole number", "period made a whole number")
-        else None
-    )
-
-
-def name_logged(source: Source, name: str) -> Cause | None:
-    """What keeps a text parameter from the log."""
-    tick = timers.callback(source)
-    holder = parameter_use.holder(source, name)
-    if tick is None:
+    read = file(trace)
+    if (cause := period_slips.whole_division(read)) is not None:
+        return cause
+    kept = parameters.kept(read, name)
+    if kept is None or not any(
+        isinstance(each, ast.Call) and isinstance(each.func, ast.Name) and each.func.id in ("int", "round")
+        for each in ast.walk(kept)
+    ):
         return None
-    value = f"self.get_parameter('{name}').value"
-    quiet = [call for call in source.calls("debug") if call.within == tick.name]
-    if quiet and (value in quiet[0].code or (holder is not None and holder.target in quiet[0].code)):
-        return Cause(
-            "logged at DEBUG",
-            f"{quiet[0].where}: debug messages are not shown",
-            quiet[0].instead(".debug(", ".info("),
-        )
-    for call in source.calls("info", "warning", "warn"):
-        text = call.argument(0, "message")
-        if holder is not None and text.startswith(("'", '"')) and f"{{{holder.target}" in text:
-            return Cause(
-                "no f in front of the text",
-                f"{call.where} logs the words {{{holder.target}}}, not the value",
-                call.instead(text, f"f{text}"),
-            )
-    return Cause(
-        "parameter ignored",
-        f"{name} is declared, but its value is not logged",
-        f"begin {tick.name} (line {tick.line}) with: self.get_logger().info({value})",
-    )
+    text = f"line {kept.lineno}: {ast.unparse(kept)} has no decimals: 0.5 becomes 0"
+    return Cause("rate made a whole number", text, paced(trace, name))
+
+
+def _draw(read: NodeFile) -> tuple[str, list[Edit]]:
+    """The code that draws a value, and the import that it needs."""
+    taken = False
+    for node in ast.walk(read.tree):
+        match node:
+            case ast.Import(names=names):
+                found = next((alias for alias in names if alias.name == "random"), None)
+                if found is not None:
+                    return f"{found.asname or found.name}.uniform{_RANGE}", []
+            case ast.ImportFrom(module="random", names=names):
+                found = next((alias for alias in names if alias.name == "uniform"), None)
+                if found is not None:
+                    return f"{found.asname or found.name}{_RANGE}", []
+                taken = taken or any((alias.asname or alias.name) == "random" for alias in names)
+            case ast.ImportFrom(names=names):
+                taken = taken or any((alias.asname or alias.name) == "random" for alias in names)
+    if taken:
+        return f"uniform{_RANGE}", on_top(read.text, "from random import uniform")
+    return f"random.uniform{_RANGE}", on_top(read.text, "import random")

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
+from checks.i2_1 import steps
 from checks.i2_1.facts import (
     ANSWER_S,
     BAD_RATES,
@@ -32,10 +34,9 @@ from checks.i2_1.facts import (
     text,
 )
 from tutor.judge import causes, ending, tracebacks
-from tutor.judge.causes import parameter_use, slips, timers
+from tutor.judge.causes import names, parameter_slips, period_slips, slips
 from tutor.judge.rates import TOLERANCE, Rate, describe
-from tutor.judge.reading import read
-from tutor.judge.trace import Level, SetAnswer, Trace
+from tutor.judge.trace import Level, Parameter, SetAnswer, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Cause, Verdict, failed, passed
 from tutor.judge.wording import shape
@@ -46,42 +47,28 @@ def judge_defaults(seen: Survey) -> Verdict:
     if seen.parameters is None:
         cause = causes.of_no_answer(seen.trace, seen.stuck)
         return failed(expected, "the node answers no parameter call", cause, causes.last_words(seen.trace))
-    source = read(seen.trace)
     found = {name: seen.value_of(name) for name in DEFAULTS}
     observed = ", ".join(f"{n} = {_show(p.value)} ({p.type})" if p else f"no {n}" for n, p in found.items())
-    for name, parameter in found.items():
-        kind, value = DEFAULTS[name]
-        if parameter is None:
-            return failed(
-                expected,
-                observed,
-                causes.not_declared(name, value, source),
-            )
-        if parameter.type != kind:
-            name_of_cause = (
-                "integer parameter" if (kind, parameter.type) == ("double", "integer") else "wrong parameter type"
-            )
-            return failed(
-                expected,
-                observed,
-                Cause(
-                    name_of_cause,
-                    f"{name} is of type {parameter.type}, not {kind}: the type "
-                    "of the default is the type of the parameter",
-                    parameter_use.declared_right(source, name, value),
-                ),
-            )
-        if parameter.value != value:
-            return failed(
-                expected,
-                observed,
-                Cause(
-                    "wrong default",
-                    f"{name} is {_show(parameter.value)}, not {_show(value)}",
-                    parameter_use.declared_right(source, name, value),
-                ),
-            )
+    wrong = [name for name, (kind, value) in DEFAULTS.items() if not _is(found[name], kind, value)]
+    if wrong:
+        cause = _why_default(wrong[0], found[wrong[0]], steps.declared(seen.trace, wrong))
+        return failed(expected, observed, cause)
     return passed(expected, observed)
+
+
+def _is(parameter: Parameter | None, kind: str, value: Any) -> bool:
+    return parameter is not None and (parameter.type, parameter.value) == (kind, value)
+
+
+def _why_default(name: str, parameter: Parameter | None, step: str) -> Cause:
+    kind, value = DEFAULTS[name]
+    if parameter is None:
+        return Cause("parameter not declared", f"the node has no parameter {name}", step)
+    if parameter.type != kind:
+        whole = (kind, parameter.type) == ("double", "integer")
+        text = f"{name} is of type {parameter.type}, not {kind}: the type of the default is the type of the parameter"
+        return Cause(names.INTEGER_PARAMETER if whole else "wrong parameter type", text, step)
+    return Cause("wrong default", f"{name} is {_show(parameter.value)}, not {_show(value)}", step)
 
 
 def judge_launch(seen: Launched) -> Verdict:
@@ -89,7 +76,7 @@ def judge_launch(seen: Launched) -> Verdict:
     samples = seen.trace.on(TOPIC)
     given = f"{PREFIX}:={seen.prefix} {RATE}:={LAUNCH_HZ}"
     if not samples:
-        cause = causes.of_silence(seen.trace, TOPIC, TYPE, answers=True)
+        cause = causes.of_silence(seen.trace, TOPIC, TYPE, answers=True, step=steps.published(seen.trace))
         return failed(expected, f"with {given}: no message on {TOPIC}", cause, causes.last_words(seen.trace))
     without = [text(sample) for sample in samples[-2:] if seen.prefix not in text(sample)]
     if without:
@@ -101,7 +88,11 @@ def judge_launch(seen: Launched) -> Verdict:
         return failed(expected, observed, causes.same_name(seen.trace) or _why_launch_rate(seen))
     if seen.slow_rate is None or not seen.slow_rate.agrees(SLOW_LAUNCH_HZ):
         slow = f"{RATE}:={SLOW_LAUNCH_HZ}: {describe(seen.slow_rate, seen.slow_messages)}"
-        cause = causes.of_process(seen.slow) or _made_whole(seen.slow_rate, SLOW_LAUNCH_HZ) or _other_rate(seen.slow)
+        cause = (
+            causes.of_process(seen.slow)
+            or _made_whole(seen.slow_rate, SLOW_LAUNCH_HZ, steps.heeded(seen.slow, RATE))
+            or _other_rate(seen.slow)
+        )
         return failed(expected, f"with {slow}, not {SLOW_LAUNCH_HZ} Hz ±{TOLERANCE:.0%}", cause)
     off = f"with {ENABLED}:=false {RATE}:={LAUNCH_HZ}"
     loud = seen.disabled.on(TOPIC)
@@ -127,16 +118,16 @@ def judge_launch(seen: Launched) -> Verdict:
 
 
 def _why_launch_rate(seen: Launched) -> Cause:
-    rate, source = seen.rate, read(seen.trace)
-    if (whole := timers.whole_division(source)) is not None:
+    rate, trace = seen.rate, seen.trace
+    if (whole := period_slips.whole_division(steps.file(trace))) is not None:
         return whole
     if rate is not None and rate.in_bursts:
-        return timers.several(source) or causes.in_bursts(RATE)
+        return causes.in_bursts(steps.followed(trace))
     if rate is not None and (rate.agrees(DEFAULT_HZ) or _are_alike(rate, seen.slow_rate)):
-        return _ignored(RATE, seen.trace)
+        return _ignored(RATE, trace)
     if rate is None or rate.agrees(1 / LAUNCH_HZ):
-        return causes.rate_as_period(RATE, source)
-    return _other_rate(seen.trace)
+        return causes.rate_as_period(RATE, steps.heeded(trace, RATE))
+    return _other_rate(trace)
 
 
 def _are_alike(rate: Rate, other: Rate | None) -> bool:
@@ -145,28 +136,22 @@ def _are_alike(rate: Rate, other: Rate | None) -> bool:
 
 
 def _other_rate(trace: Trace) -> Cause:
-    return timers.whole_division(read(trace)) or Cause(
-        "wrong rate", f"{RATE} has an effect, but not this one", f"the timer's period is 1.0 / {RATE}"
+    return period_slips.whole_division(steps.file(trace)) or Cause(
+        "wrong rate", f"{RATE} has an effect, but not this one", steps.heeded(trace, RATE)
     )
 
 
-def _made_whole(rate: Rate | None, asked: float) -> Cause | None:
+def _made_whole(rate: Rate | None, asked: float, step: str) -> Cause | None:
     """A rate of 1.5 Hz becomes 1 or 2 Hz, one of 0.7 Hz becomes 1 Hz."""
     wholes = {math.floor(asked), math.ceil(asked)} - {asked}
     if rate is None or not any(abs(rate.hz - whole) < 0.1 for whole in wholes):
         return None
-    return Cause(
-        "rate made a whole number",
-        f"{RATE} {asked} is treated as {rate.hz:.0f}",
-        f"leave it as it is, a float: no int(), round() or //; the timer's period is 1.0 / {RATE}",
-    )
+    return Cause("rate made a whole number", f"{RATE} {asked} is treated as {rate.hz:.0f}", step)
 
 
 def _ignored(name: str, trace: Trace) -> Cause:
-    return parameter_use.not_read(read(trace), name) or Cause(
-        "parameter ignored",
-        f"{name} given at start-up has no effect",
-        f"read it after declaring it: self.get_parameter('{name}').value",
+    return parameter_slips.overridden(steps.file(trace), name) or Cause(
+        "parameter ignored", f"{name} given at start-up has no effect", steps.heeded(trace, name)
     )
 
 
@@ -200,9 +185,7 @@ def judge_runtime(seen: Switched, retimed: Retimed) -> Verdict:
             or Cause(
                 "does not resume",
                 f"{ENABLED} true does not bring the messages back",
-                slips.truth_as_text(seen.trace)
-                or timers.ended_for_good(read(seen.trace), ENABLED)
-                or "let the timer run on, and only skip publish() while enabled is false; or make the timer again",
+                slips.truth_as_text(seen.trace) or steps.resumed(seen.trace),
             ),
         )
     # A timer that is left behind, whatever is set, is what `timer` tells of.
@@ -223,7 +206,7 @@ def _why_not_as_before(seen: Switched, expected: str, *, any_rate: bool) -> Verd
     both = next((each for each in said if seen.prefix in each), None)
     if both is not None:
         cause = Cause(
-            "old prefix kept", "the new prefix does not replace the old one", "assign it: self.prefix = value"
+            "old prefix kept", "the new prefix does not replace the old one", steps.heeded(seen.trace, PREFIX)
         )
         return failed(expected, f'{off}: "{both}"', cause, said)
     if said and any_rate:
@@ -233,7 +216,7 @@ def _why_not_as_before(seen: Switched, expected: str, *, any_rate: bool) -> Verd
         cause = Cause(
             "messages held back",
             f"what was due while {ENABLED} was false is kept, and sent when it is true again",
-            f"only skip publish() while {ENABLED} is false, and keep nothing for later",
+            steps.resumed(seen.trace),
         )
         return failed(expected, f"{off}: {len(burst)} messages at once", cause, burst)
     if _goes_on(seen.rate, seen.base_hz, seen):
@@ -246,7 +229,7 @@ def _why_not_as_before(seen: Switched, expected: str, *, any_rate: bool) -> Verd
         or Cause(
             "rate changed",
             f"the rate is another one after setting {PREFIX} and {ENABLED}, though {RATE} was not touched",
-            "make a new timer only once the old one is destroyed, and with the period 1.0 / rate",
+            steps.resumed(seen.trace),
         ),
     )
 
@@ -263,11 +246,14 @@ def _ignored_later(name: str, trace: Trace) -> Cause:
     compared = slips.truth_as_text(trace) if name == ENABLED else None
     if compared is not None:
         return Cause("parameter ignored", f"{name} is accepted, but compared with a text", compared)
-    return parameter_use.not_followed(read(trace), name) or Cause(
-        "parameter ignored",
-        f"{name} is accepted, but what the node sends does not follow it",
-        f"read it in every callback (self.get_parameter('{name}').value), or follow it in a parameter callback",
-    )
+    read = steps.file(trace)
+    old = parameter_slips.old_value_read(read, name)
+    if (cause := parameter_slips.overridden(read, name) or parameter_slips.not_called(read)) is not None:
+        return cause
+    if old is not None:
+        return replace(old, hint=old.hint or steps.heeded(trace, name))
+    text = f"{name} is accepted, but what the node sends does not follow it"
+    return Cause("parameter ignored", text, steps.heeded(trace, name))
 
 
 def _last(trace: Trace) -> str:
@@ -284,7 +270,7 @@ def _not_running(seen: Switched | Validated | Retimed | Atomic, expected: str) -
             causes.of_no_answer(trace, stuck),
             causes.last_words(trace),
         )
-    cause = causes.of_silence(trace, TOPIC, TYPE, answers=seen.answering, stuck=stuck)
+    cause = causes.of_silence(trace, TOPIC, TYPE, answers=seen.answering, stuck=stuck, step=steps.published(trace))
     return failed(expected, f"no message on {TOPIC} to start with", cause, causes.last_words(trace))
 
 
@@ -294,7 +280,7 @@ def _not_set(expected: str, answer: SetAnswer, trace: Trace, stuck: Sequence[Fra
         cause = causes.of_no_answer(trace, stuck, spins=True)
         observed = f"setting {what}: {causes.unanswered(trace, ANSWER_S)}"
         return failed(expected, observed, cause, causes.last_words(trace))
-    cause = causes.of_refusal(answer.reason, answer.values, read(trace))
+    cause = causes.of_refusal(answer.reason, steps.taken(trace, answer))
     return failed(expected, f'setting {what}: rejected, "{answer.reason}"', cause)
 
 
@@ -304,9 +290,7 @@ def _ended_by(bad: float, expected: str, trace: Trace) -> Verdict | None:
     told = found.raised if found is not None and trace.exit is not None else ""
     if not told.startswith("ZeroDivisionError") and "timer period must be non-negative" not in told:
         return None
-    cause = parameter_use.not_refused(read(trace), RATE, bad)
-    if cause is None:
-        return None
+    cause = _not_refused(trace, bad)
     return failed(expected, f"{RATE} set to {bad} ends the node: {told}", cause, causes.last_words(trace))
 
 
@@ -314,7 +298,6 @@ def judge_validation(seen: Validated, switched: Switched) -> Verdict:
     expected = f"{RATE} 0.0 and -1.0 are rejected with a reason; the value and the rate stay at {seen.base_hz} Hz"
     if not seen.rejected:
         return _not_running(seen, expected)
-    source = read(seen.trace)
     for answer, value in seen.rejected:
         bad = answer.values[RATE]
         if not answer.answered:
@@ -323,23 +306,13 @@ def judge_validation(seen: Validated, switched: Switched) -> Verdict:
             return failed(
                 expected,
                 f"{RATE} {bad} was accepted",
-                parameter_use.not_refused(source, RATE, bad)
-                or Cause(
-                    "no validation",
-                    f"nothing rejects {bad}",
-                    "return SetParametersResult(successful=False, reason='...') from an on-set-parameters callback",
-                ),
+                _not_refused(seen.trace, bad),
             )
         if not answer.reason.strip():
             return failed(
                 expected,
                 f"{bad} was rejected without a reason",
-                Cause(
-                    "no reason given",
-                    "the reason is empty",
-                    parameter_use.without_reason(source, RATE)
-                    or "SetParametersResult(successful=False, reason='the rate must be > 0')",
-                ),
+                Cause("no reason given", "the reason is empty", steps.refused(seen.trace)),
             )
         if causes.RCLPYS_OWN.match(answer.reason):
             return _not_set(expected, answer, seen.trace, seen.stuck)
@@ -350,15 +323,14 @@ def judge_validation(seen: Validated, switched: Switched) -> Verdict:
                 Cause(
                     "value changed all the same",
                     "the value is not what it was",
-                    parameter_use.checked_too_late(source, RATE) or "change nothing when you reject",
+                    steps.refused(seen.trace),
                 ),
             )
     if not _goes_on(seen.rate, seen.base_hz, switched):
         cause = (causes.of_process(seen.trace) if seen.trace.exit else None) or Cause(
             "value changed all the same",
             "the rate changes although the value was rejected",
-            parameter_use.checked_too_late(source, RATE)
-            or "check the value first; touch the timer only once it is accepted",
+            steps.refused(seen.trace),
         )
         return failed(expected, f"after the rejection: {describe(seen.rate, seen.messages)}", cause)
     return passed(expected, f'rejected: "{seen.rejected[0][0].reason}"; still {seen.rate}')
@@ -384,23 +356,43 @@ def judge_timer(seen: Retimed) -> Verdict:
 def _why_timer(seen: Retimed, asked: float, rate: Rate | None) -> Cause:
     if seen.trace.exit and (cause := causes.of_process(seen.trace)):
         return cause
-    source = read(seen.trace)
+    read, trace = steps.file(seen.trace), seen.trace
+    whole_division = period_slips.whole_division(read)
     if rate is not None and rate.in_bursts:
-        return timers.whole_division(source) or timers.several(source) or causes.in_bursts(RATE)
+        return whole_division or causes.in_bursts(steps.followed(trace))
     before = DEFAULT_HZ if asked == UP_HZ else UP_HZ
     faster = seen.steps[0][1]
     left_behind = asked == DOWN_HZ and faster is not None and faster.hz > UP_HZ + DEFAULT_HZ / 2
     if rate is not None and rate.agrees(before) and not left_behind:
-        return causes.timer_not_replaced(RATE, source)
+        return _not_replaced(trace)
     if rate is not None and rate.hz < UP_HZ and all(_are_alike(rate, other) for _, other, _ in seen.steps):
-        return causes.timer_not_replaced(RATE, source)
-    if (whole := _made_whole(rate, asked)) is not None:
+        return _not_replaced(trace)
+    if (whole := _made_whole(rate, asked, steps.followed(trace))) is not None:
         return whole
     if rate is not None and rate.hz > asked:
-        return timers.whole_division(source) or causes.old_timer_kept(rate.hz, asked, source)
+        return whole_division or causes.old_timer_kept(rate.hz, asked, steps.followed(trace))
     if rate is None or rate.agrees(1 / asked):
-        return timers.whole_division(source) or causes.rate_as_period(RATE, source)
-    return Cause("wrong rate", f"{rate.hz:.1f} Hz instead of {asked:g} Hz", "the timer's period is 1.0 / rate seconds")
+        return whole_division or causes.rate_as_period(RATE, steps.followed(trace))
+    return Cause("wrong rate", f"{rate.hz:.1f} Hz instead of {asked:g} Hz", steps.followed(trace))
+
+
+def _not_replaced(trace: Trace) -> Cause:
+    """The parameter has a new value, the timer its old period."""
+    read = steps.file(trace)
+    if (cause := parameter_slips.overridden(read, RATE)) is not None:
+        return cause
+    if (old := parameter_slips.old_value_read(read, RATE)) is not None:
+        return replace(old, hint=old.hint or steps.followed(trace))
+    text = "the parameter changes, but the timer keeps its old period"
+    return parameter_slips.not_called(read) or Cause(names.TIMER_NOT_REPLACED, text, steps.followed(trace))
+
+
+def _not_refused(trace: Trace, bad: float) -> Cause:
+    """A bad number is taken."""
+    read = steps.file(trace)
+    return parameter_slips.not_called(read) or Cause(
+        "no validation", parameter_slips.why_accepted(read, bad), steps.refused(trace)
+    )
 
 
 def _goes_on(rate: Rate | None, hz: float, switched: Switched) -> bool:
@@ -415,7 +407,6 @@ def judge_atomic(seen: Atomic, switched: Switched) -> Verdict:
     expected = f"an atomic set of a good {PREFIX} and a bad {RATE}, in either order, changes nothing at all"
     if not seen.answers:
         return _not_running(seen, expected)
-    source = read(seen.trace)
     unanswered = next((answer for answer in seen.answers if not answer.answered), None)
     if unanswered is not None:
         return _ended_by(BAD_RATES[1], expected, seen.trace) or _not_set(expected, unanswered, seen.trace, seen.stuck)
@@ -423,20 +414,12 @@ def judge_atomic(seen: Atomic, switched: Switched) -> Verdict:
         return failed(
             expected,
             "the request was accepted",
-            parameter_use.not_refused(source, RATE, BAD_RATES[1])
-            or Cause(
-                "no validation",
-                f"{RATE} {BAD_RATES[1]} is not rejected in an atomic request",
-                "check every parameter of the list before you accept",
-            ),
+            _not_refused(seen.trace, BAD_RATES[1]),
         )
     if "declared" in seen.answers[0].reason:
         return _not_set(expected, seen.answers[0], seen.trace, seen.stuck)
     changed = next((held for held in seen.values if held != seen.before), None)
-    partial = (
-        parameter_use.checked_too_late(source, RATE)
-        or "only validate in the on-set callback; apply in a post-set callback (add_post_set_parameters_callback)"
-    )
+    partial = steps.separate(seen.trace)
     if changed is not None or seen.shown is not None:
         now = f'a message reads "{text(seen.shown)}"' if seen.shown else f"{PREFIX}, {RATE} are {changed}"
         return failed(
@@ -474,8 +457,7 @@ def judge_bad_launch(plain: Survey, seen: Sequence[Trace]) -> Verdict:
                 "nobody can tell from this which parameter is wrong"
                 if found
                 else "the node takes the bad value silently",
-                parameter_use.checked_at_start(read(trace), RATE)
-                or f"check it after declaring it, and log an error that names {RATE}",
+                steps.checked_at_start(trace),
             )
             return failed(expected, observed, cause, causes.last_words(trace))
     return passed(expected, "it does", [naming(trace)[-1] for trace in seen])

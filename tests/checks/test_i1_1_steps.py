@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 
 from checks.i1_1 import steps
-from tutor.judge.reading import UNREAD, Source
+from tests.repairs import follow
+from tutor.judge.trace import Trace
 
 NODE = """\
 import random
@@ -30,37 +31,55 @@ class Sensor(Node):
 """
 
 
-def changed(*pairs: tuple[str, str]) -> Source:
+def changed(*pairs: tuple[str, str]) -> Trace:
     """The node with something of it written otherwise."""
     code = NODE
     for old, new in pairs:
         assert old in code
         code = code.replace(old, new)
-    return Source(code)
+    return Trace("node.py", sources={"node.py": code})
+
+
+def after(step: str, trace: Trace) -> str:
+    """The file after the step, done word for word."""
+    return follow(step, trace.sources)["node.py"]
 
 
 @pytest.mark.parametrize(
-    ("source", "step"),
+    ("trace", "line"),
     [
-        (changed(("random.uniform(20.0, 30.0)", "self.value")), "line 17: msg.data = random.uniform(20.0, 30.0)"),
-        (changed(("        msg =", "        random.seed(1)\n        msg =")), "remove line 16, random.seed(1)"),
+        (changed(("random.uniform(20.0, 30.0)", "self.value")), "        msg.data = random.uniform(20.0, 30.0)\n"),
         (
             changed(("        msg.data = random.uniform(20.0, 30.0)\n", ""), ("Float64()", "Float64(data=self.value)")),
-            "line 16: msg = Float64(data=random.uniform(20.0, 30.0))",
+            "        msg = Float64(data=random.uniform(20.0, 30.0))\n",
         ),
-        (changed(("import random\n", "")), "\nat the top of the file: import random"),
+        (changed(("random.uniform(", "int("), ("import random\n", "")), "import random\n"),
+        (changed(("random.uniform(", "int("), ("import random\n", "import random as r\n")), "= r.uniform(20.0, 30.0)"),
+        (changed(("random.uniform(", "int("), ("import random\n", "from random import random\n")), "= uniform(20.0"),
     ],
 )
-def test_draw(source: Source, step: str) -> None:
-    assert step in str(steps.draw(source))
+def test_drawn(trace: Trace, line: str) -> None:
+    assert line in after(steps.drawn(trace), trace)
+
+
+def test_a_generator_that_is_seeded_each_time_is_left_alone() -> None:
+    trace = changed(("        msg =", "        random.seed(1)\n        msg ="))
+    assert after(steps.drawn(trace), trace) == NODE
+
+
+def test_where_the_value_is_drawn_already_the_whole_callback_is_told() -> None:
+    trace = changed(
+        ("        self.publisher.p", "        msg.data = random.uniform(20.0, 30.0)\n        self.publisher.p")
+    )
+    assert steps.drawn(trace).startswith("lines 15 to 20 become:\n    def tick(self):")
 
 
 def test_an_int_becomes_a_float() -> None:
-    assert steps.as_float(changed(("random.uniform(20.0, 30.0)", "25"))) == "line 17: msg.data = float(25)"
+    assert steps.as_float(changed(("random.uniform(20.0, 30.0)", "25"))) == "line 17 becomes: msg.data = float(25)"
 
 
 @pytest.mark.parametrize(
-    ("source", "cause", "step"),
+    ("trace", "cause", "line"),
     [
         (
             changed(
@@ -70,73 +89,66 @@ def test_an_int_becomes_a_float() -> None:
                 )
             ),
             "rate made a whole number",
-            "line 10: self.rate = float(self.get_parameter('publish_rate').value)",
+            "self.create_timer(1.0 / self.get_parameter('publish_rate').value, self.tick)",
         ),
-        (changed(("1.0 / self.rate", "1 // self.rate")), "period made a whole number", "1 / self.rate"),
-        (
-            changed(("1.0 / self.rate", "1000.0 / self.rate")),
-            "wrong timer period",
-            "line 13: self.timer = self.create_timer(1.0 / self.rate, self.tick)",
-        ),
-        (
-            changed(("1.0 / self.rate", "1.0")),
-            "parameter ignored",
-            "line 13: self.timer = self.create_timer(1.0 / self.rate, self.tick)",
-        ),
-        (
-            changed(("        msg =", "        self.create_timer(1.0 / self.rate, self.tick)\n        msg =")),
-            "wrong rate",
-            "remove line 16",
-        ),
-        (
-            changed(("        self.timer =", "        self.create_timer(1.0, self.tick)\n        self.timer =")),
-            "wrong rate",
-            "remove line 13: self.create_timer(1.0, self.tick)",
-        ),
+        (changed(("1.0 / self.rate", "1 // self.rate")), "period made a whole number", "(1 / self.rate"),
+        (changed(("1.0 / self.rate", "1000.0 / self.rate")), "wrong timer period", "timer(1.0 / self.rate"),
         (
             changed(("        self.timer =", "        self.rate = 1.0\n        self.timer =")),
             "value overwritten by the node",
-            "remove line 13",
-        ),
-        (
-            changed(("get_parameter('publish_rate')", "get_parameter_or('rate', None)")),
-            "parameter ignored",
-            "self.get_parameter('publish_rate').value",
+            "value\n        self.publisher",
         ),
     ],
 )
-def test_rate(source: Source, cause: str, step: str) -> None:
-    found = steps.rate(source, "publish_rate")
+def test_why_the_rate_is_another(trace: Trace, cause: str, line: str) -> None:
+    found = steps.why_rate(trace, "publish_rate")
     assert found is not None
-    assert found.name == cause, found
-    assert step in found.hint
+    assert found.name == cause
+    assert line in after(found.hint, trace)
 
 
 @pytest.mark.parametrize(
-    ("source", "cause", "step"),
+    ("unit", "code"),
     [
-        (changed((".info(", ".debug(")), "logged at DEBUG", "line 19: self.get_logger().info(f'"),
-        (
-            changed(("info(f'", "info('")),
-            "no f in front of the text",
-            "line 19: self.get_logger().info(f'{self.sensor}",
-        ),
+        ("Hz", "1.0 / self.get_parameter('period').value"),
+        ("s", "self.get_parameter('period').value"),
+        ("ms", "self.get_parameter('period').value / 1000.0"),
+    ],
+)
+def test_paced(unit: str, code: str) -> None:
+    assert (
+        steps.paced(changed(), "period", unit) == f"line 13 becomes: self.timer = self.create_timer({code}, self.tick)"
+    )
+
+
+@pytest.mark.parametrize(
+    ("trace", "cause", "line"),
+    [
+        (changed((".info(", ".debug(")), "logged at DEBUG", ".info(f'{self.sensor}: {msg.data}')"),
+        (changed(("info(f'", "info('")), "no f in front of the text", ".info(f'{self.sensor}: {msg.data}')"),
         (
             changed(("{self.sensor}: ", "")),
             "parameter ignored",
-            "begin tick (line 15) with: self.get_logger().info(self.get_parameter('sensor_name').value)",
+            "        self.get_logger().info(str(self.get_parameter('sensor_name').value))\n        self.pub",
         ),
     ],
 )
-def test_name_logged(source: Source, cause: str, step: str) -> None:
-    found = steps.name_logged(source, "sensor_name")
-    assert found is not None
+def test_name_logged(trace: Trace, cause: str, line: str) -> None:
+    found = steps.name_logged(trace, "sensor_name")
     assert found.name == cause
-    assert step in found.hint
+    assert line in after(found.hint, trace)
 
 
-def test_nothing_is_said_of_what_is_right() -> None:
-    assert steps.rate(Source(NODE), "publish_rate") is None
-    for step in (steps.rate, steps.name_logged):
-        assert step(UNREAD, "publish_rate") is None
-    assert steps.draw(UNREAD) is None
+def test_what_is_not_declared_is_declared_and_used() -> None:
+    rate = after(steps.pace_declared(changed(), "hz"), changed())
+    assert "self.declare_parameter('hz', 1.0)\n" in rate
+    assert "create_timer(1.0 / self.get_parameter('hz').value, self.tick)" in rate
+    name = after(steps.name_declared(changed(), "name"), changed())
+    assert "self.declare_parameter('name', 'sensor')\n" in name
+    assert "info(str(self.get_parameter('name').value))" in name
+
+
+def test_without_a_source_the_plain_words_are_left() -> None:
+    assert steps.why_rate(changed(), "publish_rate") is None
+    assert "random.uniform(20.0, 30.0)" in steps.drawn(None)
+    assert steps.published(Trace("node.py")) == ""

@@ -325,12 +325,13 @@ def test_what_ros_says_by_itself_is_not_the_learners_print(seen: Trace, after: s
         ("Trying to set a read-only parameter: rate.", "rejected"),
         ("too fast", "rejected"),
         ("", "rejected"),
+        ("Parameter rate out of range Min: 1.0, Max: 5.0, value: 10.0", "range too narrow"),
     ],
 )
 def test_why_a_good_value_is_refused(reason: str, cause: str) -> None:
-    found = of_refusal(reason, {"rate": 10.0})
+    found = of_refusal(reason, "declare it")
     assert found.name == cause
-    assert found.hint
+    assert found.hint == "declare it"
 
 
 def test_an_exception_that_nobody_knows_does_not_get_its_line_unchanged_as_the_step() -> None:

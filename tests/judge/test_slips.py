@@ -18,10 +18,10 @@ def node(text: str) -> Trace:
 @pytest.mark.parametrize(
     ("text", "step"),
     [
-        ("self.on = str(p.value) == 'true'", "in line 1, write p.value in place of str(p.value) == 'true'"),
-        ("\nif p.value == 'True':\n  pass", "in line 2, write p.value in place of p.value == 'True'"),
-        ("self.on = p.value != 'false'", "write p.value in place of"),
-        ("self.on = 'false' == p.value", "write not p.value in place of"),
+        ("self.on = str(p.value) == 'true'", "line 1 becomes: self.on = p.value"),
+        ("\nif p.value == 'True':\n  pass", "line 2 becomes: if p.value:"),
+        ("self.on = p.value != 'false'", "becomes: self.on = p.value"),
+        ("self.on = 'false' == p.value", "becomes: self.on = not p.value"),
     ],
 )
 def test_a_truth_is_no_text(text: str, step: str) -> None:

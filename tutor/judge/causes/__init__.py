@@ -6,13 +6,11 @@ from tutor.judge.causes.output import of_printed
 from tutor.judge.causes.parameters import (
     RCLPYS_OWN,
     in_bursts,
-    not_declared,
     of_refusal,
     of_types,
     old_timer_kept,
     period_as_rate,
     rate_as_period,
-    timer_not_replaced,
 )
 from tutor.judge.causes.process import (
     QUICK_S,
@@ -46,7 +44,6 @@ __all__ = [
     "known",
     "last_words",
     "no_spin",
-    "not_declared",
     "of_blocked",
     "of_deafness",
     "of_lifecycle",
@@ -63,7 +60,6 @@ __all__ = [
     "period_as_rate",
     "rate_as_period",
     "same_name",
-    "timer_not_replaced",
     "unanswered",
     "waiting_for_lock",
     "wrong_topic",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 
-from tutor.judge import source
+from tutor.judge import edits, source
 from tutor.judge.trace import Trace
 
 _TRUTHS = {"true": True, "1": True, "on": True, "false": False, "0": False, "off": False}
@@ -12,24 +12,21 @@ _TRUTHS = {"true": True, "1": True, "on": True, "false": False, "0": False, "off
 
 def truth_as_text(trace: Trace) -> str | None:
     """The step where a parameter's value, which is True or False, is compared with a text such as 'true'."""
-    for node in source.nodes(trace):
+    for node in source.tree(trace.sources.get(trace.file, "")):
         match node:
             case ast.Compare(left=left, ops=[ast.Eq() | ast.NotEq() as how], comparators=[right]):
                 pass
             case _:
                 continue
-        sides = (left, right) if isinstance(right, ast.Constant) else (right, left)
-        of, text = sides
-        if not (isinstance(text, ast.Constant) and isinstance(text.value, str)):
+        of, said = (left, right) if isinstance(right, ast.Constant) else (right, left)
+        if not (isinstance(said, ast.Constant) and isinstance(said.value, str)):
             continue
-        truth, value = _TRUTHS.get(text.value.lower()), _value(of)
+        truth, value = _TRUTHS.get(said.value.lower()), _value(of)
         if truth is None or value is None:
             continue
+        text = trace.sources.get(trace.file, "")
         right_way = truth is isinstance(how, ast.Eq)
-        return (
-            f"in line {node.lineno}, write {'' if right_way else 'not '}{ast.unparse(value)} in place of "
-            f"{ast.unparse(node)}: the value is True or False, and no text"
-        )
+        return edits.told(text, edits.instead(text, node, f"{'' if right_way else 'not '}{ast.unparse(value)}"))
     return None
 
 

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import ast
 import difflib
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 
-from tutor.judge.causes import names, timers
+from tutor.judge.causes import names, period_slips
 from tutor.judge.causes.process import node_names, of_no_answer, of_process
+from tutor.judge.edits import instead
 from tutor.judge.qos import Policy, unmet
-from tutor.judge.reading import UNREAD, Source, read
+from tutor.judge.reading import Source, read
+from tutor.judge.rewriting.node import NodeFile, argument, node_file
 from tutor.judge.trace import Endpoint, Service, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Cause
@@ -16,10 +20,13 @@ from tutor.judge.verdict import Cause
 _ASLEEP = "lifecycle node not activated"
 
 
-def of_silence(trace: Trace, topic: str, type_name: str, *, answers: bool, stuck: Sequence[Frame] = ()) -> Cause:
+def of_silence(
+    trace: Trace, topic: str, type_name: str, *, answers: bool, stuck: Sequence[Frame] = (), step: str = ""
+) -> Cause:
     """Why nothing of `type_name` came on `topic`.
 
-    `answers`: whether a node of the learner's answered a request; if not, `stuck` says where it was meanwhile.
+    `answers`: whether a node of the learner's answered a request; if not, `stuck` says where it was meanwhile. `step`:
+    how publisher, timer and callback are made right as a whole, where the check knows.
     """
     if (cause := of_process(trace) or of_lifecycle(trace)) is not None:
         return cause
@@ -28,15 +35,27 @@ def of_silence(trace: Trace, topic: str, type_name: str, *, answers: bool, stuck
     if any(endpoint.type == type_name for endpoint in here):
         if not answers:
             return of_no_answer(trace, stuck)
-        return timers.idle(read(trace), topic) or Cause(
-            "no messages",
-            f"there is a publisher on {topic}, but it sent nothing",
-            "does the timer's callback call publish(), and is the timer kept in self?",
-        )
-    return _misplaced(trace, publishers, topic, type_name, "create_publisher") or Cause(
+        return _idle(trace, topic, step)
+    if (cause := _misplaced(trace, publishers, topic, type_name, "create_publisher")) is not None:
+        return replace(cause, hint=step) if cause.name == names.WRONG_TYPE and step else cause
+    return Cause(
         "no publisher",
         f"{node_names(trace)} is up, but has no publisher on {topic}",
-        f"create one in __init__: self.create_publisher({_class(type_name)}, '{topic}', 10)",
+        step or f"create one in __init__: self.create_publisher({_class(type_name)}, '{topic}', 10)",
+    )
+
+
+def _idle(trace: Trace, topic: str, step: str) -> Cause:
+    """Why a publisher that is there never sends anything."""
+    file = _file(trace)
+    if file.publisher and not file.calls("publish"):
+        text = f"there is a publisher on {topic}, but nothing calls publish()"
+    elif file.publisher and not file.timers:
+        text = f"there is a publisher on {topic}, but no timer calls what publishes"
+    else:
+        text = f"there is a publisher on {topic}, but it sent nothing"
+    return period_slips.other_unit(file) or Cause(
+        "no messages", text, step or "publish from a timer's callback, and keep the timer in self"
     )
 
 
@@ -118,27 +137,29 @@ def of_qos(trace: Trace, topic: str) -> Cause | None:
 
 
 def wrong_topic(
-    endpoints: Iterable[Endpoint], topic: str, create: str = "create_publisher", source: Source = UNREAD
+    endpoints: Iterable[Endpoint], topic: str, create: str = "create_publisher", file: NodeFile | None = None
 ) -> Cause:
     """The endpoint is there, under another name; what kind of slip it is follows from the name."""
+    file = file or node_file("")
     found = sorted({endpoint.topic for endpoint in endpoints})
     name = min(found, key=lambda each: -difflib.SequenceMatcher(None, each, topic).ratio())
     verb = "go to" if create == "create_publisher" else "are taken from"
     return Cause(
         names.WRONG_TOPIC,
         f"messages of this type {verb} {', '.join(found)}, not {verb.split()[-1]} {topic}: {_slip(name, topic)}",
-        _renamed(source, create, topic, name) or f"use exactly '{topic}' in {create}",
+        _renamed(file, create, topic, name) or f"use exactly '{topic}' in {create}",
     )
 
 
-def _renamed(source: Source, create: str, topic: str, name: str) -> str | None:
+def _renamed(file: NodeFile, create: str, topic: str, name: str) -> str | None:
     """The step with the line that makes the endpoint."""
     last = name.rsplit("/", 1)[-1]
-    for made in source.calls(create, create.replace("create_", "create_lifecycle_")):
-        written = made.argument(1, "topic")
-        if written.strip("'").endswith(last):
-            return made.instead(written, repr(topic))
-    return None
+    made = file.calls(create, create.replace("create_", "create_lifecycle_"))
+    written = [given for each in made if (given := argument(each, 1, "topic")) is not None]
+    said = [each for each in written if isinstance(each, ast.Constant) and str(each.value).endswith(last)]
+    return next(
+        (step for each in said or written if (step := file.step([instead(file.text, each, repr(topic))]))), None
+    )
 
 
 def _slip(name: str, wanted: str) -> str:
@@ -194,13 +215,17 @@ def _misplaced(trace: Trace, endpoints: Sequence[Endpoint], topic: str, type_nam
     elsewhere = [endpoint for endpoint in endpoints if endpoint.type == type_name] or [
         endpoint for endpoint in endpoints if difflib.get_close_matches(endpoint.topic, [topic], cutoff=0.6)
     ]
-    return wrong_topic(elsewhere, topic, create, read(trace)) if elsewhere else None
+    return wrong_topic(elsewhere, topic, create, _file(trace)) if elsewhere else None
 
 
 def _everywhere(source: Source, wrong: str, right: str) -> str | None:
     """The step where a type is used throughout the file."""
     lines = [str(number) for number in source.lines_with(wrong)]
     return f"write {right} instead of {wrong}, everywhere in the file: line {', '.join(lines)}" if lines else None
+
+
+def _file(trace: Trace) -> NodeFile:
+    return node_file(trace.sources.get(trace.file, ""))
 
 
 def _class(type_name: str) -> str:

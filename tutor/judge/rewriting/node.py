@@ -204,7 +204,7 @@ class NodeFile:
 
         The last lines come first: so the numbers of the others stay true for anyone who does one after the other.
         """
-        tried = (told(self.text, *_from_below(each)) for each in choices if each)
+        tried = (told(self.text, *_from_below(each)) for each in choices if each and self.tree.body)
         return next((words for words in tried if words is not None), None)
 
 

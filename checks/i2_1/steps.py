@@ -1,0 +1,116 @@
+"""I2.1: next steps as edits of the learner's own file. The source only chooses the words.
+
+Where an edit is in the file already, a larger one follows, down to whole functions; plain words are the last resort.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from checks.i2_1.facts import DEFAULTS, ENABLED, PREFIX, RATE, TOPIC, TYPE
+from tutor.judge import causes
+from tutor.judge.edits import Edit
+from tutor.judge.rewriting import parameters, publishing
+from tutor.judge.rewriting.node import NodeFile, node_file
+from tutor.judge.trace import SetAnswer, Trace
+
+
+def file(trace: Trace) -> NodeFile:
+    """The learner's file that was started."""
+    return node_file(trace.sources.get(trace.file, ""))
+
+
+def declared(trace: Trace, names: Sequence[str]) -> str:
+    """These parameters are declared with their defaults."""
+    read = file(trace)
+    edits = [
+        edit
+        for name in names
+        for edit in parameters.renamed(read, name, list(DEFAULTS)) or parameters.declared(read, name, DEFAULTS[name][1])
+    ]
+    name = names[0]
+    return read.step(edits) or f"{read.name}.declare_parameter({name!r}, {DEFAULTS[name][1]!r}) in __init__"
+
+
+def published(trace: Trace) -> str:
+    """A publisher, a timer and its callback that sends the messages."""
+    read = file(trace)
+    data, period = publishing.text_with(read, PREFIX), f"1.0 / {read.value(RATE)}"
+    return read.step(publishing.publishing(read, TOPIC, TYPE, data, period, enabled=ENABLED)) or ""
+
+
+def heeded(trace: Trace, name: str) -> str:
+    """What the node does follows the parameter: each message looks its value up."""
+    read = file(trace)
+    if name == RATE:
+        first = publishing.period(read, f"1.0 / {read.value(RATE)}")
+    elif name == PREFIX:
+        first = publishing.sending(read, publishing.text_with(read, PREFIX))
+    else:
+        first = publishing.waiting_while_off(read, ENABLED)
+    words = f"the timer's period is 1.0 / {RATE}" if name == RATE else f"look {name} up for each message"
+    return read.step(first, _ticking(read), _whole(read)) or f"{words}: {read.value(name)}"
+
+
+def followed(trace: Trace) -> str:
+    """Every change of a parameter takes effect: its callbacks are rewritten, or else the timer's, too."""
+    read = file(trace)
+    return read.step([*_following(read), *publishing.only_timer(read)], _whole(read)) or (
+        "in a post-set callback: cancel the timer, and make another one with the period 1.0 / rate"
+    )
+
+
+def resumed(trace: Trace) -> str:
+    """The timer goes on, whatever `enabled` says: the timer's callback and those of the parameters are rewritten."""
+    read = file(trace)
+    return read.step(_whole(read), _following(read), _ticking(read)) or (
+        f"let one timer run on, and only skip publish() while {ENABLED} is false"
+    )
+
+
+def refused(trace: Trace) -> str:
+    """Bad rates are refused, before anything else is done."""
+    read = file(trace)
+    first = [*parameters.without_pre_set(read), *parameters.refusing(read, RATE)]
+    return read.step(first, _following(read)) or (
+        "return SetParametersResult(successful=False, reason='...') from an on-set-parameters callback"
+    )
+
+
+def taken(trace: Trace, answer: SetAnswer) -> str:
+    """A good value is accepted: the declaration leaves it free, and so do the callbacks."""
+    read, reason = file(trace), answer.reason
+    if "parameter list cannot be empty" in reason:
+        return refused(trace)
+    if (causes.RCLPYS_OWN.match(reason) and "Callback returned" not in reason) or "out of range" in reason:
+        declaring = [each for n in answer.values for each in parameters.declared(read, n, DEFAULTS[n][1], plain=True)]
+        return read.step(declaring, _following(read)) or "declare it in __init__ with its default, and nothing more"
+    return separate(trace)
+
+
+def separate(trace: Trace) -> str:
+    """All values are checked before one takes effect."""
+    read = file(trace)
+    return read.step(_following(read), _whole(read)) or (
+        "only validate in the on-set callback; apply in a post-set callback (add_post_set_parameters_callback)"
+    )
+
+
+def checked_at_start(trace: Trace) -> str:
+    """A bad rate that the node is started with is told by the parameter's name."""
+    read = file(trace)
+    return read.step(parameters.checked_at_start(read, RATE)) or (
+        f"check it after declaring it, and log an error that names {RATE}"
+    )
+
+
+def _following(read: NodeFile) -> list[Edit]:
+    return parameters.following(read, RATE, PREFIX, ENABLED)
+
+
+def _ticking(read: NodeFile) -> list[Edit]:
+    return publishing.ticking(read, publishing.text_with(read, PREFIX), enabled=ENABLED)
+
+
+def _whole(read: NodeFile) -> list[Edit]:
+    return [*_following(read), *publishing.only_timer(read), *_ticking(read)]

@@ -1,0 +1,291 @@
+"""General edits of a node: whole functions, or one line, in the learner's own names."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.repairs import follow
+from tutor.judge.causes import parameter_slips, period_slips
+from tutor.judge.edits import Edit
+from tutor.judge.rewriting import parameters, publishing
+from tutor.judge.rewriting.node import NodeFile, node_file
+
+RATE, PREFIX, ENABLED = "publish_rate", "message_prefix", "enabled"
+NODE = """\
+from rcl_interfaces.msg import SetParametersResult
+from rclpy.node import Node
+from std_msgs.msg import String
+
+
+class ParameterizedPublisher(Node):
+    def __init__(self):
+        super().__init__('parameterized_publisher')
+        self.declare_parameter('message_prefix', 'Hello')
+        self.declare_parameter('publish_rate', 1.0)
+        self.prefix = self.get_parameter('message_prefix').value
+        self.rate = self.get_parameter('publish_rate').value
+        self.count = 0
+        self.publisher = self.create_publisher(String, 'chatter', 10)
+        self.timer = self.create_timer(1.0 / self.rate, self.tick)
+        self.add_on_set_parameters_callback(self.changed)
+
+    def changed(self, params):
+        return SetParametersResult(successful=True)
+
+    def tick(self):
+        self.publisher.publish(String(data=self.prefix))
+        self.count += 1
+"""
+REGISTERED = "        self.add_on_set_parameters_callback(self.changed)\n"
+MODULE = """\
+import rclpy
+from std_msgs.msg import String
+
+rclpy.init()
+node = rclpy.create_node('p')
+node.declare_parameter('publish_rate', 1.0)
+pub = node.create_publisher(String, 'chatter', 10)
+
+
+def tick():
+    pub.publish(String(data='Hello'))
+
+
+timer = node.create_timer(1.0, tick)
+rclpy.spin(node)
+"""
+
+
+def changed(*pairs: tuple[str, str], text: str = NODE) -> NodeFile:
+    """The node with something of it written otherwise."""
+    for old, new in pairs:
+        assert old in text
+        text = text.replace(old, new)
+    return node_file(text)
+
+
+def done(file: NodeFile, edits: list[Edit] | None) -> str:
+    """The file after the step, done word for word."""
+    step = file.step(edits)
+    assert step is not None
+    return follow(step, {"node.py": file.text})["node.py"]
+
+
+def test_the_callback_refuses_bad_rates_and_lets_the_others_take_effect() -> None:
+    after = done(changed(), parameters.following(changed(), RATE, PREFIX, ENABLED))
+    assert (
+        """\
+    def changed(self, params):
+        for p in params:
+            if p.name == 'publish_rate' and p.value <= 0.0:
+                return SetParametersResult(successful=False, reason='publish_rate must be > 0')
+        for p in params:
+            if p.name == 'message_prefix':
+                self.prefix = p.value
+            elif p.name == 'publish_rate':
+                self.rate = p.value
+                self.timer.cancel()
+                self.timer = self.create_timer(1.0 / p.value, self.tick)
+        return SetParametersResult(successful=True)
+"""
+        in after
+    )
+
+
+@pytest.mark.parametrize(
+    ("file", "words"),
+    [
+        (changed((REGISTERED, "")), ["self.add_on_set_parameters_callback(self.check_parameters)", "def check_param"]),
+        (changed(("add_on_set", "add_post_set")), ["def check_parameters(self, params):", "add_on_set_parameters"]),
+        (
+            changed(("self.timer = ", "")),
+            ["        self.timer = self.create_timer(1.0 / self.rate, self.tick)", "self.timer.cancel()"],
+        ),
+        (
+            changed(
+                ("import SetParametersResult", "import SetParametersResult as Result"), ("return Set", "return Set")
+            ),
+            ["return Result(successful=True)"],
+        ),
+        (
+            changed(("from rcl_interfaces.msg import SetParametersResult\n", "")),
+            ["from rcl_interfaces.msg import SetParametersResult\n"],
+        ),
+        (changed(("self.changed)", "lambda params: None)")), ["callback(self.check_parameters)"]),
+        (
+            changed(
+                (REGISTERED, ""),
+                ("        self.declare_parameter('m", f"{REGISTERED}        self.declare_parameter('m"),
+            ),
+            ["and getattr(self, 'timer', None):"],
+        ),
+        (changed(("(self, params)", "(self)")), ["def changed(self, params):"]),
+        (
+            node_file(MODULE),
+            [
+                "timer = node.timer = node.create_timer(1.0, tick)",
+                "node.timer = node.create_timer(1.0 / p.value, tick)",
+                "\nnode.add_on_set_parameters_callback(check_parameters)",
+            ],
+        ),
+    ],
+)
+def test_what_the_callback_needs_comes_with_it(file: NodeFile, words: list[str]) -> None:
+    after = done(file, parameters.following(file, RATE, PREFIX, ENABLED))
+    for word in words:
+        assert word in after, after
+
+
+def test_what_is_kept_of_a_period_is_worked_out_from_the_new_rate() -> None:
+    file = changed(("self.rate = self", "self.period = 1.0 / self"), ("1.0 / self.rate,", "self.period,"))
+    assert "self.period = 1.0 / p.value\n" in done(file, parameters.following(file, RATE))
+
+
+def test_bad_rates_are_refused_before_anything_else() -> None:
+    after = done(changed(), parameters.refusing(changed(), RATE))
+    assert "    def changed(self, params):\n        for p in params:\n            if p.name == 'publish_rate'" in after
+
+
+@pytest.mark.parametrize(
+    ("file", "name", "default", "line"),
+    [
+        (changed(("1.0)", "1)")), RATE, 1.0, "        self.declare_parameter('publish_rate', 1.0)"),
+        (
+            changed(),
+            ENABLED,
+            True,
+            "__init__('parameterized_publisher')\n        self.declare_parameter('enabled', True)",
+        ),
+        (node_file("DEFAULTS = [('publish_rate', 2)]\n"), RATE, 1.0, "[('publish_rate', 1.0)]"),
+        (node_file("DEFAULTS = {'publish_rate': 2}\n"), RATE, 1.0, "{'publish_rate': 1.0}"),
+        (node_file("DEFAULTS = dict(publish_rate=2)\n"), RATE, 1.0, "dict(publish_rate=1.0)"),
+        (node_file(MODULE), ENABLED, True, "create_node('p')\nnode.declare_parameter('enabled', True)"),
+    ],
+)
+def test_declared(file: NodeFile, name: str, default: object, line: str) -> None:
+    assert line in done(file, parameters.declared(file, name, default))
+
+
+def test_a_parameter_of_another_name_is_renamed_wherever_it_is_named() -> None:
+    file = changed(("'message_prefix'", "'prefix'"))
+    assert done(file, parameters.renamed(file, PREFIX, [PREFIX, RATE, ENABLED])) == NODE
+
+
+@pytest.mark.parametrize("code", ["msg = String()\n        msg.data = 'x'\n        self.publisher.publish(msg)", ""])
+def test_the_message_is_another_one(code: str) -> None:
+    file = changed(("self.publisher.publish(String(data=self.prefix))", code)) if code else changed()
+    assert publishing.text_with(file, PREFIX) in done(
+        file, publishing.sending(file, publishing.text_with(file, PREFIX))
+    )
+
+
+def test_the_whole_callback_of_the_timer() -> None:
+    code = publishing.text_with(changed(), PREFIX)
+    assert done(changed(), publishing.ticking(changed(), code, enabled=ENABLED)).endswith(
+        """\
+    def tick(self):
+        if not self.get_parameter('enabled').value:
+            return
+        message = String()
+        message.data = f'{self.get_parameter("message_prefix").value} {self.count}'
+        self.publisher.publish(message)
+        self.count += 1
+"""
+    )
+
+
+def test_a_node_without_anything_gets_publisher_timer_and_callback() -> None:
+    file = node_file("class P(Node):\n    def __init__(self):\n        super().__init__('p')\n")
+    after = done(file, publishing.publishing(file, "/chatter", "std_msgs/msg/String", "'Hello'", "1.0"))
+    for line in (
+        "from std_msgs.msg import String",
+        "self.publisher = self.create_publisher(String, '/chatter', 10)",
+        "self.timer = self.create_timer(1.0, self.timer_callback)",
+        "self.publisher.publish(message)",
+    ):
+        assert line in after
+
+
+def test_a_second_timer_is_removed() -> None:
+    file = changed(("        self.add_on", "        self.create_timer(1.0, self.tick)\n        self.add_on"))
+    assert done(file, publishing.only_timer(file)) == NODE
+
+
+@pytest.mark.parametrize(
+    ("file", "cause", "line"),
+    [
+        (changed(("1.0 / self.rate", "1 // self.rate")), "period made a whole number", "create_timer(1 / self.rate,"),
+        (changed(("1.0 / self.rate", "int(1 / self.rate)")), "period made a whole number", "timer(1 / self.rate,"),
+        (changed(("1.0 / self.rate", "1000 / self.rate")), "wrong timer period", "create_timer(1.0 / self.rate,"),
+    ],
+)
+def test_slips_in_a_period(file: NodeFile, cause: str, line: str) -> None:
+    found = period_slips.whole_division(file) or period_slips.other_unit(file)
+    assert found is not None
+    assert found.name == cause
+    assert line in follow(found.hint, {"node.py": file.text})["node.py"]
+    assert period_slips.whole_division(changed()) is period_slips.other_unit(changed()) is None
+
+
+@pytest.mark.parametrize(
+    ("file", "right"),
+    [
+        (changed(("        self.count += 1\n", "        self.count += 1\n        self.prefix = 'Hello'\n")), NODE),
+        (
+            changed(("'Hello')", "'Hello', ignore_override=True)")),
+            NODE.replace("'Hello')", "'Hello', ignore_override=False)"),
+        ),
+        (
+            changed(
+                (
+                    "        self.count += 1\n",
+                    "        self.count += 1\n        self.set_parameters([A('message_prefix')])\n",
+                )
+            ),
+            NODE,
+        ),
+    ],
+)
+def test_a_value_that_the_node_overwrites(file: NodeFile, right: str) -> None:
+    found = parameter_slips.overridden(file, PREFIX)
+    assert found is not None
+    assert found.name == "value overwritten by the node"
+    assert follow(found.hint, {"node.py": file.text})["node.py"] == right
+    assert parameter_slips.overridden(changed(), PREFIX) is None
+
+
+@pytest.mark.parametrize(
+    ("file", "cause", "line"),
+    [
+        (changed((REGISTERED, "")), "callback not registered", REGISTERED),
+        (changed(("(self.changed)", "(self.changed([]))")), "callback not registered", REGISTERED),
+        (
+            changed(("    def tick", "    def changed(self, params):\n        pass\n\n    def tick")),
+            "callback defined twice",
+            REGISTERED,
+        ),
+    ],
+)
+def test_a_callback_that_is_never_called(file: NodeFile, cause: str, line: str) -> None:
+    found = parameter_slips.not_called(file)
+    assert found is not None
+    assert found.name == cause
+    assert line in follow(found.hint, {"node.py": file.text})["node.py"]
+    assert parameter_slips.not_called(changed()) is None
+
+
+def test_the_old_value_is_read_in_an_on_set_callback() -> None:
+    reading = "for p in params:\n            self.prefix = self.get_parameter('message_prefix').value\n        return"
+    file = changed(("        return Set", f"        {reading} Set"))
+    found = parameter_slips.old_value_read(file, PREFIX)
+    assert found is not None
+    assert "self.prefix = p.value" in found.hint
+
+
+def test_a_file_that_cannot_be_read_gives_no_step() -> None:
+    for text in ("", "def f(:\n"):
+        file = node_file(text)
+        assert file.step(parameters.following(file, RATE), parameters.declared(file, RATE, 1.0)) is None
+        assert (
+            file.step(publishing.sending(file, "1.0"), publishing.publishing(file, "/a", "a/msg/B", "1", "1")) is None
+        )

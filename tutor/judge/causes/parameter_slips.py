@@ -1,0 +1,170 @@
+"""Slips around parameters that the learner's file shows by a line: the cause, with the edit of that line.
+
+Everything here explains a failure that is certain; the source only chooses the words. None where it says nothing.
+"""
+
+from __future__ import annotations
+
+import ast
+
+from tutor.judge.edits import Edit, instead, removed
+from tutor.judge.rewriting import parameters
+from tutor.judge.rewriting.node import Function, NodeFile, argument
+from tutor.judge.verdict import Cause
+
+_OVERWRITTEN = "value overwritten by the node"
+
+
+def overridden(file: NodeFile, name: str) -> Cause | None:
+    """Whether the code itself gives the parameter, or what it has read of it, another value."""
+    return _set_by_itself(file, name) or _ignoring(file, name) or _assigned_again(file, name)
+
+
+def _set_by_itself(file: NodeFile, name: str) -> Cause | None:
+    for call in file.calls("set_parameters", "set_parameters_atomically"):
+        function = file.within(call)
+        where = ast.unparse(call) if "[" in ast.unparse(call) or function is None else ast.unparse(function)
+        statement = file.statement(call)
+        step = file.step([removed(file.text, statement.lineno, statement.end_lineno or 0)])
+        if name in where and step is not None:
+            return Cause(
+                _OVERWRITTEN,
+                f"{_line(call)} sets {name} itself, so that the value somebody gives it does not last",
+                step,
+            )
+    return None
+
+
+def _ignoring(file: NodeFile, name: str) -> Cause | None:
+    edits: list[Edit] = []
+    first: ast.Call | None = None
+    for call in file.calls("declare_parameter", "declare_parameters"):
+        taken = next((each for each in call.keywords if each.arg == "ignore_override"), None)
+        if taken is not None and ast.unparse(taken.value) == "True":
+            first = first or call if name in ast.unparse(call) else first
+            edits.append(instead(file.text, taken.value, "False"))
+    step = file.step(edits) if first is not None else None
+    if first is None or step is None:
+        return None
+    text = f"{_line(first)}: with ignore_override=True, the value given at start-up is not taken"
+    return Cause(_OVERWRITTEN, text, step)
+
+
+def _assigned_again(file: NodeFile, name: str) -> Cause | None:
+    kept = parameters.kept(file, name)
+    for node in ast.walk(file.tree):
+        if kept is None or not isinstance(node, ast.Assign) or not isinstance(node.value, ast.Constant):
+            continue
+        later = node.lineno > kept.lineno if file.within(node) is file.within(kept) else not _in_init(file, node)
+        if ast.unparse(node.targets[0]) == ast.unparse(_target(kept)) and later:
+            step = file.step([removed(file.text, node.lineno, node.end_lineno or 0)])
+            text = f"{_line(node)} overwrites what line {kept.lineno} has read of {name}"
+            return Cause(_OVERWRITTEN, text, step) if step else None
+    return None
+
+
+def not_called(file: NodeFile) -> Cause | None:
+    """Whether a parameter callback that the code has is never called, or not the one that is meant."""
+    for call in file.calls(parameters.ON_SET, parameters.POST_SET):
+        given = argument(call, 0, "callback")
+        if isinstance(given, ast.Call) and file.function(given.func) is not None:
+            step = file.step([instead(file.text, given, ast.unparse(given.func))])
+            text = f"{_line(call)} calls the callback at once, and registers what it returns"
+            return Cause("callback not registered", text, step) if step else None
+        if (twice := _defined_twice(file, given)) is not None:
+            return twice
+        function = file.within(call)
+        if function is not None and file.setup is not None and function not in file.reached(file.setup):
+            step = file.step([*file.adds_to_setup(ast.unparse(call))])
+            text = f"{_line(call)} stands in {function.name}, which nothing calls when the node starts"
+            return Cause("callback not registered", text, step) if step else None
+    if file.calls(parameters.ON_SET, parameters.POST_SET, parameters.PRE_SET):
+        return None
+    meant = _meant(file)
+    step = file.step(parameters.registering(file, meant)) if meant is not None else None
+    if meant is None or step is None:
+        return None
+    return Cause("callback not registered", f"there is {_named(meant)}, but nothing ever calls it", step)
+
+
+def _defined_twice(file: NodeFile, given: ast.expr | None) -> Cause | None:
+    name = ast.unparse(given).rpartition(".")[2] if given is not None else ""
+    same = [each for each in file.functions if each.name == name]
+    if len(same) < 2 or len({file.class_of(each) for each in same}) > 1:
+        return None
+    first, last = same[0], same[-1]
+    step = file.step([removed(file.text, last.lineno, last.end_lineno or 0)])
+    text = (
+        f"{name} is defined in line {first.lineno} and again in line {last.lineno}: the second replaces the first, "
+        "which is never called"
+    )
+    return Cause("callback defined twice", text, step) if step else None
+
+
+def _meant(file: NodeFile) -> Function | None:
+    """A function that nothing calls, and that looks like a parameter callback."""
+    named = {each.attr for each in ast.walk(file.tree) if isinstance(each, ast.Attribute)}
+    named |= {each.id for each in ast.walk(file.tree) if isinstance(each, ast.Name)}
+    return next(
+        (each for each in file.functions if each.name not in named and "SetParametersResult" in ast.unparse(each)),
+        None,
+    )
+
+
+def old_value_read(file: NodeFile, name: str) -> Cause | None:
+    """Whether an on-set callback reads the parameter from the node, where it has its old value still.
+
+    The step is for a callback that goes through the list; where it does not, it has to be rewritten.
+    """
+    checker = parameters.registered(file, parameters.ON_SET)
+    if checker is None:
+        return None
+    timed = [file.function(argument(each, 1, "callback")) for each in file.timers]
+    inside = [each for each in file.reached(checker) if each not in timed]
+    reads = [each for each in parameters.readings(file, name) if file.within(each) in inside]
+    if not reads:
+        return None
+    text = (
+        f"{_line(reads[0])} still gives the old value here: an on-set callback is called before the new one is stored"
+    )
+    loops = [
+        each for each in file.outwards(reads[0]) if isinstance(each, ast.For) and isinstance(each.target, ast.Name)
+    ]
+    target = loops[0].target if loops else None
+    new = f"{target.id}.value" if isinstance(target, ast.Name) else ""
+    return Cause("old value used", text, file.step([instead(file.text, reads[0], new)] if new else None) or "")
+
+
+def why_accepted(file: NodeFile, bad: float) -> str:
+    """Why a bad number is not refused, as far as the parameter callbacks tell."""
+    checker = parameters.registered(file, parameters.ON_SET)
+    if checker is None:
+        later = parameters.registered(file, parameters.POST_SET)
+        if later is not None:
+            return f"{_named(later)} is called when the value is set already: it cannot reject any"
+        return "nothing can reject a value: no on-set-parameters callback is registered"
+    code = "".join(map(ast.unparse, file.reached(checker)))
+    if "successful=False" not in code and "successful = False" not in code:
+        return f"{_named(checker)} never says no: nothing rejects {bad}"
+    return (
+        f"{_named(checker)} can say no, but does not for {bad}: it has to look at the new value, the one in its "
+        "argument, and at every number that is 0 or less"
+    )
+
+
+def _target(assignment: ast.Assign | ast.AnnAssign) -> ast.expr:
+    return assignment.targets[0] if isinstance(assignment, ast.Assign) else assignment.target
+
+
+def _in_init(file: NodeFile, node: ast.AST) -> bool:
+    function = file.within(node)
+    return function is None or function is file.setup
+
+
+def _line(node: ast.stmt | ast.expr) -> str:
+    """Line and code, to be put into a sentence."""
+    return f"line {node.lineno}: {ast.unparse(node)}"
+
+
+def _named(function: Function) -> str:
+    return f"{function.name} (line {function.lineno})"

@@ -1,0 +1,170 @@
+"""What a publisher sends, and when: the message, the timer and the timer's callback, rewritten."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from tutor.judge.edits import Edit, above, becomes, instead, removed
+from tutor.judge.rewriting.node import Function, NodeFile, argument, rewritten
+from tutor.judge.source import called
+
+
+def sending(file: NodeFile, code: str) -> list[Edit]:
+    """The message that the timer's callback publishes, with this code as its `data`."""
+    if file.tick is None:
+        return []
+    within = file.reached(file.tick)
+    found = list(_data(file, within))
+    if found:
+        return [each for expression in found for each in _in_place(file, expression, code)]
+    sent = [each for each in file.calls("publish") if file.within(each) in within and each.args]
+    if not sent or not isinstance(sent[0].args[0], ast.Name | ast.Attribute):
+        return []
+    return [above(file.statement(sent[0]).lineno, f"{ast.unparse(sent[0].args[0])}.data = {code}")]
+
+
+def data_of(file: NodeFile) -> ast.expr | None:
+    """What the timer's callback puts into the message."""
+    return next(_data(file, file.reached(file.tick)), None) if file.tick is not None else None
+
+
+def _data(file: NodeFile, within: list[Function]) -> Iterator[ast.expr]:
+    for node in ast.walk(file.tree):
+        if file.within(node) not in within:
+            continue
+        match node:
+            case ast.Assign(targets=[ast.Attribute(attr="data")], value=value):
+                yield value
+            case ast.Call(keywords=[ast.keyword(arg="data", value=value)]) if called(node) == file.message_class:
+                yield value
+
+
+def _in_place(file: NodeFile, expression: ast.expr, code: str) -> list[Edit]:
+    """A statement of one line keeps its other parts; one of more lines is written anew where it only assigns."""
+    statement = file.statement(expression)
+    if isinstance(statement, ast.Assign) and statement.value is expression:
+        target = ast.unparse(statement.targets[0])
+        return [becomes(statement.lineno, f"{target} = {code}", statement.end_lineno or 0)]
+    return [instead(file.text, expression, code)]
+
+
+def waiting_while_off(file: NodeFile, enabled: str) -> list[Edit]:
+    """The timer's callback, with nothing to do while a parameter is false; without a timer, only no publishing."""
+    if file.first_timer is not None and file.tick is not None and file.tick is not file.setup:
+        return file.begins(file.tick, f"if not {file.value(enabled)}:\n    return")
+    return [
+        becomes(each.lineno, f"if {file.value(enabled)}:\n    {ast.unparse(each)}", each.end_lineno or 0)
+        for each in _publishing(file)
+    ]
+
+
+def logging(file: NodeFile, parameter: str) -> list[Edit]:
+    """A log message with a parameter's value, for each message that is published."""
+    code = f"{file.name}.get_logger().info(str({file.value(parameter)}))"
+    return [above(each.lineno, code) for each in _publishing(file)[:1]]
+
+
+def _publishing(file: NodeFile) -> list[ast.stmt]:
+    """The statements that publish: in what the timer's callback leads to, if there is one."""
+    within = file.reached(file.tick) if file.tick is not None else []
+    sent = [each for each in file.calls("publish") if not within or file.within(each) in within]
+    return [file.statement(each) for each in sent]
+
+
+def text_with(file: NodeFile, prefix: str) -> str:
+    """The code of a text that begins with a parameter's value, and goes on with the callback's counter, if any."""
+    counter = _counter(file)
+    return f"f'{{{_quoted(file.value(prefix))}}} {{{counter}}}'" if counter else file.value(prefix)
+
+
+def _counter(file: NodeFile) -> str:
+    counted = [
+        ast.unparse(node.target)
+        for function in (file.reached(file.tick) if file.tick is not None else [])
+        for node in ast.walk(function)
+        if isinstance(node, ast.AugAssign) and isinstance(node.op, ast.Add) and isinstance(node.value, ast.Constant)
+    ]
+    return next(iter(counted), "")
+
+
+def ticking(file: NodeFile, data: str, *, enabled: str = "", log: str = "") -> list[Edit]:
+    """The whole callback of the timer: one message each time, and none while a parameter is false.
+
+    `data` is the code of what is sent, `log` a parameter that is logged each time.
+    """
+    if file.tick is None or not file.publisher or not file.message_class or file.tick is file.setup:
+        return []
+    return [rewritten(file.tick, _ticking(file, file.publisher, file.message_class, data, enabled, log))]
+
+
+def _ticking(file: NodeFile, publisher: str, message_class: str, data: str, enabled: str, log: str) -> str:
+    counter, body = _counter(file), file.tick.body if file.tick is not None else []
+    lines = [
+        *(ast.unparse(each) for each in body if isinstance(each, ast.Global | ast.Nonlocal)),
+        *([f"if not {file.value(enabled)}:", "    return"] if enabled else []),
+        f"message = {message_class}()",
+        f"message.data = {data}",
+        f"{publisher}.publish(message)",
+        *([f"{file.name}.get_logger().info(f'{{{_quoted(file.value(log))}}}: {{message.data}}')"] if log else []),
+        *([f"{counter} += 1"] if counter else []),
+    ]
+    return "\n".join(lines)
+
+
+def publishing(file: NodeFile, topic: str, type_name: str, data: str, period: str, *, enabled: str = "") -> list[Edit]:
+    """Publisher, timer and callback as a whole: what is missing is added, the callback is rewritten.
+
+    `type_name` is like "std_msgs/msg/String", `data` and `period` are code.
+    """
+    package, _, name = type_name.partition("/msg/")
+    own, edits = file.own(name, f"{package}.msg")
+    made = file.calls("create_publisher", "create_lifecycle_publisher")
+    kept = next((each for each in made if file.kept(each)), None)
+    publisher = file.kept(kept) if kept is not None else f"{file.holder}.publisher"
+    create = f"{file.name}.create_publisher({own}, {topic!r}, 10)"
+    if kept is not None:
+        edits.append(instead(file.text, kept, create))
+    missing = [f"{publisher} = {create}"] if kept is None else []
+    body = _ticking(file, publisher, own, data, enabled, "")
+    tick = file.tick if file.tick is not file.setup else None
+    if not file.timers:
+        of_class = file.setup is not None and file.class_of(file.setup) is not None
+        callback = f"{'self.' if of_class else ''}{tick.name if tick is not None else 'timer_callback'}"
+        missing.append(f"{file.holder}.timer = {file.name}.create_timer({period}, {callback})")
+    if tick is not None:
+        edits.append(rewritten(tick, body))
+    else:
+        edits += file.new_method("def timer_callback(self):\n" + "\n".join(f"    {each}" for each in body.splitlines()))
+    return [*edits, *(file.adds_to_setup("\n".join(missing)) if missing else [])]
+
+
+def _quoted(code: str) -> str:
+    """Code that can stand in a text with single quotation marks."""
+    return code.replace("'", '"')
+
+
+def period(file: NodeFile, code: str) -> list[Edit]:
+    """The timer's period in seconds; where a loop sleeps instead, the time it sleeps."""
+    if file.first_timer is not None:
+        given = argument(file.first_timer, 0, "timer_period_sec")
+        return [instead(file.text, given, code)] if given is not None else []
+    naps = [call for call in file.calls("sleep") if call.args]
+    return [instead(file.text, naps[0].args[0], code)] if len(naps) == 1 else []
+
+
+def only_timer(file: NodeFile) -> list[Edit]:
+    """Without the other timers that call the same function, beside the first one."""
+    if file.first_timer is None:
+        return []
+    same = argument(file.first_timer, 1, "callback")
+    others = [
+        file.statement(each)
+        for each in file.timers
+        if each is not file.first_timer
+        and file.within(each) is file.within(file.first_timer)
+        and same is not None
+        and (other := argument(each, 1, "callback")) is not None
+        and ast.unparse(other) == ast.unparse(same)
+    ]
+    return [removed(file.text, each.lineno, each.end_lineno or 0) for each in others]
