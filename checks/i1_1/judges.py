@@ -32,8 +32,6 @@ from tutor.judge.rates import TOLERANCE
 from tutor.judge.trace import Parameter, Trace
 from tutor.judge.verdict import Cause, Verdict, failed, passed
 
-_STOPS = Cause("no messages", "the node stops publishing, or hardly ever does", "publish from a timer's callback")
-
 
 def _of_exception(trace: Trace | None) -> Cause | None:
     """The exception that ended the node, which tells more than what was missing then."""
@@ -41,7 +39,8 @@ def _of_exception(trace: Trace | None) -> Cause | None:
 
 
 def _stopping(trace: Trace | None) -> Cause:
-    return _of_exception(trace) or _STOPS
+    step = steps.published(trace) or "publish from a timer's callback"
+    return _of_exception(trace) or Cause("no messages", "the node stops publishing, or hardly ever does", step)
 
 
 def judge_publishes(seen: Survey) -> Verdict:
@@ -144,7 +143,7 @@ def judge_echo(seen: Survey) -> Verdict:
         cause = Cause(
             "wrong type",
             f"{TOPIC} carries two types, {' and '.join(echo.types)}; echo cannot choose",
-            f"publish nothing but {TYPE} on {TOPIC}",
+            steps.of_one_type(seen.trace),
         )
     elif not echo.types:
         cause = _of_exception(seen.trace) or Cause(
@@ -154,7 +153,7 @@ def judge_echo(seen: Survey) -> Verdict:
         cause = Cause(
             "no messages",
             f"a new subscriber got nothing in {echo.limit_s:g} s ({echo.reliability}, {echo.durability})",
-            "publish again and again from a timer, and set no short lifespan in the QoS",
+            steps.published(seen.trace) or "publish again and again from a timer, and set no short lifespan in the QoS",
         )
     return failed(expected, f"nothing shown in {echo.limit_s:g} s", cause)
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 import ast
 import re
 
-from checks.i1_1.facts import HIGHEST, LOWEST, TOPIC, TYPE
+from checks.i1_1.facts import HIGHEST, LOWEST, SUGGESTED_NAME, SUGGESTED_RATE, TOPIC, TYPE
 from tutor.judge.causes import parameter_slips, period_slips
 from tutor.judge.edits import Edit, instead, on_top, removed
 from tutor.judge.rewriting import parameters, publishing
@@ -44,11 +44,18 @@ def drawn(trace: Trace | None) -> str:
     )
 
 
-def published(trace: Trace) -> str:
+def of_one_type(trace: Trace) -> str:
+    """Nothing but the right type on the topic."""
+    read = file(trace)
+    return read.step(publishing.of_one_type(read, TOPIC, TYPE)) or f"publish nothing but {TYPE} on {TOPIC}"
+
+
+def published(trace: Trace | None) -> str:
     """A publisher, a timer and its callback that sends the messages."""
     read = file(trace)
     draw, imported = _draw(read)
-    return read.step([*publishing.publishing(read, TOPIC, TYPE, draw, "1.0"), *imported]) or ""
+    edits = publishing.publishing(read, TOPIC, TYPE, draw, SUGGESTED_RATE, log=SUGGESTED_NAME)
+    return read.step([*edits, *imported]) or ""
 
 
 def as_float(trace: Trace | None) -> str:

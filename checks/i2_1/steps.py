@@ -35,8 +35,8 @@ def declared(trace: Trace, names: Sequence[str]) -> str:
 def published(trace: Trace) -> str:
     """A publisher, a timer and its callback that sends the messages."""
     read = file(trace)
-    data, period = publishing.text_with(read, PREFIX), f"1.0 / {read.value(RATE)}"
-    return read.step(publishing.publishing(read, TOPIC, TYPE, data, period, enabled=ENABLED)) or ""
+    data = publishing.text_with(read, PREFIX)
+    return read.step(publishing.publishing(read, TOPIC, TYPE, data, RATE, enabled=ENABLED)) or ""
 
 
 def heeded(trace: Trace, name: str) -> str:

@@ -383,8 +383,18 @@ def main():
     ("source", "steps"),
     [
         ("", ["node.trigger_configure(), then node.trigger_activate()"]),
-        (LIFECYCLE, ["sensor.trigger_configure()", "end on_activate (line 2) with: return super().on_activate(state)"]),
-        (LIFECYCLE + "    sensor.trigger_activate()\n", ["end on_activate (line 2)"]),
+        (
+            LIFECYCLE,
+            [
+                "below line 7, with the same indentation:\n    sensor.trigger_configure()\n    sensor.trigger_act",
+                "line 3 becomes: return super().on_activate(state)",
+            ],
+        ),
+        (
+            LIFECYCLE.replace("sensor = Sensor()", "rclpy.spin(Sensor())"),
+            ["    node = Sensor()\n    node.trigger_configure()", "line 7 becomes: rclpy.spin(node)"],
+        ),
+        (LIFECYCLE + "    sensor.trigger_activate()\n", ["line 3 becomes: return super().on_activate(state)"]),
     ],
 )
 def test_a_lifecycle_node_that_nobody_activates(source: str, steps: list[str]) -> None:

@@ -196,7 +196,7 @@ def test_the_whole_callback_of_the_timer() -> None:
 
 def test_a_node_without_anything_gets_publisher_timer_and_callback() -> None:
     file = node_file("class P(Node):\n    def __init__(self):\n        super().__init__('p')\n")
-    after = done(file, publishing.publishing(file, "/chatter", "std_msgs/msg/String", "'Hello'", "1.0"))
+    after = done(file, publishing.publishing(file, "/chatter", "std_msgs/msg/String", "'Hello'", RATE))
     for line in (
         "from std_msgs.msg import String",
         "self.publisher = self.create_publisher(String, '/chatter', 10)",

@@ -9,10 +9,10 @@ from dataclasses import replace
 
 from tutor.judge.causes import names, period_slips
 from tutor.judge.causes.process import node_names, of_no_answer, of_process
-from tutor.judge.edits import instead
+from tutor.judge.edits import Edit, above, at_end, becomes, below, instead
 from tutor.judge.qos import Policy, unmet
-from tutor.judge.reading import Source, read
-from tutor.judge.rewriting.node import NodeFile, argument, node_file
+from tutor.judge.rewriting.node import Function, NodeFile, argument, node_file
+from tutor.judge.source import called
 from tutor.judge.trace import Endpoint, Service, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Cause
@@ -178,28 +178,53 @@ def _slip(name: str, wanted: str) -> str:
 
 def of_lifecycle(trace: Trace) -> Cause | None:
     """Whether there is a lifecycle node that nobody has activated."""
-    source = read(trace)
     asleep = [each.node for each in trace.graph.services if each.type == "lifecycle_msgs/srv/ChangeState"]
     if not asleep:
         return None
-    own = next((name for name, bases in source.bases().items() if any("Lifecycle" in base for base in bases)), "")
-    made = next(iter(source.calls(own)), None) if own else None
-    node = made.kept if made is not None and made.kept else "node"
-    woken = source.calls("trigger_activate")
-    bare = next((each for each in source.functions("on_activate") if "on_activate" not in each.calls), None)
-    own_way = f"end on_activate (line {bare.line}) with: return super().on_activate(state)" if bare else ""
-    if woken:
-        return Cause(_ASLEEP, f"{asleep[0]} keeps its publishers switched off", own_way) if bare else None
-    steps = [
-        f"in main(), before {node} is spun: {node}.trigger_configure(), then {node}.trigger_activate()",
-        *([own_way] if bare else []),
-    ]
+    file = _file(trace)
+    own = next((each for each in file.functions if each.name == "on_activate"), None)
+    bare = own is not None and not any(
+        isinstance(each, ast.Call) and called(each) == "on_activate" for each in ast.walk(own)
+    )
+    activating = _activating(own) if bare and own is not None else []
+    if file.calls("trigger_activate"):
+        if not bare:
+            return None
+        step = file.step(activating) or "end on_activate with: return super().on_activate(state)"
+        return Cause(_ASLEEP, f"{asleep[0]} keeps its publishers switched off", step)
     return Cause(
         _ASLEEP,
         f"{asleep[0]} is a lifecycle node: it does its work only when it has been configured and activated, and nobody "
         "does that here (an ordinary Node needs none of it)",
-        "\n".join(steps),
+        file.step([*_woken(file), *activating])
+        or "in main(), before node is spun: node.trigger_configure(), then node.trigger_activate()",
     )
+
+
+def _activating(on_activate: Function) -> list[Edit]:
+    """An `on_activate` that switches the node's publishers on at its end."""
+    code = f"return super().on_activate({on_activate.args.args[-1].arg})"
+    last = on_activate.body[-1]
+    if isinstance(last, ast.Return):
+        return [becomes(last.lineno, code, last.end_lineno or 0)]
+    return [at_end(on_activate, code)]
+
+
+def _woken(file: NodeFile) -> list[Edit]:
+    """The lifecycle node is configured and activated as soon as it is made."""
+    classes = [
+        each.name
+        for each in ast.walk(file.tree)
+        if isinstance(each, ast.ClassDef) and any("Lifecycle" in ast.unparse(base) for base in each.bases)
+    ]
+    for call in file.calls(*classes):
+        statement, node = file.statement(call), file.kept(call)
+        if node:
+            code = f"{node}.trigger_configure()\n{node}.trigger_activate()"
+            return [below(statement.end_lineno or statement.lineno, code, like=statement.lineno)]
+        code = f"node = {ast.unparse(call)}\nnode.trigger_configure()\nnode.trigger_activate()"
+        return [above(statement.lineno, code), instead(file.text, call, "node")]
+    return []
 
 
 def _misplaced(trace: Trace, endpoints: Sequence[Endpoint], topic: str, type_name: str, create: str) -> Cause | None:
@@ -208,7 +233,7 @@ def _misplaced(trace: Trace, endpoints: Sequence[Endpoint], topic: str, type_nam
         return Cause(
             names.WRONG_TYPE,
             f"{topic} has the type {here[0].type}, not {type_name}",
-            _everywhere(read(trace), _class(here[0].type), _class(type_name))
+            _everywhere(_file(trace), _class(here[0].type), type_name)
             or f"give {create} the type {_class(type_name)}: from {type_name.split('/')[0]}.msg import "
             f"{_class(type_name)}",
         )
@@ -218,10 +243,11 @@ def _misplaced(trace: Trace, endpoints: Sequence[Endpoint], topic: str, type_nam
     return wrong_topic(elsewhere, topic, create, _file(trace)) if elsewhere else None
 
 
-def _everywhere(source: Source, wrong: str, right: str) -> str | None:
-    """The step where a type is used throughout the file."""
-    lines = [str(number) for number in source.lines_with(wrong)]
-    return f"write {right} instead of {wrong}, everywhere in the file: line {', '.join(lines)}" if lines else None
+def _everywhere(file: NodeFile, wrong: str, type_name: str) -> str | None:
+    """The step where another type is used throughout the file."""
+    own, imported = file.own(_class(type_name), f"{type_name.split('/')[0]}.msg")
+    used = [each for each in ast.walk(file.tree) if isinstance(each, ast.Name) and each.id == wrong]
+    return file.step([*imported, *(instead(file.text, each, own) for each in used)])
 
 
 def _file(trace: Trace) -> NodeFile:

@@ -211,8 +211,13 @@ class NodeFile:
 def _from_below(edits: Sequence[Edit]) -> list[Edit]:
     """The edits, the last lines first, without those of lines that another one replaces as a whole."""
 
+    def covers(other: Edit, edit: Edit) -> bool:
+        if edit.last < edit.first:
+            return other.first < edit.first <= other.last
+        return other.first <= edit.first and edit.last <= other.last and other != edit
+
     def covered(edit: Edit) -> bool:
-        return any(other.first <= edit.first and edit.last < other.last for other in edits if other is not edit)
+        return any(covers(other, edit) and not covers(edit, other) for other in edits)
 
     left = [edit for edit in edits if not covered(edit)]
     return sorted(dict.fromkeys(left), key=lambda edit: edit.first, reverse=True)

@@ -112,31 +112,58 @@ def _ticking(file: NodeFile, publisher: str, message_class: str, data: str, enab
     return "\n".join(lines)
 
 
-def publishing(file: NodeFile, topic: str, type_name: str, data: str, period: str, *, enabled: str = "") -> list[Edit]:
+def publishing(
+    file: NodeFile, topic: str, type_name: str, data: str, rate: str, *, enabled: str = "", log: str = ""
+) -> list[Edit]:
     """Publisher, timer and callback as a whole: what is missing is added, the callback is rewritten.
 
-    `type_name` is like "std_msgs/msg/String", `data` and `period` are code.
+    `type_name` is like "std_msgs/msg/String", `data` is code; `rate`, `enabled` and `log` are names of parameters,
+    which are used as far as the file has them.
     """
+    named = {each.value for each in ast.walk(file.tree) if isinstance(each, ast.Constant)}
+    enabled, log = enabled if enabled in named else "", log if log in named else ""
+    period = f"1.0 / {file.value(rate)}" if rate in named else "1.0"
     package, _, name = type_name.partition("/msg/")
     own, edits = file.own(name, f"{package}.msg")
     made = file.calls("create_publisher", "create_lifecycle_publisher")
     kept = next((each for each in made if file.kept(each)), None)
     publisher = file.kept(kept) if kept is not None else f"{file.holder}.publisher"
     create = f"{file.name}.create_publisher({own}, {topic!r}, 10)"
-    if kept is not None:
+    if kept is not None and ast.unparse(kept) != create:
         edits.append(instead(file.text, kept, create))
     missing = [f"{publisher} = {create}"] if kept is None else []
-    body = _ticking(file, publisher, own, data, enabled, "")
-    tick = file.tick if file.tick is not file.setup else None
-    if not file.timers:
-        of_class = file.setup is not None and file.class_of(file.setup) is not None
-        callback = f"{'self.' if of_class else ''}{tick.name if tick is not None else 'timer_callback'}"
-        missing.append(f"{file.holder}.timer = {file.name}.create_timer({period}, {callback})")
+    body = _ticking(file, publisher, own, data, enabled, log)
+    tick = file.tick if file.tick is not file.setup and file.tick is not None else None
+    of_class = file.setup is not None and file.class_of(file.setup) is not None
+    method = tick.name if tick is not None else "timer_callback"
+    indented = "\n".join(f"    {line}" for line in body.splitlines())
     if tick is not None:
         edits.append(rewritten(tick, body))
+    elif of_class:
+        edits += file.new_method(f"def {method}(self):\n{indented}")
     else:
-        edits += file.new_method("def timer_callback(self):\n" + "\n".join(f"    {each}" for each in body.splitlines()))
+        missing.append(f"def {method}():\n{indented}\n")
+    if not file.timers or tick is None:
+        callback = f"{'self.' if of_class else ''}{method}"
+        missing.append(f"{file.holder}.timer = {file.name}.create_timer({period}, {callback})")
+    if not of_class and not any(called(each).startswith("spin") for each in _calls(file)):
+        missing.append(f"rclpy.spin({file.name})")
     return [*edits, *(file.adds_to_setup("\n".join(missing)) if missing else [])]
+
+
+def _calls(file: NodeFile) -> list[ast.Call]:
+    return [each for each in ast.walk(file.tree) if isinstance(each, ast.Call)]
+
+
+def of_one_type(file: NodeFile, topic: str, type_name: str) -> list[Edit]:
+    """Publishers of another type on a topic get one of their own."""
+    own, _ = file.own(type_name.rpartition("/")[2], type_name.partition("/")[0] + ".msg")
+    edits = []
+    for call in file.calls("create_publisher"):
+        kind, name = argument(call, 0, "msg_type"), argument(call, 1, "topic")
+        if kind is not None and ast.unparse(kind) != own and isinstance(name, ast.Constant):
+            edits.append(instead(file.text, name, repr(f"{topic}_{ast.unparse(kind).lower()}")))
+    return edits
 
 
 def _quoted(code: str) -> str:
