@@ -45,7 +45,7 @@ from tutor.judge.wording import shape
 def judge_defaults(seen: Survey) -> Verdict:
     expected = ", ".join(f"{name} = {_show(value)} ({kind})" for name, (kind, value) in DEFAULTS.items())
     if seen.parameters is None:
-        cause = causes.of_no_answer(seen.trace, seen.stuck)
+        cause = _no_answer(seen.trace, seen.stuck)
         return failed(expected, "the node answers no parameter call", cause, causes.last_words(seen.trace))
     found = {name: seen.value_of(name) for name in DEFAULTS}
     observed = ", ".join(f"{n} = {_show(p.value)} ({p.type})" if p else f"no {n}" for n, p in found.items())
@@ -122,7 +122,7 @@ def _why_launch_rate(seen: Launched) -> Cause:
     if (whole := period_slips.whole_division(steps.file(trace))) is not None:
         return whole
     if rate is not None and rate.in_bursts:
-        return causes.in_bursts(steps.followed(trace))
+        return causes.in_bursts(steps.steady(trace))
     if rate is not None and (rate.agrees(DEFAULT_HZ) or _are_alike(rate, seen.slow_rate)):
         return _ignored(RATE, trace)
     if rate is None or rate.agrees(1 / LAUNCH_HZ):
@@ -216,7 +216,7 @@ def _why_not_as_before(seen: Switched, expected: str, *, any_rate: bool) -> Verd
         cause = Cause(
             "messages held back",
             f"what was due while {ENABLED} was false is kept, and sent when it is true again",
-            steps.resumed(seen.trace),
+            steps.steady(seen.trace),
         )
         return failed(expected, f"{off}: {len(burst)} messages at once", cause, burst)
     if _goes_on(seen.rate, seen.base_hz, seen):
@@ -267,17 +267,24 @@ def _not_running(seen: Switched | Validated | Retimed | Atomic, expected: str) -
         return failed(
             expected,
             "the node answers no parameter call",
-            causes.of_no_answer(trace, stuck),
+            _no_answer(trace, stuck),
             causes.last_words(trace),
         )
     cause = causes.of_silence(trace, TOPIC, TYPE, answers=seen.answering, stuck=stuck, step=steps.published(trace))
     return failed(expected, f"no message on {TOPIC} to start with", cause, causes.last_words(trace))
 
 
+def _no_answer(trace: Trace, stuck: Sequence[Frame], *, spins: bool = False) -> Cause:
+    """Why the node answers nothing; what keeps it waiting is left out of its callbacks."""
+    cause = causes.of_no_answer(trace, stuck, spins=spins)
+    blocked = causes.of_blocked(trace, stuck, spins=spins)
+    return replace(cause, hint=steps.freed(trace, stuck)) if cause == blocked else cause
+
+
 def _not_set(expected: str, answer: SetAnswer, trace: Trace, stuck: Sequence[Frame]) -> Verdict:
     what = ", ".join(f"{name} to {_show(value)}" for name, value in answer.values.items())
     if not answer.answered:
-        cause = causes.of_no_answer(trace, stuck, spins=True)
+        cause = _no_answer(trace, stuck, spins=True)
         observed = f"setting {what}: {causes.unanswered(trace, ANSWER_S)}"
         return failed(expected, observed, cause, causes.last_words(trace))
     cause = causes.of_refusal(answer.reason, steps.taken(trace, answer))
@@ -359,7 +366,7 @@ def _why_timer(seen: Retimed, asked: float, rate: Rate | None) -> Cause:
     read, trace = steps.file(seen.trace), seen.trace
     whole_division = period_slips.whole_division(read)
     if rate is not None and rate.in_bursts:
-        return whole_division or causes.in_bursts(steps.followed(trace))
+        return whole_division or causes.in_bursts(steps.steady(trace))
     before = DEFAULT_HZ if asked == UP_HZ else UP_HZ
     faster = seen.steps[0][1]
     left_behind = asked == DOWN_HZ and faster is not None and faster.hz > UP_HZ + DEFAULT_HZ / 2
@@ -370,7 +377,7 @@ def _why_timer(seen: Retimed, asked: float, rate: Rate | None) -> Cause:
     if (whole := _made_whole(rate, asked, steps.followed(trace))) is not None:
         return whole
     if rate is not None and rate.hz > asked:
-        return whole_division or causes.old_timer_kept(rate.hz, asked, steps.followed(trace))
+        return whole_division or causes.old_timer_kept(rate.hz, asked, steps.cancelled(trace))
     if rate is None or rate.agrees(1 / asked):
         return whole_division or causes.rate_as_period(RATE, steps.followed(trace))
     return Cause("wrong rate", f"{rate.hz:.1f} Hz instead of {asked:g} Hz", steps.followed(trace))

@@ -13,6 +13,7 @@ from tutor.judge.edits import Edit
 from tutor.judge.rewriting import parameters, publishing
 from tutor.judge.rewriting.node import NodeFile, node_file
 from tutor.judge.trace import SetAnswer, Trace
+from tutor.judge.tracebacks import Frame
 
 
 def file(trace: Trace) -> NodeFile:
@@ -66,6 +67,30 @@ def resumed(trace: Trace) -> str:
     return read.step(_whole(read), _following(read), _ticking(read)) or (
         f"let one timer run on, and only skip publish() while {ENABLED} is false"
     )
+
+
+def steady(trace: Trace) -> str:
+    """One message for each call of the timer's callback, by one timer."""
+    read = file(trace)
+    return read.step([*_ticking(read), *publishing.only_timer(read)], _whole(read)) or (
+        f"publish one message in each callback of one timer, whose period is 1.0 / {RATE}"
+    )
+
+
+def cancelled(trace: Trace) -> str:
+    """The old timer is cancelled before there is a new one."""
+    read = file(trace)
+    return read.step(parameters.cancelling(read)) or followed(trace)
+
+
+def freed(trace: Trace, stuck: Sequence[Frame]) -> str:
+    """Nothing waits in the callbacks of the timer or of the parameters, whichever it was."""
+    read = file(trace)
+    tick = read.tick
+    here = {frame.line for frame in stuck}
+    if tick is not None and any(tick.lineno <= line <= (tick.end_lineno or 0) for line in here):
+        return read.step(_ticking(read), _whole(read)) or resumed(trace)
+    return followed(trace)
 
 
 def refused(trace: Trace) -> str:

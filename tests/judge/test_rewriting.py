@@ -141,6 +141,14 @@ def test_what_is_kept_of_a_period_is_worked_out_from_the_new_rate() -> None:
     assert "self.period = 1.0 / p.value\n" in done(file, parameters.following(file, RATE))
 
 
+def test_where_only_the_old_timer_is_left_it_is_cancelled() -> None:
+    making = "self.timer = self.create_timer(1.0 / params[0].value, self.tick)"
+    file = changed(("        return Set", f"        {making}\n        return Set"))
+    right = changed(("        return Set", f"        self.timer.cancel()\n        {making}\n        return Set"))
+    assert done(file, parameters.cancelling(file)) == right.text
+    assert parameters.cancelling(right) == parameters.cancelling(changed()) == []
+
+
 def test_bad_rates_are_refused_before_anything_else() -> None:
     after = done(changed(), parameters.refusing(changed(), RATE))
     assert "    def changed(self, params):\n        for p in params:\n            if p.name == 'publish_rate'" in after

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from tutor.judge.causes import names, period_slips
+from tutor.judge.causes.blocking import of_blocked
 from tutor.judge.causes.process import node_names, of_no_answer, of_process
 from tutor.judge.edits import Edit, above, at_end, becomes, below, instead
 from tutor.judge.qos import Policy, unmet
@@ -34,7 +35,8 @@ def of_silence(
     here = [endpoint for endpoint in publishers if endpoint.topic == topic]
     if any(endpoint.type == type_name for endpoint in here):
         if not answers:
-            return of_no_answer(trace, stuck)
+            cause = of_no_answer(trace, stuck)
+            return replace(cause, hint=step) if step and cause == of_blocked(trace, stuck) else cause
         return _idle(trace, topic, step)
     if (cause := _misplaced(trace, publishers, topic, type_name, "create_publisher")) is not None:
         return replace(cause, hint=step) if cause.name == names.WRONG_TYPE and step else cause

@@ -7,7 +7,7 @@ import difflib
 import re
 from collections.abc import Sequence
 
-from tutor.judge.edits import Edit, becomes, below, instead, removed
+from tutor.judge.edits import Edit, above, becomes, below, instead, removed
 from tutor.judge.rewriting.node import Function, NodeFile, argument, rewritten
 
 ON_SET = "add_on_set_parameters_callback"
@@ -46,6 +46,18 @@ def following(file: NodeFile, rate: str, *others: str) -> list[Edit]:
     extra = [each for each in file.calls(ON_SET, PRE_SET) if each is not first]
     edits += [_without(file, each) for each in extra]
     return [*edits, *keeping, rewritten(checker, "\n".join(body), given=given)]
+
+
+def cancelling(file: NodeFile) -> list[Edit]:
+    """The timer that a parameter callback replaces is cancelled there, if that is all that is missing."""
+    callbacks = [found for kind in (ON_SET, POST_SET) if (found := registered(file, kind)) is not None]
+    inside = [each for callback in callbacks for each in file.reached(callback)]
+    made = [each for each in file.timers if file.within(each) in inside]
+    ended = [each for each in file.calls("cancel", "destroy_timer", "destroy") if file.within(each) in inside]
+    timer = _timer(file)
+    if len(made) != 1 or ended or file.kept(made[0]) != timer or _kept_in(file) != timer or made[0] is file.first_timer:
+        return []
+    return [above(file.statement(made[0]).lineno, f"{timer}.cancel()")]
 
 
 def registered(file: NodeFile, kind: str) -> Function | None:
