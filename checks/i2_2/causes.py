@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import functools
 import re
 from collections.abc import Callable, Sequence
@@ -11,9 +10,9 @@ from typing import cast
 from checks.i2_2 import steps
 from checks.i2_2.facts import ARGUMENTS, FILE, NAMESPACE, Launched, is_twice, publishers, shared, subscriptions, used
 from checks.i2_2.processes import Gone, by_stream, gone, writers, written_by
+from checks.i2_2.rewriting import PACKAGES, PROGRAMS, Launch, launch, nearest
 from tutor.judge import causes, tracebacks
 from tutor.judge.bench import OnlyWithRos
-from tutor.judge.reading import Source
 from tutor.judge.trace import Endpoint, Graph, Trace
 from tutor.judge.verdict import Cause
 
@@ -35,10 +34,6 @@ _ERROR = re.compile(r"^\[ERROR\] \[launch\]: |Caught exception in launch[^:]*: "
 _REMAP = re.compile(r"(?:-r|--remap) (?P<source>[^\s:=]+):=(?P<target>\S+)")
 
 
-def _read(trace: Trace) -> Source:
-    return Source(trace.sources.get(trace.file, ""), plain=True)
-
-
 def _in_own_names[**P, R: Cause | None](diagnose: Callable[P, R]) -> Callable[P, R]:
     """What is said of a launch, with the names by which its file calls what it has imported."""
 
@@ -48,7 +43,7 @@ def _in_own_names[**P, R: Cause | None](diagnose: Callable[P, R]) -> Callable[P,
         trace = next(
             each if isinstance(each, Trace) else each.trace for each in args[::-1] if isinstance(each, Trace | Launched)
         )
-        return cause if cause is None else cast("R", steps.in_own_names(_read(trace), cause))
+        return cause if cause is None else cast("R", steps.in_own_names(launch(trace).source, cause))
 
     return said
 
@@ -61,42 +56,43 @@ def of_launch(trace: Trace) -> Cause | None:
     """
     own = written_by(trace.output, None)
     text = "\n".join(line.text for line in own)
-    source = _read(trace)
+    there = launch(trace)
     if found := _NOT_HERE.search(text):
         raise OnlyWithRos(_line_of(text, found.start()))
     if found := _NO_VALUE.search(text):
-        return steps.undeclared(source, found["name"])
+        return steps.undeclared(there, found["name"])
     if found := _NO_DEFAULT.search(text):
-        return steps.without_default(source, found["name"])
+        return steps.without_default(there, found["name"])
     if found := _NOT_PAIRS.search(text):
         return Cause(
             "remappings not a list of pairs",
             _line_of(text, found.start()),
-            steps.pairs(source)
-            or f"remappings takes a list of pairs, each in round brackets: {steps.remapping(source, 'chatter')}",
+            steps.remapped(there, "chatter")
+            or f"remappings takes a list of pairs, each in round brackets: {steps.remapping(there.source, 'chatter')}",
         )
     if any(_UNRESOLVED.search(line.text) for line in trace.output):
         return Cause(
             "substitution made text too early",
             "an f-string, str() or + has turned a substitution, such as LaunchConfiguration, into text like "
             "<launch.substitutions... object at 0x...>: its value is known only when the launch runs",
-            steps.text_too_early(source)
+            steps.text_too_early(there, "chatter")
+            or steps.anew(there)
             or "give a list instead, whose parts are joined then: [LaunchConfiguration('namespace'), '/', 'name']",
         )
-    if (found := _NO_TEXT.search(text)) and (hint := steps.text_too_early(source)):
+    if (found := _NO_TEXT.search(text)) and (hint := steps.text_too_early(there, "chatter")):
         return Cause("substitution is no text", _line_of(text, found.start()), hint)
     if found := _NO_PACKAGE.search(text):
         return Cause(
             "package not found",
             _line_of(text, found.start()),
-            steps.no_program(source, "package", found["name"], _nearest(found["name"], _PACKAGES))
+            steps.no_program(there, "package", found["name"], nearest(found["name"], PACKAGES))
             or "check the spelling of package=; demo_nodes_py, demo_nodes_cpp and my_package are there",
         )
     if found := _NO_PROGRAM.search(text):
         return Cause(
             "executable not found",
             _line_of(text, found.start()),
-            steps.no_program(source, "executable", found["name"], _nearest(found["name"], _PROGRAMS))
+            steps.no_program(there, "executable", found["name"], nearest(found["name"], PROGRAMS))
             or "check executable=: talker and listener in the demo packages, minimal_publisher and "
             "minimal_subscriber in my_package",
         )
@@ -107,39 +103,34 @@ def of_launch(trace: Trace) -> Cause | None:
         return Cause(
             "no generate_launch_description",
             f"{trace.file} has no function of this name, which launch calls",
-            "def generate_launch_description(): ... return LaunchDescription([...])",
+            steps.other_function(there) or "def generate_launch_description(): ... return LaunchDescription([...])",
         )
     if "NoneType" in text or re.search(r"return(?:s|ed)? (?:None|nothing)", text):
         return Cause(
             "nothing returned",
             "generate_launch_description() returns None",
-            steps.not_returned(source) or "end it with: return LaunchDescription([...])",
+            steps.not_returned(there) or "end it with: return LaunchDescription([...])",
         )
     if error := next((line.text for line in own if _ERROR.search(line.text)), None):
-        return Cause("error in the launch", _ERROR.sub("", error), f"mend this in {FILE}, then launch it yourself")
+        return Cause(
+            "error in the launch",
+            _ERROR.sub("", error),
+            steps.anew(there) or f"mend this in {FILE}, then launch it yourself",
+        )
     if dead := gone(trace.output):
         return _of_dead(dead[0], trace)
     for process in writers(trace.output):
         if left := tracebacks.find(by_stream(written_by(trace.output, process))):
             return causes.of_traceback(left[-1], trace)
-    if (piece := steps.one_word(source)) is not None:
+    if (piece := steps.one_word(there)) is not None:
         return piece
     if trace.exit is not None:
         return Cause(
             "nothing to launch",
             f"the launch ended by itself after {trace.exit.after_s:.1f} s with {trace.exit}, and had started nothing",
-            steps.nothing_listed(source) or "put both nodes into the list: LaunchDescription([publisher, subscriber])",
+            steps.nothing_listed(there) or "put both nodes into the list: LaunchDescription([publisher, subscriber])",
         )
     return None
-
-
-_PACKAGES = ("demo_nodes_py", "demo_nodes_cpp", "my_package")
-_PROGRAMS = ("talker", "listener", "minimal_publisher", "minimal_subscriber")
-
-
-def _nearest(wrong: str, known: Sequence[str]) -> str:
-    """What was probably meant, or nothing."""
-    return next(iter(difflib.get_close_matches(wrong, known, n=1, cutoff=0.5)), "")
 
 
 def _line_of(text: str, at: int) -> str:
@@ -157,7 +148,7 @@ def _of_dead(dead: Gone, trace: Trace) -> Cause:
     return Cause(
         "a node that ends",
         f"{dead.process} has ended by itself with exit code {dead.code}" + (f": {words[0]}" if words else ""),
-        "start this program alone, with ros2 run or python3, and see what it says",
+        steps.anew(launch(trace)) or "start this program alone, with ros2 run or python3, and see what it says",
     )
 
 
@@ -170,18 +161,20 @@ def of_missing(seen: Launched) -> Cause:
     sending, taking = publishers(trace.graph), subscriptions(trace.graph)
     if not trace.graph.nodes:
         return Cause(
-            "no node", "the launch runs, but no ROS node has come up", "start programs that are nodes, with Node(...)"
+            "no node",
+            "the launch runs, but no ROS node has come up",
+            steps.anew(launch(trace)) or "start programs that are nodes, with Node(...)",
         )
     if (sending or taking) and not (sending and taking):
-        missing, there = ("subscriber", sending) if sending else ("publisher", taking)
+        missing, present = ("subscriber", sending) if sending else ("publisher", taking)
         verb = "subscribes" if sending else "publishes"
-        source = _read(trace)
-        if (cause := steps.missing(source, missing)) is not None:
+        there = launch(trace)
+        if (cause := steps.missing(there, missing)) is not None:
             return cause
         return Cause(
             f"no {missing}",
-            f"there is {_nodes(there)}, but nothing {verb}",
-            steps.second_of_a_kind(source, missing)
+            f"there is {_nodes(present)}, but nothing {verb}",
+            steps.anew(there)
             or f"add a Node(...) for the {missing}, and put it into the list that LaunchDescription([...]) is given",
         )
     return Cause(
@@ -189,7 +182,7 @@ def of_missing(seen: Launched) -> Cause:
         f"{_nodes([*sending, *taking])} does all by itself"
         if sending
         else f"the nodes {', '.join(trace.graph.nodes)} do neither",
-        "start two programs, with a Node(...) for each",
+        steps.anew(launch(trace)) or "start two programs, with a Node(...) for each",
     )
 
 
@@ -198,31 +191,31 @@ def of_topic(usual: Launched, seen: Launched, wanted: str) -> Cause:
     """Why, with another topic given, not both nodes use `wanted`, or the default topic is still used."""
     if (cause := _of_broken(seen)) is not None:
         return cause
-    graph, name, source = seen.trace.graph, _own_name(usual), _read(seen.trace)
+    graph, name, there = seen.trace.graph, _own_name(usual), launch(seen.trace)
     sends = [each for each in publishers(graph) if each.topic == wanted]
     takes = [each for each in subscriptions(graph) if each.topic == wanted]
     if not sends and not takes:
         return (
-            _of_added(graph, wanted)
+            _of_added(there, graph, wanted)
             or _of_ignored(seen, "topic", wanted, usual)
             or _of_remaps(seen, wanted)
-            or steps.topic(source, name)
+            or steps.topic(there, name)
             or Cause(
                 "topic hard-coded",
                 f"neither node uses {wanted}: the remappings do not depend on the argument",
-                f"give both nodes {steps.remapping(source, name)}",
+                steps.remapped(there, name) or f"give both nodes {steps.remapping(there.source, name)}",
             )
         )
     if not sends or not takes:
-        there, others, verb = (
+        present, others, verb = (
             (sends, subscriptions(graph), "subscribes to") if sends else (takes, publishers(graph), "publishes on")
         )
-        stray = [each for each in others if each.node not in {one.node for one in there}] or others
+        stray = [each for each in others if each.node not in {one.node for one in present}] or others
         where = ", ".join(sorted({f"{each.node} {verb} {each.topic}" for each in stray})) or "the other is not there"
         return _of_remaps(seen, wanted) or Cause(
             "remapping missing on one node",
-            f"only {there[0].node} uses {wanted}; {where}",
-            steps.other_node(source, "remappings", steps.remapping(source, name))
+            f"only {present[0].node} uses {wanted}; {where}",
+            steps.remapped(there, name)
             or "give the other node the same remappings=[...], from the name that its own code uses",
         )
     still = sorted(shared(usual.trace.graph) & used(graph))
@@ -231,12 +224,12 @@ def of_topic(usual: Launched, seen: Launched, wanted: str) -> Cause:
         return Cause(
             "default topic still used",
             f"{', '.join(who)} still {'uses' if len(who) == 1 else 'use'} {', '.join(still)}",
-            "give every node that uses the topic the same remappings=[...]",
+            steps.remapped(there, name) or "give every node that uses the topic the same remappings=[...]",
         )
     return Cause(
         "no messages",
         f"both nodes are on {wanted}, but nothing is sent there",
-        "start both by hand with this topic, and see what they say",
+        steps.anew(there) or "start both by hand with this topic, and see what they say",
     )
 
 
@@ -245,7 +238,7 @@ def of_namespace(usual: Launched, seen: Launched) -> Cause:
     """Why, with a namespace given, not both nodes and their topic are under it."""
     if (cause := _of_broken(seen)) is not None:
         return cause
-    space, source = seen.arguments.get("namespace", NAMESPACE), _read(seen.trace)
+    space, there = seen.arguments.get("namespace", NAMESPACE), launch(seen.trace)
     graph, under = seen.trace.graph, f"/{space}/"
     ends = [*publishers(graph), *subscriptions(graph)]
     twice = next((name for each in ends for name in (each.node, each.topic) if is_twice(name, space)), None)
@@ -253,7 +246,7 @@ def of_namespace(usual: Launched, seen: Launched) -> Cause:
         return Cause(
             "namespace applied twice",
             f"{twice} is in {under[:-1]} of {under[:-1]}",
-            steps.twice(source)
+            steps.anew(there)
             or "use one of the two: namespace=LaunchConfiguration('namespace') for each node, or a PushRosNamespace",
         )
     within = [each for each in ends if each.node.startswith(under)]
@@ -261,19 +254,19 @@ def of_namespace(usual: Launched, seen: Launched) -> Cause:
     if not within:
         return (
             _of_ignored(seen, "namespace", space)
-            or steps.namespace(source)
+            or steps.namespace(there)
             or Cause(
                 "namespace not used",
                 f"{_nodes(outside)}: no node is under {under[:-1]}",
-                "give both nodes namespace=LaunchConfiguration('namespace'), or put them behind a PushRosNamespace",
+                steps.spaced(there)
+                or "give both nodes namespace=LaunchConfiguration('namespace'), or put them behind a PushRosNamespace",
             )
         )
     if outside and not _both(within):
-        return steps.namespace(source) or Cause(
+        return steps.namespace(there) or Cause(
             "namespace missing on one node",
             f"{_nodes(within)} is under {under[:-1]}, {_nodes(outside)} is not",
-            steps.other_node(source, "namespace", f"namespace={steps.value(source, 'namespace')}")
-            or "give the other node the same namespace=LaunchConfiguration('namespace')",
+            steps.spaced(there) or "give the other node the same namespace=LaunchConfiguration('namespace')",
         )
     absolute = [each for each in within if not each.topic.startswith(under)]
     if absolute:
@@ -282,7 +275,7 @@ def of_namespace(usual: Launched, seen: Launched) -> Cause:
         return Cause(
             "absolute topic",
             f"the nodes are under {under[:-1]}, but {absolute[0].node} uses {absolute[0].topic}: {because}",
-            "a name that begins with / takes no namespace: " + steps.right_remapping(source, _own_name(usual)),
+            steps.remapped(there, _own_name(usual)) or "a name that begins with / takes no namespace",
         )
     topic = seen.arguments.get("topic")
     if topic is not None:
@@ -290,7 +283,7 @@ def of_namespace(usual: Launched, seen: Launched) -> Cause:
     return Cause(
         "nodes apart",
         f"{_uses(ends)}: no node subscribes to what another one publishes",
-        "give both nodes the same namespace and the same remappings",
+        steps.anew(there) or "give both nodes the same namespace and the same remappings",
     )
 
 
@@ -301,7 +294,7 @@ def _of_broken(seen: Launched) -> Cause | None:
     return None
 
 
-def _of_added(graph: Graph, wanted: str) -> Cause | None:
+def _of_added(there: Launch, graph: Graph, wanted: str) -> Cause | None:
     """Whether a topic has the value that was given as a part of its last name."""
     word = wanted.rsplit("/", 1)[-1]
     for each in (*publishers(graph), *subscriptions(graph)):
@@ -310,19 +303,20 @@ def _of_added(graph: Graph, wanted: str) -> Cause | None:
             return Cause(
                 "wrong topic",
                 f"{each.node} uses {each.topic}: something is added to the argument's value, {word}",
-                "remap to LaunchConfiguration('topic') alone",
+                steps.anew(there) or "remap to LaunchConfiguration('topic') alone",
             )
     return None
 
 
 def _of_ignored(seen: Launched, argument: str, value: str, usual: Launched | None = None) -> Cause | None:
     """Whether the value that was given reaches no node at all."""
-    source = _read(seen.trace)
+    there = launch(seen.trace)
     word = value.rsplit("/", 1)[-1]
     nodes = [command for command in seen.commands if seen.trace.file not in command]  # the launch has it by itself
     if any(word in command for command in nodes):
         return None
     name = _own_name(usual) if usual is not None else "chatter"
+    source = there.source
     right = f"namespace={steps.value(source, argument)}" if argument == "namespace" else steps.remapping(source, name)
     declared = seen.trace.launch_arguments
     others = [name for name in declared if name not in ARGUMENTS]
@@ -330,26 +324,27 @@ def _of_ignored(seen: Launched, argument: str, value: str, usual: Launched | Non
         return Cause(
             "wrong argument name",
             f"{argument}:={word} changes nothing; the arguments are called {', '.join(declared)}",
-            steps.other_name(source, argument, others)
+            steps.other_name(there, argument, others)
             or f"name it exactly '{argument}', in DeclareLaunchArgument and in LaunchConfiguration",
         )
     if argument not in declared:
         return Cause(
             "argument missing",
             f"{argument}:={word} changes nothing: no such argument is declared",
-            f"put {steps.declaration(argument)} first into the list in LaunchDescription([...]), and give every "
+            steps.anew(there)
+            or f"put {steps.declaration(argument)} first into the list in LaunchDescription([...]), and give every "
             f"Node(...) {right}",
         )
     if argument == "namespace":
-        return steps.namespace(source) or Cause(
+        return steps.namespace(there) or Cause(
             "namespace not used",
             f"the argument {argument} is declared, but its value reaches no node",
-            f"give every Node(...) {right}",
+            steps.spaced(there) or f"give every Node(...) {right}",
         )
-    return steps.topic(source, name) or Cause(
+    return steps.topic(there, name) or Cause(
         "topic hard-coded",
         f"the argument {argument} is declared, but its value reaches no node",
-        f"give every Node(...) {right}",
+        steps.remapped(there, name) or f"give every Node(...) {right}",
     )
 
 
@@ -371,7 +366,7 @@ def _of_remaps(seen: Launched, wanted: str) -> Cause | None:
         return Cause(
             "remapping the wrong way round",
             f"{source} is remapped to {target}, so that {target} stays what it is",
-            "first the name in the node's code, then the new one: " + steps.right_remapping(_read(seen.trace), target),
+            steps.remapped(launch(seen.trace), target) or "first the name in the node's code, then the new one",
         )
     for source, target in _remaps(seen):
         if target.rsplit("/", 1)[-1] != word or source.startswith("__"):
@@ -385,14 +380,15 @@ def _of_remaps(seen: Launched, wanted: str) -> Cause | None:
             return Cause(
                 "absolute remapping",
                 f"the remapping from {source} means this one name only; in the namespace, the topic is {names[0]}",
-                "without the slash, the name is taken within the namespace: "
-                + steps.right_remapping(_read(seen.trace), source[1:]),
+                steps.remapped(launch(seen.trace), source[1:])
+                or "without the slash, the name is taken within the namespace",
             )
         if not any(name.rsplit("/", 1)[-1] == source.rsplit("/", 1)[-1] for name in names):
             return Cause(
                 "remapping from an unused name",
                 f"{source} is remapped to {target}, but the node uses {', '.join(names)}",
-                steps.right_remapping(_read(seen.trace), names[0].rsplit("/", 1)[-1]),
+                steps.remapped(launch(seen.trace), names[0].rsplit("/", 1)[-1])
+                or f"remap {names[0].rsplit('/', 1)[-1]} instead",
             )
     return None
 
@@ -410,7 +406,7 @@ def of_pair(seen: Launched) -> Cause:
     return Cause(
         "wrong topic",
         f"{_uses(sends)}, {_uses(takes, 'subscribes to')}: nobody subscribes to what is published",
-        "remap both to the same name: ('chatter', LaunchConfiguration('topic')) on each",
+        steps.anew(launch(seen.trace)) or "remap both to the same name: ('chatter', LaunchConfiguration('topic'))",
     )
 
 

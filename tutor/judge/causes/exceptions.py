@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import re
+from dataclasses import replace
+
 from tutor.judge import exceptions
 from tutor.judge.causes import names, parameters
 from tutor.judge.trace import Trace
 from tutor.judge.tracebacks import Frame, Traceback
 from tutor.judge.verdict import Cause
+
+_EDITS = re.compile(r"lines? \d+|write (?:above|below) line|remove lines? \d+|at the top of the file")
 
 
 def of_traceback(found: Traceback, trace: Trace) -> Cause:
@@ -56,4 +61,6 @@ def _known(each: Traceback, last: Traceback, trace: Trace) -> Cause | None:
     found = exceptions.find(seen, table, cause=names.UNHANDLED_EXCEPTION, after=_after(each, last))
     if found is None and each.type.endswith("InvalidParameterTypeException"):
         return parameters.of_types(_told(each, last, trace))
+    if found is not None and len(trace.sources) > 1 and _EDITS.match(found.hint):
+        return replace(found, hint=f"in {file}, {found.hint}")
     return found
