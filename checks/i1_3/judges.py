@@ -91,6 +91,8 @@ def _unanswered(cause: Cause, trace: Trace, service: str, stuck: Sequence[Frame]
         return replace(cause, hint=offers.returning(trace, service) or cause.hint)
     if at is not None and "sleep(" in at.code:
         return replace(cause, hint=_first(trace, lambda code: programs.without(code, "sleep")) or cause.hint)
+    if any("was never awaited" in line.text for line in trace.output):
+        return replace(cause, hint=services.computing(trace, [service], whole=True) or cause.hint)
     if cause.name == "incompatible QoS":
         return stepped(cause, trace, lambda: _first(trace, offers.reliable))
     if cause.name == "no spin":

@@ -32,13 +32,11 @@ def added(trace: Trace, missing: Sequence[str]) -> str | None:
                 name = f"{code.me(at)}.{has[0].name}"
             else:
                 name, edit = new_callback(code, at, service)
-                defined.append(edit.code)
+                defined.append(edit.code.rstrip() + "\n\n")
             lines.append(f"{node}.create_service({kind}, '{service[1:]}', {name})")
-        below = edits.below(at.end_lineno or at.lineno, "\n".join(lines), like=at.lineno)
-        if not code.me(at):
-            below = edits.below(at.end_lineno or at.lineno, "\n".join([*defined, *lines]), like=at.lineno)
-            defined = []
-        above = [edits.above(_top(code, at), "\n".join(defined))] if defined else []
+        above = [edits.above(_top(code, at), "".join(defined))] if defined and code.me(at) else []
+        written = "".join([*([] if code.me(at) else defined), "\n".join(lines)])
+        below = edits.below(at.end_lineno or at.lineno, written, like=at.lineno)
         imports = code.importing("AddTwoInts") if kind == "AddTwoInts" else []
         if (step := code.told(imports, above, below)) is not None:
             return step
@@ -77,9 +75,10 @@ def renamed(trace: Trace, wanted: Sequence[tuple[str, str]], create: str = "crea
                 plain = isinstance(name, ast.Name | ast.Attribute | ast.Subscript | ast.Call)
                 text = ast.unparse(name) if plain else f"({ast.unparse(name)})"
                 change.swaps.append((name, f"'/' + {text}.rpartition('/')[2]"))
+        computed = bool(change.swaps)
         for is_, must in wanted:
             texts = [each for each in code.nodes if isinstance(each, ast.Constant) and isinstance(each.value, str)]
-            for each in texts if not change.swaps else []:
+            for each in texts if not computed else []:
                 if str(each.value).rpartition("/")[2] == is_.rpartition("/")[2] and not _spoken(code, each):
                     parts = re.findall("|".join(name[1:] for name in SIGNS), str(each.value))
                     joined = len(parts) > 1 and "".join(parts) == each.value  # as Python does without a comma

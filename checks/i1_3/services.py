@@ -146,7 +146,7 @@ def _added(code: Code, at: ast.AST, lines: Sequence[str]) -> tuple[str, Edit]:
     if me:
         above = [each for each in code.around(at) if isinstance(each, Function)][-1]
     top = min([above.lineno, *(each.lineno for each in getattr(above, "decorator_list", []))])
-    return (f"{me}.{name}" if me else name), edits.above(top, "\n".join([*lines, ""]))
+    return (f"{me}.{name}" if me else name), edits.above(top, "\n".join([*lines, "", ""]))
 
 
 def _anew(change: Changes, there: Offer, service: str) -> None:

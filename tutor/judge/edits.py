@@ -41,7 +41,7 @@ class Edit:
     def __str__(self) -> str:
         """The edit in words, with its code: on the same line if it is one line, else below, four spaces indented."""
         lines = self.code.splitlines()
-        code = f" {lines[0]}" if len(lines) == 1 else "".join(f"\n    {line}".rstrip() for line in lines)
+        code = f" {lines[0]}" if len(lines) == 1 else "".join("\n" + f"    {line}".rstrip() for line in lines)
         return f"{self._where}:{code}"
 
     @property

@@ -1,0 +1,223 @@
+"""I1.3: edits of the client's code by which each request is waited for, and its answer."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Callable
+
+import pytest
+
+from checks.i1_3 import programs, requests
+from checks.i1_3.code import Code
+from tests.checks.made import trace
+from tutor.judge.following import follow
+
+HEAD = """\
+import rclpy
+from example_interfaces.srv import AddTwoInts
+from rclpy.node import Node
+
+
+"""
+
+
+def followed(text: str, step: Callable[[Code], str | None]) -> str | None:
+    """The file after the step, without its head."""
+    told = step(Code("node.py", HEAD + text))
+    return None if told is None else follow(told, {"node.py": HEAD + text})["node.py"].removeprefix(HEAD)
+
+
+def answered(code: Code) -> str | None:
+    return requests.answered(code, trace(sources={code.file: code.text}))
+
+
+ASK = """\
+class Client(Node):
+    def ask(self, client, request):
+        {}
+"""
+
+
+@pytest.mark.parametrize(
+    ("asks", "answers"),
+    [
+        (
+            "future = client.call_async(request)\n        return future.result()",
+            "future = client.call_async(request)\n        rclpy.spin_until_future_complete(self, future)\n"
+            "        return future.result()",
+        ),
+        (
+            "return client.call(request).sum",
+            "future = client.call_async(request)\n        rclpy.spin_until_future_complete(self, future)\n"
+            "        return future.result().sum",
+        ),
+        (
+            "return client.call_async(request)",
+            "future = client.call_async(request)\n        rclpy.spin_until_future_complete(self, future)\n"
+            "        return future.result()",
+        ),
+        (
+            "future = client.call_async(request)\n        return future",
+            "future = client.call_async(request)\n        rclpy.spin_until_future_complete(self, future)\n"
+            "        return future.result()",
+        ),
+        (
+            "self.future = client.call_async(request)\n        while not self.future.done():\n            sleep(1)",
+            "self.future = client.call_async(request)\n        rclpy.spin_until_future_complete(self, self.future)",
+        ),
+        (
+            "future = client.call_async(request)\n        rclpy.spin_once(self)\n        print(future.result())",
+            "future = client.call_async(request)\n        rclpy.spin_until_future_complete(self, future)\n"
+            "        print(future.result())",
+        ),
+        (
+            "print(client.call_async(request).result().sum)",
+            "future = client.call_async(request)\n        rclpy.spin_until_future_complete(self, future)\n"
+            "        print(future.result().sum)",
+        ),
+        (
+            "client.call_async(request)",
+            "future = client.call_async(request)\n        rclpy.spin_until_future_complete(self, future)\n"
+            "        future.result()",
+        ),
+    ],
+)
+def test_an_answer_is_waited_for(asks: str, answers: str) -> None:
+    assert followed(ASK.format(asks), answered) == ASK.format(answers)
+
+
+@pytest.mark.parametrize(
+    "asks",
+    [
+        "future = client.call_async(request)\n        rclpy.spin_until_future_complete(self, future)",
+        "future = client.call_async(request)\n        while not future.done():\n            rclpy.spin_once(self)",
+        "future = client.call_async(request)\n        future.add_done_callback(self.got)",
+        "client.call_async(request).add_done_callback(self.got)",
+    ],
+)
+def test_an_answer_that_is_waited_for_already_is_left_alone(asks: str) -> None:
+    assert followed(ASK.format(asks), answered) is None
+
+
+TIMER = """\
+class Client(Node):
+    def __init__(self):
+        super().__init__("client")
+        self.mine = {n: self.create_client(AddTwoInts, n) for n in ("add", "divide")}
+        self.timer = self.create_timer(0.5, self.tick)
+
+    def tick(self):
+        self.timer.cancel()
+        for name in self.mine:
+            print(self.ask(name))
+
+    def ask(self, name):
+        return self.mine[name].call(AddTwoInts.Request(a=1, b=2)).sum
+"""
+
+
+def test_a_timer_awaits_its_answers() -> None:
+    after = followed(TIMER, answered)
+    assert after is not None
+    assert "from rclpy.callback_groups import ReentrantCallbackGroup" in after
+    assert "self.create_client(AddTwoInts, n, callback_group=ReentrantCallbackGroup())" in after
+    assert "async def tick(self):" in after
+    assert "print((await self.ask(name)))" in after
+    assert "async def ask(self, name):" in after
+    assert "return (await self.mine[name].call_async(AddTwoInts.Request(a=1, b=2))).sum" in after
+
+
+@pytest.mark.parametrize(
+    ("asks", "waits"),
+    [
+        (
+            "print(client.call(request))",
+            "client.wait_for_service(timeout_sec=10.0)\n        print(client.call(request))",
+        ),
+        (
+            "for each in self.mine:\n            self.mine[each].call_async(request)",
+            "for each in self.mine:\n            self.mine[each].wait_for_service(timeout_sec=10.0)\n"
+            "            self.mine[each].call_async(request)",
+        ),
+    ],
+)
+def test_a_service_is_waited_for_above_its_request(asks: str, waits: str) -> None:
+    assert followed(ASK.format(asks), requests.waiting) == ASK.format(waits)
+
+
+def test_a_service_is_waited_for_where_its_client_is_made_if_there_is_no_other_place() -> None:
+    text = "node = rclpy.create_node('c')\nasked = [node.create_client(T, n).call_async(R) for n in NAMES]\n"
+    after = followed(text, requests.waiting)
+    assert after is not None
+    assert "asked = [waited(node.create_client(T, n)).call_async(R) for n in NAMES]" in after
+    assert "def waited(client):\n    client.wait_for_service(timeout_sec=10.0)\n    return client" in after
+
+
+def test_a_wait_is_made_long_enough() -> None:
+    text = "if not client.wait_for_service(0.5) or not other.service_is_ready(): pass\n"
+    long = "wait_for_service(timeout_sec=10.0)"
+    assert followed(text, requests.lengthened) == f"if not client.{long} or not other.{long}: pass\n"
+
+
+ASYNC = """\
+class Client(Node):
+    async def ask(self, client):
+        print(await client.call_async(AddTwoInts.Request()))
+"""
+
+
+def test_a_coroutine_that_nobody_runs_becomes_a_function() -> None:
+    after = followed(ASYNC, lambda code: requests.plain(code, "ask"))
+    assert after == textwrap.dedent("""\
+        class Client(Node):
+            def ask(self, client):
+                future = client.call_async(AddTwoInts.Request())
+                rclpy.spin_until_future_complete(self, future)
+                print(future.result())
+        """)
+
+
+@pytest.mark.parametrize(
+    ("text", "after"),
+    [
+        ("NAMES = ('add', 'subtract', 'divide')\n", "NAMES = ('add', 'subtract', 'divide', 'multiply')\n"),
+        ("C = [('/add', 1, 2), ('/divide', 8, 2)]\n", "C = [('/add', 1, 2), ('/divide', 8, 2), ('/multiply', 8, 2)]\n"),
+        ("NAMES = ('add', 'modulo')\n", None),
+    ],
+)
+def test_what_is_not_called_comes_into_the_list(text: str, after: str | None) -> None:
+    assert followed(text, lambda code: programs.listed(code, ["/multiply"])) == after
+
+
+@pytest.mark.parametrize(
+    ("text", "after"),
+    [
+        ("def main(): return True\nsys.exit(main())\n", "def main(): return True\nmain()\n"),
+        ("sys.exit(1)\n", "sys.exit(0)\n"),
+        (
+            "def run():\n    print()\ndef main():\n    done = run()\n    if not done:\n        sys.exit(1)\n",
+            "def run():\n    print()\n    return True\n"
+            "def main():\n    done = run()\n    if not done:\n        sys.exit(1)\n",
+        ),
+        ("sys.exit(0)\n", None),
+    ],
+)
+def test_a_program_that_did_all_its_work_ends_with_0(text: str, after: str | None) -> None:
+    assert followed(text, programs.ending) == after
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "class Client(Node):\n    pass\n\n\ndef main(args=None):\n    node = Client()\n    node.ask()\n\n\nmain()\n",
+        "NAMES = ['add']\n\n\nclass Client(Node):\n    names = NAMES\n\n\nrclpy.init()\nnode = Client()\n",
+        "async def run():\n    await Client().ask()\n\n\nif __name__ == '__main__':\n    asyncio.run(run())\n",
+    ],
+)
+def test_the_last_resort_is_a_program_that_calls_all_four(text: str) -> None:
+    after = followed(text, programs.all_four)
+    assert after is not None
+    assert "for name in ('add', 'subtract', 'multiply', 'divide'):" in after
+    assert "rclpy.spin_until_future_complete(node, future)" in after
+    assert after.count("rclpy.init()") == 1
+    assert "asyncio.run(" not in after
