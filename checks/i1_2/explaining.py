@@ -50,12 +50,14 @@ def _counted_twice(feedings: Sequence[Feeding]) -> Cause | None:
         here = [each for each in feeding.trace.graph.subscriptions if (each.topic, each.type) == (TOPIC, TYPE)]
         if len(here) < 2 or not _doubled(feeding):
             continue
-        made = [call.lineno for call in source.calls(feeding.trace, "create_subscription")]
+        calls = source.calls(feeding.trace, "create_subscription")
+        made = [call.lineno for call in calls]
         where = f": lines {' and '.join(map(str, made))}" if len(made) > 1 else ""
         return Cause(
             "two subscriptions",
             f"{len(here)} subscriptions on {TOPIC} each call the callback, so that every message counts twice{where}",
-            f"keep one of them, and take the one in line {made[-1]} out"
+            next(filter(None, (slowness.without(feeding.trace, call) for call in reversed(calls))), "")
+            or f"keep one of them, and take the one in line {made[-1]} out"
             if len(made) > 1
             else "make one node, and one subscription in it",
         )

@@ -41,8 +41,17 @@ class Listener:
         return given[0] if given else ""
 
     @property
+    def content(self) -> str:
+        """What the message's text is in it: `msg.data`, or an argument that a lambda gives it."""
+        given = [each for each in ast.walk(self.created) if isinstance(each, ast.Lambda)]
+        taken = any(
+            isinstance(node, ast.Attribute) and node.attr == "data" for each in given for node in ast.walk(each)
+        )
+        return self.message if taken or not self.message else f"{self.message}.data"
+
+    @property
     def logger(self) -> str:
-        """The logger, as written in the callback."""
+        """The logger, as written in the callback; empty where it has none within reach."""
         node = ast.unparse(self.created.func.value) if isinstance(self.created.func, ast.Attribute) else "node"
         if self.owner is not None and self.created in ast.walk(self.owner):
             return f"{node}.get_logger()"
@@ -50,7 +59,7 @@ class Listener:
         for call in calls:
             if isinstance(call.func, ast.Attribute) and call.func.attr in _LEVELS:
                 return ast.unparse(call.func.value)
-        return f"{node}.get_logger()"
+        return "" if self.owner else f"{node}.get_logger()"
 
     def name(self, role: str) -> str:
         """The variable of this role, as written in the callback: one of the file's own, or a new one."""
@@ -72,9 +81,9 @@ def find(trace: Trace) -> Listener | None:
                 owner = next((each for each in tree if isinstance(each, ast.ClassDef) and function in each.body), None)
                 inside = [each for each in tree if isinstance(each, Function) and function in ast.walk(each)]
                 outer = next((each for each in inside if each is not function), None) if owner is None else None
-                reached = tuple(_reached(function, tree))
-                names = dict(_names(function, reached, owner))
-                return Listener(file, text, call, function, reached, owner, outer, names)
+                led = tuple(reached(function, tree))
+                names = dict(_names(function, led, owner, tree))
+                return Listener(file, text, call, function, led, owner, outer, names)
     return None
 
 
@@ -87,15 +96,16 @@ def _given(call: ast.Call, tree: Sequence[ast.AST]) -> Iterator[Function]:
     for value in values:
         inner = value.func if isinstance(value, ast.Call) else value
         parts = ast.walk(value) if isinstance(value, ast.Lambda | ast.Call) else [inner]
-        named = [name for each in parts if (name := _last(each))]
+        named = [name for each in parts if (name := last_name(each))]
         yield from (each for name in named for each in functions if each.name == name)
 
 
-def _last(node: ast.AST) -> str:
+def last_name(node: ast.AST) -> str:
+    """The last part of a name, such as "b" of a.b; empty where it is none."""
     return node.attr if isinstance(node, ast.Attribute) else node.id if isinstance(node, ast.Name) else ""
 
 
-def _reached(function: Function, tree: Sequence[ast.AST]) -> Iterator[Function]:
+def reached(function: Function, tree: Sequence[ast.AST]) -> Iterator[Function]:
     """The function, and those of the file that it leads to, by name."""
     functions = {each.name: each for each in tree if isinstance(each, Function)}
     waiting, found = [function], [function]
@@ -108,16 +118,25 @@ def _reached(function: Function, tree: Sequence[ast.AST]) -> Iterator[Function]:
     yield from found
 
 
-def _names(function: Function, reached: Sequence[Function], owner: ast.ClassDef | None) -> Iterator[tuple[str, str]]:
-    """The role of each variable that lasts, with the variable; of two in one role, the one that comes last counts.
+def _names(
+    function: Function, reached: Sequence[Function], owner: ast.ClassDef | None, tree: Sequence[ast.AST]
+) -> Iterator[tuple[str, str]]:
+    """The role of each variable that lasts, with the variable; of two in one role, the one that comes first counts.
 
-    What another class keeps is out of the callback's reach.
+    What another class keeps is out of the callback's reach; what is also set elsewhere may be for something else.
     """
-    mine = [each for each in reached if each is function or (owner is not None and each in owner.body)]
+    called = [node.value for node in function.body if isinstance(node, ast.Expr)]
+    always = {source.called(each) for each in called if isinstance(each, ast.Call)} if owner else set()
+    mine = [each for each in reached if each is function or (each.name in always and owner and each in owner.body)]
+    outside = [each for each in tree if isinstance(each, Function) and each not in mine and each.name != "__init__"]
+    others = {name for each in outside for name, _, _ in _kept(each)}
+    found: dict[str, str] = {}
     for each in mine:
-        for target, value, always in _kept(each):
-            if (role := _role(value, each, always)) and (role != START or not always):
-                yield role, target
+        for target, value, with_each in _kept(each):
+            role = _role(value, each, with_each)
+            if role and target not in others and (role != START or not with_each):
+                found.setdefault(role, target)
+    yield from found.items()
 
 
 def _kept(function: Function) -> Iterator[tuple[str, ast.expr, bool]]:

@@ -3,22 +3,37 @@
 from __future__ import annotations
 
 import ast
+import re
+import textwrap
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from checks.i1_2.facts import EVERY
-from checks.i1_2.listener import COUNT, FIRST, LAST, NUMBER, START, Listener, find
+from checks.i1_2.listener import COUNT, FIRST, LAST, NUMBER, START, Listener, find, last_name, reached
 from tutor.judge import source
-from tutor.judge.edits import Edit, above, becomes, below, instead, on_top, told
+from tutor.judge.edits import (
+    Edit,
+    above,
+    apply,
+    around,
+    at_start,
+    becomes,
+    below,
+    instead,
+    on_top,
+    removed,
+    statement,
+    told,
+)
 from tutor.judge.trace import Trace
 
 _AT_FIRST = {COUNT: "0", FIRST: "''", LAST: "''", START: "0.0", NUMBER: "None"}
 _CODE = """\
 if {total_count} == 0:
-    {first_message} = {message}.data
+    {first_message} = {content}
     {start_time} = time.monotonic()
 {total_count} += 1
-{last_message} = {message}.data
-number = int({message}.data.rpartition(':')[2])
+{last_message} = {content}
+number = int({content}.rpartition(':')[2])
 if {last_number} is not None and number > {last_number} + 1:
     {logger}.warning(f'{{number - {last_number} - 1}} messages are missing before {{number}}')
 {last_number} = number
@@ -31,17 +46,65 @@ if {total_count} % {every} == 0:
 def whole(trace: Trace) -> str | None:
     """The step that writes the callback anew; None where there is none that can be written so."""
     listener = find(trace)
-    if listener is None or not listener.message:
-        return None
-    names = {role: listener.name(role) for role in _AT_FIRST}
-    code = _CODE.format(message=listener.message, logger=listener.logger, every=EVERY, **names)
-    code = declared(listener, names.values(), code)
-    edits = [
-        *on_top(listener.text, "import time"),
-        *started(listener, _AT_FIRST),
-        body(listener, code),
-    ]
-    return step(trace, listener, edits)
+    if listener is not None and listener.message and listener.logger:
+        names = {role: listener.name(role) for role in _AT_FIRST}
+        code = _CODE.format(content=listener.content, logger=listener.logger, every=EVERY, **names)
+        written = body(listener, declared(listener, names.values(), code))
+        timers = list(_without_timers(listener))
+        if apply(listener.text, [written, *timers]).split() == listener.text.split():
+            return None
+        edits = [*on_top(listener.text, "import time"), *started(listener, _AT_FIRST), written, *timers]
+        if found := step(trace, listener, edits):
+            return found
+    return _another(trace)
+
+
+def _another(trace: Trace) -> str | None:
+    """The step that gives the subscription another callback, with all that lasts in the node."""
+    for call in source.calls(trace, "create_subscription"):
+        file, text = next(each for each in trace.sources.items() if call in source.tree(each[1]))
+        given = [*call.args[2:3], *(each.value for each in call.keywords if each.arg == "callback")]
+        function, made = around(text, call.lineno), statement(text, call.lineno)
+        if not given or not isinstance(call.func, ast.Attribute) or function is None or made is None:
+            continue
+        node, name = ast.unparse(call.func.value), "on_message" if "on_message" not in text else "on_chatter"
+        names = {role: f"{node}.{role}" for role in _AT_FIRST}
+        code = _CODE.format(content="message.data", logger=f"{node}.get_logger()", every=EVERY, **names)
+        method = f"def {name}({'self, ' if node == 'self' else ''}message):\n{textwrap.indent(code, '    ')}"
+        starts = "\n".join(f"{names[role]} = {value}" for role, value in _AT_FIRST.items())
+        if node == "self":
+            edits = [above(made.lineno, starts), below(function.end_lineno or 0, f"\n{method}", like=function.lineno)]
+        else:
+            edits = [above(made.lineno, f"{starts}\n\n{method}\n")]
+        others = [
+            each
+            for each in source.calls(trace, "create_subscription")
+            if each is not call and each in source.tree(text)
+        ]
+        for made in (statement(text, each.lineno) for each in others):
+            edits += [removed(text, made.lineno, made.end_lineno or 0)] if made else []
+        callback = f"self.{name}" if node == "self" else name
+        edits += [*on_top(text, "import time"), instead(text, given[0], callback)]
+        if name not in text and (found := told(text, edits, file=file if len(trace.sources) > 1 else "")):
+            return found
+    return None
+
+
+def _without_timers(listener: Listener) -> Iterator[Edit]:
+    """Takes out the timers that log, with what they call: the callback does so."""
+    tree = source.tree(listener.text)
+    functions = {each.name: each for each in tree if isinstance(each, ast.FunctionDef)}
+    for call in (each for each in tree if isinstance(each, ast.Call) and source.called(each) == "create_timer"):
+        made = statement(listener.text, call.lineno)
+        names = [last_name(node) for each in call.args[1:2] for node in ast.walk(each)]
+        name = next((each for each in names if each in functions), "")
+        if made is None or not name or functions[name] in listener.reached:
+            continue
+        inside = [node for each in reached(functions[name], tree) for node in ast.walk(each)]
+        if any(isinstance(each, ast.Call) and source.called(each) == "get_logger" for each in inside):
+            yield removed(listener.text, made.lineno, made.end_lineno or 0)
+            if len(re.findall(rf"\b{name}\b", listener.text)) == 2:
+                yield removed(listener.text, functions[name].lineno, functions[name].end_lineno or 0)
 
 
 def step(trace: Trace, listener: Listener, edits: Sequence[Edit]) -> str | None:
@@ -58,8 +121,7 @@ def declared(listener: Listener, names: Iterable[str], code: str) -> str:
 
 def on_entry(listener: Listener, names: Iterable[str], code: str) -> Edit:
     """What the callback does before all else with each message; `names`: the variables that last."""
-    documented = isinstance(listener.function.body[0], ast.Expr) and len(listener.function.body) > 1
-    return above(listener.function.body[documented].lineno, declared(listener, names, code))
+    return at_start(listener.function, declared(listener, names, code))
 
 
 def body(listener: Listener, code: str) -> Edit:

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from checks.i1_2.backlog import Lost
-from tutor.judge import source
+from tutor.judge import edits, source
 from tutor.judge.trace import Trace
 from tutor.judge.verdict import Cause
 
@@ -41,7 +41,9 @@ def of_waits(trace: Trace, text: str) -> Cause | None:
                     "nap between messages",
                     f"{text}, since the loop sleeps between one message and the next: line {nap.lineno}: "
                     f"{ast.unparse(nap)}",
-                    f"take {ast.unparse(nap)} in line {nap.lineno} out: spin_once() waits by itself for the next "
+                    _spinning(trace, loop)
+                    or without(trace, nap)
+                    or f"take {ast.unparse(nap)} in line {nap.lineno} out: spin_once() waits by itself for the next "
                     "message. Or write rclpy.spin(node) instead of the loop",
                 )
     for function in source.callbacks(trace, "create_subscription"):
@@ -51,8 +53,33 @@ def of_waits(trace: Trace, text: str) -> Cause | None:
             return Cause(
                 "slow callback",
                 f"{text}, since its callback sleeps: line {nap.lineno}: {ast.unparse(nap)}",
-                f"take {ast.unparse(nap)} in line {nap.lineno} out: while a callback runs, no other message comes in",
+                without(trace, nap)
+                or f"take {ast.unparse(nap)} in line {nap.lineno} out: while a callback runs, no other message comes",
             )
+    return None
+
+
+def without(trace: Trace, call: ast.Call) -> str | None:
+    """The step that takes out the statement of this call; None where it is part of more."""
+    for file, text in trace.sources.items():
+        made = edits.statement(text, call.lineno) if call in source.tree(text) else None
+        if isinstance(made, ast.Expr | ast.Assign) and ast.unparse(made.value) == ast.unparse(call):
+            edit = edits.removed(text, made.lineno, made.end_lineno or 0)
+            return edits.told(text, edit, file=file if len(trace.sources) > 1 else "")
+    return None
+
+
+def _spinning(trace: Trace, loop: ast.While | ast.For) -> str | None:
+    """The step that writes spin() in place of a loop that does nothing but spin_once() and sleep."""
+    spins = [call for call in _calls(loop) if source.called(call) in SPINS_ONCE]
+    plain = all(isinstance(each, ast.Expr) and isinstance(each.value, ast.Call) for each in loop.body)
+    if not plain or len(loop.body) > 2 or len(spins) != 1 or not isinstance(spins[0].func, ast.Attribute):
+        return None
+    code = f"{ast.unparse(spins[0].func.value)}.spin({', '.join(map(ast.unparse, spins[0].args[:1]))})"
+    for file, text in trace.sources.items():
+        if loop in source.tree(text):
+            edit = edits.becomes(loop.lineno, code, loop.end_lineno or 0)
+            return edits.told(text, edit, file=file if len(trace.sources) > 1 else "")
     return None
 
 

@@ -13,7 +13,7 @@ from tutor.judge.edits import removed
 from tutor.judge.trace import Trace
 
 _GAPS = """\
-number = int({message}.data.rpartition(':')[2])
+number = int({content}.rpartition(':')[2])
 if {last} is not None and number > {last} + 1:
     {logger}.warning(f'{{number - {last} - 1}} messages are missing before {{number}}')
 {last} = number"""
@@ -61,10 +61,10 @@ def silent(trace: Trace) -> str | None:
 def gaps(trace: Trace, false: Sequence[str] = ()) -> str | None:
     """Compares each number with the one before; `false`: log messages of gaps that there were not, to be taken out."""
     listener = find(trace)
-    if listener is None or not listener.message:
-        return None
+    if listener is None or not (listener.message and listener.logger):
+        return rewriting.whole(trace)
     last = listener.new("last_number", "number_before")
-    code = _GAPS.format(message=listener.message, logger=listener.logger, last=last)
+    code = _GAPS.format(content=listener.content, logger=listener.logger, last=last)
     told = [logged(trace, each) for each in false[-1:]]
     if all(each is not None and each.text == listener.text for each in told):
         edits = [

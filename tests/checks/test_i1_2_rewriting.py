@@ -1,0 +1,155 @@
+"""I1.2: the step that writes a callback anew, done word for word, in files of many shapes."""
+
+from __future__ import annotations
+
+import ast
+
+import pytest
+
+from checks.i1_2 import rewriting
+from tests.checks.made import trace
+from tests.repairs import follow
+
+METHOD = """\
+class Stats(Node):
+    def __init__(self):
+        super().__init__('message_stats')
+        self.anzahl = 1
+        self.sub = self.create_subscription(
+            String, 'chatter', callback=self.gehoert, qos_profile=10)
+
+    def gehoert(self, nachricht):
+        '''Takes in one message.'''
+        if self.anzahl == 1:
+            self.erste = nachricht.data
+        self.anzahl += 1
+        self.letzte = nachricht.data
+"""
+LAMBDA = METHOD.replace("self.gehoert", "lambda m: self.gehoert(m.data)").replace("nachricht.data", "nachricht")
+NOTHING = METHOD.replace("self.gehoert", "lambda m: None")
+GLOBAL = """\
+import time
+count = 0
+
+def heard(msg):
+    global count
+    count += 1
+
+def main():
+    node = rclpy.create_node('message_stats')
+    node.create_subscription(String, 'chatter', lambda msg: heard(msg), 10)
+"""
+CLOSURE = """\
+def main():
+    node = rclpy.create_node('message_stats')
+    stats = {'count': 0}
+
+    def heard(msg):
+        stats['count'] += 1
+
+    node.create_subscription(String, 'chatter', heard, 10)
+"""
+ELSEWHERE = """\
+class Tracker:
+    def on_message(self, msg):
+        self.last = msg.data
+
+class Stats(Node):
+    def __init__(self):
+        super().__init__('message_stats')
+        self.tracker = Tracker()
+        self.create_subscription(String, 'chatter', self.tracker.on_message, 10)
+"""
+TIMER = (
+    METHOD.replace("        self.sub", "        self.create_timer(1.0, self.tick)\n        self.sub")
+    + """\
+
+    def tick(self):
+        self.get_logger().info(f'{self.letzte}')
+"""
+)
+
+
+def rewritten(code: str) -> str:
+    """The file after the step; the same step is not told again."""
+    step = rewriting.whole(trace(sources={"node.py": code}))
+    assert step is not None
+    fixed = follow(step, {"node.py": code})["node.py"]
+    ast.parse(fixed)
+    assert rewriting.whole(trace(sources={"node.py": fixed})) is None
+    return fixed
+
+
+@pytest.mark.parametrize(
+    ("code", "lines"),
+    [
+        pytest.param(
+            METHOD,
+            [
+                "import time",
+                "        self.anzahl = 0",
+                "        self.last_number = None",
+                "        '''Takes in one message.'''",
+                "        if self.anzahl == 0:",
+                "            self.erste = nachricht.data",
+                "            self.get_logger().info(f'first: {self.erste}, last: {self.letzte}')",
+            ],
+            id="method",
+        ),
+        pytest.param(
+            LAMBDA,
+            ["            self.first_message = nachricht", "        self.last_message = nachricht"],
+            id="text given",
+        ),
+        pytest.param(
+            NOTHING,
+            [
+                "            String, 'chatter', callback=self.on_message, qos_profile=10)",
+                "    def on_message(self, message):",
+                "        self.last_message = message.data",
+            ],
+            id="lambda",
+        ),
+        pytest.param(
+            CLOSURE,
+            [
+                "    total_count = 0",
+                "        nonlocal total_count, first_message, last_message, start_time, last_number",
+            ],
+            id="closure",
+        ),
+        pytest.param(
+            ELSEWHERE,
+            [
+                "        self.create_subscription(String, 'chatter', self.on_chatter, 10)",
+                "    def on_chatter(self, message):",
+            ],
+            id="another class",
+        ),
+    ],
+)
+def test_the_callback_is_written_anew(code: str, lines: list[str]) -> None:
+    fixed = rewritten(code).splitlines()
+    assert [line for line in lines if line not in fixed] == []
+
+
+def test_a_function_of_the_module_names_what_is_global() -> None:
+    told = trace(
+        sources={"node.py": GLOBAL.replace("    global count\n", "    global count\n    log = rclpy.logging\n")}
+    )
+    assert rewriting.whole(told) is not None
+    fixed = rewritten(GLOBAL.replace("    count += 1", "    count += 1\n    log.info('a message')"))
+    assert "    global count, first_message, last_message, start_time, last_number\n" in fixed
+    assert "\nfirst_message = ''\n" in fixed
+    assert "    log.info(f'{count} messages, {rate:.2f} per second')\n" in fixed
+
+
+def test_a_timer_that_logs_is_taken_out() -> None:
+    fixed = rewritten(TIMER)
+    assert "create_timer" not in fixed
+    assert "def tick" not in fixed
+
+
+@pytest.mark.parametrize("code", ["", "def f(:", "class Stats(Node):\n    pass\n"])
+def test_where_there_is_no_subscription_nothing_is_told(code: str) -> None:
+    assert rewriting.whole(trace(sources={"node.py": code})) is None
