@@ -64,7 +64,7 @@ def changed(*pairs: tuple[str, str], text: str = NODE) -> NodeFile:
     return node_file(text)
 
 
-def done(file: NodeFile, edits: list[Edit] | None) -> str:
+def done(file: NodeFile, edits: list[Edit]) -> str:
     """The file after the step, done word for word."""
     step = file.step(edits)
     assert step is not None
@@ -172,6 +172,17 @@ def test_bad_rates_are_refused_before_anything_else() -> None:
 )
 def test_declared(file: NodeFile, name: str, default: object, line: str) -> None:
     assert line in done(file, parameters.declared(file, name, default))
+
+
+def test_what_is_declared_again_and_again_is_declared_once() -> None:
+    file = changed(
+        ("        self.declare_parameter('message_prefix', 'Hello')\n", ""),
+        ("        self.count += 1", "        self.prefix = self.declare_parameter('message_prefix', 'Hello').value"),
+    )
+    after = done(file, parameters.declared_once(file, 22))
+    assert "__init__('parameterized_publisher')\n        self.declare_parameter('message_prefix', 'Hello')\n" in after
+    assert after.endswith("        self.prefix = self.get_parameter('message_prefix').value\n")
+    assert parameters.declared_once(changed(), 9) == []
 
 
 def test_a_parameter_of_another_name_is_renamed_wherever_it_is_named() -> None:

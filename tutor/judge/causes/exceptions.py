@@ -7,6 +7,8 @@ from dataclasses import replace
 
 from tutor.judge import exceptions
 from tutor.judge.causes import names, parameters
+from tutor.judge.rewriting.node import node_file
+from tutor.judge.rewriting.parameters import declared_once
 from tutor.judge.trace import Trace
 from tutor.judge.tracebacks import Frame, Traceback
 from tutor.judge.verdict import Cause
@@ -61,6 +63,9 @@ def _known(each: Traceback, last: Traceback, trace: Trace) -> Cause | None:
     found = exceptions.find(seen, table, cause=names.UNHANDLED_EXCEPTION, after=_after(each, last))
     if found is None and each.type.endswith("InvalidParameterTypeException"):
         return parameters.of_types(_told(each, last, trace))
+    if found is not None and each.type.endswith("ParameterAlreadyDeclaredException") and own is not None:
+        read = node_file(seen.source)
+        found = replace(found, hint=read.step(declared_once(read, own.line)) or found.hint)
     if found is not None and len(trace.sources) > 1 and _EDITS.match(found.hint):
         return replace(found, hint=f"in {file}, {found.hint}")
     return found

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import ast
 
-from tutor.judge.edits import Edit, instead, removed
+from tutor.judge.edits import instead, removed, swapped
 from tutor.judge.rewriting import parameters
 from tutor.judge.rewriting.node import Function, NodeFile, argument
 from tutor.judge.verdict import Cause
@@ -36,14 +36,14 @@ def _set_by_itself(file: NodeFile, name: str) -> Cause | None:
 
 
 def _ignoring(file: NodeFile, name: str) -> Cause | None:
-    edits: list[Edit] = []
+    found: list[tuple[ast.expr, str]] = []
     first: ast.Call | None = None
     for call in file.calls("declare_parameter", "declare_parameters"):
         taken = next((each for each in call.keywords if each.arg == "ignore_override"), None)
         if taken is not None and ast.unparse(taken.value) == "True":
             first = first or call if name in ast.unparse(call) else first
-            edits.append(instead(file.text, taken.value, "False"))
-    step = file.step(edits) if first is not None else None
+            found.append((taken.value, "False"))
+    step = file.step(swapped(file.text, *found)) if first is not None else None
     if first is None or step is None:
         return None
     text = f"{_line(first)}: with ignore_override=True, the value given at start-up is not taken"

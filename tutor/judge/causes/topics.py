@@ -10,7 +10,7 @@ from dataclasses import replace
 from tutor.judge.causes import names, period_slips
 from tutor.judge.causes.blocking import of_blocked
 from tutor.judge.causes.process import node_names, of_no_answer, of_process
-from tutor.judge.edits import Edit, above, at_end, becomes, below, instead
+from tutor.judge.edits import Edit, above, at_end, becomes, below, instead, swapped
 from tutor.judge.qos import Policy, unmet
 from tutor.judge.rewriting.node import Function, NodeFile, argument, node_file
 from tutor.judge.source import called
@@ -249,7 +249,7 @@ def _everywhere(file: NodeFile, wrong: str, type_name: str) -> str | None:
     """The step where another type is used throughout the file."""
     own, imported = file.own(_class(type_name), f"{type_name.split('/')[0]}.msg")
     used = [each for each in ast.walk(file.tree) if isinstance(each, ast.Name) and each.id == wrong]
-    return file.step([*imported, *(instead(file.text, each, own) for each in used)])
+    return file.step([*imported, *swapped(file.text, *((each, own) for each in used))])
 
 
 def _file(trace: Trace) -> NodeFile:

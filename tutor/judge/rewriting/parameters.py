@@ -7,7 +7,7 @@ import difflib
 import re
 from collections.abc import Sequence
 
-from tutor.judge.edits import Edit, above, becomes, below, instead, removed
+from tutor.judge.edits import Edit, above, becomes, below, instead, removed, swapped
 from tutor.judge.rewriting.node import Function, NodeFile, argument, rewritten
 
 ON_SET = "add_on_set_parameters_callback"
@@ -112,6 +112,28 @@ def renamed(file: NodeFile, name: str, others: Sequence[str]) -> list[Edit]:
 
 def _alike(one: str, other: str) -> bool:
     return one in other or other in one or difflib.SequenceMatcher(None, one, other).ratio() > 0.6
+
+
+def declared_once(file: NodeFile, line: int) -> list[Edit]:
+    """What the function of this line declares each time that it is called, declared with the node, and only read."""
+    calls = file.calls("declare_parameter")
+    function = next((file.within(each) for each in calls if each.lineno <= line <= (each.end_lineno or 0)), None)
+    again = [each for each in calls if function is not None and file.within(each) is function]
+    if function is None or function is file.setup:
+        return []
+    elsewhere = {ast.unparse(each.args[0]) for each in calls if each not in again and each.args}
+    bare = [file.statement(each) for each in again if isinstance(file.statement(each), ast.Expr)]
+    reads = [
+        (each, f"{file.name}.get_parameter({ast.unparse(each.args[0])})")
+        for each in again
+        if each.args and file.statement(each) not in bare
+    ]
+    missing = [ast.unparse(each) for each in again if each.args and ast.unparse(each.args[0]) not in elsewhere]
+    return [
+        *(removed(file.text, each.lineno, each.end_lineno or 0) for each in bare),
+        *swapped(file.text, *reads),
+        *(_below_super(file, "\n".join(missing)) if missing else []),
+    ]
 
 
 def _below_super(file: NodeFile, code: str) -> list[Edit]:
