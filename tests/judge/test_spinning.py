@@ -47,39 +47,39 @@ def at(line: int, code: str, function: str = "main") -> tuple[Frame, ...]:
             ["while rclpy.ok():", "    time.sleep(0.1)"],
             at(14, "time.sleep(0.1)"),
             "stays at node.py, line 14: time.sleep(0.1), in the loop of line 13: while rclpy.ok():",
-            "write rclpy.spin(talker) instead of lines 13 to 14: ",
+            "lines 13 to 14 become: rclpy.spin(talker)",
         ),
         (
             ["while True:", "    time.sleep(0.5)", "rclpy.spin(talker)"],
             at(14, "time.sleep(0.5)"),
             "while True:",
-            "take lines 13 to 14 out, so that spin() is reached",
+            "remove lines 13 to 14",
         ),
         (
             ["while True:", "    talker.tick()", "    time.sleep(0.5)"],
             at(15, "time.sleep(0.5)"),
             "line 15",
-            "write instead of lines 13 to 15:\ntalker.create_timer(0.5, talker.tick)\nrclpy.spin(talker)",
+            "lines 13 to 15 become:\n    talker.create_timer(0.5, talker.tick)\n    rclpy.spin(talker)",
         ),
         (
             ["while True:", "    talker.tick()", "    time.sleep(0.5)", "rclpy.spin(talker)"],
             at(15, "time.sleep(0.5)"),
             "line 15",
-            "write instead of lines 13 to 15:\ntalker.create_timer(0.5, talker.tick)",
+            "lines 13 to 15 become: talker.create_timer(0.5, talker.tick)",
         ),
         (
             ["while True:", "    m = String()", "    talker.pub.publish(m)", "    time.sleep(1)"],
             at(16, "time.sleep(1)"),
             "line 16",
-            "into a method of the node, def tick(self):, and write in place of the loop: talker.create_timer(1, "
-            "talker.tick), and rclpy.spin(talker) below it",
+            "lines 13 to 16 become:\n    def on_timer():\n        m = String()\n        talker.pub.publish(m)\n"
+            "    talker.create_timer(1, on_timer)\n    rclpy.spin(talker)",
         ),
-        (["time.sleep(60)"], at(13, "time.sleep(60)"), "line 13", "write rclpy.spin(talker) in place of line 13"),
+        (["time.sleep(60)"], at(13, "time.sleep(60)"), "line 13", "line 13 becomes: rclpy.spin(talker)"),
         (
             ["input()", "rclpy.spin(talker)"],
             at(13, "input()"),
             "line 13",
-            "take line 13, input(), out",
+            "remove line 13: input()",
         ),
     ],
 )
@@ -91,11 +91,26 @@ def test_where_it_stays_instead_of_spinning(body: list[str], stuck: tuple[Frame,
     assert ("rclpy.spin" in found.hint) == ("rclpy.spin" in step)
 
 
+def test_what_a_loop_counts_is_counted_by_the_timer() -> None:
+    body = ["n = 0", "while not talker.done:", "    n += 1", "    print(n)", "    time.sleep(0.5)"]
+    found = of_no_answer(started(*body), at(17, "time.sleep(0.5)"))
+    code = (
+        "def on_timer():\n        nonlocal n\n        if not talker.done:\n            n += 1\n            print(n)\n"
+    )
+    assert f"lines 14 to 17 become:\n    {code}" in found.hint
+
+
+def test_the_node_is_spun_before_the_program_tidies_up() -> None:
+    found = of_process(started("talker.tick()", "talker.destroy_node()", exit=exited(0)))
+    assert found is not None
+    assert found.hint == "write above line 14, with the same indentation: rclpy.spin(talker)"
+
+
 def test_a_loop_in_the_constructor_is_left_to_a_timer() -> None:
     code = NODE.replace("\n    def tick", "        while True:\n            self.tick()\n\n    def tick", 1)
     seen = replace(started("rclpy.spin(talker)"), sources={"node.py": code.format(body="rclpy.spin(talker)")})
     found = of_no_answer(seen, at(6, "self.tick()", "__init__"))
-    assert "write instead of lines 5 to 6:\nself.create_timer(1.0, self.tick)" in found.hint
+    assert "lines 5 to 6 become: self.create_timer(1.0, self.tick)" in found.hint
     assert "rclpy.spin" not in found.hint
 
 
@@ -110,7 +125,7 @@ def test_one_that_does_spin_is_not_told_to() -> None:
         (["rclpy.spin_once(talker)"], "line 13 becomes: rclpy.spin(talker)"),
         (["rclpy.spin_once(talker, timeout_sec=0.1)"], "line 13 becomes: rclpy.spin(talker)"),
         (["ex = SingleThreadedExecutor()", "ex.spin_once()"], "line 14 becomes: ex.spin()"),
-        (["talker.tick()"], "right after line 12, with the same indentation: rclpy.spin(talker)"),
+        (["talker.tick()"], "write below line 13, with the same indentation: rclpy.spin(talker)"),
     ],
 )
 def test_one_that_ends_is_told_where_to_spin(body: list[str], step: str) -> None:

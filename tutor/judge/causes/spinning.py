@@ -5,13 +5,15 @@ from __future__ import annotations
 import ast
 from collections.abc import Sequence
 
-from tutor.judge import source, tracebacks
+from tutor.judge import edits, source, tracebacks
 from tutor.judge.causes import names
+from tutor.judge.rewriting.node import node_file
 from tutor.judge.trace import Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Cause
 
 _Loop = ast.While | ast.For
+_TIDYING = "destroy_node", "shutdown", "try_shutdown", "exit", "_exit"
 _SPINS = "spin", "spin_once", "spin_some", "spin_until_future_complete"
 
 
@@ -35,36 +37,43 @@ def staying(trace: Trace, stuck: Sequence[Frame], nodes: str) -> Cause | None:
 
 def _in_place(trace: Trace, at: Frame, loop: _Loop | None) -> str:
     """What is written in place of the line, or the loop, at which the program stays."""
-    node = _node(trace)
-    spin = f"rclpy.spin({node})"
+    file = node_file(trace.sources.get(at.name, ""))
     function = source.function_at(trace, at.name, at.line)
-    if (
-        function is not None
-        and function.name != "main"
-        and function.args.args[:1]
-        and function.args.args[0].arg == "self"
-    ):
-        node, spin = "self", ""
-    below = source.calls(trace, *_SPINS)
-    if loop is None:
-        if below or not spin:
-            return f"take line {at.line}, {at.code}, out: what has to wait is done by a timer, while the node spins"
-        return f"write {spin} in place of line {at.line}, {at.code}: spin() waits by itself for work, until Ctrl+C"
-    lines = f"lines {loop.lineno} to {loop.end_lineno}" if loop.end_lineno != loop.lineno else f"line {loop.lineno}"
-    spun = f"\n{spin}" if spin and not _spun(trace, function) else ""
-    work = [each for each in loop.body if not _idle(each)]
-    if not work:
-        if not spin or spun == "":
-            return f"take {lines} out, so that spin() is reached: it waits by itself for work, until Ctrl+C"
-        return f"write {spin} instead of {lines}: spin() waits by itself for work, until Ctrl+C"
-    period = next((ast.unparse(nap.args[0]) for nap in _naps(loop) if nap.args), "1.0")
-    if len(work) == 1 and (called := _plain_call(work[0])) is not None:
-        return f"write instead of {lines}:\n{node}.create_timer({period}, {called}){spun}"
-    more = f", and {spin} below it" if spun else ""
-    return (
-        f"move what the loop does ({lines}, without the sleep) into a method of the node, def tick(self):, and write "
-        f"in place of the loop: {node}.create_timer({period}, {node}.tick){more}"
+    own = function is not None and function.name != "main" and "self" in [each.arg for each in function.args.args[:1]]
+    node = "self" if own else _node(trace)
+    spin = "" if own or _spun(trace, function) else f"rclpy.spin({node})"
+    statement = loop or edits.statement(file.text, at.line)
+    if statement is None:
+        return f"take line {at.line}, {at.code}, out: what has to wait is done by a timer, while the node spins"
+    lines = statement.lineno, statement.end_lineno or statement.lineno
+    code = spin
+    if loop is not None and (work := [each for each in loop.body if not _idle(each)]):
+        period = next((ast.unparse(nap.args[0]) for nap in _naps(loop) if nap.args), "1.0")
+        callback, defined = _callback(loop, work, function)
+        code = "\n".join([*defined, f"{node}.create_timer({period}, {callback})", *([spin] if spin else [])])
+    edit = edits.becomes(lines[0], code, lines[1]) if code else edits.removed(file.text, *lines)
+    return file.step([edit]) or (
+        f"move what lines {lines[0]} to {lines[1]} do, without the sleep, into a callback of a timer, and spin the node"
     )
+
+
+def _callback(
+    loop: _Loop, work: Sequence[ast.stmt], function: ast.FunctionDef | ast.AsyncFunctionDef | None
+) -> tuple[str, list[str]]:
+    """The function that does the work of a loop once, and the lines that define it, where it is not there yet."""
+    if len(work) == 1 and (called := _plain_call(work[0])) is not None:
+        return called, []
+    inside = [each for statement in loop.body for each in ast.walk(statement)]
+    stored = {each.id for each in inside if isinstance(each, ast.Name) and isinstance(each.ctx, ast.Store)}
+    around = [each for each in ast.walk(function) if each not in inside] if function is not None else []
+    outer = {each.id for each in around if isinstance(each, ast.Name) and isinstance(each.ctx, ast.Store)}
+    shared = sorted(stored & outer if function is not None else stored)
+    test = ast.unparse(loop.test) if isinstance(loop, ast.While) else "True"
+    body = [line for each in work for line in ast.unparse(each).replace("continue", "return").splitlines()]
+    if test not in ("True", "1", "rclpy.ok()"):
+        body = [f"if {test}:", *(f"    {line}" for line in body)]
+    declared = [f"{'nonlocal' if function is not None else 'global'} {', '.join(shared)}"] if shared else []
+    return "on_timer", ["def on_timer():", *(f"    {line}" for line in (*declared, *body))]
 
 
 def ended(trace: Trace, said: str) -> Cause | None:
@@ -90,7 +99,32 @@ def ended(trace: Trace, said: str) -> Cause | None:
     return Cause(
         names.EXIT_AT_ONCE,
         f"{said}: it makes a node in line {line}, never spins it, and so comes to its end",
-        f"right after line {line}, with the same indentation: rclpy.spin({name})",
+        _spinning_at_end(trace, name, line)
+        or f"right after line {line}, with the same indentation: rclpy.spin({name})",
+    )
+
+
+def _spinning_at_end(trace: Trace, node: str, line: int) -> str | None:
+    """The step where a node is spun once all is set up: before the program tidies up, or at its end."""
+    file = node_file(trace.sources.get(trace.file, ""))
+    made = edits.statement(file.text, line)
+    bodies = [body for each in ast.walk(file.tree) if isinstance(body := getattr(each, "body", None), list)]
+    body = next(
+        (each for each in bodies if any(made is not None and other.lineno == made.lineno for other in each)), []
+    )
+    after = [each for each in body if each.lineno > line]
+    tidying = [
+        each
+        for each in after
+        if any(source.called(call) in _TIDYING for call in ast.walk(each) if isinstance(call, ast.Call))
+        or "__name__" in ast.unparse(each)
+    ]
+    code = f"rclpy.spin({node})"
+    if tidying:
+        return file.step([edits.above(tidying[0].lineno, code)])
+    last = body[-1] if body else made
+    return (
+        file.step([edits.below(last.end_lineno or last.lineno, code, like=last.lineno)]) if last is not None else None
     )
 
 

@@ -129,7 +129,9 @@ def publishing(
     kept = next((each for each in made if file.kept(each)), None)
     publisher = file.kept(kept) if kept is not None else f"{file.holder}.publisher"
     create = f"{file.name}.create_publisher({own}, {topic!r}, 10)"
-    if kept is not None and ast.unparse(kept) != create:
+    given = argument(kept, 1, "topic") if kept is not None else None
+    told = str(given.value) if isinstance(given, ast.Constant) else ""
+    if kept is not None and (file.message_class, told.lstrip("/")) != (own, topic.lstrip("/")):
         edits.append(instead(file.text, kept, create))
     missing = [f"{publisher} = {create}"] if kept is None else []
     body = _ticking(file, publisher, own, data, enabled, log)
