@@ -12,7 +12,7 @@ from checks.i1_1.facts import HIGHEST, LOWEST, SUGGESTED_NAME, SUGGESTED_RATE, T
 from tutor.judge.causes import parameter_slips, period_slips
 from tutor.judge.edits import Edit, instead, on_top, removed
 from tutor.judge.rewriting import parameters, publishing
-from tutor.judge.rewriting.node import NodeFile, node_file
+from tutor.judge.rewriting.node import NodeFile, node_file, started
 from tutor.judge.trace import Trace
 from tutor.judge.verdict import Cause
 
@@ -21,7 +21,7 @@ _RANGE = f"({LOWEST}, {HIGHEST})"
 
 def file(trace: Trace | None) -> NodeFile:
     """The learner's file that was started."""
-    return node_file(trace.sources.get(trace.file, "") if trace is not None else "")
+    return started(trace) if trace is not None else node_file("")
 
 
 def drawn(trace: Trace | None) -> str:

@@ -11,14 +11,14 @@ from checks.i2_1.facts import DEFAULTS, ENABLED, PREFIX, RATE, TOPIC, TYPE
 from tutor.judge import causes
 from tutor.judge.edits import Edit
 from tutor.judge.rewriting import parameters, publishing
-from tutor.judge.rewriting.node import NodeFile, node_file
+from tutor.judge.rewriting.node import NodeFile, started
 from tutor.judge.trace import SetAnswer, Trace
 from tutor.judge.tracebacks import Frame
 
 
 def file(trace: Trace) -> NodeFile:
     """The learner's file that was started."""
-    return node_file(trace.sources.get(trace.file, ""))
+    return started(trace)
 
 
 def declared(trace: Trace, names: Sequence[str]) -> str:

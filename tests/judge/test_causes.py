@@ -143,6 +143,21 @@ def test_two_nodes_of_one_name_are_told_and_two_of_different_names_are_not() -> 
     assert same_name(Trace("x.py", graph=Graph(nodes=("/a", "/talker")))) is None
 
 
+@pytest.mark.parametrize(
+    ("made", "step"),
+    [
+        ("ex.add_node(P())\nex.add_node(P())", "remove line 4: ex.add_node(P())"),
+        ("one = P()\ntwo = P()\ntwo.run()", "remove line 5: two.run()\nremove line 4: two = P()"),
+        ("one = P()", "make one node only; is the class instantiated twice, or the program started twice?"),
+    ],
+)
+def test_a_second_node_of_the_same_class_is_taken_out(made: str, step: str) -> None:
+    text = f"class P(Node):\n    pass\n{made}\n"
+    cause = same_name(Trace("x.py", sources={"x.py": text}, graph=Graph(nodes=("/p", "/p"))))
+    assert cause is not None
+    assert cause.hint == step
+
+
 PLAIN = ("reliable", "volatile")
 OURS = Endpoint("/chatter", "std_msgs/msg/String", "/ours", "reliable", "volatile")
 

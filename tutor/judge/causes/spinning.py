@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from tutor.judge import edits, source, tracebacks
 from tutor.judge.causes import names
-from tutor.judge.rewriting.node import node_file
+from tutor.judge.rewriting.node import node_file, started
 from tutor.judge.trace import Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Cause
@@ -37,7 +37,7 @@ def staying(trace: Trace, stuck: Sequence[Frame], nodes: str) -> Cause | None:
 
 def _in_place(trace: Trace, at: Frame, loop: _Loop | None) -> str:
     """What is written in place of the line, or the loop, at which the program stays."""
-    file = node_file(trace.sources.get(at.name, ""))
+    file = node_file(trace.sources.get(at.name, ""), at.name if len(trace.sources) > 1 else "")
     function = source.function_at(trace, at.name, at.line)
     own = function is not None and function.name != "main" and "self" in [each.arg for each in function.args.args[:1]]
     node = "self" if own else _node(trace)
@@ -106,7 +106,7 @@ def ended(trace: Trace, said: str) -> Cause | None:
 
 def _spinning_at_end(trace: Trace, node: str, line: int) -> str | None:
     """The step where a node is spun once all is set up: before the program tidies up, or at its end."""
-    file = node_file(trace.sources.get(trace.file, ""))
+    file = started(trace)
     made = edits.statement(file.text, line)
     bodies = [body for each in ast.walk(file.tree) if isinstance(body := getattr(each, "body", None), list)]
     body = next(

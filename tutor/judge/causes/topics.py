@@ -12,7 +12,7 @@ from tutor.judge.causes.blocking import of_blocked
 from tutor.judge.causes.process import node_names, of_no_answer, of_process
 from tutor.judge.edits import Edit, above, at_end, becomes, below, instead, swapped
 from tutor.judge.qos import Policy, unmet
-from tutor.judge.rewriting.node import Function, NodeFile, argument, node_file
+from tutor.judge.rewriting.node import Function, NodeFile, argument, node_file, started
 from tutor.judge.source import called
 from tutor.judge.trace import Endpoint, Service, Trace
 from tutor.judge.tracebacks import Frame
@@ -49,7 +49,7 @@ def of_silence(
 
 def _idle(trace: Trace, topic: str, step: str) -> Cause:
     """Why a publisher that is there never sends anything."""
-    file = _file(trace)
+    file = started(trace)
     if file.publisher and not file.calls("publish"):
         text = f"there is a publisher on {topic}, but nothing calls publish()"
     elif file.publisher and not file.timers:
@@ -183,7 +183,7 @@ def of_lifecycle(trace: Trace) -> Cause | None:
     asleep = [each.node for each in trace.graph.services if each.type == "lifecycle_msgs/srv/ChangeState"]
     if not asleep:
         return None
-    file = _file(trace)
+    file = started(trace)
     own = next((each for each in file.functions if each.name == "on_activate"), None)
     bare = own is not None and not any(
         isinstance(each, ast.Call) and called(each) == "on_activate" for each in ast.walk(own)
@@ -235,14 +235,14 @@ def _misplaced(trace: Trace, endpoints: Sequence[Endpoint], topic: str, type_nam
         return Cause(
             names.WRONG_TYPE,
             f"{topic} has the type {here[0].type}, not {type_name}",
-            _everywhere(_file(trace), _class(here[0].type), type_name)
+            _everywhere(started(trace), _class(here[0].type), type_name)
             or f"give {create} the type {_class(type_name)}: from {type_name.split('/')[0]}.msg import "
             f"{_class(type_name)}",
         )
     elsewhere = [endpoint for endpoint in endpoints if endpoint.type == type_name] or [
         endpoint for endpoint in endpoints if difflib.get_close_matches(endpoint.topic, [topic], cutoff=0.6)
     ]
-    return wrong_topic(elsewhere, topic, create, _file(trace)) if elsewhere else None
+    return wrong_topic(elsewhere, topic, create, started(trace)) if elsewhere else None
 
 
 def _everywhere(file: NodeFile, wrong: str, type_name: str) -> str | None:
@@ -250,10 +250,6 @@ def _everywhere(file: NodeFile, wrong: str, type_name: str) -> str | None:
     own, imported = file.own(_class(type_name), f"{type_name.split('/')[0]}.msg")
     used = [each for each in ast.walk(file.tree) if isinstance(each, ast.Name) and each.id == wrong]
     return file.step([*imported, *swapped(file.text, *((each, own) for each in used))])
-
-
-def _file(trace: Trace) -> NodeFile:
-    return node_file(trace.sources.get(trace.file, ""))
 
 
 def _class(type_name: str) -> str:

@@ -13,6 +13,7 @@ from functools import cached_property, lru_cache
 
 from tutor.judge.edits import Edit, above, at_end, below, on_top, told
 from tutor.judge.source import called
+from tutor.judge.trace import Trace
 
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 _MAKING = ("create_publisher", "create_timer", "declare_parameter", "declare_parameters")
@@ -20,9 +21,13 @@ _MAKING = ("create_publisher", "create_timer", "declare_parameter", "declare_par
 
 @dataclass(frozen=True)
 class NodeFile:
-    """One file with one node in it. All that it gives are parts of `tree`, or code."""
+    """One file with one node in it. All that it gives are parts of `tree`, or code.
+
+    `file` is what a step calls it, where there are others beside it.
+    """
 
     text: str
+    file: str = ""
 
     @cached_property
     def tree(self) -> ast.Module:
@@ -204,7 +209,7 @@ class NodeFile:
 
         The last lines come first: so the numbers of the others stay true for anyone who does one after the other.
         """
-        tried = (told(self.text, *_from_below(each)) for each in choices if each and self.tree.body)
+        tried = (told(self.text, *_from_below(each), file=self.file) for each in choices if each and self.tree.body)
         return next((words for words in tried if words is not None), None)
 
 
@@ -247,6 +252,11 @@ def _first_line(statement: ast.stmt) -> int:
 
 
 @lru_cache(maxsize=16)
-def node_file(text: str) -> NodeFile:
+def node_file(text: str, file: str = "") -> NodeFile:
     """The node of a file, by its text: the same one each time."""
-    return NodeFile(text)
+    return NodeFile(text, file)
+
+
+def started(trace: Trace) -> NodeFile:
+    """The node of the file that was started."""
+    return node_file(trace.sources.get(trace.file, ""), trace.file if len(trace.sources) > 1 else "")
