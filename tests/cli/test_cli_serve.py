@@ -20,7 +20,7 @@ from aiohttp import web
 from tests.cli.conftest import Run
 from tutor.content import load_course
 from tutor.serve import address, errors, guard, is_loopback, listen, listening
-from tutor.serve.guard import is_this_machine, owner
+from tutor.serve.guard import is_address_or_ours, is_this_machine, owner
 from tutor.workspace import Workspace, start
 
 LIMIT_S = 60.0
@@ -200,8 +200,8 @@ def test_who_opens_it_to_others_is_warned(run: Run, monkeypatch: pytest.MonkeyPa
 
     monkeypatch.setattr(AppServer, "run", run_shortly)
     ran = run("serve", "--host", "0.0.0.0", "--port", "0")
-    assert re.fullmatch(r"ros-tutor is at http://127\.0\.0\.1:\d+/\n", ran.out)
-    assert "warning: 0.0.0.0 can be reached from other machines, and whoever opens the page can run programs" in ran.err
+    assert re.fullmatch(r"ros-tutor is at http://127\.0\.0\.1:\d+/\?token=[\w-]{22}\n", ran.out)
+    assert "warning: 0.0.0.0 can be reached from other machines, and anyone who has this address can run" in ran.err
     assert "warning" not in run("serve", "--port", "0").err
     with listen("::1", 0) as listener:
         assert address(listener).startswith("http://[::1]:")
@@ -226,6 +226,78 @@ def test_which_names_can_only_mean_this_machine(host: str, ours: bool) -> None:
     assert is_this_machine(host) is ours
 
 
+async def test_from_elsewhere_it_is_opened_with_the_token_only() -> None:
+    from tutor.serve.server import AppServer
+
+    with listen("0.0.0.0", 0) as listener:
+        own = listener.getsockname()[1]
+        server = AppServer(["true"], listener, "secret")
+        runner = web.AppRunner(await server._make_app(), access_log=None)
+        await runner.setup()
+        await web.SockSite(runner, listener).start()
+        try:
+            url = f"http://127.0.0.1:{own}/"
+            for cookie in ({}, {"token": "guessed"}):
+                async with aiohttp.ClientSession(cookies=cookie) as client:
+                    for page in ("", "ws", "page/page.css", "?token=guessed"):
+                        async with client.get(url + page) as answer:
+                            assert answer.status == 403, page
+            async with aiohttp.ClientSession(cookie_jar=aiohttp.CookieJar(unsafe=True)) as client:
+                async with client.get(f"{url}?token=secret") as answer:
+                    assert answer.status == 200
+                    assert str(answer.url) == url  # the token is out of the address
+                    cookie_said = answer.history[0].headers["Set-Cookie"]
+                assert "HttpOnly" in cookie_said
+                assert "SameSite=Strict" in cookie_said
+                for strange in ({"Host": f"elsewhere.example:{own}"}, {"Origin": "http://elsewhere.example"}):
+                    async with client.get(url + "ws", headers=strange) as answer:
+                        assert answer.status == 403
+        finally:
+            await runner.cleanup()
+
+
+@pytest.mark.parametrize(
+    ("host", "ours"),
+    [
+        ("192.0.2.1:8000", True),
+        ("[2001:db8::1]:8000", True),
+        (f"{socket.gethostname()}:8000", True),
+        ("elsewhere.example", False),
+        ("192.0.2.1.elsewhere.example", False),
+        ("", False),
+    ],
+)
+def test_which_names_another_machine_may_use(host: str, ours: bool) -> None:
+    assert is_address_or_ours(host) is ours
+
+
+@pytest.mark.parametrize("width", ["100000", "-5", "0"])
+async def test_a_page_has_a_size_that_an_app_can_draw(width: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    from tutor.serve.server import HIGHEST, WIDEST, AppServer
+    from tutor.serve.session import Session
+
+    sizes: list[tuple[int, int]] = []
+
+    async def start(self: Session, width: int, height: int) -> None:
+        sizes.append((width, height))
+        await self._close_page()
+
+    monkeypatch.setattr(Session, "start", start)
+    with listen("127.0.0.1", 0) as listener:
+        runner = web.AppRunner(await AppServer(["true"], listener)._make_app(), access_log=None)
+        await runner.setup()
+        await web.SockSite(runner, listener).start()
+        try:
+            async with aiohttp.ClientSession() as client:
+                address_ = f"http://127.0.0.1:{listener.getsockname()[1]}/ws?width={width}&height={width}"
+                async with client.ws_connect(address_) as page:
+                    await page.receive()
+        finally:
+            await runner.cleanup()
+    assert 20 <= sizes[0][0] <= WIDEST
+    assert 5 <= sizes[0][1] <= HIGHEST
+
+
 @pytest.mark.parametrize("host", ["127.0.0.1", "::1"])
 async def test_the_user_at_the_other_end_is_known(host: str) -> None:
     found: list[int | None] = []
@@ -248,7 +320,7 @@ async def test_the_user_at_the_other_end_is_known(host: str) -> None:
 
 async def test_another_user_of_this_machine_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(guard, "owner", lambda request: os.getuid() + 1)
-    app = web.Application(middlewares=[guard.only_own_pages(loopback=True)])
+    app = web.Application(middlewares=[guard.only_own_pages()])
     runner = web.AppRunner(app)
     await runner.setup()
     with listen("127.0.0.1", 0) as listener:

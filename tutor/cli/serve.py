@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import secrets
 
 from tutor.cli import context, terminal
 from tutor.cli.errors import INTERRUPTED, UsageError
@@ -37,12 +38,14 @@ def run(arguments: argparse.Namespace) -> int:
     except NoAddress as error:
         raise UsageError(f"{error}; {error.mend}") from error
 
+    token = "" if is_loopback(listener) else secrets.token_urlsafe(16)
+
     def ready() -> None:
-        terminal.out(f"ros-tutor is at {address(listener)}\n")
-        if not is_loopback(listener):
+        terminal.out(f"ros-tutor is at {address(listener, token)}\n")
+        if token:
             terminal.say(
-                f"warning: {arguments.host} can be reached from other machines, and whoever opens the page can run "
-                "programs as you; use it only in a network that you trust"
+                f"warning: {arguments.host} can be reached from other machines, and anyone who has this address can "
+                "run programs as you; it is not encrypted, so use it only in a network that you trust"
             )
         terminal.say("Ctrl+C ends it")
 
@@ -50,7 +53,7 @@ def run(arguments: argparse.Namespace) -> int:
         terminal.say("ending the app, and what was started in it")
 
     with listener:
-        asyncio.run(AppServer(argv, listener).run(ready, stopping))
+        asyncio.run(AppServer(argv, listener, token).run(ready, stopping))
     return INTERRUPTED
 
 

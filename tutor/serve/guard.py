@@ -3,11 +3,15 @@
 A browser lets any page open a WebSocket to 127.0.0.1, but says in `Origin` whose page it is. And a site can give its
 own name the address 127.0.0.1, but the browser then says that name in `Host`.
 
+Where other machines can reach it, a token is required, which is printed where the server was started: anyone who opens
+the page can run programs as the user.
+
 Keeps other users of this machine out, too: the kernel says whose a connection is that comes from the machine itself.
 """
 
 from __future__ import annotations
 
+import hmac
 import ipaddress
 import os
 import socket
@@ -29,18 +33,32 @@ _HEADERS = {
 }
 
 
-def only_own_pages(*, loopback: bool) -> Middleware:
-    """Refuse what another site's page asks for; where we listen on `loopback`, also names that mean no such address."""
+TOKEN = "token"
+"""The name of the token, in the address and in the cookie that takes its place."""
+
+
+def only_own_pages(token: str = "") -> Middleware:
+    """Refuse what another site's page asks for, and whoever has no `token`, where there is one.
+
+    Without a token, only this machine can reach us: then also names are refused that mean no address of its own.
+    """
 
     @web.middleware
     async def guard(request: web.Request, handler: Handler) -> web.StreamResponse:
         origin = request.headers.get("Origin")
         if origin is not None and urlsplit(origin).netloc.lower() != request.host.lower():
             raise web.HTTPForbidden(text="This page belongs to another site.\n")
-        if loopback and not is_this_machine(request.host):
-            raise web.HTTPForbidden(text="Only this machine may open this: use the address that ros-tutor printed.\n")
+        if not (is_this_machine(request.host) or (token and is_address_or_ours(request.host))):
+            raise web.HTTPForbidden(text="Nobody is called so here: use the address that ros-tutor printed.\n")
         if owner(request) not in (None, 0, os.getuid()):
             raise web.HTTPForbidden(text="This app belongs to another user of this machine.\n")
+        if token and _same(request.query.get(TOKEN, ""), token):
+            # From here on in a cookie, and out of the address, which is easily shown to others.
+            answer = web.HTTPFound(request.path)
+            answer.set_cookie(TOKEN, token, httponly=True, samesite="Strict")
+            raise answer
+        if token and not _same(request.cookies.get(TOKEN, ""), token):
+            raise web.HTTPForbidden(text="Use the address that ros-tutor printed, with its token.\n")
         return await handler(request)
 
     return guard
@@ -49,6 +67,23 @@ def only_own_pages(*, loopback: bool) -> Middleware:
 async def add_headers(request: web.Request, response: web.StreamResponse) -> None:
     """Tell the browser what the page may load."""
     response.headers.update(_HEADERS)
+
+
+def _same(given: str, token: str) -> bool:
+    return hmac.compare_digest(given.encode(errors="replace"), token.encode())
+
+
+def is_address_or_ours(host: str) -> bool:
+    """Whether the `Host` that a browser asked for is an address, or this machine's own name: no other site's."""
+    name = (urlsplit(f"//{host}").hostname or "").rstrip(".")
+    own = socket.gethostname().lower()
+    if name in (own, own.partition(".")[0], f"{own.partition('.')[0]}.local"):
+        return True
+    try:
+        ipaddress.ip_address(name)
+    except ValueError:
+        return False
+    return True
 
 
 def is_this_machine(host: str) -> bool:

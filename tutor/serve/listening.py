@@ -28,12 +28,13 @@ def listen(host: str, port: int | None) -> socket.socket:
         return _listen(host, 0)
 
 
-def address(listener: socket.socket) -> str:
-    """What to type into a browser on this machine."""
+def address(listener: socket.socket, token: str = "") -> str:
+    """What to type into a browser on this machine. With `token`, it may be anyone who has it."""
     host, port = listener.getsockname()[:2]
     if ipaddress.ip_address(host).is_unspecified:
         host = "127.0.0.1" if listener.family == socket.AF_INET else "::1"
-    return f"http://[{host}]:{port}/" if ":" in host else f"http://{host}:{port}/"
+    page = f"http://[{host}]:{port}/" if ":" in host else f"http://{host}:{port}/"
+    return f"{page}?token={token}" if token else page
 
 
 def is_loopback(listener: socket.socket) -> bool:

@@ -13,23 +13,26 @@ from aiohttp import web
 from textual_serve.server import Server, to_int
 
 from tutor.serve import guard
-from tutor.serve.listening import is_loopback
 from tutor.serve.session import Session
 
 PAGE = Path(__file__).parent / "page"
+
+WIDEST, HIGHEST = 500, 200
+"""Columns and lines: more than any screen has, and little enough for an app to draw."""
 
 _STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 _GOODBYE_S = 2.0
 
 
 class AppServer(Server):
-    """Serves the app that `argv` starts."""
+    """Serves the app that `argv` starts, to whoever has the `token`, where there is one."""
 
-    def __init__(self, argv: Sequence[str], listener: socket.socket) -> None:
+    def __init__(self, argv: Sequence[str], listener: socket.socket, token: str = "") -> None:
         host, port = listener.getsockname()[:2]
         super().__init__(shlex.join(argv), host=host, port=port, title="ROS Tutor", templates_path=PAGE)
         self._argv = argv
         self._listener = listener
+        self._token = token
         self._sessions: set[Session] = set()
 
     async def run(self, on_ready: Callable[[], None], on_stop: Callable[[], None]) -> None:
@@ -55,7 +58,7 @@ class AppServer(Server):
     async def _make_app(self) -> web.Application:
         app = await super()._make_app()
         app.router.add_static("/page", PAGE)
-        app.middlewares.append(guard.only_own_pages(loopback=is_loopback(self._listener)))
+        app.middlewares.append(guard.only_own_pages(self._token))
         app.on_response_prepare.append(guard.add_headers)
         return app
 
@@ -70,7 +73,7 @@ class AppServer(Server):
         session = Session(self._argv, page, self.download_manager)
         self._sessions.add(session)
         try:
-            await session.start(width, height)
+            await session.start(min(max(width, 20), WIDEST), min(max(height, 5), HIGHEST))
             await self._process_messages(page, session)
         finally:
             await session.stop()
