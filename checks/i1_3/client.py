@@ -12,6 +12,7 @@ from checks.i1_3 import names, offers, programs, requests
 from checks.i1_3.code import Code, files, stepped
 from checks.i1_3.facts import CLIENT, CLIENT_S, LATER_S, SERVER, SIGNS, Demonstration
 from tutor.judge import causes, edits, source, tracebacks
+from tutor.judge.rewriting.program import main_called, step
 from tutor.judge.trace import Trace
 from tutor.judge.verdict import Cause, Verdict, failed, passed
 
@@ -55,18 +56,20 @@ def _stepped(cause: Cause, seen: Demonstration) -> Cause:
     found = tracebacks.last(trace)
     raised = own_frame.code if found is not None and (own_frame := found.own(trace.folder)) is not None else ""
     steps: list[Callable[[Code], str | None]] = []
-    first = True
+    first = cause.name != "no main call"
     match cause.name:
         case "service not waited for":
             steps = [requests.waiting]
         case "waits too short a time":
-            steps = [requests.lengthened]
+            steps = [lambda code: programs.without(code, "_exit"), requests.lengthened]
         case "non-zero exit":
             steps = [programs.ending]
         case "coroutine not awaited":
             steps = [lambda code: requests.plain(code, cause.text.partition(" ")[0])]
         case "incompatible QoS":
             steps = [offers.reliable]
+        case "thread still running":
+            steps = [programs.joined]
         case "not called":
             steps = [lambda code: programs.without(code, "_exit"), lambda code: programs.listed(code, _missing(seen))]
         case "did not end" if own is not None and "sleep(" in own.code:
@@ -79,6 +82,7 @@ def _stepped(cause: Cause, seen: Demonstration) -> Cause:
         steps, first = [programs.unasked], True
     each_file = [partial(step, code) for step in steps for code in files(trace)]
     unmet = cause.name in ("wrong service name", "wrong type", "not called")
+    unmet = unmet or cause.name == "waits too short a time"
     waits = [] if unmet else [partial(requests.answered, code, trace) for code in files(trace)]
     last = partial(programs.all_four, next(iter(files(trace)), Code("", "")))
     if first and (told := next((told for step in (*each_file, *waits) if (told := step()) is not None), None)):
@@ -124,7 +128,7 @@ def _why_not_called(seen: Demonstration, missing: Sequence[str]) -> Cause:
         return Cause(
             "no main call",
             "main() is defined, but nothing calls it",
-            'end the file with: if __name__ == "__main__": main()',
+            step(seen.trace, main_called) or 'end the file with: if __name__ == "__main__": main()',
         )
     return (
         causes.incompatible_service(seen.clients)

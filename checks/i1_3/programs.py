@@ -69,6 +69,16 @@ def all_four(code: Code) -> str | None:
     return code.told(imports, edits.becomes(program[0].lineno, "\n".join(lines), last.end_lineno or last.lineno))
 
 
+def joined(code: Code) -> str | None:
+    """The step by which a program waits at its end for a thread that spins, which ends when ROS is shut down."""
+    change = Changes(code)
+    for call in code.calls("Thread"):
+        kept = [each for each in call.keywords if each.arg != "daemon"]
+        if len(kept) < len(call.keywords):
+            change.swaps.append((call, ast.unparse(ast.Call(call.func, call.args, kept))))
+    return change.told() if change.swaps else shut_down(code)
+
+
 def _entry(code: Code) -> Function | None:
     """The function of the file that the program begins with."""
     begun = [call for each in code.top if not isinstance(each, _DEFINES) for call in ast.walk(each)]

@@ -60,7 +60,9 @@ def lengthened(code: Code) -> str | None:
             new = f"{ast.unparse(call.func.value)}.{LONG}"
             if new != ast.unparse(call):
                 swaps.append((call, new))
-    return (Changes(code, swaps).told() if swaps else None) or waiting(code)
+    if swaps:
+        return Changes(code, swaps).told()
+    return None if code.calls("wait_for_service") else waiting(code)
 
 
 def answered(code: Code, trace: Trace) -> str | None:

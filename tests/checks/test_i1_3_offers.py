@@ -1,0 +1,134 @@
+"""I1.3: edits of the server's code by which a service is offered, under its name, and answers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import pytest
+
+from checks.i1_3 import offers, programs, services
+from checks.i1_3.code import Code
+from checks.i1_3.facts import SIGNS
+from tests.checks.made import trace
+from tutor.judge.following import follow
+from tutor.judge.trace import Trace
+
+HEAD = """\
+import rclpy
+from example_interfaces.srv import AddTwoInts
+from rclpy.node import Node
+
+
+"""
+CLASS = """\
+class Calculator(Node):
+    def __init__(self):
+        super().__init__("calculator")
+        self.create_service(AddTwoInts, "divide", self.on_divide)
+
+    def on_divide(self, request, response):
+"""
+
+
+def followed(text: str, step: Callable[[Trace], str | None]) -> str | None:
+    """The file after the step, without its head."""
+    told = step(trace(sources={"node.py": HEAD + text}))
+    return None if told is None else follow(told, {"node.py": HEAD + text})["node.py"].removeprefix(HEAD)
+
+
+def body(*lines: str) -> str:
+    return CLASS + "".join(f"        {line}\n" for line in lines)
+
+
+@pytest.mark.parametrize(
+    ("before", "after"),
+    [
+        (body("response.sum = 1"), body("response.sum = 1", "return response")),
+        (
+            body("try:", "    return self.do(request, response)", "except ZeroDivisionError:", "    response.sum = 0"),
+            body(
+                "try:",
+                "    return self.do(request, response)",
+                "except ZeroDivisionError:",
+                "    response.sum = 0",
+                "return response",
+            ),
+        ),
+        (
+            body("if request.b == 0:", "    return", "response.sum = 1", "return response"),
+            body("if request.b == 0:", "    return response", "response.sum = 1", "return response"),
+        ),
+        (
+            body("return request.a // request.b"),
+            body("response.sum = request.a // request.b", "return response"),
+        ),
+        (
+            body("return self.do(request, response)") + "\n    def do(self, q, p):\n        p.sum = 1\n",
+            body("return self.do(request, response)")
+            + "\n    def do(self, q, p):\n        p.sum = 1\n        return p\n",
+        ),
+    ],
+)
+def test_a_response_is_returned_on_every_path(before: str, after: str) -> None:
+    assert followed(before, lambda seen: offers.returning(seen, "/divide")) == after
+
+
+WRAPPED = """\
+def logged(function):
+    def wrapper(self, request, response):
+        function(self, request, response)
+
+    return wrapper
+
+
+""" + body("response.sum = 1", "return response").replace("    def on", "    @logged\n    def on")
+
+
+def test_what_a_decorator_puts_around_a_callback_returns_the_response() -> None:
+    after = followed(WRAPPED, lambda seen: offers.returning(seen, "/divide"))
+    assert after == WRAPPED.replace("response)\n\n    return", "response)\n        return response\n\n    return")
+
+
+MODULE = """\
+node = rclpy.create_node('calculator')
+for name in NAMES:
+    node.create_service(AddTwoInts, PREFIX + name, make(name))
+"""
+
+
+def test_services_that_are_missing_are_offered_below_the_others() -> None:
+    after = followed(body("return response"), lambda seen: offers.added(seen, ["/add", "/multiply"]))
+    assert after is not None
+    assert "self.on_divide)\n        self.create_service(AddTwoInts, 'add', self.add_callback)\n" in after
+    assert (
+        "    def multiply_callback(self, request, response):\n        response.sum = request.a * request.b\n" in after
+    )
+    after = followed(MODULE, lambda seen: offers.added(seen, ["/add"]))
+    assert after is not None
+    assert after.endswith("    return response\n\nnode.create_service(AddTwoInts, 'add', add_callback)\n")
+
+
+def test_services_that_are_offered_in_a_loop_are_named_and_answered_in_it() -> None:
+    wanted = [(f"/calc{name}", name) for name in SIGNS]
+    after = followed(MODULE, lambda seen: offers.renamed(seen, wanted))
+    assert after is not None
+    assert "node.create_service(AddTwoInts, '/' + (PREFIX + name).rpartition('/')[2], make(name))" in after
+    after = followed(MODULE, lambda seen: services.computing(seen, list(SIGNS)))
+    assert after is not None
+    assert "name=PREFIX + name: calculate(name, request, response, node.get_logger()))" in after
+    assert "\ndef calculate(name, request, response, logger):\n" in f"\n{after}"
+
+
+def test_a_service_of_another_type_gets_the_type_and_a_callback_that_fills_it_in() -> None:
+    text = body("response.success = True", "return response").replace("AddTwoInts", "Trigger")
+    after = followed(text, lambda seen: offers.typed(seen, ["/divide"]))
+    assert after is not None
+    assert 'self.create_service(AddTwoInts, "divide", self.on_divide)' in after
+    assert "self.get_logger().error('division by zero')" in after
+    assert "response.success" not in after
+
+
+def test_a_thread_that_spins_is_waited_for_at_the_end() -> None:
+    text = "t = Thread(target=executor.spin, daemon=True)\n"
+    told = programs.joined(Code("node.py", text))
+    assert told == "in node.py, line 1 becomes: t = Thread(target=executor.spin)"
