@@ -251,9 +251,9 @@ def _ignored_later(name: str, trace: Trace) -> Cause:
     if (cause := parameter_slips.overridden(read, name) or parameter_slips.not_called(read)) is not None:
         return cause
     if old is not None:
-        return replace(old, hint=old.hint or steps.heeded(trace, name))
+        return replace(old, hint=old.hint or steps.heeded_later(trace, name))
     text = f"{name} is accepted, but what the node sends does not follow it"
-    return Cause("parameter ignored", text, steps.heeded(trace, name))
+    return Cause("parameter ignored", text, steps.heeded_later(trace, name))
 
 
 def _last(trace: Trace) -> str:

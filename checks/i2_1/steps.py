@@ -53,6 +53,15 @@ def heeded(trace: Trace, name: str) -> str:
     return read.step(first, _ticking(read), _whole(read)) or f"{words}: {read.value(name)}"
 
 
+def heeded_later(trace: Trace, name: str) -> str:
+    """As `heeded`, while the node runs: the whole callback, where it does not follow the other parameter either."""
+    read = file(trace)
+    others = {PREFIX, ENABLED} - {name}
+    if all(parameters.is_followed(read, other) for other in others):
+        return heeded(trace, name)
+    return read.step(_ticking(read), _whole(read)) or heeded(trace, name)
+
+
 def followed(trace: Trace) -> str:
     """Every change of a parameter takes effect: its callbacks are rewritten, or else the timer's, too."""
     read = file(trace)

@@ -136,6 +136,24 @@ def test_what_the_callback_needs_comes_with_it(file: NodeFile, words: list[str])
         assert word in after, after
 
 
+def test_a_timer_that_is_emptied_later_is_kept() -> None:
+    file = changed(
+        ("self.timer = self.create_timer(1.0 / self.rate, self.tick)", "self.create_timer(1.0, self.tick)"),
+        (REGISTERED, f"        self.timer = None\n{REGISTERED}"),
+    )
+    after = done(file, parameters.following(file, RATE))
+    assert "self.timer = self.create_timer(1.0, self.tick)\n" + REGISTERED in after
+
+
+def test_whether_a_parameter_is_followed() -> None:
+    assert not parameters.is_followed(changed(), PREFIX)
+    assert parameters.is_followed(
+        changed(("data=self.prefix", "data=self.get_parameter('message_prefix').value")), PREFIX
+    )
+    asking = "for p in params:\n            if p.name == 'message_prefix':\n                self.prefix = p.value\n"
+    assert parameters.is_followed(changed(("        return Set", f"        {asking}        return Set")), PREFIX)
+
+
 def test_what_is_kept_of_a_period_is_worked_out_from_the_new_rate() -> None:
     file = changed(("self.rate = self", "self.period = 1.0 / self"), ("1.0 / self.rate,", "self.period,"))
     assert "self.period = 1.0 / p.value\n" in done(file, parameters.following(file, RATE))
@@ -271,6 +289,13 @@ def test_a_value_that_the_node_overwrites(file: NodeFile, right: str) -> None:
     assert found.name == "value overwritten by the node"
     assert follow(found.hint, {"node.py": file.text})["node.py"] == right
     assert parameter_slips.overridden(changed(), PREFIX) is None
+    corrected = changed(
+        (
+            "        self.count = 0\n",
+            "        if self.rate <= 0:\n            self.rate = 1.0\n        self.count = 0\n",
+        )
+    )
+    assert parameter_slips.overridden(corrected, RATE) is None
 
 
 @pytest.mark.parametrize(

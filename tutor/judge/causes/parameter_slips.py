@@ -56,7 +56,9 @@ def _assigned_again(file: NodeFile, name: str) -> Cause | None:
         if kept is None or not isinstance(node, ast.Assign) or not isinstance(node.value, ast.Constant):
             continue
         later = node.lineno > kept.lineno if file.within(node) is file.within(kept) else not _in_init(file, node)
-        if ast.unparse(node.targets[0]) == ast.unparse(_target(kept)) and later:
+        target = ast.unparse(node.targets[0])
+        corrected = any(isinstance(each, ast.If) and target in ast.unparse(each.test) for each in file.outwards(node))
+        if target == ast.unparse(_target(kept)) and later and not corrected:  # a bad value may well be replaced
             step = file.step([removed(file.text, node.lineno, node.end_lineno or 0)])
             text = f"{_line(node)} overwrites what line {kept.lineno} has read of {name}"
             return Cause(_OVERWRITTEN, text, step) if step else None

@@ -329,7 +329,24 @@ def _kept_timer(file: NodeFile, without: Sequence[Function]) -> list[Edit]:
     made = file.first_timer
     if made is None or _lasts(_kept_in(file)) or file.within(made) in without:
         return []
-    return [instead(file.text, made, f"{_timer(file)} = {ast.unparse(made)}")]
+    timer = _timer(file)
+    emptied = [
+        removed(file.text, each.lineno)
+        for each in ast.walk(file.tree)
+        if isinstance(each, ast.Assign) and ast.unparse(each) == f"{timer} = None" and each.lineno > made.lineno
+    ]
+    return [instead(file.text, made, f"{timer} = {ast.unparse(made)}"), *emptied]
+
+
+def is_followed(file: NodeFile, name: str) -> bool:
+    """Whether the timer's callback reads a parameter from the node, or a parameter callback asks for its name."""
+    callbacks = [found for kind in (ON_SET, POST_SET) if (found := registered(file, kind)) is not None]
+    inside = [each for callback in callbacks for each in file.reached(callback)]
+    ticking = file.reached(file.tick) if file.tick is not None else []
+    asked = [each for function in inside for each in ast.walk(function) if isinstance(each, ast.Compare)]
+    return any(file.within(each) in ticking for each in readings(file, name)) or any(
+        _is_text(each, name) for test in asked for each in (test.left, *test.comparators)
+    )
 
 
 def _made_again(made: ast.Call, each: str) -> str:
