@@ -70,6 +70,10 @@ class Running:
         """The next line of stdout, without its end."""
         return _pipe(self.process.stdout).readline().rstrip("\n")
 
+    def error(self) -> str:
+        """The next line of stderr, without its end."""
+        return _pipe(self.process.stderr).readline().rstrip("\n")
+
     def interrupt(self) -> Ran:
         """Press Ctrl+C; what it has printed since the last `line`, and how it ended."""
         self.process.send_signal(signal.SIGINT)

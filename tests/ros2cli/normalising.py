@@ -14,6 +14,10 @@ _REPLACED = [
     (r"\$WORKSPACE/(install/my_package/lib/python3\.12/site-packages|src/my_package)/my_package/", "$PACKAGE/"),
     (r"\$WORKSPACE/(install/my_package/lib|src)/my_package/", "$PROGRAMS/"),
     (r"/\S*/ros2-overlay-\w+/prefix/lib/my_package/", "$PROGRAMS/"),
+    (r"(\$WORKSPACE|/\S*/ros2-overlay-\w+/prefix)/share/my_package\b", "$PACKAGE"),
+    (r"\$WORKSPACE/(install/my_package(/share/my_package)?|src/my_package)(?=['\"\s]|$)", "$PACKAGE"),
+    (r"searching: \[[^\]]*\]", "searching: [PREFIXES]"),
+    (r"(✓ '<)\S+( object at)", r"\1HANDLER\2"),  # launch's handlers are closures there, objects of ours here
     (r"A message was lost!!!\n\s*total count change:\d+\n\s*total count: \d+---\n", ""),
     (r"\b\d{19}\b", "NANOSECONDS"),
     (r"\b(sec|nanosec): \d+", r"\1: N"),
@@ -39,6 +43,31 @@ _COUNTED = [
     (r"(Hello World: )\d+", r"\1N"),
     (r"Half #N|Hello #N", "PREFIX #N"),
 ]
+_COMMANDS_OF_PLUGINS = frozenset(
+    (
+        "bag",
+        "component",
+        "control",
+        "doctor",
+        "extension_points",
+        "extensions",
+        "lifecycle",
+        "multicast",
+        "security",
+        "wtf",
+    )
+)
+"""Commands that an installation has or lacks: each is of a package of its own, or of use to plug-ins only."""
+
+_PACKAGES_OF_ONE = re.compile(
+    r"\s*(ament_copyright|ament_lint|composition_interfaces|launch|launch_\w+|osrf_pycommon|ros2\w+|rosidl_runtime_py)\b"
+)
+"""A line of a list of packages, or of what they have, that begins with a package which the wheels lack."""
+
+_CHOICES = re.compile(r"(?<=\(choose from )[^()]+(?=\))")
+_LISTS = re.compile(r"ros2 (pkg list|interface (list|packages))\b")
+_MEASURES = re.compile(r"ros2 topic (hz|bw|delay)\b")
+_NOT_YET = re.compile(r"stdout: WARNING: topic \[\S+\] does not appear to be published yet$")
 
 
 def normalise(text: str, paths: Mapping[str, str], *, streams: bool) -> list[str]:
@@ -56,6 +85,17 @@ def normalise(text: str, paths: Mapping[str, str], *, streams: bool) -> list[str
     while lines and not lines[-1]:
         lines.pop()
     return list(dict.fromkeys(lines)) if streams else lines
+
+
+def of_both(command: str, lines: list[str]) -> list[str]:
+    """A list of what is installed, without the packages that only one of the two installations has."""
+    return [line for line in lines if not (_LISTS.match(command) and _PACKAGES_OF_ONE.match(line))]
+
+
+def without_early_warning(command: str, lines: list[str]) -> list[str]:
+    """Of two runs of the real one, one says of a live topic that it is not there yet, and goes on: not told apart."""
+    goes_on = _MEASURES.match(command) and len(lines) > 1
+    return [line for line in lines if not (goes_on and _NOT_YET.match(line))]
 
 
 def _fold_tracebacks(lines: list[str]) -> list[str]:
@@ -104,5 +144,10 @@ def _without_help(lines: list[str]) -> list[str]:
         words = [
             line.split()[0] for line in lines[lines.index("Commands:") + 1 :] if line.startswith("  ") and line.strip()
         ]
-        return [lines[0], "Commands:", *(word for word in words if word != "Call")]
-    return lines
+        return [lines[0], "Commands:", *(word for word in words if word not in ("Call", *_COMMANDS_OF_PLUGINS))]
+    return [_CHOICES.sub(_without_plugins, line) for line in lines]
+
+
+def _without_plugins(found: re.Match[str]) -> str:
+    names = (name for name in found[0].split(", ") if name.strip("'") not in _COMMANDS_OF_PLUGINS)
+    return ", ".join(names)

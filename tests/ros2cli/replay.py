@@ -27,12 +27,14 @@ from itertools import groupby
 from pathlib import Path
 
 from tests.ros2cli import sessions
-from tests.ros2cli.normalising import TRACEBACK, normalise
+from tests.ros2cli.normalising import TRACEBACK, normalise, of_both, without_early_warning
 from tests.ros2cli.records import Output, Record, read_all
 
 LIMIT_S = 60.0
 SAME, WANTED, UNSUPPORTED, DIFFERS = "same", "wanted", "not supported", "differs"
-_NODES_END = re.compile(rf"\[[\w.]+-\d+\] ({TRACEBACK}|KeyboardInterrupt|\S+Error: .*)$")
+_NODES_END = re.compile(rf"\[[\w.]+-\d+\] ({TRACEBACK}|KeyboardInterrupt|Exception ignored in: .*|\S+Error: .*)$")
+_HINT = re.compile(r" \(is it [^()]+\?\)")
+_UNORDERED = re.compile(r"ros2 (launch|interface package) |bash -c")
 _STREAMING = re.compile(r"ros2 (topic (echo|hz|bw|delay|pub)|service (call -r|echo)|run|launch)\b")
 
 
@@ -149,28 +151,40 @@ def _on_terminal(record: Record, env: Mapping[str, str], cwd: Path) -> Output:
 
 def judge(record: Record, ours: Output, paths: Mapping[str, str]) -> Result:
     """Hold ours beside the recorded output, line by line but for what differs from run to run."""
-    streams = bool(_STREAMING.search(record.command))
-    unordered = bool(re.match(r"ros2 (launch|interface package) |bash -c", record.command))
-
-    def lines(output: Output) -> list[str]:
-        told = []
-        for name, text in (("stdout", output.stdout), ("stderr", output.stderr)):
-            found = normalise(text, paths, streams=streams)
-            if " launch " in record.command:  # how a node ends depends on what it is doing when Ctrl+C comes
-                found = [line for line in found if not _NODES_END.match(line)]
-            told += [f"{name}: {line}" for line in (sorted(found) if unordered else found)]
-        return [*told, f"exit code: {output.code}"]
-
-    recorded, printed = lines(record.output), lines(ours)
+    recorded, printed = _lines(record, record.output, paths), _lines(record, ours, paths)
     if recorded == printed:
         return Result(record, SAME, "", ())
     diff = tuple(difflib.unified_diff(recorded, printed, "recorded", "ours", lineterm="", n=1))
     if ours.code == 2 and "not supported" in ours.stderr:
         return Result(record, UNSUPPORTED, ours.stderr.strip().splitlines()[-1], diff)
-    if TRACEBACK in " ".join(recorded) and ours.code == record.output.code and TRACEBACK not in " ".join(printed):
-        return Result(record, WANTED, "one line instead of a traceback, with the same exit code", diff)
-    reason = _wanted(record.command)
+    reason = _kinder(record, recorded, printed) or _wanted(record.command)
     return Result(record, WANTED, reason, diff) if reason else Result(record, DIFFERS, "", diff)
+
+
+def _lines(record: Record, output: Output, paths: Mapping[str, str]) -> list[str]:
+    streams = bool(_STREAMING.search(record.command))
+    told = []
+    for name, text in (("stdout", output.stdout), ("stderr", output.stderr)):
+        found = normalise(text, paths, streams=streams)
+        if " launch " in record.command:  # how a node ends depends on what it is doing when Ctrl+C comes
+            found = [line for line in found if not _NODES_END.match(line)]
+        found = of_both(record.command, found)
+        told += [f"{name}: {line}" for line in (sorted(found) if _UNORDERED.match(record.command) else found)]
+    return [*without_early_warning(record.command, told), f"exit code: {output.code}"]
+
+
+def _kinder(record: Record, recorded: Sequence[str], printed: Sequence[str]) -> str:
+    """Why ours may differ, whatever the command; empty where it may not. The exit code is always the recorded one."""
+    if recorded[-1] != printed[-1]:
+        return ""
+    if TRACEBACK in " ".join(recorded) and TRACEBACK not in " ".join(printed):
+        return "one line instead of a traceback, with the same exit code"
+    if list(recorded) == [_HINT.sub("", line) for line in printed]:
+        return "ours adds the name that is much like it"
+    rest = iter(printed)
+    if record.interrupt_after_s and all(line in rest for line in recorded):  # `in` goes on from the line found last
+        return f"within the {record.interrupt_after_s:g} s until Ctrl+C, ours got further"
+    return ""
 
 
 def _wanted(command: str) -> str:

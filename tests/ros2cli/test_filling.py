@@ -7,10 +7,11 @@ from typing import Any
 import pytest
 import yaml
 
-from tutor.sandbox.ros2.filling import fill
+from tutor.sandbox.ros2.errors import CommandError
+from tutor.sandbox.ros2.filling import fill, filled
 
 
-def filled(type_name: str, text: str) -> Any:
+def of_text(type_name: str, text: str) -> Any:
     from tutor.sandbox.ros2.interfaces import find_interface
 
     message = find_interface(type_name, "msg")()
@@ -31,16 +32,16 @@ def filled(type_name: str, text: str) -> Any:
     ],
 )
 def test_values_are_converted_to_the_type_of_the_field(type_name: str, text: str, field: str, value: object) -> None:
-    found = getattr(filled(type_name, text), field)
+    found = getattr(of_text(type_name, text), field)
     assert (list(found) if isinstance(value, list) else found) == value
 
 
 def test_nested_messages_and_lists_of_them() -> None:
-    twist = filled("geometry_msgs/msg/Twist", "{linear: {x: 2}, angular: {z: 1.8}}")
+    twist = of_text("geometry_msgs/msg/Twist", "{linear: {x: 2}, angular: {z: 1.8}}")
     assert (twist.linear.x, twist.linear.y, twist.angular.z) == (2.0, 0.0, 1.8)
-    polygon = filled("geometry_msgs/msg/Polygon", "points: [{x: 1.0}, {y: 2}]")
+    polygon = of_text("geometry_msgs/msg/Polygon", "points: [{x: 1.0}, {y: 2}]")
     assert [(point.x, point.y) for point in polygon.points] == [(1.0, 0.0), (0.0, 2.0)]
-    pose = filled("geometry_msgs/msg/PoseWithCovariance", f"covariance: {[0.5] * 36}")
+    pose = of_text("geometry_msgs/msg/PoseWithCovariance", f"covariance: {[0.5] * 36}")
     assert list(pose.covariance) == [0.5] * 36
 
 
@@ -54,5 +55,29 @@ def test_nested_messages_and_lists_of_them() -> None:
 )
 def test_what_does_not_fit_is_named(text: str, said: str) -> None:
     with pytest.raises((AttributeError, TypeError)) as caught:
-        filled("std_msgs/msg/String", text)
+        of_text("std_msgs/msg/String", text)
     assert str(caught.value) == said
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("{a: null}", "Value 'None' is expected to be a dictionary but is a NoneType"),
+        ("{a: [1]}", "Value '[1]' is expected to be a dictionary but is a list"),
+        ("{a: {x: 1}}", "'int' object has no attribute 'x'"),
+        ("{a: ten}", "invalid literal for int() with base 10: 'ten'"),
+    ],
+)
+def test_a_number_that_is_none_is_told_as_rosidl_runtime_py_does(text: str, said: str) -> None:
+    from example_interfaces.srv import AddTwoInts
+
+    with pytest.raises(CommandError) as caught:
+        filled(AddTwoInts.Request, text, failed="Failed: {}")
+    assert str(caught.value) == f"Failed: {said}"
+
+
+def test_a_text_that_is_no_yaml_is_told_in_one_line() -> None:
+    from example_interfaces.srv import AddTwoInts
+
+    with pytest.raises(CommandError, match=r"^The passed value is no YAML: expected ',' or '}'.*$"):
+        filled(AddTwoInts.Request, "{a: 1", failed="Failed: {}")

@@ -26,6 +26,15 @@ def allow(given):
 node.add_on_set_parameters_callback(allow)
 spin(node)
 """
+TELLING_SERVER = SERVER.replace(
+    'node.create_service(AddTwoInts, "/add", add)',
+    """
+from rclpy.qos import qos_profile_system_default
+from rclpy.service_introspection import ServiceIntrospectionState
+node.create_service(AddTwoInts, "/add", add).configure_introspection(
+    node.get_clock(), qos_profile_system_default, ServiceIntrospectionState.CONTENTS)
+""",
+)
 NODE = "/math/server"
 
 
@@ -76,9 +85,31 @@ def test_a_call_that_cannot_be_made_says_why(bench: Bench) -> None:
     bad = bench.ros2(*call, "example_interfaces/srv/AddTwoInts", "{a: 10")
     assert (bad.stdout, bad.code, bad.stderr.count("\n")) == ("", 1, 1)
     assert "no YAML" in bad.stderr
+    assert bench.ros2(*call, "std_msgs/msg/String") == Ran("", "The passed type is not a service\n", 1)
     with bench.running(*call, "example_interfaces/srv/AddTwoInts") as waiting:
         assert waiting.line() == "waiting for service to become available..."
         assert waiting.interrupt() == Ran("", "", 2)
+
+
+def test_a_wait_for_a_service_says_what_is_missing(bench: Bench) -> None:
+    with bench.running("service", "call", "/nope", "std_srvs/srv/Trigger") as waiting:
+        assert waiting.error() == "no node offers /nope yet; Ctrl+C ends the wait"
+    with bench.node(SERVER), bench.running("service", "call", "add", "std_srvs/Trigger") as waiting:
+        assert waiting.error() == "/add is there, but its type is example_interfaces/srv/AddTwoInts"
+
+
+def test_the_events_of_a_service_are_shown(bench: Bench) -> None:
+    assert bench.ros2("service", "echo", "/add") == Ran("", "Cannot find type for '/add'\n", 1)
+    assert bench.ros2("service", "echo", "/add", "nopkg/srv/X") == Ran(
+        "", "The service type 'nopkg/srv/X' is invalid\n", 1
+    )
+    call = ("service", "call", "-r", "5", "/add", "example_interfaces/srv/AddTwoInts", "{a: 1, b: 2}")
+    with bench.node(TELLING_SERVER), bench.running(*call):
+        with bench.running("service", "echo", "--csv", "/add") as heard:
+            assert heard.line().split(",")[0] in ("1", "2")  # REQUEST_RECEIVED, RESPONSE_SENT
+        with bench.running("service", "echo", "--flow-style", "/add") as heard:
+            lines = [heard.line() for _ in range(30)]
+    assert {"  event_type: REQUEST_RECEIVED", "request: [{a: 1, b: 2}]", "response: [{sum: 3}]"} <= set(lines)
 
 
 def test_parameters_are_listed_read_and_described(bench: Bench) -> None:
@@ -129,6 +160,9 @@ def test_actions_of_which_there_are_none(bench: Bench) -> None:
     assert bench.ros2("action", "list", "-c").stdout == "0\n"
     assert bench.ros2("action", "type", "/x") == Ran("", "", 1)
     assert bench.ros2("action", "info", "/x").stdout == "Action: /x\nAction clients: 0\nAction servers: 0\n"
+    bad = bench.ros2("action", "info", "bad name")
+    assert bad.stderr.startswith("topic name 'bad name' is invalid: topic name must not contain characters other than")
+    assert (bad.code, bench.ros2("action", "info", "~/x").code) == (1, 0)
     assert bench.ros2("action", "send_goal", "/x", "nopkg/action/X").stderr == "The passed action type is invalid\n"
 
 

@@ -72,7 +72,7 @@ def _run(argv: Sequence[str]) -> int:
         code = arguments.run(arguments)
     except CommandError as error:
         return _say(str(error), error.code)
-    except LookupError as error:
+    except (LookupError, RuntimeError) as error:  # among them what ROS itself refuses, as an RCLError
         return _say(str(error), 1)
     sys.stdout.flush()
     return int(code or 0)

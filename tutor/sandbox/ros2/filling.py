@@ -7,8 +7,27 @@ import importlib
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from tutor.sandbox.ros2.errors import CommandError, yaml_problem
+
 SetStamp = Callable[[Any], None]
 """Takes the time of now, as builtin_interfaces/msg/Time."""
+
+
+def filled(kind: Any, text: str, *, failed: str) -> Any:
+    """A message of the class `kind` with the values of a YAML text; what it does not name has its default.
+
+    Raises CommandError; `failed` is what it says of a value that does not fit, with `{}` for the error.
+    """
+    import yaml
+
+    message = kind()
+    try:
+        fill(message, yaml.safe_load(text))
+    except yaml.YAMLError as error:
+        raise CommandError(f"The passed value is no YAML: {yaml_problem(error)}") from error
+    except Exception as error:  # whatever the setter of a field raises, its text says what is wrong with the value
+        raise CommandError(failed.format(error)) from error
+    return message
 
 
 def fill(message: Any, values: Any, *, stamps: bool = False) -> list[SetStamp]:
@@ -43,7 +62,10 @@ def _converted(field: Any, value: Any, slot: Any, stamps: bool, setters: list[Se
         nested = type(field)()
         setters += fill(nested, value, stamps=stamps)
         return nested
-    converted = value if type(value) is type(field) else type(field)(value)
+    try:
+        converted = value if type(value) is type(field) else type(field)(value)
+    except TypeError:  # rosidl_runtime_py takes whatever cannot be converted for a nested message, and says so
+        setters += fill(converted := type(field)(), value, stamps=stamps)
     element = getattr(slot, "value_type", None)
     if isinstance(converted, list) and hasattr(element, "namespaced_name"):
         return [_element(element, each, stamps, setters) for each in converted]

@@ -20,10 +20,14 @@ class UnknownInterface(LookupError):
     """There is no such type here, or it is of another kind."""
 
 
+class OfAnotherKind(UnknownInterface):
+    """It is here, but no message, service or action, as it was to be."""
+
+
 def find_interface(name: str, kind: str) -> Any:
     """The class of a type, from `std_msgs/msg/String` or `std_msgs/String`; `kind` is msg, srv or action.
 
-    Raises UnknownInterface.
+    Raises UnknownInterface, and OfAnotherKind where there is something else of this name.
     """
     *where, last = name.split("/")
     if len(where) == 1:
@@ -33,7 +37,7 @@ def find_interface(name: str, kind: str) -> Any:
     except (ImportError, AttributeError, ValueError) as error:
         raise UnknownInterface(name) from error
     if not all(hasattr(found, part) for part in _PARTS[kind]):
-        raise UnknownInterface(name)
+        raise OfAnotherKind(name)
     return found
 
 

@@ -7,10 +7,10 @@ from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 from tutor.sandbox.ros2.action.names import action_names
-from tutor.sandbox.ros2.errors import CommandError
 from tutor.sandbox.ros2.joining import Domain, joined
 from tutor.sandbox.ros2.node.names import nodes
 from tutor.sandbox.ros2.parsing import complete_with
+from tutor.sandbox.ros2.topic.names import full_name
 
 Found = list[tuple[str, Sequence[str]]]
 
@@ -25,15 +25,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def main(arguments: argparse.Namespace) -> None:
     """Print the nodes with a client or a server of the action. Raises CommandError where the name cannot be one."""
     from rclpy.action.graph import get_action_client_names_and_types_by_node, get_action_server_names_and_types_by_node
-    from rclpy.exceptions import InvalidTopicNameException
-    from rclpy.validate_full_topic_name import validate_full_topic_name
 
     name = arguments.action_name
     with joined(arguments) as domain:
-        try:
-            validate_full_topic_name(expanded := name if name.startswith("/") else f"/{name}")
-        except (InvalidTopicNameException, ValueError) as error:
-            raise CommandError(str(error)) from error
+        expanded = full_name(domain, name)
         domain.complete()
         clients = _of_action(domain, expanded, get_action_client_names_and_types_by_node)
         servers = _of_action(domain, expanded, get_action_server_names_and_types_by_node)

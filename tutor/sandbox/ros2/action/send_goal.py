@@ -9,8 +9,8 @@ from typing import Any
 from tutor.ros.as_yaml import to_yaml
 from tutor.sandbox.ros2.action.names import action_names, action_types
 from tutor.sandbox.ros2.calling import wait_for_answer, wait_until
-from tutor.sandbox.ros2.errors import CommandError, yaml_problem
-from tutor.sandbox.ros2.filling import fill
+from tutor.sandbox.ros2.errors import CommandError
+from tutor.sandbox.ros2.filling import filled
 from tutor.sandbox.ros2.interfaces import UnknownInterface, find_interface
 from tutor.sandbox.ros2.joining import joined
 from tutor.sandbox.ros2.parsing import complete_with
@@ -37,7 +37,8 @@ def main(arguments: argparse.Namespace) -> None:
         action_class = find_interface(arguments.action_type, "action")
     except UnknownInterface as error:
         raise CommandError("The passed action type is invalid") from error
-    goal = _goal(action_class, sys.stdin.read() if arguments.stdin else arguments.goal)
+    text = sys.stdin.read() if arguments.stdin else arguments.goal
+    goal = filled(action_class.Goal, text, failed="Failed to populate message fields: {!r}")
     with joined(arguments) as domain:
         client = ActionClient(domain.node, action_class, arguments.action_name)
         print("Waiting for an action server to become available...")
@@ -57,19 +58,6 @@ def main(arguments: argparse.Namespace) -> None:
             raise
         print(f"Result:\n    {to_yaml(result.result)}")
         print(f"Goal finished with status: {STATUS[result.status]}")
-
-
-def _goal(action_class: Any, text: str) -> Any:
-    import yaml
-
-    goal = action_class.Goal()
-    try:
-        fill(goal, yaml.safe_load(text))
-    except yaml.YAMLError as error:
-        raise CommandError(f"The passed value is no YAML: {yaml_problem(error)}") from error
-    except Exception as error:  # whatever the setter of a field raises, its text says what is wrong with the value
-        raise CommandError(f"Failed to populate message fields: {error!r}") from error
-    return goal
 
 
 def _tell(message: Any) -> None:

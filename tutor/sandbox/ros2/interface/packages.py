@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from tutor.sandbox.ros2.interface.kinds import add_kind_arguments, chosen, of_kind
+from tutor.sandbox.ros2.interface.kinds import KINDS, add_kind_arguments, chosen, of_kind
 from tutor.sandbox.ros2.interfaces import interfaces
 
 
@@ -15,6 +15,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def main(arguments: argparse.Namespace) -> None:
     """Print the packages that have types, of these kinds."""
+    kinds = chosen(arguments)
+    kinds = kinds if len(kinds) == len(KINDS) else kinds[:1]  # of several, ros2cli takes the first
     for package, names in interfaces().items():
-        if any(of_kind(names, kind) for kind in chosen(arguments)):
+        if any(of_kind(names, kind) for kind in kinds):
             print(package)

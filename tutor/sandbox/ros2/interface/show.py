@@ -52,7 +52,9 @@ def _show(name: str, *, comments: bool, nested_comments: bool, depth: int) -> No
 
 def _definition(name: str) -> str:
     parts = name.split("/")
-    if len(parts) != 3 or not all(parts):
+    if len(parts) == 3 and not all(parts):
+        raise CommandError(f"Invalid name '{name}'. Must not contain empty parts")
+    if len(parts) != 3:
         raise CommandError(f"Invalid name '{name}'. Expected three parts separated by '/'")
     try:
         share = packages.find_share(parts[0])

@@ -5,12 +5,11 @@ from __future__ import annotations
 import argparse
 import sys
 import time
-from typing import Any
 
 from tutor.sandbox.ros2.calling import wait_for_answer, wait_until
-from tutor.sandbox.ros2.errors import CommandError, yaml_problem
-from tutor.sandbox.ros2.filling import fill
-from tutor.sandbox.ros2.interfaces import UnknownInterface, find_interface
+from tutor.sandbox.ros2.errors import CommandError
+from tutor.sandbox.ros2.filling import filled
+from tutor.sandbox.ros2.interfaces import OfAnotherKind, UnknownInterface, find_interface
 from tutor.sandbox.ros2.joining import Domain, joined
 from tutor.sandbox.ros2.parsing import complete_with
 from tutor.sandbox.ros2.service.names import service_names, service_types, services
@@ -32,9 +31,12 @@ def main(arguments: argparse.Namespace) -> None:
         raise CommandError("rate must be greater than zero")
     try:
         service_class = find_interface(arguments.service_type, "srv")
+    except OfAnotherKind as error:
+        raise CommandError("The passed type is not a service") from error
     except UnknownInterface as error:
         raise CommandError("The passed service type is invalid") from error
-    request = _request(service_class, sys.stdin.read() if arguments.stdin else arguments.values)
+    text = sys.stdin.read() if arguments.stdin else arguments.values
+    request = filled(service_class.Request, text, failed="Failed to populate field: {}")
     with joined(arguments) as domain:
         client = domain.node.create_client(service_class, arguments.service_name)
         print("waiting for service to become available...")
@@ -51,25 +53,11 @@ def main(arguments: argparse.Namespace) -> None:
             time.sleep(max(0.0, called + 1 / arguments.rate - time.monotonic()))
 
 
-def _request(service_class: Any, text: str) -> Any:
-    import yaml
-
-    try:
-        values = yaml.safe_load(text)
-    except yaml.YAMLError as error:
-        raise CommandError(f"The passed value is no YAML: {yaml_problem(error)}") from error
-    request = service_class.Request()
-    try:
-        fill(request, values)
-    except Exception as error:  # whatever the setter of a field raises, its text says what is wrong with the value
-        raise CommandError(f"Failed to populate field: {error}") from error
-    return request
-
-
 def _what_is_there(domain: Domain, arguments: argparse.Namespace) -> str:
     """Why the service is not there, as far as the graph tells."""
     name = arguments.service_name if arguments.service_name.startswith("/") else f"/{arguments.service_name}"
-    there = dict(services(domain, hidden=True))
-    if name in there:
-        return f"{name} is there, but its type is {', '.join(there[name])}"
+    package, *_, last = arguments.service_type.split("/")
+    others = [kind for kind in dict(services(domain, hidden=True)).get(name, ()) if kind != f"{package}/srv/{last}"]
+    if others and domain.node.count_services(name):  # a client is enough for a service to be listed: ours is one
+        return f"{name} is there, but its type is {', '.join(others)}"
     return f"no node offers {name} yet; Ctrl+C ends the wait"

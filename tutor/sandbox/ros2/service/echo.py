@@ -10,15 +10,18 @@ from tutor.sandbox.ros2.interfaces import UnknownInterface, find_interface
 from tutor.sandbox.ros2.joining import joined
 from tutor.sandbox.ros2.parsing import complete_with
 from tutor.sandbox.ros2.service.names import service_names, service_types, services
+from tutor.sandbox.ros2.showing import Form, add_form_arguments
 
 EVENTS = ("REQUEST_SENT", "REQUEST_RECEIVED", "RESPONSE_SENT", "RESPONSE_RECEIVED")
 """The names of service_msgs/msg/ServiceEventInfo's event types, by number."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """SERVICE [TYPE]."""
+    """SERVICE [TYPE], and what is shown of each event."""
     complete_with(parser.add_argument("service_name", help="the service, such as /add"), service_names)
     complete_with(parser.add_argument("service_type", nargs="?", help="its type, if nobody offers it"), service_types)
+    parser.add_argument("--csv", action="store_true", help="all values, separated by commas")
+    add_form_arguments(parser)
 
 
 def main(arguments: argparse.Namespace) -> None:
@@ -26,15 +29,15 @@ def main(arguments: argparse.Namespace) -> None:
     from rclpy.executors import SingleThreadedExecutor
     from rclpy.qos import QoSPresetProfiles
 
-    from tutor.ros.as_yaml import to_yaml
-
-    name = arguments.service_name
+    name, form = arguments.service_name, Form.of(arguments)
     with joined(arguments) as domain:
         type_name = arguments.service_type
         if type_name is None:
             types = domain.find(lambda: dict(services(domain, hidden=True)).get(name))
             if not types:
-                raise CommandError("Could not load the type for the passed service")
+                raise CommandError(f"Cannot find type for '{name}'")
+            if len(types) > 1:
+                raise CommandError(f"More than one type associated with service '{name}'")
             type_name = types[0]
         try:
             event_class = find_interface(type_name, "srv").Event
@@ -42,8 +45,11 @@ def main(arguments: argparse.Namespace) -> None:
             raise CommandError(f"The service type '{type_name}' is invalid") from error
 
         def heard(event: object) -> None:
+            if arguments.csv:
+                print(form.csv(event), flush=True)
+                return
             number = event.info.event_type  # type: ignore[attr-defined]
-            text = to_yaml(event).replace(f"event_type: {number}", f"event_type: {EVENTS[number]}", 1)
+            text = form.yaml(event).replace(f"event_type: {number}", f"event_type: {EVENTS[number]}", 1)
             print(f"{text.rstrip()}\n---", flush=True)
 
         topic = f"{name}/_service_event"

@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING, Any
 
 import yaml
 
-from tutor.ros.as_yaml import LONGEST, to_csv, to_yaml
 from tutor.sandbox.ros2.errors import CommandError
 from tutor.sandbox.ros2.interfaces import UnknownInterface, find_interface, message_names
 from tutor.sandbox.ros2.joining import Domain, add_strategy_arguments, joined
-from tutor.sandbox.ros2.parsing import complete_with, positive_float, unsigned_int
+from tutor.sandbox.ros2.parsing import complete_with, positive_float
 from tutor.sandbox.ros2.qos import add_qos_arguments, asks_for_qos, qos_of
+from tutor.sandbox.ros2.showing import Form, add_form_arguments
 from tutor.sandbox.ros2.taking import DEPTH, Taken, taken
 from tutor.sandbox.ros2.topic.expressions import expression
 from tutor.sandbox.ros2.topic.names import full_name, message_class, topic_names, warn_of_no_publisher
@@ -38,17 +38,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("--csv", action="store_true", help="all values, separated by commas")
     add("--field", help="only this field, such as pose.position")
-    add("--full-length", "-f", action="store_true", help="long arrays and texts in full")
-    add(
-        "--truncate-length",
-        "-l",
-        type=unsigned_int,
-        default=LONGEST,
-        help=f"after how many elements arrays and texts are cut (default: {LONGEST})",
-    )
-    add("--no-arr", action="store_true", help="only type and length of arrays")
-    add("--no-str", action="store_true", help="only the length of texts")
-    add("--flow-style", action="store_true", help="lists in one line")
+    add_form_arguments(parser)
     add("--no-lost-messages", action="store_true", help="do not tell of lost messages")
     add("--raw", action="store_true", help="the bytes as they were sent")
     add("--filter", dest="filter_expr", help="only messages m for which this Python expression is true")
@@ -110,8 +100,7 @@ def _printer(arguments: argparse.Namespace) -> Callable[[Taken], str | None]:
     if path == []:
         raise CommandError(f"Invalid field value '{arguments.field}'")
     holds = expression(arguments.filter_expr)
-    longest = None if arguments.full_length else arguments.truncate_length
-    cut: dict[str, Any] = {"longest": longest, "no_arrays": arguments.no_arr, "no_texts": arguments.no_str}
+    form = Form.of(arguments)
 
     def text_of(one: Taken) -> str | None:
         message, info = one
@@ -128,9 +117,9 @@ def _printer(arguments: argparse.Namespace) -> Callable[[Taken], str | None]:
             return f"{head}{_harmless(str(message))}\n---\n"
         if arguments.csv:
             head = "".join(f"{value}," for value in info.values()) if with_info else ""
-            return f"{head}{_harmless(to_csv(message, **cut))}\n"
+            return f"{head}{_harmless(form.csv(message))}\n"
         head = f"{yaml.dump(info)}---\n" if with_info else ""
-        return f"{head}{to_yaml(message, flow_style=arguments.flow_style, **cut)}---\n"
+        return f"{head}{form.yaml(message)}---\n"
 
     return text_of
 

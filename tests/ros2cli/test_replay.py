@@ -1,0 +1,85 @@
+"""How the replay tells what is the same, what may differ, and what may not."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.ros2cli.records import Output, Record
+from tests.ros2cli.replay import DIFFERS, SAME, WANTED, judge
+
+PATHS = {"/tmp/x/ws": "$WORKSPACE", "/venv": "$ROS"}
+
+
+def kind(command: str, recorded: Output, ours: Output, *, ctrl_c_after_s: float | None = None) -> str:
+    record = Record("s0_001", "no nodes", command, False, None, ctrl_c_after_s, recorded)
+    return judge(record, ours, PATHS).kind
+
+
+def out(text: str, *, stderr: str = "", code: int = 0) -> Output:
+    return Output(text, stderr, code)
+
+
+@pytest.mark.parametrize(
+    ("command", "recorded", "ours"),
+    [
+        ("ros2 pkg prefix my_package", out("$WORKSPACE/install/my_package\n"), out("/tmp/x/ws/src/my_package\n")),
+        (
+            "ros2 pkg prefix --share my_package",
+            out("$WORKSPACE/install/my_package/share/my_package\n"),
+            out("/tmp/x/ws/src/my_package\n"),
+        ),
+        (
+            "ros2 launch my_package nope_launch.py",
+            out("", stderr="at '$WORKSPACE/install/my_package/share/my_package'\n", code=1),
+            out("", stderr="at '/tmp/log/ros2-overlay-_a1/prefix/share/my_package'\n", code=1),
+        ),
+        (
+            "ros2 launch nopkg my_launch.py",
+            out("", stderr="searching: ['$WORKSPACE/install/my_package', '$ROS']\"\n", code=1),
+            out("", stderr="searching: ['/venv/a', '/tmp/x/prefix']\"\n", code=1),
+        ),
+        (
+            "ros2 topik list",
+            out("", stderr="ros2: error: invalid choice: 'topik' (choose from 'component', 'node', 'topic')\n", code=2),
+            out("", stderr="ros2: error: invalid choice: 'topik' (choose from 'doctor', 'node', 'topic')\n", code=2),
+        ),
+        ("ros2 pkg list", out("launch\nlaunch_ros\nros2cli\nstd_msgs\n"), out("std_msgs\n")),
+        (
+            "ros2 topic hz /t",
+            out("WARNING: topic [/t] does not appear to be published yet\naverage rate: 2.0\n"),
+            out("average rate: 1.9\n"),
+        ),
+    ],
+)
+def test_what_depends_on_the_installation_or_the_moment_is_the_same(
+    command: str, recorded: Output, ours: Output
+) -> None:
+    assert kind(command, recorded, ours) == SAME
+
+
+@pytest.mark.parametrize(
+    ("command", "recorded", "ours"),
+    [
+        ("ros2 pkg list", out("my_package\nstd_msgs\n"), out("std_msgs\n")),
+        ("ros2 topic hz /t", out("WARNING: topic [/t] does not appear to be published yet\n"), out("")),
+        ("ros2 run my_package x", out("", stderr="No executable found\n", code=1), out("", stderr="None\n", code=1)),
+        ("ros2 topic echo /t x", out("", stderr="Traceback (most recent call last):\nE: e\n", code=1), out("", code=0)),
+    ],
+)
+def test_anything_else_differs(command: str, recorded: Output, ours: Output) -> None:
+    assert kind(command, recorded, ours) == DIFFERS
+
+
+def test_ours_may_be_kinder_with_the_same_exit_code() -> None:
+    traceback = out("", stderr="Traceback (most recent call last):\n  File x\nRCLError: bad\n", code=1)
+    assert kind("ros2 topic echo 'b d' x", traceback, out("", stderr="bad\n", code=1)) == WANTED
+    unknown = out("", stderr="Package 'my_pakage' not found\n", code=1)
+    hint = out("", stderr="Package 'my_pakage' not found (is it my_package?)\n", code=1)
+    assert kind("ros2 run my_pakage x", unknown, hint) == WANTED
+
+
+def test_until_ctrl_c_ours_may_get_further_but_not_less_far() -> None:
+    waits, answers = out("waiting\n", code=2), out("waiting\nrequest\n", code=2)
+    assert kind("ros2 service call /a x", waits, answers, ctrl_c_after_s=2.0) == WANTED
+    assert kind("ros2 service call /a x", answers, waits, ctrl_c_after_s=2.0) == DIFFERS
+    assert kind("ros2 service call /a x", waits, answers) == DIFFERS
