@@ -22,6 +22,20 @@ def test_a_definition_is_shown_with_nested_types_below_their_fields(bench: Bench
     assert bench.ros2("interface", "show", "-", stdin="std_msgs/msg/Bool\n").stdout.endswith("bool data\n")
 
 
+def test_comments_are_left_out_as_by_rosidls_parser(bench: Bench) -> None:
+    # It reads line by line: of a comment behind a field it leaves the sign, and keeps lines that start with spaces.
+    bare = bench.ros2("interface", "show", "--no-comments", "stereo_msgs/msg/DisparityImage").stdout.splitlines()
+    assert "float32 f #" in bare
+    assert "\tstd_msgs/Header header #" in bare
+    assert "\t                             # Header frame_id should be optical frame of camera" in bare
+    assert "# Floating point disparity image." not in " ".join(bare)
+    log = bench.ros2("interface", "show", "--no-comments", "rcl_interfaces/msg/Log").stdout.splitlines()
+    assert log[:4] == ["##", "##", "##", "uint8 DEBUG=10"]
+    assert bench.ros2("interface", "show", "std_msgs//String").stderr == (
+        "Invalid name 'std_msgs//String'. Must not contain empty parts\n"
+    )
+
+
 def test_what_is_not_there_is_named(bench: Bench) -> None:
     show = ("interface", "show")
     assert bench.ros2(*show, "std_msgs/String").stderr == (

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import argparse
-import re
+import contextlib
 import sys
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -12,12 +13,6 @@ from tutor.sandbox import packages
 from tutor.sandbox.ros2.errors import CommandError
 from tutor.sandbox.ros2.interface.kinds import type_names
 from tutor.sandbox.ros2.parsing import complete_with
-
-_PRIMITIVE = re.compile(
-    r"(bool|byte|char|float(32|64)|u?int(8|16|32|64)|w?string(<=\d+)?|duration|time)(\[(<=)?\d*\])?$"
-)
-_FIELD = re.compile(r"\s*(?P<type>[A-Za-z][\w/]*(<=\d+)?)(?P<array>\[(<=)?\d*\])?\s+[A-Za-z]\w*")
-_CONSTANT = re.compile(r"\s*\w+(<=\d+)?\s+\w+\s*=")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -39,15 +34,54 @@ def main(arguments: argparse.Namespace) -> None:
 
 
 def _show(name: str, *, comments: bool, nested_comments: bool, depth: int) -> None:
-    for line in _definition(name).splitlines():
-        line = line.rstrip()
-        shown = line if comments else _without_comment(line)
-        if shown:
-            print("\t" * depth + shown)
-        elif comments:
-            print()
-        if (nested := _nested(line, name.split("/")[0])) is not None:
-            _show(nested, comments=nested_comments, nested_comments=nested_comments, depth=depth + 1)
+    for text in _definition(name).splitlines():
+        line = _Line.of(name, text.rstrip())
+        shown = line.text if comments else line.without_comment()
+        if shown is not None:
+            print("\t" * depth + shown if shown else "")
+        if line.nested is not None:
+            _show(line.nested, comments=nested_comments, nested_comments=nested_comments, depth=depth + 1)
+
+
+@dataclass(frozen=True, slots=True)
+class _Line:
+    """A line of a definition, as rosidl's own parser reads it: by itself, so that it finds few kinds of comments."""
+
+    text: str
+    is_comment: bool = False
+    trailing_comment: str | None = None
+    nested: str | None = None
+
+    @classmethod
+    def of(cls, name: str, text: str) -> _Line:
+        """Raises CommandError where it is none."""
+        from rosidl_adapter.parser import InvalidSpecification, parse_message_string
+
+        if text == "---":
+            return cls(text)
+        package, _, last = name.split("/")
+        try:
+            with contextlib.redirect_stderr(None):  # the parser prints there what it raises as well
+                read = parse_message_string(package, last, text)
+        except (InvalidSpecification, ValueError, TypeError) as error:
+            raise CommandError(f"{name} has a line that is no field: {text}") from error
+        element = next(iter([*read.fields, *read.constants]), None)
+        comments = element.annotations.get("comment") if element is not None else None
+        nested = read.fields[0].type if read.fields and not read.fields[0].type.is_primitive_type() else None
+        return cls(
+            text,
+            is_comment=bool(read.annotations["comment"]),
+            trailing_comment=comments[0] if comments else None,
+            nested=f"{nested.pkg_name}/msg/{nested.type}" if nested is not None else None,
+        )
+
+    def without_comment(self) -> str | None:
+        """What is left of it where comments are left out; None where nothing is."""
+        if not self.text or self.is_comment:
+            return None
+        if self.trailing_comment is None:
+            return self.text
+        return self.text[: self.text.find(self.trailing_comment) - 1].strip()
 
 
 def _definition(name: str) -> str:
@@ -79,21 +113,6 @@ def _in_another_prefix(name: str) -> Path | None:
         if prefix and (share / kind / f"{last}.{kind}").is_file():
             return share
     return None
-
-
-def _nested(line: str, package: str) -> str | None:
-    """The message type of a field that has one; types of its own package are named without it."""
-    bare = line.split("#", 1)[0]
-    found = _FIELD.match(bare)
-    if found is None or _CONSTANT.match(bare) or _PRIMITIVE.match(found["type"]):
-        return None
-    where, _, last = found["type"].rpartition("/")
-    return f"{where.partition('/')[0] or package}/msg/{last}"
-
-
-def _without_comment(line: str) -> str:
-    """A line without its comment; a `#` in a text's default is none."""
-    return re.sub(r"""^((?:[^#"']|"[^"]*"|'[^']*')*?)\s*#.*$""", r"\1", line).strip()
 
 
 class _TypeOrStdin(argparse.Action):
