@@ -62,22 +62,22 @@ def test_what_does_not_fit_is_named(text: str, said: str) -> None:
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("{a: null}", "Value 'None' is expected to be a dictionary but is a NoneType"),
-        ("{a: [1]}", "Value '[1]' is expected to be a dictionary but is a list"),
-        ("{a: {x: 1}}", "'int' object has no attribute 'x'"),
-        ("{a: ten}", "invalid literal for int() with base 10: 'ten'"),
+        ("{data: null}", "Value 'None' is expected to be a dictionary but is a NoneType"),
+        ("{data: [1]}", "Value '[1]' is expected to be a dictionary but is a list"),
+        ("{data: {x: 1}}", "'int' object has no attribute 'x'"),
+        ("{data: ten}", "invalid literal for int() with base 10: 'ten'"),
     ],
 )
 def test_a_number_that_is_none_is_told_as_rosidl_runtime_py_does(text: str, said: str) -> None:
-    from example_interfaces.srv import AddTwoInts
+    from std_msgs.msg import Int64
 
     with pytest.raises(CommandError) as caught:
-        filled(AddTwoInts.Request, text, failed="Failed: {}")
+        filled(Int64, text, failed="Failed: {}")
     assert str(caught.value) == f"Failed: {said}"
 
 
 def test_a_text_that_is_no_yaml_is_told_in_one_line() -> None:
-    from example_interfaces.srv import AddTwoInts
+    from std_msgs.msg import Int64
 
     with pytest.raises(CommandError, match=r"^The passed value is no YAML: expected ',' or '}'.*$"):
-        filled(AddTwoInts.Request, "{a: 1", failed="Failed: {}")
+        filled(Int64, "{data: 1", failed="Failed: {}")
