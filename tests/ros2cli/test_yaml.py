@@ -10,7 +10,7 @@ import yaml
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tutor.ros.as_yaml import _Dumper
+from tutor.ros.as_yaml import _Dumper, to_csv
 from tutor.ros.yaml_quickly import yaml_of_plain
 
 
@@ -62,3 +62,12 @@ def test_the_usual_needs_no_pyyaml(text: str) -> None:
     written = yaml_of_plain(message, 128)
     assert written is not None
     assert written == by_pyyaml(message)
+
+
+def test_cells_that_are_empty_are_separated_as_by_rosidl_runtime_py() -> None:
+    from rcl_interfaces.msg import LoggerLevel
+    from std_msgs.msg import Int8MultiArray
+
+    assert to_csv(LoggerLevel(name="", level=10)) == "10"
+    assert to_csv(LoggerLevel(name="a", level=10)) == "a,10"
+    assert to_csv(Int8MultiArray(data=[])) == "0,"

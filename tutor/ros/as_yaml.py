@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -48,7 +48,7 @@ def to_yaml(
 
 def to_csv(message: Any, *, longest: int | None = LONGEST, no_arrays: bool = False, no_texts: bool = False) -> str:
     """The message's values, separated by commas, cut as in `to_yaml`."""
-    return ",".join(_cells(message, _Form(longest, no_arrays, no_texts)))
+    return _row(message, _Form(longest, no_arrays, no_texts))
 
 
 def numeric_fields(message: Any) -> tuple[str, ...]:
@@ -116,26 +116,30 @@ def _plain_field(value: Any, slot: Any, form: _Form) -> Any:
     return _abbreviated(value, slot) if form.no_arrays and is_array(value) else _plain(value, form)
 
 
-def _cells(message: Any, form: _Form) -> Iterator[str]:
-    for name, slot in _slots(message):
-        value = getattr(message, name)
-        if is_array(value) and form.no_arrays:
-            yield _abbreviated(value, slot)
-        elif is_array(value):
-            cells = [cell for item in value[: form.longest] for cell in _cell(item, form)]
-            more = form.longest is not None and len(value) > form.longest
-            yield ",".join([*cells, "..."] if more else cells)
-        else:
-            yield from _cell(value, form)
+def _row(message: Any, form: _Form) -> str:
+    return _joined(_cell(getattr(message, name), slot, form) for name, slot in _slots(message))
 
 
-def _cell(value: Any, form: _Form) -> Iterator[str]:
+def _cell(value: Any, slot: Any, form: _Form) -> str:
+    """`slot` is None for an element of an array."""
+    if is_array(value):
+        if form.no_arrays and slot is not None:
+            return _abbreviated(value, slot)
+        more = ["..."] if form.longest is not None and len(value) > form.longest else []
+        return _joined([*(_cell(item, None, form) for item in value[: form.longest]), *more])
     if hasattr(value, "get_fields_and_field_types"):
-        yield from _cells(value, form)
-    elif isinstance(value, bytes) and form.longest is not None and len(value) > form.longest:
-        yield str(value[: form.longest] + b"...")
-    else:
-        yield form.text(value) if isinstance(value, str) else str(value)
+        return _row(value, form)
+    if isinstance(value, bytes) and form.longest is not None and len(value) > form.longest:
+        return str(value[: form.longest] + b"...")
+    return form.text(value) if isinstance(value, str) else str(value)
+
+
+def _joined(cells: Iterable[str]) -> str:
+    """With commas, as rosidl_runtime_py sets them: none after cells that are empty, as long as nothing came before."""
+    row = ""
+    for cell in cells:
+        row = f"{row},{cell}" if row else cell
+    return row
 
 
 def _slots(message: Any) -> Iterator[tuple[str, Any]]:

@@ -40,7 +40,9 @@ def fill(message: Any, values: Any, *, stamps: bool = False) -> list[SetStamp]:
     if not isinstance(values, Mapping):
         raise TypeError(f"Value '{values}' is expected to be a dictionary but is a {type(values).__name__}")
     setters: list[SetStamp] = []
-    slots = dict(zip(message.get_fields_and_field_types(), message.SLOT_TYPES, strict=True))
+    slots = (
+        dict(zip(message.get_fields_and_field_types(), message.SLOT_TYPES, strict=True)) if is_message(message) else {}
+    )
     for name, value in values.items():
         field = getattr(message, name)
         kind = f"{type(field).__module__}.{type(field).__name__}"
@@ -49,8 +51,13 @@ def fill(message: Any, values: Any, *, stamps: bool = False) -> list[SetStamp]:
         elif stamps and value == "now" and kind == "builtin_interfaces.msg._time.Time":
             setters.append(_setter(message, name))
         else:
-            setattr(message, name, _converted(field, value, slots[name], stamps, setters))
+            setattr(message, name, _converted(field, value, slots.get(name), stamps, setters))
     return setters
+
+
+def is_message(value: Any) -> bool:
+    """Whether it is of a ROS type, and not of one of Python's or numpy's."""
+    return hasattr(value, "get_fields_and_field_types")
 
 
 def _converted(field: Any, value: Any, slot: Any, stamps: bool, setters: list[SetStamp]) -> Any:
@@ -58,7 +65,7 @@ def _converted(field: Any, value: Any, slot: Any, stamps: bool, setters: list[Se
         return array.array(field.typecode, value)
     if type(field).__module__ == "numpy":
         return _as_numpy(value, field.dtype)
-    if hasattr(field, "get_fields_and_field_types"):
+    if is_message(field):
         nested = type(field)()
         setters += fill(nested, value, stamps=stamps)
         return nested
