@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from checks.i1_2 import continuity, judges, scenarios
 from checks.i1_2.explaining import explained
 from tutor.judge.check import Check, Criterion
+from tutor.judge.exceptions import load
 
 CHECK = Check(
     "i1.2",
@@ -19,4 +22,5 @@ CHECK = Check(
         Criterion("shutdown", judges.judge_shutdown, (scenarios.steady,), bonus=True),
     ),
     asks_s=5.7,  # jump: 0.4 s until it is met, then 43 messages at 8 a second
+    exceptions=load(Path(__file__).with_name("exceptions.toml")),
 )

@@ -11,6 +11,7 @@ from checks.i1_2.judges import NO_SUMMARY, counts_truly, judge_summary, true_tot
 from checks.i1_2.reading import Line
 from checks.i1_2.reports import Report, find, milestone
 from tutor.judge import causes
+from tutor.judge.causes import printing
 from tutor.judge.trace import Level
 from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped
 
@@ -33,7 +34,7 @@ def judge_restart(restart: Feeding, steady: Feeding, jump: Feeding) -> Verdict:
         return failed(
             expected,
             f"the new publisher found no subscription on {OURS.topic}",
-            causes.of_deafness(restart.trace, OURS, answers=restart.spins),
+            steps.alive(restart.trace, causes.of_deafness(restart.trace, OURS, answers=restart.spins)),
             words,
         )
     after = [report for report in find(restart) if report.messages > before]
@@ -204,7 +205,8 @@ def _goes_on_rising(jump: Feeding, steady: Feeding) -> tuple[Cause, list[str]] |
 
 
 def _of_end(feeding: Feeding, what: str) -> Cause:
-    return causes.of_process(feeding.trace) or Cause("exit at once", f"the node does not survive {what}", "let it run")
+    ended = Cause("exit at once", f"the node does not survive {what}", "let it run")
+    return steps.alive(feeding.trace, causes.of_process(feeding.trace) or ended)
 
 
 def _why_unsaid(index: int, jump: Feeding, steady: Feeding) -> Cause:
@@ -229,11 +231,9 @@ def _why_unsaid(index: int, jump: Feeding, steady: Feeding) -> Cause:
     after = [line for line in jump.trace.output if line.at >= jump.sent[index].at and line.stream == "stdout"]
     printed = next((line.text for line in after if any(word in line.text.casefold() for word in words)), None)
     if printed is not None:
-        return Cause(
-            "printed, not logged",
-            f"it is only printed: {printed}",
-            steps.gaps(jump.trace) or "use self.get_logger().warning(...)",
-        )
+        call = printing.print_of(jump.trace, printed)
+        step = printing.logged(jump.trace, call) if call else steps.gaps(jump.trace)
+        return Cause("printed, not logged", f"it is only printed: {printed}", step or "self.get_logger().warning(...)")
     missed = jump.missed(index)[-1]
     return gap_steps.of_silence(jump.trace) or Cause(
         "gap not noticed",

@@ -187,14 +187,15 @@ def judge_summary(steady: Feeding, jump: Feeding) -> Verdict:
 def _why_not_every_ten(reports: Sequence[Report], feeding: Feeding, messages: int) -> Cause | None:
     due = range(EVERY, messages + 1, EVERY)
     when = [report.messages for report in reports]
-    hint = steps.summary(feeding.trace) or (
-        f"if self.total_count % {EVERY} == 0: write the summary, in the callback, after counting"
-    )
     if len(reports) > 3 and len(reports) >= 0.7 * messages:
-        return Cause("summary for every message", f"{len(reports)} summaries for {messages} messages", hint)
+        return Cause(
+            "summary for every message", f"{len(reports)} summaries for {messages} messages", _every_ten(feeding)
+        )
     if len(reports) > len(due) or any(report.times > 1 for report in reports):
         return Cause(
-            "too many summaries", f"{sum(report.times for report in reports)} summaries for {messages} messages", hint
+            "too many summaries",
+            f"{sum(report.times for report in reports)} summaries for {messages} messages",
+            _every_ten(feeding),
         )
     for number in due:
         of_it = [each for each in reports if milestone(each.messages) == number]
@@ -202,8 +203,15 @@ def _why_not_every_ten(reports: Sequence[Report], feeding: Feeding, messages: in
             early = [each for each in when if number - EVERY < each < number]
             late = [each for each in when if number < each < number + EVERY]
             said = f"it comes after {(early or late)[-1]}" if early or late else "and none comes later"
-            return Cause("missing summary", f"there is none after {number} messages, {said}", hint)
+            return Cause("missing summary", f"there is none after {number} messages, {said}", _every_ten(feeding))
     return None
+
+
+def _every_ten(feeding: Feeding) -> str:
+    """The step to one summary for every ten messages."""
+    return steps.summary(feeding.trace) or (
+        f"if self.total_count % {EVERY} == 0: write the summary, in the callback, after counting"
+    )
 
 
 def _counts_wrongly(reports: Sequence[Report], feeding: Feeding) -> bool:
@@ -255,7 +263,7 @@ def why_silent(feeding: Feeding) -> Cause:
     """Why the node logs no summary."""
     trace = feeding.trace
     if trace.exit is not None or not feeding.sent or not (feeding.lines or feeding.spins):
-        return causes.of_deafness(trace, OURS, answers=feeding.spins, stuck=feeding.stuck)
+        return steps.alive(trace, causes.of_deafness(trace, OURS, answers=feeding.spins, stuck=feeding.stuck))
     printed = causes.of_printed(
         trace,
         lambda text: bool(read(_as_log(text), 1).quoted),

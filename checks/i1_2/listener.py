@@ -50,6 +50,11 @@ class Listener:
         return self.message if taken or not self.message else f"{self.message}.data"
 
     @property
+    def within(self) -> list[Function]:
+        """The functions that are done with a message and have the callback's names."""
+        return [each for each in self.reached if each is self.function or (self.owner and each in self.owner.body)]
+
+    @property
     def logger(self) -> str:
         """The logger, as written in the callback; empty where it has none within reach."""
         node = ast.unparse(self.created.func.value) if isinstance(self.created.func, ast.Attribute) else "node"
@@ -179,15 +184,15 @@ def _role(value: ast.expr, function: Function, always: bool) -> str:
             return COUNT if always else ""
         case ast.Attribute(attr="data", value=ast.Name(id=name)) if name in given:
             return LAST if always else FIRST
-    local = _local(value, function)
+    local = value_of(value, function)
     called = {source.called(each) for each in ast.walk(local) if isinstance(each, ast.Call)}
     if isinstance(local, ast.Call) and called.intersection(_CLOCKS):
         return START
     return NUMBER if isinstance(local, ast.Call) and source.called(local) == "int" and always else ""
 
 
-def _local(value: ast.expr, function: Function) -> ast.expr:
-    """What a local variable was set to, if it is one and was set once."""
+def value_of(value: ast.expr, function: Function) -> ast.expr:
+    """What a local variable was set to, if it is one and was set once; else the expression itself."""
     if not isinstance(value, ast.Name):
         return value
     given = [

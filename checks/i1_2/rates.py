@@ -141,11 +141,12 @@ def _close(report: Report, feeding: Feeding) -> Iterator[Range]:
 
 def why_wrong(report: Report, reports: Sequence[Report], feeding: Feeding) -> Cause:
     """What kind of mistake leads to the numbers in this one of the reports, which states no true rate."""
-    hint = steps.rate(feeding.trace) or (
+    found = _but_the_count(report, feeding)
+    texts, numbers = [line.text for line in report.lines], [number.text for number in found]
+    hint = steps.rate(feeding.trace, texts, numbers) or (
         "self.total_count / (time.time() - self.start_time), where start_time is when the first message came"
     )
     true = true_rates(report, feeding)
-    found = _but_the_count(report, feeding)
     for number in found:
         if number.value > 0 and 1 / number.value in true:
             return Cause(

@@ -30,7 +30,7 @@ _AT_FIRST = {COUNT: "0", FIRST: "''", LAST: "''", START: "0.0", NUMBER: "None"}
 _CODE = """\
 if {total_count} == 0:
     {first_message} = {content}
-    {start_time} = time.monotonic()
+    {start_time} = {clock}
 {total_count} += 1
 {last_message} = {content}
 number = int({content}.rpartition(':')[2])
@@ -38,7 +38,7 @@ if {last_number} is not None and number > {last_number} + 1:
     {logger}.warning(f'{{number - {last_number} - 1}} messages are missing before {{number}}')
 {last_number} = number
 if {total_count} % {every} == 0:
-    rate = ({total_count} - 1) / (time.monotonic() - {start_time})
+    rate = ({total_count} - 1) / ({clock} - {start_time})
     {logger}.info(f'{{{total_count}}} messages, {{rate:.2f}} per second')
     {logger}.info(f'first: {{{first_message}}}, last: {{{last_message}}}')"""
 
@@ -48,12 +48,13 @@ def whole(trace: Trace) -> str | None:
     listener = find(trace)
     if listener is not None and listener.message and listener.logger:
         names = {role: listener.name(role) for role in _AT_FIRST}
-        code = _CODE.format(content=listener.content, logger=listener.logger, every=EVERY, **names)
+        wanted, now = clock(listener.text)
+        code = _CODE.format(content=listener.content, clock=now, logger=listener.logger, every=EVERY, **names)
         written = body(listener, declared(listener, names.values(), code))
         timers = list(_without_timers(listener))
         if apply(listener.text, [written, *timers]).split() == listener.text.split():
             return None
-        edits = [*on_top(listener.text, "import time"), *started(listener, _AT_FIRST), written, *timers]
+        edits = [*on_top(listener.text, wanted), *started(listener, _AT_FIRST), written, *timers]
         if found := step(trace, listener, edits):
             return found
     return _another(trace)
@@ -69,7 +70,8 @@ def _another(trace: Trace) -> str | None:
             continue
         node, name = ast.unparse(call.func.value), "on_message" if "on_message" not in text else "on_chatter"
         names = {role: f"{node}.{role}" for role in _AT_FIRST}
-        code = _CODE.format(content="message.data", logger=f"{node}.get_logger()", every=EVERY, **names)
+        wanted, now = clock(text)
+        code = _CODE.format(content="message.data", clock=now, logger=f"{node}.get_logger()", every=EVERY, **names)
         method = f"def {name}({'self, ' if node == 'self' else ''}message):\n{textwrap.indent(code, '    ')}"
         starts = "\n".join(f"{names[role]} = {value}" for role, value in _AT_FIRST.items())
         if node == "self":
@@ -84,7 +86,7 @@ def _another(trace: Trace) -> str | None:
         for made in (statement(text, each.lineno) for each in others):
             edits += [removed(text, made.lineno, made.end_lineno or 0)] if made else []
         callback = f"self.{name}" if node == "self" else name
-        edits += [*on_top(text, "import time"), instead(text, given[0], callback)]
+        edits += [*on_top(text, wanted), instead(text, given[0], callback)]
         if name not in text and (found := told(text, edits, file=file if len(trace.sources) > 1 else "")):
             return found
     return None
@@ -105,6 +107,13 @@ def _without_timers(listener: Listener) -> Iterator[Edit]:
             yield removed(listener.text, made.lineno, made.end_lineno or 0)
             if len(re.findall(rf"\b{name}\b", listener.text)) == 2:
                 yield removed(listener.text, functions[name].lineno, functions[name].end_lineno or 0)
+
+
+def clock(text: str) -> tuple[str, str]:
+    """The import of a clock that never goes back, and its call, as they go with the imports that the file has."""
+    if re.search(r"^from time import", text, re.MULTILINE):
+        return "from time import monotonic", "monotonic()"
+    return "import time", "time.monotonic()"
 
 
 def step(trace: Trace, listener: Listener, edits: Sequence[Edit]) -> str | None:

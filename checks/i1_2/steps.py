@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Sequence
+from dataclasses import replace
 
-from checks.i1_2 import rewriting
+from checks.i1_2 import rate_steps, rewriting, slowness
 from checks.i1_2.listener import find
 from checks.i1_2.templates import logged
 from tutor.judge import source
-from tutor.judge.edits import removed
+from tutor.judge.causes import names
+from tutor.judge.edits import at_end, inside, on_top, removed, told
 from tutor.judge.trace import Trace
+from tutor.judge.verdict import Cause
 
 _GAPS = """\
 number = int({content}.rpartition(':')[2])
@@ -24,9 +27,9 @@ def count(trace: Trace) -> str | None:
     return rewriting.whole(trace)
 
 
-def rate(trace: Trace) -> str | None:
-    """States messages per second."""
-    return rewriting.whole(trace)
+def rate(trace: Trace, texts: Sequence[str] = (), numbers: Sequence[str] = ()) -> str | None:
+    """States messages per second; `texts` and `numbers` as in `rate_steps.step`."""
+    return rate_steps.step(trace, texts, numbers) or rewriting.whole(trace)
 
 
 def summary(trace: Trace) -> str | None:
@@ -54,8 +57,63 @@ def restart(trace: Trace) -> str | None:
 
 
 def silent(trace: Trace) -> str | None:
-    """Says that the publisher was restarted."""
+    """Says that the publisher was restarted, where the statistics are set back."""
+    listener = find(trace)
+    for function in listener.within if listener else []:
+        for node in ast.walk(function):
+            if (
+                listener
+                and isinstance(node, ast.If)
+                and isinstance(node.test, ast.BoolOp | ast.Compare)
+                and _falls(node.test)
+            ):
+                code = f"{listener.logger}.warning('the publisher was restarted: counting from zero')"
+                if step := rewriting.step(trace, listener, [inside(node.lineno, code)]):
+                    return step
     return rewriting.whole(trace)
+
+
+def _falls(test: ast.expr) -> bool:
+    """Whether it asks for a number that is lower than the one before it."""
+    asked = [op for each in ast.walk(test) if isinstance(each, ast.Compare) for op in each.ops]
+    return any(isinstance(op, ast.Lt | ast.LtE) for op in asked)
+
+
+def alive(trace: Trace, cause: Cause) -> Cause:
+    """The cause, with a step that keeps the node up and subscribed where it ends itself, or is not subscribed."""
+    ends: tuple[str, ...] = ()
+    if cause.name == "no subscription":
+        ends = ("destroy_subscription",)
+    elif cause.name == names.EXIT_AT_ONCE:
+        ends = ("shutdown", "try_shutdown", "exit", "_exit", "quit")
+    inside_class = [node for each in source.nodes(trace) if isinstance(each, ast.ClassDef) for node in ast.walk(each)]
+    for call in (each for each in source.calls(trace, *ends) if each in inside_class) if ends else ():
+        if step := slowness.without(trace, call):
+            return replace(cause, hint=step)
+    for each in inside_class if "exit" in ends else ():
+        if isinstance(each, ast.Raise) and each.exc is not None and ast.unparse(each.exc).startswith("SystemExit"):
+            file, text = next(pair for pair in trace.sources.items() if each in source.tree(pair[1]))
+            if step := told(text, removed(text, each.lineno), file=file if len(trace.sources) > 1 else ""):
+                return replace(cause, hint=step)
+    step = _subscribed(trace) if cause.name == "no subscription" else None
+    return replace(cause, hint=step) if step else cause
+
+
+def _subscribed(trace: Trace) -> str | None:
+    """Subscribes with a method that takes a message."""
+    for file, text in trace.sources.items():
+        tree = source.tree(text)
+        for owner in (each for each in tree if isinstance(each, ast.ClassDef)):
+            methods = [each for each in owner.body if isinstance(each, ast.FunctionDef)]
+            made = next((each for each in methods if each.name == "__init__"), None)
+            for method in methods:
+                given = [each.arg for each in method.args.args[1:]]
+                reads = any(isinstance(each, ast.Attribute) and each.attr == "data" for each in ast.walk(method))
+                if made is not None and len(given) == 1 and reads and method is not made:
+                    code = f"self.subscription = self.create_subscription(String, 'chatter', self.{method.name}, 10)"
+                    edits = [*on_top(text, "from std_msgs.msg import String"), at_end(made, code)]
+                    return told(text, edits, file=file if len(trace.sources) > 1 else "")
+    return None
 
 
 def gaps(trace: Trace, false: Sequence[str] = ()) -> str | None:

@@ -13,6 +13,7 @@ from tests.checks.made import assert_failed, trace
 from tests.checks.test_i1_2 import Counter, Log, jump, steady
 from tests.repairs import follow
 from tutor.judge.trace import Trace
+from tutor.judge.verdict import Cause
 
 NODE = """\
 class Stats(Node):
@@ -194,3 +195,66 @@ def test_a_first_message_that_is_forgotten_with_each_summary_is_told_with_its_li
     for text, step in ((source, "remove line 14: self.first = None"), ("", "only while it is None, and never again")):
         told = replace(seen, trace=replace(seen.trace, sources={"node.py": text}))
         assert_failed(judge_summary(told, jump(Counter())), "first message overwritten", step)
+
+
+SUMS_UP = (
+    NODE.replace("        self.last_number = number\n", "")
+    + """\
+        now = time.time()
+        if self.start is None:
+            self.start = now
+        if self.total_count % 10 == 0:
+            rate = 60 * self.total_count / (now - self.start)
+            self.get_logger().info(f'{self.total_count} messages, {rate:.2f} msg/s')
+"""
+)
+
+
+@pytest.mark.parametrize(
+    ("pairs", "lines"),
+    [
+        ([], ["            rate = (self.total_count - 1) / (time.time() - self.start)"]),
+        (
+            [
+                ("        if self.start is None:\n            self.start = now\n", ""),
+                ("now - self.start", "now - BEGAN"),
+            ],
+            [
+                "        self.start_time = None",
+                "        if self.start_time is None:",
+                "            rate = (self.total_count - 1) / (time.monotonic() - self.start_time)",
+            ],
+        ),
+        (
+            [("{rate:.2f} msg/s'", "' + '%.2f msg/s' % rate")],
+            ["            rate = (self.total_count - 1) / (time.time() - self.start)"],
+        ),
+    ],
+)
+def test_a_rate_is_computed_where_the_summary_takes_it_from(pairs: list[tuple[str, str]], lines: list[str]) -> None:
+    told = started(*pairs, code=SUMS_UP)
+    fixed = followed(told, steps.rate(told, ["10 messages, 296.00 msg/s"], ["296.00"]) or "").splitlines()
+    assert [line for line in lines if line not in fixed] == []
+    assert "        self.total_count += 1" in fixed
+
+
+def test_a_restart_is_told_where_the_statistics_are_set_back() -> None:
+    told = started(code=NODE + "        if number < self.last_number:\n            self.total_count = 0\n")
+    fixed = followed(told, steps.silent(told) or "")
+    assert "if number < self.last_number:\n            self.get_logger().warning('the publisher was restarted" in fixed
+
+
+@pytest.mark.parametrize(
+    ("name", "pairs", "step"),
+    [
+        ("exit at once", [("            self.get_logger", "            raise SystemExit(0)\n            self.get_logger")], "remove line 12: raise SystemExit(0)"),
+        ("exit at once", [("            self.get_logger", "            os._exit(0)\n            self.get_logger")], "remove line 12: os._exit(0)"),
+        ("no subscription", [("        self.total_count += 1", "        self.destroy_subscription(self)")], "remove line 9: self.destroy_subscription(self)"),
+        ("no subscription", [("        self.create_subscription(String, 'chatter', self.listen, 10)\n", "")], "self.create_subscription(String, 'chatter', self.listen, 10)"),
+        ("no subscription", [], "as it was"),
+    ],
+)  # fmt: skip
+def test_a_node_that_ends_itself_or_is_not_subscribed(name: str, pairs: list[tuple[str, str]], step: str) -> None:
+    code = NODE if step.startswith("remove") else NODE.replace("msg.data.split", "data.split") if not pairs else NODE
+    cause = steps.alive(started(*pairs, code=code), Cause(name, "why", "as it was"))
+    assert step in cause.hint

@@ -41,7 +41,7 @@ def of_printed(
         return Cause(
             "printed, not logged",
             f"{what} is written with print(){at}: {printed[0]}",
-            f"{printing.logged(trace, wrote)} ({reaches})" if wrote else f"use self.get_logger().info(...): {reaches}",
+            printing.logged(trace, wrote) if wrote else f"use self.get_logger().info(...): {reaches}",
         )
     seen = {log.text for log in trace.logs}
     matches = [found for line in trace.output if (found := _LOGGED.match(line.text)) and says(line.text)]

@@ -85,6 +85,8 @@ def _texts(node: ast.AST) -> Iterator[str]:
     """The texts in an expression, but for those that are given to a call, or are a key."""
     if isinstance(node, ast.Constant) and isinstance(node.value, str):
         yield node.value
+    elif isinstance(node, ast.FormattedValue):
+        yield from _texts(node.value)  # not its format, such as .2f
     elif not isinstance(node, ast.Call | ast.Subscript):
         for child in ast.iter_child_nodes(node):
             yield from _texts(child)

@@ -1,0 +1,86 @@
+"""I1.2: the step that has a summary state the true rate, where it is known which of its values should be the rate."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Sequence
+
+from checks.i1_2 import rewriting
+from checks.i1_2.listener import COUNT, START, Listener, find, value_of
+from checks.i1_2.templates import Logged, logged
+from tutor.judge.edits import Edit, above, at_start, instead, on_top
+from tutor.judge.trace import Trace
+
+_CALLED_RATE = re.compile(
+    r"rate|hz|freq|per_?s|mps|speed|throughput|d[eé]bit|cadence|fr[eé]quence|tasa|frecuencia|frequenz", re.IGNORECASE
+)
+_CLOCKS = re.compile(r"(time\.)?(time|monotonic|perf_counter)\(\)")
+
+
+def step(trace: Trace, texts: Sequence[str], numbers: Sequence[str]) -> str | None:
+    """Computes the rate where the summary takes it from. `texts`: its log messages; `numbers`: what may be the rate."""
+    listener = find(trace)
+    places = [place for text in texts if (place := logged(trace, text)) is not None]
+    found = [(place, each) for place in places for each, value in place.values if value.strip() in numbers]
+    named = [(place, each) for place, each in found if _CALLED_RATE.search(ast.unparse(each))]
+    chosen = named or found
+    if listener is None or len(chosen) != 1 or not listener.message or COUNT not in listener.names:
+        return None
+    place, value = chosen[0]
+    if place.text != listener.text or place.function not in listener.within:
+        return None
+    edits, clock, start = _started(listener)
+    new = f"({listener.names[COUNT]} - 1) / ({clock} - {start})"
+    return rewriting.step(trace, listener, [*edits, _written(place, value, new, clock, start)])
+
+
+def _written(place: Logged, value: ast.expr, new: str, clock: str, start: str) -> Edit:
+    """The edit that has this value be the new one: where it is computed, in the text, or right above."""
+    name = ast.unparse(value)
+    given = [
+        each
+        for each in ast.walk(place.function or place.statement)
+        if isinstance(each, ast.Assign) and [ast.unparse(target) for target in each.targets] == [name]
+    ]
+    if len(given) == 1:
+        tests = [each for each in ast.walk(place.function or place.statement) if isinstance(each, ast.If)]
+        seldom = any(given[0] in ast.walk(each) and "%" in ast.unparse(each.test) for each in tests)
+        safe = new if seldom else new.replace(f"({clock} - {start})", f"max({clock} - {start}, 0.001)")
+        return instead(place.text, given[0].value, safe)
+    if isinstance(value, ast.Name | ast.Attribute) and given:
+        return above(place.statement.lineno, f"{name} = {new}")
+    return instead(place.text, value, new)
+
+
+def _started(listener: Listener) -> tuple[list[Edit], str, str]:
+    """What it takes to know when the first message came: edits, the clock, and the variable."""
+    if (own := _own_start(listener)) is not None:
+        return [], own, listener.names[START]
+    wanted, clock = rewriting.clock(listener.text)
+    start = listener.new("start_time", "first_time")
+    code = f"if {start} is None:\n    {start} = {clock}"
+    edits = [
+        rewriting.first_value(listener, [f"{start} = None"]),
+        at_start(listener.function, rewriting.declared(listener, [start], code)),
+    ]
+    return [*on_top(listener.text, wanted), *edits], clock, start
+
+
+def _own_start(listener: Listener) -> str | None:
+    """The clock, such as time.time(), by which the file keeps the time of the first message, if it surely does."""
+    name = listener.names.get(START, "")
+    tests = [
+        (function, each) for function in listener.within for each in ast.walk(function) if isinstance(each, ast.If)
+    ]
+    settings = []
+    for function in listener.within:
+        for each in ast.walk(function):
+            if isinstance(each, ast.Assign) and name in [ast.unparse(target) for target in each.targets]:
+                once = [test for inside, test in tests if inside is function and each in test.body]
+                settings.append((value_of(each.value, function), once))
+    if len(settings) != 1 or not settings[0][1]:
+        return None
+    value, test = ast.unparse(settings[0][0]), ast.unparse(settings[0][1][-1].test)
+    first = re.fullmatch(r"[\w.]+ is None|not [\w.]+|[\w.]+ == 0", test)
+    return value if first and _CLOCKS.fullmatch(value) else None
