@@ -38,25 +38,3 @@ def _value(expression: ast.expr) -> ast.expr | None:
         case ast.Attribute(attr="value" | "bool_value"):
             return expression
     return None
-
-
-def nanoseconds(trace: Trace) -> str | None:
-    """The step where nanoseconds are taken for seconds, or divided by another number than 1e9."""
-    scaled = False
-    for node in source.nodes(trace):
-        match node:
-            case ast.BinOp(left=left, op=ast.Div(), right=ast.Constant(value=int() | float() as by)) if _nano(left):
-                if by != 1e9:
-                    right = f"{ast.unparse(left)} / 1e9"
-                    return f"in line {node.lineno}, write {right} in place of {ast.unparse(node)}: a second has 1e9"
-                scaled = True
-            case ast.BinOp(op=ast.Div() | ast.Mult(), right=ast.Constant(value=int() | float() as by)):
-                scaled = scaled or by >= 1e3 or by <= 1e-3
-    for node in source.nodes(trace):
-        if isinstance(node, ast.Attribute) and node.attr == "nanoseconds" and not scaled:
-            return f"in line {node.lineno}, write ({ast.unparse(node)} / 1e9) in place of {ast.unparse(node)}"
-    return None
-
-
-def _nano(expression: ast.expr) -> bool:
-    return any(isinstance(node, ast.Attribute) and node.attr == "nanoseconds" for node in ast.walk(expression))
