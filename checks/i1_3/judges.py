@@ -20,6 +20,7 @@ from checks.i1_3.facts import (
     right_result,
 )
 from tutor.judge import causes, ending, tracebacks
+from tutor.judge.causes import names
 from tutor.judge.trace import CallAnswer, Service, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped
@@ -49,7 +50,8 @@ def _never_called(seen: Calls) -> list[str]:
 def _why_missing(trace: Trace, missing: Sequence[str]) -> Cause:
     broken = causes.of_process(trace)
     if broken is not None:
-        return stepped(broken, trace, lambda: _first(trace, programs.unasked))
+        asks = broken.name == names.UNHANDLED_EXCEPTION and "EOFError" in broken.text
+        return stepped(broken, trace, lambda: _first(trace, programs.unasked) if asks else None)
     offered = [s for s in trace.graph.services if not _of_every_node(s)]
     typed = [service for service in offered if service.name in missing and service.type != TYPE]
     if typed:
@@ -89,14 +91,14 @@ def _unanswered(cause: Cause, trace: Trace, service: str, stuck: Sequence[Frame]
     found, at = tracebacks.last(trace), tracebacks.own(stuck, trace.folder)
     if found is not None and found.frames[-1].function == "send_response":
         return replace(cause, hint=offers.returning(trace, service) or cause.hint)
+    if cause.name == names.NO_SPIN:
+        return stepped(cause, trace)
     if at is not None and "sleep(" in at.code:
         return replace(cause, hint=_first(trace, lambda code: programs.without(code, "sleep")) or cause.hint)
     if any("was never awaited" in line.text for line in trace.output):
         return replace(cause, hint=services.computing(trace, [service], whole=True) or cause.hint)
-    if cause.name == "incompatible QoS":
+    if cause.name == names.INCOMPATIBLE_QOS:
         return stepped(cause, trace, lambda: _first(trace, offers.reliable))
-    if cause.name == "no spin":
-        return stepped(cause, trace)
     return stepped(cause, trace, lambda: services.computing(trace, [service], whole=True))
 
 

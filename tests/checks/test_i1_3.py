@@ -688,3 +688,11 @@ def test_a_spin_that_brings_the_answers_is_not_simply_left_out(text: str, step: 
     verdict = judge_client(demonstration(SERVED, code=None, stuck=(own,), sources={"node.py": text}))
     assert_failed(verdict, "did not end")
     assert step in verdict.hint
+
+
+def test_a_server_that_sleeps_where_it_should_spin_is_told_to_spin() -> None:
+    text = "import time\nimport rclpy\nrclpy.init()\nnode = rclpy.create_node('c')\nwhile True:\n    time.sleep(0.2)\n"
+    there = trace(graph=ALL, sources={"node.py": text})
+    sleeping = (frame("<module>", line=6, code="time.sleep(0.2)"),)
+    verdict = judge_services(Calls(there, (called("/add", 6, 3, None),), spins=False, stuck=sleeping))
+    assert_failed(verdict, "no spin", "rclpy.spin(node)")
