@@ -103,7 +103,7 @@ MAIN = (rclpy("spin", thread=2), own(42, "executor.spin()", "main", 2))
             MAIN,
             "blocked executor",
             "line 3, rclpy.spin_until_future_complete(self, future), spins the node within one of its own callbacks",
-            "line 3 becomes await future",
+            "line 3 becomes: await future\nline 2 becomes: async def tick(self):",
         ),
         (
             node("async def add(self, req, resp):", "  other = await self.cli.call_async(req)"),
@@ -122,6 +122,72 @@ def test_what_holds_it_up(seen: Trace, stuck: tuple[Frame, ...], cause: str, wor
     assert words in found.text
     assert "line 42" not in found.text  # main() is where it should be
     assert step in found.hint
+
+
+NODE = """\
+import rclpy
+from threading import Lock
+
+
+class Node(rclpy.node.Node):
+    def __init__(self):
+        self.lock = Lock()
+        self.cli = self.create_client(Add, 'add')
+
+    def tick(self):
+        {body}
+"""
+
+
+def full(*body: str) -> Trace:
+    return replace(trace(), sources={"node.py": NODE.format(body="\n        ".join(body))})
+
+
+@pytest.mark.parametrize(
+    ("body", "stuck", "steps"),
+    [
+        (
+            ["r = self.cli.call(Add.Request())"],
+            (rclpy("call", "client"), own(11, "r = self.cli.call(Add.Request())")),
+            (
+                "line 11 becomes: r = await self.cli.call_async(Add.Request())",
+                "line 10 becomes: async def tick(self):",
+                "self.cli = self.create_client(Add, 'add', callback_group=ReentrantCallbackGroup())",
+                "at the top of the file: from rclpy.callback_groups import ReentrantCallbackGroup",
+            ),
+        ),
+        (
+            ["while not future.done():", "    time.sleep(0.1)"],
+            (own(12, "time.sleep(0.1)"),),
+            ("lines 11 to 12 become: await future", "line 10 becomes: async def tick(self):"),
+        ),
+        (
+            ["rclpy.spin_once(self)"],
+            (rclpy("spin_once"), own(11, "rclpy.spin_once(self)")),
+            ("line 11 becomes: pass",),
+        ),
+        (
+            ["while True:", "    self.publish()", "    time.sleep(1)"],
+            (own(13, "time.sleep(1)"),),
+            ("lines 11 to 13 become: self.publish()",),
+        ),
+        (
+            ["with self.lock:", "    time.sleep(3.0)"],
+            (own(12, "time.sleep(3.0)", thread=3), rclpy("await_or_execute", thread=3), own(11, "with self.lock:")),
+            ("lines 11 to 12 become: time.sleep(3.0)",),
+        ),
+        (
+            ["with self.lock:", "    self.other()"],
+            (own(11, "with self.lock:"),),
+            ("line 2 becomes: from threading import RLock", "line 7 becomes: self.lock = RLock()"),
+        ),
+    ],
+)
+def test_what_is_to_be_written_in_the_file(body: list[str], stuck: tuple[Frame, ...], steps: tuple[str, ...]) -> None:
+    found = of_blocked(full(*body), (*stuck, *WORKER, *MAIN), spins=True)
+    assert found is not None
+    for each in steps:
+        assert each in found.hint
 
 
 def test_what_is_taken_of_an_answer_is_taken_once_it_is_there() -> None:

@@ -4,10 +4,15 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
 
 from tutor.judge import source, tracebacks
 from tutor.judge.causes import names
+from tutor.judge.edits import Edit, removed
+from tutor.judge.rewriting.callbacks import awaited, one_round, outermost, reentrant, reentrant_lock, without_lock
+from tutor.judge.rewriting.node import NodeFile
+from tutor.judge.rewriting.program import program, step
 from tutor.judge.trace import Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Cause
@@ -78,20 +83,22 @@ def _of_callback(trace: Trace, stuck: Sequence[Frame], at: Frame, inner: Sequenc
         return Cause(
             names.BLOCKED_EXECUTOR,
             f"the callback waits in a loop for the answer, at {at}, which cannot come: the executor is busy with it",
-            f"write await {polled} in place of the loop, {_as_coroutine(trace, at)}; {in_groups(trace)}",
+            _edited(trace, at, partial(_in_loop, at=at, code=f"await {polled}"))
+            or f"write await {polled} in place of the loop, {_as_coroutine(trace, at)}; {in_groups(trace)}",
         )
     waits = any(frame.path.endswith("/threading.py") for frame in inner) or ".wait(" in at.code
     if waits:
         return Cause(
             names.BLOCKED_EXECUTOR,
             f"a callback waits, at {at}, for what only another callback could bring; that one is never run meanwhile",
-            f"let several be run at once: {in_threads(trace)}; {in_groups(trace)}",
+            step(trace, _in_threads) or f"let several be run at once: {in_threads(trace)}; {in_groups(trace)}",
         )
     loop = "let it do one round and return; a timer calls it again" if at.code.startswith(("while", "for")) else ""
     return Cause(
         names.BLOCKED_EXECUTOR,
         f"the node is up, but one of its callbacks does not come to an end, at {at}; all others wait for it",
-        f"look at line {at.line}: {loop or 'let the callback return at once, without a loop or a sleep around it'}; "
+        _edited(trace, at, lambda file: one_round(file, at.line))
+        or f"look at line {at.line}: {loop or 'let the callback return at once, without a loop or a sleep around it'}; "
         "what has to wait, or to come again and again, is done by a timer: self.create_timer(period, self.callback)",
     )
 
@@ -102,11 +109,15 @@ def _of_call(trace: Trace, at: Frame | None) -> Cause:
     becomes = ""
     if at is not None and ".call(" in at.code:
         becomes = f"line {at.line} becomes: {_awaited(at.code)} ({_as_coroutine(trace, at)}); "
+    edited = None
+    if at is not None and ".call(" in at.code:
+        edited = _edited(trace, at, lambda file: awaited(file, at.line, _awaited(at.code)))
     return Cause(
         names.DEADLOCK,
         f"the callback waits for another service's answer{where}, which cannot come: the executor is busy with this "
         "callback",
-        ("" if several else becomes or "use await client.call_async(request), in an async def; ") + in_groups(trace),
+        edited
+        or ("" if several else becomes or "use await client.call_async(request), in an async def; ") + in_groups(trace),
     )
 
 
@@ -129,11 +140,15 @@ def _of_spinning(trace: Trace, at: Frame) -> Cause:
         if future
         else f"delete line {at.line}: main() spins the node already, and it is what runs this callback"
     )
+
+    def edits(file: NodeFile) -> list[Edit]:
+        return awaited(file, at.line, f"await {future['future']}") if future else [removed(file.text, at.line)]
+
     return Cause(
         names.BLOCKED_EXECUTOR,
         f"a callback spins the node again, at {at}, and waits there for what only the end of this callback would let "
         "through",
-        instead,
+        _edited(trace, at, edits) or instead,
     )
 
 
@@ -152,16 +167,18 @@ def _of_lock(trace: Trace, stuck: Sequence[Frame], at: Frame) -> Cause:
         return Cause(
             names.BLOCKED_EXECUTOR,
             f"a callback waits for {lock}, at {at}, which another one holds at {holders[0]}",
-            f"take line {holders[0].line} out of the lock: what takes long goes above `with {lock}:`, or below it with "
-            "less indentation",
+            _edited(trace, holders[0], lambda file: without_lock(file, holders[0].line))
+            or f"take line {holders[0].line} out of the lock: what takes long goes above `with {lock}:`, or below it, "
+            "with less indentation",
         )
     where = f" in line {made.lineno}" if made else ""
     return Cause(
         names.BLOCKED_EXECUTOR,
         f"a callback waits for {lock}, at {at}, for ever: it is held already, by the same callback or by one that did "
         "not release it",
-        f"write threading.RLock() in place of threading.Lock(){where}: one thread may take it twice; and with {lock}: "
-        "in place of acquire() and release()",
+        _edited(trace, at, reentrant_lock)
+        or f"write threading.RLock() in place of threading.Lock(){where}: one thread may take it twice; and with "
+        f"{lock}: in place of acquire() and release()",
     )
 
 
@@ -178,7 +195,8 @@ def _of_taken_away(trace: Trace) -> Cause | None:
             names.BLOCKED_EXECUTOR,
             f"line {call.lineno}, {code}, spins the node within one of its own callbacks, which takes it away from the "
             "executor that runs it: from then on, no callback is called any more",
-            f"line {call.lineno} becomes {becomes}",
+            step(trace, partial(_taken_back, line=call.lineno, future=future["future"] if future else ""))
+            or f"line {call.lineno} becomes {becomes}",
         )
     return None
 
@@ -195,8 +213,28 @@ def _of_awaiting(trace: Trace) -> Cause | None:
         "deadlock by await",
         f"a callback awaits what never comes, at line {at.lineno}: {ast.unparse(at)}. As long as it waits, nothing "
         "else in its callback group is run, and that is where the answer comes in",
-        in_groups(trace),
+        step(trace, reentrant) or in_groups(trace),
     )
+
+
+def _edited(trace: Trace, at: Frame, edits: Callable[[NodeFile], Sequence[Edit]]) -> str | None:
+    """The step in the file of a frame, where that is the file that was run."""
+    text = trace.sources.get(at.name, "").splitlines()
+    there = 0 < at.line <= len(text) and text[at.line - 1].strip() == at.code
+    return step(trace, edits, name=at.name) if there else None
+
+
+def _in_loop(file: NodeFile, at: Frame, code: str) -> list[Edit]:
+    loop = outermost(file, at.line)
+    return awaited(file, loop.lineno, code, loop.end_lineno or 0) if loop is not None else []
+
+
+def _in_threads(file: NodeFile) -> list[Edit]:
+    return [*program(file, threads=True), *reentrant(file)]
+
+
+def _taken_back(file: NodeFile, line: int, future: str) -> list[Edit]:
+    return awaited(file, line, f"await {future}") if future else [removed(file.text, line)]
 
 
 def _polled(trace: Trace, at: Frame) -> str | None:

@@ -315,8 +315,12 @@ def _code(file: NodeFile, statement: ast.stmt) -> str:
     return code if alone else ast.unparse(statement)
 
 
-def step(trace: Trace, *edits: Callable[[NodeFile], Sequence[Edit]]) -> str | None:
-    """The first of these edits of the file that was started that leaves one which Python can run, in words."""
-    file = node_file(trace.sources.get(trace.file, ""))
-    found = file.step(*(each(file) for each in edits))
-    return f"in {trace.file}, {found}" if found and len(trace.sources) > 1 else found
+def step(trace: Trace, *edits: Callable[[NodeFile], Sequence[Edit]], name: str = "") -> str | None:
+    """The first of these edits that leaves a file which Python can run, in words; of the one that was started, mostly.
+
+    `name`: the file's, where it is another one.
+    """
+    name = name or trace.file
+    file = node_file(trace.sources.get(name, ""))
+    found = file.step(*(each(file) for each in edits)) if file.tree.body else None
+    return f"in {name}, {found}" if found and len(trace.sources) > 1 else found

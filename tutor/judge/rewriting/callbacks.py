@@ -1,0 +1,132 @@
+"""Callbacks that hold up their node, rewritten: what waits is awaited, or left to a timer, and no lock is held."""
+
+from __future__ import annotations
+
+import ast
+import re
+import textwrap
+from collections.abc import Sequence
+
+from tutor.judge.edits import Edit, becomes, every, instead, removed
+from tutor.judge.rewriting.node import Function, NodeFile
+from tutor.judge.source import called
+
+_MADE = ("create_client", "create_service", "create_timer", "create_subscription")
+_GROUP = "callback_group"
+_IDLE = ("sleep", "wait")
+
+Loop = ast.While | ast.For
+
+
+def awaited(file: NodeFile, line: int, code: str, last: int = 0) -> list[Edit]:
+    """A line, or the lines up to `last`, that await; in a coroutine, and each callback in a reentrant group."""
+    around = [each for each in file.functions if each.lineno <= line <= (each.end_lineno or 0)]
+    if not around:
+        return []
+    function = max(around, key=lambda each: each.lineno)
+    edits = [becomes(line, code, last)]
+    if isinstance(function, ast.FunctionDef):
+        head = file.text.splitlines()[function.lineno - 1].strip()
+        edits.append(becomes(function.lineno, f"async {head}"))
+    return [*edits, *reentrant(file)]
+
+
+def reentrant(file: NodeFile) -> list[Edit]:
+    """Every callback in a group in which it may run beside others."""
+    name, imported = file.own("ReentrantCallbackGroup", "rclpy.callback_groups")
+    exclusive = file.calls("MutuallyExclusiveCallbackGroup")
+    edits = [instead(file.text, each, f"{name}()") for each in exclusive]
+    for each in file.calls(*_MADE):
+        if any(given.arg in (_GROUP, None) for given in each.keywords) or not isinstance(each.func, ast.Attribute):
+            continue
+        edits.append(instead(file.text, each, f"{ast.unparse(each)[:-1]}, {_GROUP}={name}())"))
+    return [*imported, *edits] if edits else []
+
+
+def without_lock(file: NodeFile, line: int) -> list[Edit]:
+    """The statement around a line that holds a lock, with what it holds in its place."""
+    around = [
+        each
+        for each in ast.walk(file.tree)
+        if isinstance(each, ast.With) and each.lineno <= line <= (each.end_lineno or 0)
+    ]
+    if not around:
+        return []
+    held = max(around, key=lambda each: each.lineno)
+    return [Edit(held.lineno, held.end_lineno or held.lineno, _code(file, held.body), like=held.lineno)]
+
+
+def reentrant_lock(file: NodeFile) -> list[Edit]:
+    """A lock that one thread may take twice."""
+    return every(file.text, r"\bLock\b", "RLock")
+
+
+def one_round(file: NodeFile, line: int) -> list[Edit]:
+    """What a loop around a line does, done once; without a loop, the line taken out."""
+    loop = outermost(file, line)
+    if loop is None:
+        return [removed(file.text, line)]
+    work = [each for each in loop.body if not idle(each)]
+    first, last = loop.lineno, loop.end_lineno or loop.lineno
+    return [Edit(first, last, _code(file, work), like=first)] if work else [removed(file.text, first, last)]
+
+
+def by_timer(file: NodeFile, line: int, node: str, spin: str) -> list[Edit]:
+    """The loop around a line, as a timer that does its work, and `spin`, if that is to follow."""
+    loop = outermost(file, line)
+    work = [each for each in loop.body if not idle(each)] if loop is not None else []
+    if loop is None or not work:
+        return []
+    naps = [each for each in ast.walk(loop) if isinstance(each, ast.Call) and called(each) == "sleep" and each.args]
+    period = ast.unparse(naps[0].args[0]) if naps else "1.0"
+    match work:
+        case [ast.Expr(value=ast.Call(func=func, args=[], keywords=[]))]:
+            lines, tick = [], ast.unparse(func)
+        case _:
+            lines, tick = [*_function(file, loop, work)], "tick"
+    code = "\n".join([*lines, f"{node}.create_timer({period}, {tick})", *([spin] if spin else [])])
+    return [Edit(loop.lineno, loop.end_lineno or loop.lineno, code, like=loop.lineno)]
+
+
+def _function(file: NodeFile, loop: Loop, work: Sequence[ast.stmt]) -> list[str]:
+    """A function of its own that does the work of a loop."""
+    outer = file.within(loop)
+    inside = {*_stored(work)}
+    outside = {*_stored([each for each in (outer.body if outer is not None else file.tree.body) if each is not loop])}
+    if outer is not None:
+        outside |= {each.arg for each in outer.args.args}
+    kept = sorted(inside & outside)
+    scope = [f"    {'nonlocal' if outer is not None else 'global'} {', '.join(kept)}"] if kept else []
+    return ["def tick():", *scope, textwrap.indent(_code(file, work), "    "), ""]
+
+
+def _stored(body: Sequence[ast.stmt]) -> list[str]:
+    found = [node for each in body for node in ast.walk(each)]
+    return [each.id for each in found if isinstance(each, ast.Name) and isinstance(each.ctx, ast.Store)]
+
+
+def outermost(file: NodeFile, line: int) -> Loop | None:
+    """The outermost loop around a line, in its function."""
+    found = [
+        each for each in ast.walk(file.tree) if isinstance(each, Loop) and each.lineno <= line <= (each.end_lineno or 0)
+    ]
+    inner = [each for each in file.functions if each.lineno <= line <= (each.end_lineno or 0)]
+    function: Function | None = max(inner, key=lambda each: each.lineno, default=None)
+    return min((each for each in found if file.within(each) is function), key=lambda each: each.lineno, default=None)
+
+
+def idle(statement: ast.stmt) -> bool:
+    """Whether a statement does nothing but wait."""
+    if isinstance(statement, ast.Pass | ast.Continue):
+        return True
+    return isinstance(statement, ast.Expr) and (
+        isinstance(statement.value, ast.Constant)
+        or (isinstance(statement.value, ast.Call) and called(statement.value) in _IDLE)
+    )
+
+
+def _code(file: NodeFile, body: Sequence[ast.stmt]) -> str:
+    lines = file.text.splitlines()
+    found = [textwrap.dedent("\n".join(lines[each.lineno - 1 : each.end_lineno])) for each in body]
+    code = "\n".join(found)
+    return re.sub(r"\bcontinue\b", "return", code) if re.search(r"^\s*continue\b", code, re.MULTILINE) else code
