@@ -43,9 +43,18 @@ def _in_own_names[**P, R: Cause | None](diagnose: Callable[P, R]) -> Callable[P,
         trace = next(
             each if isinstance(each, Trace) else each.trace for each in args[::-1] if isinstance(each, Trace | Launched)
         )
-        return cause if cause is None else cast("R", steps.in_own_names(launch(trace).source, cause))
+        if cause is None:
+            return cause
+        there = launch(trace)
+        return cast("R", steps.followed(there, steps.in_own_names(there.source, cause)))
 
     return said
+
+
+def of_program(seen: Launched, cause: Cause) -> Cause:
+    """What is wrong with a program that the launch starts; where no line of it is known, the demos' are started."""
+    there = launch(seen.trace)
+    return steps.followed(there, cause, there.demo)
 
 
 @_in_own_names

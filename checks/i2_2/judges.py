@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from checks.i2_2.causes import of_launch, of_missing, of_namespace, of_pair, of_topic
+from checks.i2_2.causes import of_launch, of_missing, of_namespace, of_pair, of_program, of_topic
 from checks.i2_2.facts import (
     ANOTHER,
     NAMESPACE,
@@ -94,7 +94,7 @@ def judge_communicates(seen: Launched) -> Verdict:
             logs = heard(pair, seen.trace.logs, seen.trace.on(topic))
             observed = f"{count} message{'s' if count != 1 else ''} on {topic}" if count else f"connected on {topic}"
             return passed(expected, observed, [*_who(pair), *(str(log) for log in logs[:2])])
-        reasons.append((pair, reason))
+        reasons.append((pair, of_program(seen, reason)))
     pair, reason = reasons[0]
     return failed(expected, _observed(seen), reason, causes.last_words(seen.trace))
 

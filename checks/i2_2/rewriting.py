@@ -11,9 +11,10 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from tutor.judge.edits import Edit, at_end, becomes, below, instead
+from tutor.judge.edits import Edit, at_end, becomes, below, instead, removed
 from tutor.judge.reading import Source
 from tutor.judge.rewriting.node import Function, NodeFile, argument, node_file
+from tutor.judge.source import called
 from tutor.judge.trace import Trace
 
 LAUNCHED = "generate_launch_description"
@@ -268,6 +269,16 @@ def opaque_returned(there: Launch) -> list[Edit]:
         if nodes:
             return [at_end(function, f"return [{', '.join(ast.unparse(each.targets[0]) for each in nodes)}]")]
     return []
+
+
+def unended(there: Launch) -> list[Edit]:
+    """The file without what ends Python while it is loaded."""
+    ends = ("exit", "_exit", "quit", "abort", "kill")
+    return [
+        removed(there.file.text, each.lineno, each.end_lineno or 0)
+        for each in there.file.tree.body
+        if isinstance(each, ast.Expr) and isinstance(each.value, ast.Call) and called(each.value) in ends
+    ]
 
 
 def called_so(there: Launch) -> list[Edit]:

@@ -8,10 +8,12 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Sequence
+from dataclasses import replace
 
 from checks.i2_2.rewriting import (
     DEFAULTS,
     Launch,
+    Program,
     called_so,
     given,
     listed_first,
@@ -19,9 +21,11 @@ from checks.i2_2.rewriting import (
     renamed,
     replaced,
     returned,
+    unended,
     whole,
 )
 from tutor.judge.edits import instead
+from tutor.judge.following import InWords, follow
 from tutor.judge.reading import Call, Source
 from tutor.judge.rewriting.node import argument as argument_of
 from tutor.judge.verdict import Cause
@@ -37,6 +41,16 @@ def nodes(source: Source) -> list[Call]:
 def anew(there: Launch) -> str | None:
     """The step that writes the launch description anew, with the file's own programs, or with those of the demos."""
     return there.step(whole(there), whole(there, there.demo))
+
+
+def followed(there: Launch, cause: Cause, programs: Sequence[Program] = ()) -> Cause:
+    """The cause with a step that can be followed: where it is in words, the launch description is written anew."""
+    try:
+        follow(cause.hint, {there.path: there.file.text, **there.others})
+    except InWords:
+        step = there.step(whole(there, programs)) if programs else anew(there)
+        return replace(cause, hint=step or cause.hint)
+    return cause
 
 
 def value(source: Source, argument: str) -> str:
@@ -137,7 +151,9 @@ def no_program(there: Launch, keyword: str, wrong: str, right: str) -> str | Non
 def nothing_listed(there: Launch) -> str | None:
     """The step where a launch description has nothing to start in it."""
     made = [node.kept for node in nodes(there.source) if node.kept and not there.source.uses(node.kept)]
-    return there.step(opaque_returned(there), listed_first(there, *made) if made else None) or anew(there)
+    return there.step(unended(there), opaque_returned(there), listed_first(there, *made) if made else None) or anew(
+        there
+    )
 
 
 def not_returned(there: Launch) -> str | None:

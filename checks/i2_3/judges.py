@@ -33,15 +33,28 @@ from checks.i2_3.pace import During, Fault
 from checks.i2_3.ticks import HZ, Series, best
 from tutor.judge import causes, ending
 from tutor.judge.bench import MachineTooBusy
+from tutor.judge.following import InWords, follow
 from tutor.judge.rates import TOLERANCE
-from tutor.judge.trace import CallAnswer
+from tutor.judge.trace import CallAnswer, Trace
 from tutor.judge.verdict import Cause, Status, Verdict, failed, passed, skipped
 
 
 def judge_blocks(seen: Lone, several: Trio) -> Verdict:
     # Where calls at once do not get their sums either, it is `concurrent` that tells so.
     alike = any(three.right < CALLS for three in several.made[:1])
-    return _judge_answer(replace(seen, later=())) if alike else _of_both(seen, _judge_answer)
+    verdict = _judge_answer(replace(seen, later=())) if alike else _of_both(seen, _judge_answer)
+    return _followed(verdict, seen.trace)
+
+
+def _followed(verdict: Verdict, trace: Trace) -> Verdict:
+    """The verdict with a step that can be followed: where it is in words, all that it may be due to is rewritten."""
+    if verdict.status is not Status.FAILED:
+        return verdict
+    try:
+        follow(verdict.hint, trace.sources)
+    except InWords:
+        return replace(verdict, hint=steps.everything(steps.read(trace)) or verdict.hint)
+    return verdict
 
 
 def _of_both(seen: Lone, judge: Callable[[Lone], Verdict]) -> Verdict:
@@ -102,7 +115,7 @@ def _told(answer: CallAnswer) -> str:
 
 
 def judge_timer(alone: Quiet, seen: Lone) -> Verdict:
-    return _of_both(seen, partial(_judge_timer, alone))
+    return _followed(_of_both(seen, partial(_judge_timer, alone)), alone.trace)
 
 
 def _judge_timer(alone: Quiet, seen: Lone) -> Verdict:
@@ -164,7 +177,7 @@ def judge_concurrent(seen: Trio, one: Lone | None = None) -> Verdict:
         if one is not None and never and seen.trace.exit is None
         else why.of_lost_calls(seen.trace, three, answered)
     )
-    return failed(expected, observed, cause, told)
+    return _followed(failed(expected, observed, cause, told), seen.trace)
 
 
 def judge_parallel(one: Lone, several: Trio) -> Verdict:

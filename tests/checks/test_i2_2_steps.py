@@ -328,3 +328,16 @@ def test_each_submission_can_be_written_anew(case: Case) -> None:
     except SyntaxError:
         return
     assert steps.anew(of(text))
+
+
+def test_a_step_in_words_gives_way_to_one_that_can_be_followed() -> None:
+    said = Cause("a node that ends", "speaker has ended", "start this program alone, and see what it says")
+    assert "executable='listener'," in steps.followed(of(OPAQUE), said).hint
+    right = changed(("demo_nodes_py", "my_package"))
+    assert "package='demo_nodes_py'," in steps.followed(right, said, right.demo).hint
+    told = Cause("exception", "x", "line 1 becomes: x = 1")
+    assert steps.followed(of(OPAQUE), told) == told
+
+
+def test_what_ends_python_while_the_file_is_loaded_is_taken_out() -> None:
+    assert steps.nothing_listed(of(f"import os\nos._exit(0)\n{LAUNCH}")) == "remove line 2: os._exit(0)"

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import ast
+import re
 import tokenize
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from pathlib import Path
 
+_NAME = re.compile(r"[\w.-]+")
 MOST_FILES, MOST_BYTES = 20, 200_000
 """No diagnosis needs more source than this."""
 
@@ -34,7 +36,10 @@ def launch_arguments(path: Path) -> tuple[str, ...]:
 
 
 def sources(path: Path) -> Mapping[str, str]:
-    """The text of the file and of those beside it that it imports, by file name; what cannot be read is left out."""
+    """The text of the file and of those beside it that it imports, by file name; what cannot be read is left out.
+
+    Beside a launch file, those that it names are its programs, and other launch files.
+    """
     found: dict[str, str] = {}
     waiting = [path]
     while waiting and len(found) < MOST_FILES:
@@ -43,8 +48,17 @@ def sources(path: Path) -> Mapping[str, str]:
             continue
         with suppress(OSError, SyntaxError, UnicodeError), tokenize.open(file) as opened:
             found[file.name] = opened.read()
-        waiting += [path.parent / f"{name}.py" for name in _imported(_parsed(file))]
+        tree = _parsed(file)
+        waiting += [path.parent / f"{name}.py" for name in (*_imported(tree), *_launched(tree))]
     return found
+
+
+def _launched(tree: ast.Module) -> Iterator[str]:
+    """The texts of a launch file, each of which may be the name of a file."""
+    if any(isinstance(node, ast.FunctionDef) and node.name == "generate_launch_description" for node in tree.body):
+        for node in ast.walk(tree):
+            if isinstance(node, ast.Constant) and isinstance(node.value, str) and _NAME.fullmatch(node.value):
+                yield node.value.removesuffix(".py")
 
 
 def _imported(tree: ast.Module) -> Iterator[str]:
