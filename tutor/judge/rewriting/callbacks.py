@@ -71,40 +71,6 @@ def one_round(file: NodeFile, line: int) -> list[Edit]:
     return [Edit(first, last, _code(file, work), like=first)] if work else [removed(file.text, first, last)]
 
 
-def by_timer(file: NodeFile, line: int, node: str, spin: str) -> list[Edit]:
-    """The loop around a line, as a timer that does its work, and `spin`, if that is to follow."""
-    loop = outermost(file, line)
-    work = [each for each in loop.body if not idle(each)] if loop is not None else []
-    if loop is None or not work:
-        return []
-    naps = [each for each in ast.walk(loop) if isinstance(each, ast.Call) and called(each) == "sleep" and each.args]
-    period = ast.unparse(naps[0].args[0]) if naps else "1.0"
-    match work:
-        case [ast.Expr(value=ast.Call(func=func, args=[], keywords=[]))]:
-            lines, tick = [], ast.unparse(func)
-        case _:
-            lines, tick = [*_function(file, loop, work)], "tick"
-    code = "\n".join([*lines, f"{node}.create_timer({period}, {tick})", *([spin] if spin else [])])
-    return [Edit(loop.lineno, loop.end_lineno or loop.lineno, code, like=loop.lineno)]
-
-
-def _function(file: NodeFile, loop: Loop, work: Sequence[ast.stmt]) -> list[str]:
-    """A function of its own that does the work of a loop."""
-    outer = file.within(loop)
-    inside = {*_stored(work)}
-    outside = {*_stored([each for each in (outer.body if outer is not None else file.tree.body) if each is not loop])}
-    if outer is not None:
-        outside |= {each.arg for each in outer.args.args}
-    kept = sorted(inside & outside)
-    scope = [f"    {'nonlocal' if outer is not None else 'global'} {', '.join(kept)}"] if kept else []
-    return ["def tick():", *scope, textwrap.indent(_code(file, work), "    "), ""]
-
-
-def _stored(body: Sequence[ast.stmt]) -> list[str]:
-    found = [node for each in body for node in ast.walk(each)]
-    return [each.id for each in found if isinstance(each, ast.Name) and isinstance(each.ctx, ast.Store)]
-
-
 def outermost(file: NodeFile, line: int) -> Loop | None:
     """The outermost loop around a line, in its function."""
     found = [
