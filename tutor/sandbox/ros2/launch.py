@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import argparse
 import os
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from tutor.sandbox import packages
 from tutor.sandbox.ros2 import overlaying
 from tutor.sandbox.ros2.errors import CommandError
+from tutor.sandbox.ros2.parsing import complete_with
+from tutor.sandbox.ros2.pkg.names import all_packages
+
+_LAUNCH_FILES = ("launch.py", "launch.xml", "launch.yaml", "launch.yml", ".launch")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -33,11 +37,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--launch-prefix", help="start every process with this command, in quotes")
     parser.add_argument("--launch-prefix-filter", help="only those whose name this regular expression matches")
-    parser.add_argument("package", metavar="package_name", help="a package, or the path of a launch file")
-    parser.add_argument("file", metavar="launch_file_name", nargs="?", help="the launch file's name in the package")
-    parser.add_argument(
+    first = parser.add_argument("package", metavar="package_name", help="a package, or the path of a launch file")
+    complete_with(first, _packages_and_files)
+    second = parser.add_argument(
+        "file", metavar="launch_file_name", nargs="?", help="the launch file's name in the package"
+    )
+    complete_with(second, _files_of_package)
+    rest = parser.add_argument(
         "arguments", metavar="launch_arguments", nargs="*", help="name:=value (of two of one name, the last counts)"
     )
+    complete_with(rest, _nothing)
 
 
 def main(arguments: argparse.Namespace) -> int:
@@ -107,17 +116,12 @@ def _in_package(package: str, name: str) -> Path:
         searched = [entry for entry in os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep) if entry]
         message = f"Package '{package}' not found: \"package '{package}' not found, searching: {searched}\""
         raise CommandError(f"{message}{error.hint}") from error
-    found = []
-    names: set[str] = set()
-    for folder, below, files in os.walk(share, followlinks=True):  # of a package that is not built, they are links
-        below[:] = [each for each in below if not each.startswith((".", "__"))]
-        names.update(files)
-        if name in files:
-            found.append(Path(folder) / name)
+    files = list(_files_below(share))
+    found = [path for path in files if path.name == name]
     if not found:
         raise CommandError(
             f"file '{name}' was not found in the share directory of package '{package}' which is at '{share}'"
-            + packages.hint(name, names)
+            + packages.hint(name, {path.name for path in files})
         )
     if len({path.resolve() for path in found}) > 1:
         listed = [str(path) for path in found]
@@ -125,3 +129,34 @@ def _in_package(package: str, name: str) -> Path:
             f"file '{name}' was found more than once in the share directory of package '{package}': {listed}"
         )
     return found[0].resolve()
+
+
+def _files_below(share: Path) -> Iterator[Path]:
+    for folder, below, files in os.walk(share, followlinks=True):  # of a package that is not built, they are links
+        below[:] = [each for each in below if not each.startswith((".", "__"))]
+        yield from (Path(folder) / name for name in files)
+
+
+def _packages_and_files(prefix: str, **_: object) -> list[str]:
+    """For Tab: the packages, and what there is below the path that was begun: launch files, and folders to go into."""
+    where, slash, _begun = prefix.rpartition("/")
+    start = where + slash
+    there = [] if start and not Path(start).is_dir() else sorted(Path(start or ".").iterdir())
+    folders = [f"{start}{path.name}/" for path in there if path.is_dir() and not path.name.startswith(".")]
+    files = [f"{start}{path.name}" for path in there if path.name.endswith(_LAUNCH_FILES)]
+    return [*([] if slash else all_packages()), *files, *folders]
+
+
+def _files_of_package(parsed_args: argparse.Namespace, **_: object) -> list[str]:
+    """For Tab: the launch files of the package that was typed."""
+    all_packages()
+    try:
+        share = packages.find_share(parsed_args.package)
+    except packages.PackageNotFound:
+        return []
+    return sorted({path.name for path in _files_below(share) if path.name.endswith(_LAUNCH_FILES)})
+
+
+def _nothing(**_: object) -> list[str]:
+    """For Tab: no file names where launch arguments belong."""
+    return []
