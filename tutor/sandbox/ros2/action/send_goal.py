@@ -1,4 +1,4 @@
-"""`ros2 action send_goal`."""
+"""`ros2 action send_goal`. The wheels on PyPI have no action type, so that it is proved for wrong input only."""
 
 from __future__ import annotations
 
@@ -53,7 +53,8 @@ def main(arguments: argparse.Namespace) -> None:
             result = wait_for_answer(domain, handle.get_result_async())
         except KeyboardInterrupt:
             print("Canceling goal...")
-            wait_for_answer(domain, handle.cancel_goal_async())
+            if not wait_for_answer(domain, handle.cancel_goal_async()).goals_canceling:
+                raise CommandError("Failed to cancel goal") from None
             print("Goal canceled.")
             raise
         print(f"Result:\n    {to_yaml(result.result)}")
