@@ -14,7 +14,7 @@ CHECK = Check(
     (
         Criterion("count", explained(judges.judge_count), (scenarios.steady, scenarios.jump, scenarios.fast)),
         Criterion("rate", explained(judges.judge_rate), (scenarios.steady, scenarios.jump)),
-        Criterion("summary", explained(judges.judge_summary), (scenarios.steady, scenarios.jump)),
+        Criterion("summary", explained(judges.judge_summary), (scenarios.steady, scenarios.jump, scenarios.fast)),
         Criterion(
             "restart", explained(continuity.judge_restart), (scenarios.restart, scenarios.steady, scenarios.jump)
         ),

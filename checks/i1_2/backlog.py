@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from checks.i1_2.facts import FAST_ENOUGH_HZ, FAST_HZ, Feeding
+from checks.i1_2.facts import EVERY, FAST_ENOUGH_HZ, FAST_HZ, Feeding
 from checks.i1_2.reports import Report, find, together
 
 TOLERATED = 4
@@ -50,6 +50,24 @@ def lost(fast: Feeding, steady: Feeding) -> Lost | None:
         if worst is None or missing > worst[0]:
             worst = missing, Lost(report, until, missing <= allowed)
     return worst[1] if worst else None
+
+
+def summed_up(fast: Feeding, steady: Feeding) -> int:
+    """How many messages there were up to the last one that a summary quotes, when they came fast.
+
+    It may come late, and leave others out: anyone who looks once a second whether ten more have come sums up at last.
+    """
+    kinds = {line.kind for report in find(steady) for line in report.lines if line.tells}
+    others = {line.kind for line in steady.lines} - kinds  # what is logged with each message
+    order = {each.number: index for index, each in enumerate(fast.sent, start=1)}
+    reports = together([line for line in fast.lines if line.kind not in others], fast)
+    quoted = (number for report in reports for number in report.quoted)
+    return max((order[number] for number in quoted if number in order), default=0)
+
+
+def missing_summary(fast: Feeding, steady: Feeding) -> bool:
+    """Whether the last ten messages but those that may be lost have no summary."""
+    return summed_up(fast, steady) < (len(fast.sent) - TOLERATED) // EVERY * EVERY
 
 
 def behind(feeding: Feeding) -> int:

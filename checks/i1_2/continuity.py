@@ -7,7 +7,7 @@ from itertools import accumulate
 
 from checks.i1_2 import gap_steps, steps
 from checks.i1_2.facts import EVERY, OURS, SOON_S, Feeding
-from checks.i1_2.judges import NO_SUMMARY, counts_truly, judge_summary, true_total
+from checks.i1_2.judges import NO_SUMMARY, counts_truly, judge_slow_summary, true_total
 from checks.i1_2.reading import Line
 from checks.i1_2.reports import Report, find, milestone
 from tutor.judge import causes
@@ -78,7 +78,7 @@ def judge_restart(restart: Feeding, steady: Feeding, jump: Feeding) -> Verdict:
             )
         )
         return failed(expected, f"{observed}; {report}", cause, evidence)
-    if judge_summary(steady, jump).passed and (changed := _sums_up_otherwise(after, restart)):
+    if judge_slow_summary(steady, jump).passed and (changed := _sums_up_otherwise(after, restart)):
         return failed(expected, observed, changed, evidence)
     return passed(expected, observed, [*evidence, *told[:2]])
 

@@ -13,6 +13,10 @@ from tutor.judge.bench import MachineTooBusy
 from tutor.judge.trace import LogRecord
 from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped
 
+EXPECTED_SUMMARY = f"one summary for every {EVERY} messages, with the first and the last message's content"
+BUSY_S = 0.5
+"""Where the machine held up the node or us for longer, fewer summaries may be its doing."""
+
 EXPECTED_COUNT = "each summary states how many messages have come"
 NO_SUMMARY = "not judged, because there is no summary to read: see `summary`"
 
@@ -159,8 +163,38 @@ def judge_rate(steady: Feeding, jump: Feeding) -> Verdict:
     return passed(expected, f"{', '.join(number.text for number in stated)} messages per second", evidence)
 
 
-def judge_summary(steady: Feeding, jump: Feeding) -> Verdict:
-    expected = f"one summary for every {EVERY} messages, with the first and the last message's content"
+def judge_summary(steady: Feeding, jump: Feeding, fast: Feeding) -> Verdict:
+    verdict = judge_slow_summary(steady, jump)
+    if not verdict.passed or backlog.lost(fast, steady) is not None:  # `count` tells of what is lost
+        return verdict
+    if not backlog.missing_summary(fast, steady):
+        return verdict
+    if not backlog.fast_enough(fast) or fast.excused_s > BUSY_S:
+        raise MachineTooBusy("this machine is too busy to send messages fast")
+    return failed(
+        f"{EXPECTED_SUMMARY}, at {FAST_HZ:g} a second, too",
+        f"of {len(fast.sent)} messages, none since message {backlog.summed_up(fast, steady)}",
+        _why_fewer(fast),
+        [str(report) for report in find(fast)[:6]],
+    )
+
+
+def _why_fewer(fast: Feeding) -> Cause:
+    """Why there are fewer summaries when messages come fast."""
+    throttled = steps.unthrottled(fast.trace)
+    text = "most of them are left out when messages come fast"
+    if throttled is not None:
+        return Cause("log throttled", f"{text}: throttle_duration_sec lets one through in so many seconds", throttled)
+    return Cause(
+        "missing summary",
+        text,
+        steps.summary(fast.trace) or "write the summary in the callback, whenever the count is a multiple of ten",
+    )
+
+
+def judge_slow_summary(steady: Feeding, jump: Feeding) -> Verdict:
+    """Judge what `summary` asks for where the messages come slowly."""
+    expected = EXPECTED_SUMMARY
     if not find(steady):
         return failed(expected, f"none, after {len(steady.sent)} messages", why_silent(steady), _logged(steady))
     # Who ends with the jump, or miscounts from then on, breaks other criteria.

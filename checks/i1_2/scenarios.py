@@ -70,7 +70,7 @@ async def steady(bench: Bench) -> Feeding:
 
     async def fair(fed: Feeding) -> bool:
         nothing = replace(fed, sent=())
-        of_steady = (judges.judge_slow_count, judges.judge_rate, judges.judge_summary)
+        of_steady = (judges.judge_slow_count, judges.judge_rate, judges.judge_slow_summary)
         with suppress(MachineTooBusy):
             return all(judge(fed, nothing).passed for judge in of_steady)
         return False
@@ -106,7 +106,7 @@ async def jump(bench: Bench) -> Feeding:
     async def fair(fed: Feeding) -> bool:
         even = await bench.facts(steady)
         told = bool(fed.breaks) and continuity.judge_gaps(fed, even).passed
-        return told and judges.judge_slow_count(even, fed).passed and judges.judge_summary(even, fed).passed
+        return told and judges.judge_slow_count(even, fed).passed and judges.judge_slow_summary(even, fed).passed
 
     return await _fairly(once, fair)
 
@@ -127,7 +127,9 @@ async def fast(bench: Bench) -> Feeding:
             return await _hear_out(run, Feeding(run.trace(), tuple(sent), starved_s=lost, spins=spins))
 
     async def fair(fed: Feeding) -> bool:
-        return backlog.fast_enough(fed) and backlog.lost(fed, await bench.facts(steady)) is None
+        even = await bench.facts(steady)
+        whole = backlog.lost(fed, even) is None and not backlog.missing_summary(fed, even)
+        return whole and backlog.fast_enough(fed)
 
     return await _fairly(once, fair)
 

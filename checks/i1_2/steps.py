@@ -11,7 +11,7 @@ from checks.i1_2.listener import find
 from checks.i1_2.templates import logged
 from tutor.judge import source
 from tutor.judge.causes import names
-from tutor.judge.edits import at_end, inside, on_top, removed, told
+from tutor.judge.edits import at_end, inside, instead, on_top, removed, told
 from tutor.judge.trace import Trace
 from tutor.judge.verdict import Cause
 
@@ -35,6 +35,17 @@ def rate(trace: Trace, texts: Sequence[str] = (), numbers: Sequence[str] = ()) -
 def summary(trace: Trace) -> str | None:
     """Sums up every ten messages, with the first and the last one."""
     return rewriting.whole(trace)
+
+
+def unthrottled(trace: Trace) -> str | None:
+    """Logs each time; None where nothing is throttled."""
+    for call in (node for node in source.nodes(trace) if isinstance(node, ast.Call)):
+        kept = [each for each in call.keywords if each.arg != "throttle_duration_sec"]
+        file = next((file for file, text in trace.sources.items() if call in source.tree(text)), None)
+        if len(kept) < len(call.keywords) and file is not None:
+            plain = ast.unparse(ast.Call(call.func, call.args, kept))
+            return told(trace.sources[file], instead(trace.sources[file], call, plain))
+    return None
 
 
 def first_kept(trace: Trace) -> str | None:

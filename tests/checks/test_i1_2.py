@@ -142,7 +142,7 @@ def judged(make: Callable[[], Counter], **more: object) -> dict[str, Verdict]:
     return {
         "count": judges.judge_count(even, jumped, fast(make(), **more)),
         "rate": judges.judge_rate(even, jumped),
-        "summary": judges.judge_summary(even, jumped),
+        "summary": judges.judge_summary(even, jumped, fast(make(), **more)),
         "restart": continuity.judge_restart(restarted, even, jumped),
         "gaps": continuity.judge_gaps(jumped, even),
     }
@@ -570,7 +570,7 @@ def test_right_ones_in_any_format(
     even, jumped = steady(Formatted(), hz, late_s=late_s), jump(Formatted(), missed, late_s=late_s)
     assert_passed(judges.judge_slow_count(even, jumped))
     assert_passed(judges.judge_rate(even, jumped))
-    assert_passed(judges.judge_summary(even, jumped))
+    assert_passed(judges.judge_slow_summary(even, jumped))
     assert_passed(continuity.judge_gaps(jumped, even))
     assert_passed(continuity.judge_restart(restart(Formatted(), late_s=late_s), even, jumped))
 
@@ -684,7 +684,7 @@ class ByASlowTimer(Counter):
 def test_the_third_summary_may_wait_for_a_slow_timer() -> None:
     jumped = jump(ByASlowTimer())
     assert [report.messages for report in find(jumped)] == [11, 21, 35, 41]
-    assert_passed(judges.judge_summary(steady(Counter()), jumped))
+    assert_passed(judges.judge_slow_summary(steady(Counter()), jumped))
     assert_passed(judges.judge_slow_count(steady(Counter()), jumped))
 
 
@@ -1086,7 +1086,7 @@ def test_a_late_summary_of_a_wrong_count_is_no_missing_one() -> None:
     late = replace(after_9, stamp=even.sent[9].at + 0.01)
     seen = replace(even, trace=replace(even.trace, logs=(late, *others)))
     assert_failed(judges.judge_slow_count(seen, jump(CountsFromOne())), "off by one")
-    verdict = judges.judge_summary(seen, jump(CountsFromOne()))
+    verdict = judges.judge_slow_summary(seen, jump(CountsFromOne()))
     assert verdict.status is Status.SKIPPED, verdict
 
 
@@ -1133,7 +1133,7 @@ def test_an_alarm_beside_a_summary_is_none_of_its_lines(first: int, late_s: floa
     stamp = alarm.stamp + late_s
     logs = [replace(log, stamp=stamp, received_at=stamp) if log is alarm else log for log in jumped.trace.logs]
     jumped = replace(jumped, trace=replace(jumped.trace, logs=tuple(logs)), starved_s=starved_s)
-    assert_passed(judges.judge_summary(even, jumped))
+    assert_passed(judges.judge_slow_summary(even, jumped))
     assert_passed(judges.judge_slow_count(even, jumped))
     assert_failed(continuity.judge_gaps(jumped, even), "false alarm")
 
@@ -1177,7 +1177,7 @@ def test_a_gap_that_is_only_printed() -> None:
 
 def silent(seen: Trace, **more: object) -> Verdict:
     even = replace(steady(Counter()), trace=seen, **more)  # type: ignore[arg-type]
-    return judges.judge_summary(even, even)
+    return judges.judge_slow_summary(even, even)
 
 
 def test_why_there_is_no_summary() -> None:
@@ -1293,6 +1293,39 @@ def test_who_loses_none_may_be_late(late_s: float) -> None:
         assert_passed(judged_fast(node, NAPS, late_s=late_s))
 
 
+class Throttled(Counter):
+    """Lets one summary through in so many seconds."""
+
+    every_s: float = 1.0
+    said_at: float = 0.0
+
+    def take(self, now: float, data: str) -> Iterator[Log]:
+        logs = list(super().take(now, data))
+        if logs and now - self.said_at < self.every_s:
+            return
+        self.said_at = now if logs else self.said_at
+        yield from logs
+
+
+def test_a_summary_that_is_left_out_when_messages_come_fast_is_missing() -> None:
+    source = "def heard(msg):\n    log.info('a',\n        throttle_duration_sec=1.0)\n"
+    seen, even, jumped = fast(Throttled()), steady(Throttled()), jump(Counter())
+    seen = replace(seen, trace=replace(seen.trace, sources={"node.py": source}))
+    assert_passed(judges.judge_slow_summary(even, jumped))
+    assert_failed(judges.judge_summary(even, jumped, seen), "log throttled", "lines 2 to 3 become: log.info('a')")
+    plain = replace(seen, trace=replace(seen.trace, sources={}))
+    assert_failed(judges.judge_summary(even, jumped, plain), "missing summary", "callback")
+    with pytest.raises(MachineTooBusy):
+        judges.judge_summary(even, jumped, replace(seen, starved_s=1.2))
+
+
+@pytest.mark.parametrize("late_s", [0.0005, 0.1, 0.5, 1.0])
+def test_summaries_may_be_late_when_messages_come_fast(late_s: float) -> None:
+    for node in (Counter, OneLineEach, Noisy, AllOfThem, QuotesTheFirst, DropsTwo):
+        verdict = judges.judge_summary(steady(node()), jump(node()), fast(node(), late_s=late_s))
+        assert verdict.passed == judges.judge_slow_summary(steady(node()), jump(node())).passed
+
+
 def test_what_a_busy_machine_may_have_cost_is_no_verdict() -> None:
     with pytest.raises(MachineTooBusy):
         judged_fast(NapsALittle, starved_s=1.2)
@@ -1328,7 +1361,7 @@ def checked(
     return {
         "count": CHECKED["count"](even, jumped, quick),
         "rate": CHECKED["rate"](even, jumped),
-        "summary": CHECKED["summary"](even, jumped),
+        "summary": CHECKED["summary"](even, jumped, quick),
         "restart": CHECKED["restart"](restarted, even, jumped),
         "gaps": CHECKED["gaps"](jumped, even),
     }

@@ -8,7 +8,7 @@ from dataclasses import replace
 import pytest
 
 from checks.i1_2 import gap_steps, steps
-from checks.i1_2.judges import judge_summary
+from checks.i1_2.judges import judge_slow_summary
 from tests.checks.made import assert_failed, trace
 from tests.checks.test_i1_2 import Counter, Log, jump, steady
 from tests.repairs import follow
@@ -194,7 +194,7 @@ def test_a_first_message_that_is_forgotten_with_each_summary_is_told_with_its_li
     seen = steady(Forgets())
     for text, step in ((source, "remove line 14: self.first = None"), ("", "only while it is None, and never again")):
         told = replace(seen, trace=replace(seen.trace, sources={"node.py": text}))
-        assert_failed(judge_summary(told, jump(Counter())), "first message overwritten", step)
+        assert_failed(judge_slow_summary(told, jump(Counter())), "first message overwritten", step)
 
 
 SUMS_UP = (

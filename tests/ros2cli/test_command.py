@@ -39,11 +39,3 @@ def test_a_wrong_word_is_told_as_ros2cli_does(bench: Bench) -> None:
 
 def test_there_is_no_daemon(bench: Bench) -> None:
     assert bench.ros2("daemon", "status").stdout == "The daemon is not running\n"
-
-
-def test_what_is_not_supported_says_so_in_one_line(bench: Bench) -> None:
-    for words in (["create"], ["create", "--build-type", "ament_python", "mine"], ["create", "-h"]):
-        ran = bench.ros2("pkg", *words)
-        assert ran.stderr.startswith("ros2 pkg create is not supported: it needs an installed ROS 2; ")
-        assert (ran.stdout, ran.stderr.count("\n"), ran.code) == ("", 1, 2)
-    assert "invalid choice: 'frob' (choose from 'create', 'executables'" in bench.ros2("pkg", "frob").stderr

@@ -84,7 +84,6 @@ def until(process: subprocess.Popen[str], *words: str) -> str:
         (["run", "demo", "talker"], 1, "Package 'demo' not found\n"),
         (["run", "demo_nodes_py", "shout"], 1, "No executable found\n"),
         (["launch", "nowhere.py"], 1, "there is no launch file nowhere.py"),
-        (["launch", "demo"], 1, "Package 'demo' not found: \"package 'demo' not found, searching: ['"),
         (["launch", "my_package"], 1, "say which launch file of my_package"),
         (
             ["launch", "my_package", "nowhere.py"],

@@ -65,10 +65,10 @@ def _run(argv: Sequence[str]) -> int:
     parser = build_parser()
     if completing.is_asked():
         completing.answer(parser)
+    arguments = parser.parse_args(argv)
+    if not arguments.use_python_default_buffering:
+        _write_by_lines(sys.stdout)
     try:
-        arguments = parser.parse_args(argv)
-        if not arguments.use_python_default_buffering:
-            _write_by_lines(sys.stdout)
         code = arguments.run(arguments)
     except CommandError as error:
         return _say(str(error), error.code)

@@ -13,9 +13,8 @@ from tutor.sandbox.ros2.joining import Domain, joined
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """[--report] [--exclude-packages] [--include-warnings]."""
+    """[--report] [--include-warnings]."""
     parser.add_argument("--report", "-r", action="store_true", help="what is here, without judging it")
-    parser.add_argument("--exclude-packages", "-ep", action="store_true", help="always so here: none is looked at")
     parser.add_argument("--include-warnings", "-iw", action="store_true", help="warnings count as failures")
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 VERBS = {
-    "create": "Make a new package (not supported here)",
     "executables": "List the programs of a package, or of all",
     "list": "List the packages",
     "prefix": "Show where a package is",
