@@ -22,6 +22,10 @@ _REPLACED = [
     (r"\b\d{19}\b", "NANOSECONDS"),
     (r"\b(sec|nanosec): \d+", r"\1: N"),
     (r"(publication_sequence_number|reception_sequence_number): (\d+|null)", r"\1: N"),
+    (r"('(publication|reception)_sequence_number'): (\d+|None)", r"\1: N"),
+    (r"^NANOSECONDS,NANOSECONDS,(\d+|None),(\d+|None),", "NANOSECONDS,NANOSECONDS,N,N,"),  # the same with --csv
+    (r"^1\d{9},\d{1,9},", "N,N,"),  # a stamp
+    (r"-?\d+\.\d+ °C", "FLOAT °C"),
     (r"\bpid \[\d+\]", "pid [PID]"),
     (r"\[pid \d+", "[pid PID"),
     # How a node of a launch ends depends on what it is doing when Ctrl+C comes.

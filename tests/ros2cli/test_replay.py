@@ -43,6 +43,18 @@ def out(text: str, *, stderr: str = "", code: int = 0) -> Output:
             out("", stderr="ros2: error: invalid choice: 'topik' (choose from 'component', 'node', 'topic')\n", code=2),
             out("", stderr="ros2: error: invalid choice: 'topik' (choose from 'doctor', 'node', 'topic')\n", code=2),
         ),
+        (
+            "ros2 topic echo --once -i --csv /t",
+            out("1795460564144417103,1795460564144417203,220,None,20.912345\n"),
+            out("1795460564144417103,1795460564144417203,17,None,21.112345\n"),
+        ),
+        (
+            "ros2 topic echo --once -i --field data /t",
+            out("{'publication_sequence_number': 233, 'reception_sequence_number': None}\n"),
+            out("{'publication_sequence_number': 26, 'reception_sequence_number': None}\n"),
+        ),
+        ("ros2 topic echo --once /rosout", out("msg: 't_1: 20.91 °C'\n"), out("msg: 't_1: 28.3 °C'\n")),
+        ("ros2 topic echo --once --csv /rosout", out("1795460564,144417103,20,a\n"), out("1795460430,64489,20,a\n")),
         ("ros2 pkg list", out("launch\nlaunch_ros\nros2cli\nstd_msgs\n"), out("std_msgs\n")),
         (
             "ros2 topic hz /t",
