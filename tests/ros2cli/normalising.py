@@ -20,7 +20,7 @@ _REPLACED = [
     (r"(✓ '<)\S+( object at)", r"\1HANDLER\2"),  # launch's handlers are closures there, objects of ours here
     (r"A message was lost!!!\n\s*total count change:\d+\n\s*total count: \d+---\n", ""),
     (r"\b\d{19}\b", "NANOSECONDS"),
-    (r"\b(sec|nanosec): \d+", r"\1: N"),
+    (r"\b(sec|nanosec)(: |=)\d+", r"\1\2N"),
     (r"(publication_sequence_number|reception_sequence_number): (\d+|null)", r"\1: N"),
     (r"('(publication|reception)_sequence_number'): (\d+|None)", r"\1: N"),
     (r"^NANOSECONDS,NANOSECONDS,(\d+|None),(\d+|None),", "NANOSECONDS,NANOSECONDS,N,N,"),  # the same with --csv
@@ -71,7 +71,10 @@ _PACKAGES_OF_ONE = re.compile(
 _CHOICES = re.compile(r"(?<=\(choose from )[^()]+(?=\))")
 _LISTS = re.compile(r"ros2 (pkg list|interface (list|packages))\b")
 _MEASURES = re.compile(r"ros2 topic (hz|bw|delay)\b")
-_NOT_YET = re.compile(r"stdout: WARNING: topic \[\S+\] does not appear to be published yet$")
+_NOT_YET = re.compile(
+    r"stdout: WARNING: topic \[\S+\] does not appear to be published yet$|stdout: waiting for service to become"
+)
+_ASKS = "stdout: requester: making request"
 
 
 def normalise(text: str, paths: Mapping[str, str], *, streams: bool) -> list[str]:
@@ -97,8 +100,8 @@ def of_both(command: str, lines: list[str]) -> list[str]:
 
 
 def without_early_warning(command: str, lines: list[str]) -> list[str]:
-    """Of two runs of the real one, one says of a live topic that it is not there yet, and goes on: not told apart."""
-    goes_on = _MEASURES.match(command) and len(lines) > 1
+    """Of two runs of the real one, one says that a live topic or service is not there yet: not told apart."""
+    goes_on = (_MEASURES.match(command) and len(lines) > 1) or any(line.startswith(_ASKS) for line in lines)
     return [line for line in lines if not (goes_on and _NOT_YET.match(line))]
 
 

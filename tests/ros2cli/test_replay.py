@@ -54,6 +54,11 @@ def out(text: str, *, stderr: str = "", code: int = 0) -> Output:
             out("{'publication_sequence_number': 26, 'reception_sequence_number': None}\n"),
         ),
         ("ros2 topic echo --once /rosout", out("msg: 't_1: 20.91 °C'\n"), out("msg: 't_1: 28.3 °C'\n")),
+        (
+            "ros2 service call /a std_srvs/srv/Trigger",
+            out("requester: making request: x\n\nresponse:\ny\n"),
+            out("waiting for service to become available...\nrequester: making request: x\n\nresponse:\ny\n"),
+        ),
         ("ros2 topic echo --once --csv /rosout", out("1795460564,144417103,20,a\n"), out("1795460430,64489,20,a\n")),
         ("ros2 pkg list", out("launch\nlaunch_ros\nros2cli\nstd_msgs\n"), out("std_msgs\n")),
         (
