@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 
-from checks.i1_3 import names, offers, programs, requests
+from checks.i1_3 import names, offers, programs, requests, whole
 from checks.i1_3.code import Code, files, stepped
 from checks.i1_3.facts import CLIENT, CLIENT_S, LATER_S, SERVER, SIGNS, Demonstration
 from tutor.judge import causes, edits, source, tracebacks
@@ -84,10 +84,11 @@ def _stepped(cause: Cause, seen: Demonstration) -> Cause:
     unmet = cause.name in ("wrong service name", "wrong type", "not called")
     unmet = unmet or cause.name == "waits too short a time"
     waits = [] if unmet else [partial(requests.answered, code, trace) for code in files(trace)]
-    last = partial(programs.all_four, next(iter(files(trace)), Code("", "")))
+    file = next(iter(files(trace)), Code("", ""))
+    last = [partial(programs.all_four, file), partial(whole.client, file)] if file.file else []
     if first and (told := next((told for step in (*each_file, *waits) if (told := step()) is not None), None)):
         return replace(cause, hint=told)
-    return stepped(cause, trace, *each_file, *waits, last)
+    return stepped(cause, trace, *each_file, *waits, *last)
 
 
 def _of_no_answer(found: tracebacks.Traceback | None) -> bool:

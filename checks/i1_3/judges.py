@@ -19,6 +19,7 @@ from checks.i1_3.facts import (
     missing_of,
     right_result,
 )
+from checks.i1_3.whole import followable
 from tutor.judge import causes, ending, tracebacks
 from tutor.judge.causes import names
 from tutor.judge.trace import CallAnswer, Service, Trace
@@ -26,6 +27,7 @@ from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped
 
 
+@followable
 def judge_services(seen: Calls) -> Verdict:
     expected = f"/add, /subtract, /multiply and /divide with type {TYPE}, answering a call"
     unanswered = next((answer for answer in seen.answers if answer.response is None), None)
@@ -106,6 +108,7 @@ def _of_every_node(service: Service) -> bool:
     return service.type.startswith(("rcl_interfaces/", "type_description_interfaces/"))
 
 
+@followable
 def judge_operations(seen: Calls) -> Verdict:
     expected = "right results, negative operands included"
     if missing_of(seen.trace.graph.services):
@@ -215,6 +218,7 @@ def _guarded(cause: Cause, trace: Trace) -> Cause:
     return replace(cause, hint=services.guarded(trace) or cause.hint)
 
 
+@followable
 def judge_division(seen: Division) -> Verdict:
     expected = "dividing by zero gets an answer, the node says that it is an error, and the next calls go well"
     if seen.before is None or seen.before.response is None or seen.by_zero is None:

@@ -108,10 +108,11 @@ def guarded(trace: Trace) -> str | None:
 def lines_of(code: Code, function: Function, service: str) -> list[str]:
     """What the callback of a service does, in the words of this one."""
     request, response = arguments(code, function)[:2]
-    return _lines(request, response, service, logger(code, function.body[0]))
+    return lines_for(request, response, service, logger(code, function.body[0]))
 
 
-def _lines(request: str, response: str, service: str, log: str) -> list[str]:
+def lines_for(request: str, response: str, service: str, log: str) -> list[str]:
+    """What the callback of a service does, its arguments and the logger being called so."""
     result = f"{response}.sum = {request}.a {PYTHON[service]} {request}.b"
     if service != "/divide":
         return [result, f"return {response}"]
@@ -136,7 +137,7 @@ def new_callback(code: Code, at: ast.AST, service: str) -> tuple[str, Edit]:
     me = code.me(at)
     head = f"def {name}({f'{me}, ' if me else ''}request, response):"
     log = f"{code.node(at)}.get_logger()"
-    return _added(code, at, [head, *(f"    {each}" for each in _lines("request", "response", service, log))])
+    return _added(code, at, [head, *(f"    {each}" for each in lines_for("request", "response", service, log))])
 
 
 def _added(code: Code, at: ast.AST, lines: Sequence[str]) -> tuple[str, Edit]:
@@ -160,7 +161,10 @@ def _anew(change: Changes, there: Offer, service: str) -> None:
         offered = given(call, 1, "srv_name")
         assert offered is not None
         me = code.me(call)
-        name, edit = _added(code, call, _for_all(me))
+        lines = _for_all(me)
+        if any(ast.unparse(each) == ast.unparse(ast.parse("\n".join(lines))) for each in code.named("calculate")):
+            return  # it is there already, and is not what the fault is about
+        name, edit = _added(code, call, lines)
         more = "" if me else f", {logger(code, call)}"
         to_bind = f"name={ast.unparse(offered)}"
         change.swaps.append(

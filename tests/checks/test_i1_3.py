@@ -116,7 +116,11 @@ def test_services_not(seen: Calls, cause: str, word: str) -> None:
             "div",
             "line 1 becomes: self.create_service(AddTwoInts, 'divide', self.divide)",
         ),
-        ("self.create_service(AddTwoInts, NAMES[3], self.divide)", "Divide", "name it 'divide', without a namespace"),
+        (
+            "self.create_service(AddTwoInts, NAMES[3], self.divide)",
+            "Divide",
+            "self.create_service(AddTwoInts, 'divide', self.divide",
+        ),
         (
             "self.create_service(AddTwoInts, NAMES[3], self.divide)",
             "calc__divide",
