@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from checks.i1_1 import steps
@@ -29,6 +29,7 @@ from checks.i1_1.facts import (
 )
 from tutor.judge import causes, ending, randomness, tracebacks
 from tutor.judge.rates import TOLERANCE
+from tutor.judge.rewriting.whole import followable
 from tutor.judge.trace import Parameter, Trace
 from tutor.judge.verdict import Cause, Verdict, failed, passed
 
@@ -43,6 +44,17 @@ def _stopping(trace: Trace | None) -> Cause:
     return _of_exception(trace) or Cause("no messages", "the node stops publishing, or hardly ever does", step)
 
 
+def _runs(*facts: Survey | Values | Rates | Names) -> list[Trace]:
+    """The runs that facts are of: of probes, the first one."""
+    found = [each.probes[:1] if isinstance(each, Rates | Names) else (each,) for each in facts]
+    return [trace for each in found for one in each if (trace := one.trace) is not None]
+
+
+def _followable[**P](judge: Callable[P, Verdict]) -> Callable[P, Verdict]:
+    return followable(judge, _runs, steps.anything)
+
+
+@_followable
 def judge_publishes(seen: Survey) -> Verdict:
     expected = f"{TYPE} messages on {TOPIC}"
     samples = seen.trace.on(TOPIC)
@@ -60,6 +72,7 @@ def judge_publishes(seen: Survey) -> Verdict:
     return failed(expected, "no such message", cause, causes.last_words(seen.trace))
 
 
+@_followable
 def judge_range(found: Values, more: Values) -> Verdict:
     expected = f"every value in [{LOWEST}, {HIGHEST}] °C"
     if not found.all:
@@ -88,6 +101,7 @@ def _why_outside(wrong: Sequence[float], values: Sequence[float], trace: Trace |
     return Cause("out of range", "values leave the range", steps.drawn(trace))
 
 
+@_followable
 def judge_random(found: Values) -> Verdict:
     expected = "values that vary at random: not constant, not a ramp, not a short cycle"
     told = [(run, pattern) for run in found.runs if (pattern := _pattern(run)) is not None]
@@ -128,6 +142,7 @@ def _stuck(run: Sequence[float]) -> randomness.Pattern | None:
     return randomness.Pattern("constant value", f"the last {same} values are all {run[-1]:g}")
 
 
+@_followable
 def judge_echo(seen: Survey) -> Verdict:
     expected = f"`ros2 topic echo {TOPIC}` shows the values"
     echo = seen.echo
@@ -158,6 +173,7 @@ def judge_echo(seen: Survey) -> Verdict:
     return failed(expected, f"nothing shown in {echo.limit_s:g} s", cause)
 
 
+@_followable
 def judge_rate(found: Rates) -> Verdict:
     expected = f"some numeric parameter, set at start-up, changes the rate as it says (±{TOLERANCE:.0%})"
     for agreed in agreeing(found.probes):
@@ -212,6 +228,7 @@ def _why_rate(group: Sequence[RateProbe], wrong: RateProbe, declared: tuple[Para
     return Cause("wrong rate", f"{wrong}", step)
 
 
+@_followable
 def judge_name(found: Names) -> Verdict:
     expected = "some string parameter, set at start-up, appears in the node's log messages"
     for probe in found.probes:

@@ -1,6 +1,7 @@
 """I1.1: next steps as edits of the learner's own file. The source only chooses the words.
 
-Where an edit is in the file already, a larger one follows, down to whole functions; plain words are the last resort.
+Where an edit is in the file already, a larger one follows, down to the whole program; plain words are left for a file
+that Python cannot read.
 """
 
 from __future__ import annotations
@@ -9,9 +10,10 @@ import ast
 import re
 
 from checks.i1_1.facts import HIGHEST, LOWEST, SUGGESTED_NAME, SUGGESTED_RATE, TOPIC, TYPE
+from checks.i1_1.program import program
 from tutor.judge.causes import parameter_slips, period_slips
 from tutor.judge.edits import Edit, instead, on_top, removed
-from tutor.judge.rewriting import parameters, publishing
+from tutor.judge.rewriting import parameters, publishing, whole
 from tutor.judge.rewriting.node import NodeFile, node_file, started
 from tutor.judge.trace import Trace
 from tutor.judge.verdict import Cause
@@ -38,7 +40,8 @@ def drawn(trace: Trace | None) -> str:
         read.step(
             seeding,
             [*publishing.sending(read, draw), *imported],
-            [*publishing.ticking(read, draw), *imported],
+            [*publishing.ticking(read, draw), *imported] if whole.is_plain(read) else [],
+            program(read),
         )
         or f"draw a new value in every callback: random.uniform{_RANGE}"
     )
@@ -47,7 +50,9 @@ def drawn(trace: Trace | None) -> str:
 def of_one_type(trace: Trace) -> str:
     """Nothing but the right type on the topic."""
     read = file(trace)
-    return read.step(publishing.of_one_type(read, TOPIC, TYPE)) or f"publish nothing but {TYPE} on {TOPIC}"
+    return (
+        read.step(publishing.of_one_type(read, TOPIC, TYPE), program(read)) or f"publish nothing but {TYPE} on {TOPIC}"
+    )
 
 
 def published(trace: Trace | None) -> str:
@@ -55,7 +60,7 @@ def published(trace: Trace | None) -> str:
     read = file(trace)
     draw, imported = _draw(read)
     edits = publishing.publishing(read, TOPIC, TYPE, draw, SUGGESTED_RATE, log=SUGGESTED_NAME)
-    return read.step([*edits, *imported]) or ""
+    return read.step([*edits, *imported], program(read)) or ""
 
 
 def as_float(trace: Trace | None) -> str:
@@ -63,14 +68,14 @@ def as_float(trace: Trace | None) -> str:
     read = file(trace)
     data = publishing.data_of(read)
     edits = [instead(read.text, data, f"float({ast.unparse(data)})")] if data is not None else []
-    return read.step(edits) or "make it a float first: msg.data = float(value)"
+    return read.step(edits, program(read)) or "make it a float first: msg.data = float(value)"
 
 
 def paced(trace: Trace, name: str, unit: str = "Hz") -> str:
     """The timer's period follows a parameter, which is a rate in Hz, or a period in s or ms."""
     read = file(trace)
     code = {"Hz": f"1.0 / {read.value(name)}", "s": read.value(name), "ms": f"{read.value(name)} / 1000.0"}[unit]
-    return read.step([*publishing.period(read, code), *publishing.only_timer(read)]) or (
+    return read.step([*publishing.period(read, code), *publishing.only_timer(read)], program(read)) or (
         f"the timer's period is {code}, and there is one timer only"
     )
 
@@ -79,14 +84,14 @@ def pace_declared(trace: Trace | None, name: str) -> str:
     """There is a rate parameter, and the timer's period follows it."""
     read = file(trace)
     return read.step(
-        [*parameters.declared(read, name, 1.0), *publishing.period(read, f"1.0 / {read.value(name)}")]
+        [*parameters.declared(read, name, 1.0), *publishing.period(read, f"1.0 / {read.value(name)}")], program(read)
     ) or (f"self.declare_parameter('{name}', 1.0), and use its value for the timer's period")
 
 
 def name_declared(trace: Trace, name: str) -> str:
     """There is a parameter for the sensor's name, and it is logged with every message."""
     read = file(trace)
-    return read.step([*parameters.declared(read, name, "sensor"), *publishing.logging(read, name)]) or (
+    return read.step([*parameters.declared(read, name, "sensor"), *publishing.logging(read, name)], program(read)) or (
         f"self.declare_parameter('{name}', 'sensor'), and put its value into a log message"
     )
 
@@ -97,9 +102,19 @@ def name_logged(trace: Trace, name: str) -> Cause:
     if (cause := _quiet(read) or _without_f(read)) is not None:
         return cause
     draw, imported = _draw(read)
-    step = read.step(publishing.logging(read, name), [*publishing.ticking(read, draw, log=name), *imported])
+    ticking = [*publishing.ticking(read, draw, log=name), *imported] if whole.is_plain(read) else []
+    step = read.step(publishing.logging(read, name), ticking, program(read))
     words = f"log it with each message: {read.name}.get_logger().info({read.value(name)})"
     return Cause("parameter ignored", f"{name} is declared, but its value is not logged", step or words)
+
+
+def anything(trace: Trace) -> str:
+    """What there is of another type on the topic goes, or else the program as a whole, whatever its fault is.
+
+    Empty where Python cannot read the file.
+    """
+    read = file(trace)
+    return read.step(publishing.of_one_type(read, TOPIC, TYPE), program(read)) or ""
 
 
 def _quiet(read: NodeFile) -> Cause | None:

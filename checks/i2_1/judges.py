@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -36,12 +36,22 @@ from checks.i2_1.facts import (
 from tutor.judge import causes, ending, tracebacks
 from tutor.judge.causes import names, parameter_slips, period_slips, slips
 from tutor.judge.rates import TOLERANCE, Rate, describe
+from tutor.judge.rewriting.whole import followable
 from tutor.judge.trace import Level, Parameter, SetAnswer, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Cause, Verdict, failed, passed
 from tutor.judge.wording import shape
 
 
+def _runs(*facts: object) -> list[Trace]:
+    return [trace for each in facts if isinstance(trace := getattr(each, "trace", None), Trace)]
+
+
+def _followable[**P](judge: Callable[P, Verdict]) -> Callable[P, Verdict]:
+    return followable(judge, _runs, steps.anything)
+
+
+@_followable
 def judge_defaults(seen: Survey) -> Verdict:
     expected = ", ".join(f"{name} = {_show(value)} ({kind})" for name, (kind, value) in DEFAULTS.items())
     if seen.parameters is None:
@@ -71,6 +81,7 @@ def _why_default(name: str, parameter: Parameter | None, step: str) -> Cause:
     return Cause("wrong default", f"{name} is {_show(parameter.value)}, not {_show(value)}", step)
 
 
+@_followable
 def judge_launch(seen: Launched) -> Verdict:
     expected = f"--ros-args -p sets {PREFIX}, {RATE} and {ENABLED}, and each takes effect"
     samples = seen.trace.on(TOPIC)
@@ -155,6 +166,7 @@ def _ignored(name: str, trace: Trace) -> Cause:
     )
 
 
+@_followable
 def judge_runtime(seen: Switched, retimed: Retimed) -> Verdict:
     expected = f"setting {PREFIX} and {ENABLED} on the running node takes effect within one period"
     for answer in (seen.set_prefix, seen.set_off, seen.set_later, seen.set_on):
@@ -301,6 +313,7 @@ def _ended_by(bad: float, expected: str, trace: Trace) -> Verdict | None:
     return failed(expected, f"{RATE} set to {bad} ends the node: {told}", cause, causes.last_words(trace))
 
 
+@_followable
 def judge_validation(seen: Validated, switched: Switched) -> Verdict:
     expected = f"{RATE} 0.0 and -1.0 are rejected with a reason; the value and the rate stay at {seen.base_hz} Hz"
     if not seen.rejected:
@@ -343,6 +356,7 @@ def judge_validation(seen: Validated, switched: Switched) -> Verdict:
     return passed(expected, f'rejected: "{seen.rejected[0][0].reason}"; still {seen.rate}')
 
 
+@_followable
 def judge_timer(seen: Retimed) -> Verdict:
     expected = f"setting {RATE} changes the measured rate: {UP_HZ} Hz, then {DOWN_HZ} Hz, ±{TOLERANCE:.0%}"
     if not seen.steps:
@@ -410,6 +424,7 @@ def _goes_on(rate: Rate | None, hz: float, switched: Switched) -> bool:
     return hz != REFUSING_HZ and switched.before is not None and switched.before.agrees(rate.hz)
 
 
+@_followable
 def judge_atomic(seen: Atomic, switched: Switched) -> Verdict:
     expected = f"an atomic set of a good {PREFIX} and a bad {RATE}, in either order, changes nothing at all"
     if not seen.answers:
@@ -443,6 +458,7 @@ def judge_atomic(seen: Atomic, switched: Switched) -> Verdict:
     return passed(expected, f'both rejected ("{seen.answers[0].reason}"), nothing changed')
 
 
+@_followable
 def judge_bad_launch(plain: Survey, seen: Sequence[Trace]) -> Verdict:
     expected = f"a start with {RATE}:=0.0 or {RATE}:=-1.0 gives a message that names {RATE}"
     ordinary = {_wording(line) for line in naming(plain.trace)}

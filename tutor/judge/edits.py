@@ -16,7 +16,14 @@ from pyflakes import checker, messages
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 
 _NODE = {
-    *("add_on_set_parameters_callback", "create_client", "create_publisher", "create_rate", "create_service"),
+    *(
+        "add_on_set_parameters_callback",
+        "add_post_set_parameters_callback",
+        "create_client",
+        "create_publisher",
+        "create_rate",
+        "create_service",
+    ),
     *("create_subscription", "create_timer", "declare_parameter", "declare_parameters", "destroy_node"),
     *("destroy_timer", "executor", "get_clock", "get_logger", "get_name", "get_parameter", "get_parameter_or"),
     *("has_parameter", "set_parameters"),
@@ -259,6 +266,15 @@ def told(text: str, *edits: Edit | Sequence[Edit], file: str = "") -> str | None
         return None
     words = [_said(text, edit) for edit in flat]
     return (f"in {file}, " if file else "") + "\n".join(words)
+
+
+def is_there(text: str, edit: Edit) -> bool:
+    """Whether an edit would write lines that stand above or below their place already."""
+    if edit.last >= edit.first or not edit.code:
+        return False
+    code, lines = ([line.strip() for line in each.splitlines()] for each in (edit.code, text))
+    place = edit.first - 1
+    return code in (lines[place : place + len(code)], lines[max(0, place - len(code)) : place])
 
 
 def changes(before: str, after: str) -> bool:

@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
-from tutor.judge.edits import Edit, above, at_end, below, on_top, told
+from tutor.judge.edits import Edit, above, at_end, below, is_there, on_top, told
 from tutor.judge.source import called
 from tutor.judge.trace import Trace
 
@@ -209,7 +209,8 @@ class NodeFile:
 
         The last lines come first: so the numbers of the others stay true for anyone who does one after the other.
         """
-        tried = (told(self.text, *_from_below(each), file=self.file) for each in choices if each and self.tree.body)
+        missing = ([edit for edit in each or () if not is_there(self.text, edit)] for each in choices)
+        tried = (told(self.text, *_from_below(each), file=self.file) for each in missing if each and self.tree.body)
         return next((words for words in tried if words is not None), None)
 
 

@@ -163,9 +163,27 @@ def of_one_type(file: NodeFile, topic: str, type_name: str) -> list[Edit]:
     edits = []
     for call in file.calls("create_publisher"):
         kind, name = argument(call, 0, "msg_type"), argument(call, 1, "topic")
-        if kind is not None and ast.unparse(kind) != own and isinstance(name, ast.Constant):
+        if kind is None or name is None or ast.unparse(kind) == own:
+            continue
+        if _text(file, name) == topic.lstrip("/"):
             edits.append(instead(file.text, name, repr(f"{topic}_{ast.unparse(kind).lower()}")))
     return edits
+
+
+def _text(file: NodeFile, code: ast.expr | None) -> str:
+    """The topic's name that an expression stands for, without a slash, as far as one assignment tells it."""
+    match code:
+        case ast.Constant(value=str() as told):
+            return told.lstrip("/")
+        case ast.Name(id=name) | ast.Attribute(attr=name):
+            for each in ast.walk(file.tree):
+                match each:
+                    case ast.Assign(
+                        targets=[ast.Name(id=at) | ast.Attribute(attr=at)], value=ast.Constant(value=value)
+                    ):
+                        if at == name:
+                            return str(value).lstrip("/")
+    return ""
 
 
 def _quoted(code: str) -> str:
