@@ -165,7 +165,10 @@ def whole(there: Launch, programs: Sequence[Program] = ()) -> list[Edit]:
         ]
     )
     if not there.file.tree.body:
-        return []
+        lines = len(there.file.text.splitlines())
+        froms = "\n".join(sorted(f"from {_MODULES[each]} import {each}" for each in names))
+        body = "".join(f"\n    {line}" for line in code.splitlines())
+        return [Edit(1, lines, f"{froms}\n\n\ndef {LAUNCHED}():{body}")] if lines else []
     if function is None or function.name != LAUNCHED or function.lineno == function.body[0].lineno:
         last = there.file.tree.body[-1]
         body = "".join(f"\n    {line}" for line in code.splitlines())

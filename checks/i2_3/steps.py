@@ -13,7 +13,7 @@ from checks.i2_3.facts import SERVICE, WORK_S
 from checks.i2_3.rewriting import every, service, ticking, timer, working
 from checks.i2_3.ticks import HZ
 from tutor.judge.edits import Edit, becomes, instead, removed
-from tutor.judge.rewriting.node import NodeFile, argument, node_file
+from tutor.judge.rewriting.node import NodeFile, argument, started
 from tutor.judge.rewriting.program import program
 from tutor.judge.source import called
 from tutor.judge.trace import Trace
@@ -27,7 +27,7 @@ _LOGS = ("info", "warning", "warn", "error", "fatal")
 
 def read(trace: Trace) -> NodeFile:
     """The learner's file that was started."""
-    return node_file(trace.sources.get(trace.file, ""))
+    return started(trace)
 
 
 def everything(file: NodeFile) -> str | None:

@@ -13,6 +13,7 @@ from tests.checks.made import trace
 from tests.judging import find
 from tutor.content.submissions import Case
 from tutor.judge.edits import apply
+from tutor.judge.following import follow
 from tutor.judge.reading import Source
 from tutor.judge.rewriting.node import NodeFile
 from tutor.judge.verdict import Cause
@@ -341,3 +342,15 @@ def test_a_step_in_words_gives_way_to_one_that_can_be_followed() -> None:
 
 def test_what_ends_python_while_the_file_is_loaded_is_taken_out() -> None:
     assert steps.nothing_listed(of(f"import os\nos._exit(0)\n{LAUNCH}")) == "remove line 2: os._exit(0)"
+
+
+def test_a_launch_file_that_python_cannot_read_is_told_as_a_whole_one() -> None:
+    there = of("this is a launch file that nobody can read\n")
+
+    step = steps.anew(there)
+
+    assert step is not None
+    code = follow(step, {"my_launch.py": there.file.text})["my_launch.py"]
+    assert "executable='talker'" in code
+    assert "executable='listener'" in code
+    compile(code, "my_launch.py", "exec")

@@ -7,6 +7,7 @@ import ast
 import pytest
 
 from checks.i2_3 import rewriting, steps
+from tests.checks.made import trace
 from tests.judging import find
 from tutor.content.submissions import Case
 from tutor.judge.rewriting.node import NodeFile
@@ -206,3 +207,9 @@ def test_each_submission_can_be_rewritten(case: Case) -> None:
 def test_what_cannot_be_read_leaves_the_plain_words() -> None:
     for step in (steps.executor, steps.apart, steps.working_for, steps.period, steps.silent, steps.offering):
         assert step(NodeFile("")) is None, step
+
+
+def test_a_step_names_its_file_where_there_are_others() -> None:
+    read = steps.read(trace(sources={"node.py": NODE.replace("time.sleep(3.0)", "time.sleep(9.0)"), "other.py": ""}))
+
+    assert steps.working_for(read) == "in node.py, line 18 becomes: time.sleep(3.0)"

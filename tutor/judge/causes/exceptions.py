@@ -7,12 +7,15 @@ from dataclasses import replace
 
 from tutor.judge import exceptions
 from tutor.judge.causes import names, parameters
+from tutor.judge.following import leads_on
 from tutor.judge.rewriting.node import node_file
 from tutor.judge.rewriting.parameters import declared_once
+from tutor.judge.rewriting.syntax import readable
 from tutor.judge.trace import Trace
 from tutor.judge.tracebacks import Frame, Traceback
 from tutor.judge.verdict import Cause
 
+_UNREAD = ("SyntaxError", "IndentationError", "TabError")
 _EDITS = re.compile(r"lines? \d+|write (?:above|below) line|remove lines? \d+|at the top of the file")
 
 
@@ -66,6 +69,8 @@ def _known(each: Traceback, last: Traceback, trace: Trace) -> Cause | None:
     if found is not None and each.type.endswith("ParameterAlreadyDeclaredException") and own is not None:
         read = node_file(seen.source)
         found = replace(found, hint=read.step(declared_once(read, own.line)) or found.hint)
+    if found is not None and each.type.endswith(_UNREAD) and not leads_on(found.hint, {file: seen.source}):
+        found = replace(found, hint=readable(seen.source) or found.hint)
     if found is not None and len(trace.sources) > 1 and _EDITS.match(found.hint):
         return replace(found, hint=f"in {file}, {found.hint}")
     return found

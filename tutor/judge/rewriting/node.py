@@ -210,7 +210,7 @@ class NodeFile:
         The last lines come first: so the numbers of the others stay true for anyone who does one after the other.
         """
         missing = ([edit for edit in each or () if not is_there(self.text, edit)] for each in choices)
-        tried = (told(self.text, *_from_below(each), file=self.file) for each in missing if each and self.tree.body)
+        tried = (told(self.text, *_from_below(each), file=self.file) for each in missing if each and self.text.strip())
         return next((words for words in tried if words is not None), None)
 
 

@@ -1,0 +1,73 @@
+"""A slip that keeps Python from reading a file is told as the line without it."""
+
+from __future__ import annotations
+
+import pytest
+
+from tutor.judge.following import follow
+from tutor.judge.rewriting.syntax import readable
+
+_SOUND = """\
+import time
+
+
+class Stats:
+    def __init__(self):
+        self.count = 0
+        self.make("chatter", self.callback, 10)
+
+    def make(self, name, callback, depth):
+        self.last = [
+            dict(name=name, depth=depth),
+            dict(name="other", depth=10),
+        ]
+
+    def callback(self, message):
+        if self.count == 3:
+            self.count = 0
+        self.count += 1
+        print(f"{self.count}: {message}", time.time())
+"""
+
+
+@pytest.mark.parametrize(
+    ("line", "slipped"),
+    [
+        ('        self.make("chatter", self.callback, 10)', '        self.make("chatter", self.callback, 10'),
+        ('        self.make("chatter", self.callback, 10)', '        self.make("chatter", self.callback, 10))'),
+        ('        self.make("chatter", self.callback, 10)', '        self.make("chatter, self.callback, 10)'),
+        ('        self.make("chatter", self.callback, 10)', '        self.make("chatter" self.callback, 10)'),
+        ("            dict(name=name, depth=depth),", "            dict(name=name, depth=depth,"),
+        ("            dict(name=name, depth=depth),", "            dict(name=name, depth=depth)"),
+        ("    def callback(self, message):", "    def callback(self, message)"),
+        ("    def callback(self, message):", "    dfe callback(self, message):"),
+        ("        if self.count == 3:", "        if self.count = 3:"),
+        ("        if self.count == 3:", "       if self.count == 3:"),
+        ("            self.count = 0\n        self", "        self.count = 0\n        self"),
+        ("        self.count += 1", "      self.count += 1"),
+        ("        self.count += 1", "\t self.count += 1"),
+    ],
+)
+def test_a_slip_is_told_as_the_line_without_it(line: str, slipped: str) -> None:
+    broken = _SOUND.replace(line, slipped, 1)
+    assert broken != _SOUND
+
+    step = readable(broken)
+
+    assert step is not None
+    assert follow(step, {"stats.py": broken})["stats.py"] == _SOUND
+
+
+def test_two_slips_are_told_together() -> None:
+    broken = _SOUND.replace("message):", "message)").replace("10)\n\n    def", "10\n\n    def")
+
+    step = readable(broken)
+
+    assert step is not None
+    assert follow(step, {"stats.py": broken})["stats.py"] == _SOUND
+
+
+def test_nothing_is_told_where_python_can_read_the_file_or_no_small_change_helps() -> None:
+    assert readable(_SOUND) is None
+    assert readable("") is None
+    assert readable("this is a text and no program at all\n" * 5) is None
