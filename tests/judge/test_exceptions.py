@@ -22,7 +22,9 @@ def seen(example: Example) -> Seen:
     name, _, message = example.raised.partition(": ")
     frames = []
     if example.line:
-        frames.append(Frame(f"{FOLDER}/node.py", 1, example.function, example.line))
+        lines = [each.strip() for each in example.source.splitlines()]
+        number = lines.index(example.line) + 1 if example.line in lines else 1
+        frames.append(Frame(f"{FOLDER}/node.py", number, example.function, example.line))
     if example.at:
         path, _, function = example.at.partition(", ")
         frames.append(Frame(path, 75, function, ""))
@@ -30,16 +32,25 @@ def seen(example: Example) -> Seen:
     return Seen(found, FOLDER, found.own(FOLDER), "node.py", example.source or example.line)
 
 
+OF_CHECKS = [load(path) for path in sorted((Path(__file__).parents[2] / "checks").glob("*/exceptions.toml"))]
 EXAMPLES = [
-    pytest.param(known, example, id=f"{example.raised[:50]} | {example.line[:30]}")
-    for known in shipped()
+    pytest.param(table, known, example, id=f"{example.raised[:50]} | {example.line[:30]}")
+    for own in ((), *OF_CHECKS)
+    for table in ((*own, *shipped()),)
+    for known in own or shipped()
     for example in known.examples
 ]
 
 
-@pytest.mark.parametrize(("known", "example"), EXAMPLES)
-def test_each_example_gets_its_step_and_no_other_entry_takes_it(known: Known, example: Example) -> None:
-    found = find(seen(example), shipped(), cause=OWN)
+def test_the_checks_have_tables_of_their_own() -> None:
+    assert OF_CHECKS
+
+
+@pytest.mark.parametrize(("table", "known", "example"), EXAMPLES)
+def test_each_example_gets_its_step_and_no_other_entry_takes_it(
+    table: tuple[Known, ...], known: Known, example: Example
+) -> None:
+    found = find(seen(example), table, cause=OWN)
     assert found is not None
     assert found.hint == example.step
     assert found.name == (known.cause or OWN)
@@ -73,6 +84,7 @@ step = "do"
         (ENTRY + "edits = 'x'", "edits must be a list"),
         (ENTRY + "edits = [{ up = '1' }]", "above and code"),
         (ENTRY + "edits = [{ top = 1 }]", "made of texts"),
+        (ENTRY + "edits = [{ rewritten = 'none' }]", "rewritten must be one of"),
         (ENTRY + "edits = [{ every = ['('] }]", "replace must be"),
         (ENTRY + "edits = [{ top = 'import {that}' }]", "nothing gives the word that"),
         (ENTRY + "example = [{ raised = 'ValueError' }]", "step"),

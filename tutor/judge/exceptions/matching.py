@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 from tutor.judge import edits
 from tutor.judge.edits import Edit
+from tutor.judge.exceptions.rewriting import REWRITERS
 from tutor.judge.exceptions.table import WORD, Known
 from tutor.judge.tracebacks import Frame, Traceback, within
 from tutor.judge.verdict import Cause
@@ -136,6 +137,8 @@ def _edit(text: str, edit: Mapping[str, str | list[str]], words: Mapping[str, st
     if "every" in edit:
         pattern, by = list(edit["every"])
         return edits.every(text, _put(pattern, words, escaped=True), _put(by, words))
+    if "rewritten" in edit:
+        return REWRITERS[str(edit["rewritten"])](text, words)
     given = {key: _put(str(value), words) for key, value in edit.items()}
     if any(WORD.fullmatch(word) for value in given.values() for word in re.findall(r"\{[a-z]\w*\}", value)):
         return None

@@ -10,6 +10,8 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+from tutor.judge.exceptions.rewriting import REWRITERS
+
 WORD = re.compile(r"\{([a-z]\w*)\}")
 """A word in braces stands for what the exception, or the learner's own line, has in its place."""
 
@@ -34,8 +36,11 @@ EDITS: tuple[set[str], ...] = (
     {"async"},
     {"top"},
     {"every"},
+    {"rewritten"},
 )
-"""The kinds of edits, by their keys. Lines are numbers, as the words `{number}` and `{there}` give them."""
+"""The kinds of edits, by their keys; `rewritten` is the name of one in `rewriting`.
+
+Lines are numbers, as the words `{number}` and `{there}` give them."""
 
 _ORDER = ("launch", "parameters", "attributes", "calls", "messages", "process", "imports", "python")
 
@@ -186,6 +191,8 @@ def _edits(data: object, where: str) -> tuple[tuple[Mapping[str, str | list[str]
                 _replace(each["every"], where)
             elif not all(isinstance(value, str) for value in each.values()):
                 raise TableError(f"{where}: an edit is made of texts")
+            elif each.get("rewritten", "log") not in REWRITERS:
+                raise TableError(f"{where}: rewritten must be one of {', '.join(REWRITERS)}")
     return tuple(tuple(way) for way in ways if way)
 
 
