@@ -29,6 +29,20 @@ _MODULES = {
     "LaunchConfiguration": "launch.substitutions",
     "Node": "launch_ros.actions",
 }
+_PLACES = {
+    "launch.actions": (
+        *("DeclareLaunchArgument", "ExecuteProcess", "GroupAction", "IncludeLaunchDescription", "LogInfo"),
+        *("OpaqueFunction", "RegisterEventHandler", "SetEnvironmentVariable", "TimerAction"),
+    ),
+    "launch.conditions": ("IfCondition", "UnlessCondition"),
+    "launch.event_handlers": ("OnProcessExit", "OnProcessStart"),
+    "launch.launch_description_sources": ("PythonLaunchDescriptionSource",),
+    "launch.substitutions": ("LaunchConfiguration", "PathJoinSubstitution", "PythonExpression", "TextSubstitution"),
+    "launch_ros.actions": ("LifecycleNode", "Node", "PushRosNamespace", "SetParameter", "SetRemap"),
+    "launch_ros.substitutions": ("FindPackageShare",),
+    "launch": ("LaunchDescription",),
+}
+"""Where the classes are that a launch file imports."""
 _OWN_TOPIC = re.compile(r"create_(?:publisher|subscription)\([^'\"]*['\"]([\w/]+)['\"]")
 
 
@@ -188,6 +202,26 @@ def _node(there: Launch, program: Program) -> Iterator[str]:
     yield f"    remappings=[('{program.topic}', {there.value('topic')})],"
     yield "    output='screen',"
     yield "),"
+
+
+def misplaced(there: Launch) -> list[Edit]:
+    """The imports of classes from where they are not, with the module that has them."""
+    edits = []
+    for each in there.file.tree.body:
+        if not isinstance(each, ast.ImportFrom) or each.level:
+            continue
+        kept = [alias for alias in each.names if _place(alias.name) in ("", each.module)]
+        if len(kept) == len(each.names):
+            continue
+        lines = [ast.unparse(ast.ImportFrom(each.module, kept, 0))] if kept else []
+        moved = [(alias, _place(alias.name)) for alias in each.names if alias not in kept]
+        lines += [ast.unparse(ast.ImportFrom(module, [alias], 0)) for alias, module in moved]
+        edits.append(becomes(each.lineno, "\n".join(lines), each.end_lineno or 0))
+    return edits
+
+
+def _place(name: str) -> str:
+    return next((module for module, names in _PLACES.items() if name in names), "")
 
 
 def given(there: Launch, keyword: str, value: str, *without: str) -> list[Edit]:

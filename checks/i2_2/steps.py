@@ -17,6 +17,7 @@ from checks.i2_2.rewriting import (
     called_so,
     given,
     listed_first,
+    misplaced,
     opaque_returned,
     renamed,
     replaced,
@@ -30,6 +31,7 @@ from tutor.judge.reading import Call, Source
 from tutor.judge.rewriting.node import argument as argument_of
 from tutor.judge.verdict import Cause
 
+_NO_IMPORT = re.compile(r"\b(?:ImportError|ModuleNotFoundError)\b")
 _OWN_GROUP = "it acts on what comes after it in the same list only"
 
 
@@ -48,7 +50,8 @@ def followed(there: Launch, cause: Cause, programs: Sequence[Program] = ()) -> C
     try:
         follow(cause.hint, {there.path: there.file.text, **there.others})
     except InWords:
-        step = there.step(whole(there, programs)) if programs else anew(there)
+        step = there.step(misplaced(there)) if _NO_IMPORT.search(cause.text) else None
+        step = step or (there.step(whole(there, programs)) if programs else anew(there))
         return replace(cause, hint=step or cause.hint)
     return cause
 

@@ -95,7 +95,15 @@ def timed(file: NodeFile) -> list[Edit]:
         return _new_timer(file, group, of_group)
     given = argument(made, 1, "callback")
     code = f"{ast.unparse(made.func)}({1 / HZ:g}, {ast.unparse(given or made)}, {_GROUP}={group}())"
+    if made_late(file):
+        return [*of_group, *file.adds_to_setup(code)]
     return [*of_group, instead(file.text, made, code)]
+
+
+def made_late(file: NodeFile) -> bool:
+    """Whether the timer is made by the service's callback, with each call."""
+    made = timer(file)
+    return made is not None and file.within(made) is not None and file.within(made) is working(file)
 
 
 def _new_timer(file: NodeFile, group: str, of_group: list[Edit]) -> list[Edit]:

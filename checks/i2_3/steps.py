@@ -12,6 +12,7 @@ from checks.i2_3 import rewriting
 from checks.i2_3.facts import SERVICE, WORK_S
 from checks.i2_3.rewriting import every, service, ticking, timer, working
 from checks.i2_3.ticks import HZ
+from tutor.judge.causes.printing import audible
 from tutor.judge.edits import Edit, becomes, instead, removed
 from tutor.judge.rewriting.node import NodeFile, argument, started
 from tutor.judge.rewriting.program import program
@@ -245,8 +246,10 @@ def _number(expression: ast.expr) -> float | None:
 
 def ticks(file: NodeFile) -> str | None:
     """The step that rewrites the timer and its callback."""
+    late = every(file, rewriting.timed(file), rewriting.answering(file)) if rewriting.made_late(file) else []
     return (
-        file.step(rewriting.logged(file))
+        file.step(late)
+        or file.step(rewriting.logged(file))
         or file.step(every(file, rewriting.timed(file), rewriting.logged(file)))
         or everything(file)
     )
@@ -257,8 +260,7 @@ def silent(file: NodeFile) -> Cause | None:
     made, found = timer(file), ticking(file)
     given = [each for call in file.calls("__init__", "Node") for each in call.keywords]
     if (off := next((each.value for each in given if each.arg == "enable_rosout"), None)) is not None:
-        louder = file.step([instead(file.text, off, "True")])
-        return _found(f"line {off.lineno}: what the node logs does not leave it", louder)
+        return _found(f"line {off.lineno}: what the node logs does not leave it", audible(file))
     if made is None or found is None:
         return _found("the node makes no timer", everything(file)) if file.tree.body and not file.timers else None
     logs = [each for each in ast.walk(found) if isinstance(each, ast.Call) and called(each) in _LOGS]

@@ -354,3 +354,20 @@ def test_a_launch_file_that_python_cannot_read_is_told_as_a_whole_one() -> None:
     assert "executable='talker'" in code
     assert "executable='listener'" in code
     compile(code, "my_launch.py", "exec")
+
+
+def test_a_class_that_is_imported_from_elsewhere_gets_the_line_of_its_own() -> None:
+    there = changed(
+        (
+            "from launch.actions import DeclareLaunchArgument\n",
+            "from launch.actions import DeclareLaunchArgument, Node\n",
+        ),
+        ("from launch_ros.actions import Node\n", ""),
+    )
+    cause = Cause("import error", "ImportError: cannot import name 'Node' from 'launch.actions'", "take it out there")
+
+    step = steps.followed(there, cause).hint
+
+    assert step == (
+        "line 2 becomes:\n    from launch.actions import DeclareLaunchArgument\n    from launch_ros.actions import Node"
+    )

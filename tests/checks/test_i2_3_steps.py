@@ -10,6 +10,7 @@ from checks.i2_3 import rewriting, steps
 from tests.checks.made import trace
 from tests.judging import find
 from tutor.content.submissions import Case
+from tutor.judge.following import follow
 from tutor.judge.rewriting.node import NodeFile
 
 NODE = """\
@@ -213,3 +214,15 @@ def test_a_step_names_its_file_where_there_are_others() -> None:
     read = steps.read(trace(sources={"node.py": NODE.replace("time.sleep(3.0)", "time.sleep(9.0)"), "other.py": ""}))
 
     assert steps.working_for(read) == "in node.py, line 18 becomes: time.sleep(3.0)"
+
+
+def test_a_timer_that_each_call_makes_is_made_with_the_service() -> None:
+    made = "        self.timer = self.create_timer(0.1, self.tick, callback_group=self.other)\n"
+    file = changed((made, ""), ("        time.sleep(3.0)\n", f"{made}        time.sleep(3.0)\n"))
+
+    step = steps.ticks(file)
+
+    assert step is not None
+    code = follow(step, {"node.py": file.text})["node.py"]
+    assert code.count("create_timer(") == 1
+    assert code.index("create_timer(") < code.index("def add(")

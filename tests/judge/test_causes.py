@@ -427,3 +427,10 @@ def test_a_lifecycle_node_that_nobody_activates(source: str, steps: list[str]) -
         },
     )
     assert of_lifecycle(awake) is None
+
+
+def test_logs_that_do_not_reach_rosout_are_let_out() -> None:
+    text = "class A(Node):\n    def __init__(self):\n        super().__init__('a', enable_rosout=False)\n"
+    found = of_printed(trace(err=CONSOLE, sources={"node.py": text}), lambda said: "kx7" in said, "the name")
+    assert found is not None
+    assert found.hint == "line 3 becomes: super().__init__('a', enable_rosout=True)"

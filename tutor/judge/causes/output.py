@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterable, Sequence
 
 from tutor.judge import source, tracebacks
 from tutor.judge.causes import names, printing
+from tutor.judge.rewriting.node import started
 from tutor.judge.trace import OutputLine, Trace
 from tutor.judge.verdict import Cause
 
@@ -52,7 +53,8 @@ def of_printed(
             return Cause(
                 "rosout switched off",
                 f"{what} is logged by the node, but nothing that it logs reaches /rosout: {logged[0].string}",
-                "leave out enable_rosout=False, and --disable-rosout-logs among the arguments",
+                printing.audible(started(trace))
+                or "leave out enable_rosout=False, and --disable-rosout-logs among the arguments",
             )
         return Cause(
             "not the node's logger",

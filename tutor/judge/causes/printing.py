@@ -7,6 +7,8 @@ import re
 from collections.abc import Iterator
 
 from tutor.judge import source
+from tutor.judge.edits import swapped
+from tutor.judge.rewriting.node import NodeFile
 from tutor.judge.trace import Trace
 
 _LEVELS = ("debug", "info", "warning", "warn", "error", "critical", "exception")
@@ -33,6 +35,22 @@ def python_logging(trace: Trace, text: str = "") -> ast.Call | None:
     if not text:
         return next(iter(calls), None)
     return next((call for call in calls if _wrote(call, text)), None)
+
+
+def audible(file: NodeFile) -> str | None:
+    """The step after which what the node logs reaches /rosout, where its file keeps that from it."""
+    off = [
+        (each.value, "True")
+        for call in file.calls("__init__", "Node", "create_node")
+        for each in call.keywords
+        if each.arg == "enable_rosout"
+    ]
+    off += [
+        (each, repr("--enable-rosout-logs"))
+        for each in ast.walk(file.tree)
+        if isinstance(each, ast.Constant) and each.value == "--disable-rosout-logs"
+    ]
+    return file.step(swapped(file.text, *off))
 
 
 def logged(trace: Trace, call: ast.Call) -> str:
