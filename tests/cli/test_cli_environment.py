@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from tutor.process import interpreter
+from tutor import interpreter
 
 ROOT = Path(__file__).parents[2]
 LIMIT_S = 300

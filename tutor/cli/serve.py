@@ -5,9 +5,9 @@ from __future__ import annotations
 import argparse
 import secrets
 
+from tutor import interpreter
 from tutor.cli import context, terminal
 from tutor.cli.errors import INTERRUPTED, UsageError
-from tutor.process import interpreter
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -11,7 +11,7 @@ from importlib.machinery import ModuleSpec, PathFinder
 from pathlib import Path
 from types import ModuleType
 
-from tutor.process import interpreter
+from tutor import interpreter
 from tutor.ros import prefixes
 from tutor.ros.environment import RosEnvironment, tutor_env
 

@@ -16,9 +16,9 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from tutor import interpreter
 from tutor.content import Course, Lesson, LessonFile, Partner
 from tutor.judge.result import ExerciseResult
-from tutor.process import interpreter
 from tutor.tui import run_options
 from tutor.tui.node import NodeCommand
 from tutor.tui.terminal.shell import Shell

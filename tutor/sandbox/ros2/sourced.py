@@ -9,7 +9,7 @@ import tempfile
 from collections.abc import Mapping
 from pathlib import Path
 
-from tutor.process import interpreter
+from tutor import interpreter
 from tutor.ros.environment import RosEnvironment, learner_env
 from tutor.ros.prefixes import entries, is_ours, joined
 from tutor.sandbox.ros2 import sources

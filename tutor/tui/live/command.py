@@ -6,7 +6,7 @@ import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from tutor.process import interpreter
+from tutor import interpreter
 
 
 @dataclass(frozen=True, slots=True)
