@@ -11,6 +11,7 @@ from tutor.content import Lesson
 from tutor.engine.admission import Admission
 from tutor.engine.bench import LiveBench
 from tutor.engine.errors import EngineError
+from tutor.engine.untouched import begin_there, first_todo
 from tutor.judge.bench import MachineTooBusy, OnlyWithRos, Scenario
 from tutor.judge.check import Check, Criterion
 from tutor.judge.events import CheckStarted, CriterionJudged, Event, ExerciseJudged, Progress
@@ -46,6 +47,7 @@ class Runner:
         self._scenarios: dict[Scenario[Any], asyncio.Task[Any]] = {}
         self._verdicts: dict[str, asyncio.Task[Verdict]] = {}
         self._progress: dict[Scenario[Any], tuple[float, str]] = {}
+        self._todo = first_todo(lesson, submission)
         self._started = time.monotonic()
 
     async def run(self) -> ExerciseResult:
@@ -93,7 +95,8 @@ class Runner:
                 return skipped(f"not judged, because `{dependency}` did not pass")
         try:
             facts = [await self._ask(scenario) for scenario in criterion.facts]
-            return criterion.judge(*facts)
+            text = self._texts.get(criterion.id)
+            return begin_there(criterion.judge(*facts), self._todo, text.hint if text else "")
         except EngineError as error:
             return fault(str(error), error.mend)
         except MachineTooBusy as error:

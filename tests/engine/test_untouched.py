@@ -1,0 +1,38 @@
+"""A skeleton as the lesson gave it is told where to begin, not the code that is asked for."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+
+from tutor.content import Lesson, load_course
+from tutor.engine.untouched import begin_there, first_todo
+from tutor.judge.submission import Submission
+from tutor.judge.verdict import Cause, failed, passed
+
+LESSONS = load_course().lessons
+
+
+@pytest.mark.parametrize("lesson", LESSONS, ids=[lesson.id for lesson in LESSONS])
+def test_an_untouched_skeleton_has_a_first_todo_until_it_is_changed(lesson: Lesson, tmp_path: Path) -> None:
+    files = {file.name: tmp_path / file.name for file in lesson.files if file.skeleton.is_file()}
+    for file in lesson.files:
+        shutil.copyfile(file.skeleton, tmp_path / file.name)
+    submission = Submission(lesson.id, files)
+    todo = first_todo(lesson, submission)
+    name, _, line = todo.partition(", line ")
+    assert "TODO" in files[name].read_text().splitlines()[int(line) - 1]
+    with files[name].open("a") as begun:
+        begun.write("# mine\n")
+    assert first_todo(lesson, submission) == ""
+
+
+def test_its_next_step_is_the_hint_of_the_criterion() -> None:
+    verdict = failed("a", "b", Cause("no publisher", "there is none", "line 3 becomes: all of it"))
+    told = begin_there(verdict, "node.py, line 8", "Create a publisher.")
+    assert told.hint == "work through the TODOs of the skeleton, from node.py, line 8 on. Create a publisher."
+    assert (told.cause, told.status) == (verdict.cause, verdict.status)
+    assert begin_there(verdict, "", "Create a publisher.") == verdict
+    assert begin_there(passed("a", "b"), "node.py, line 8", "x") == passed("a", "b")
