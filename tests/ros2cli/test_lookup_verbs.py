@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import argparse
+
+import pytest
+
 from tests.ros2cli.bench import Bench, Ran
 
 
@@ -64,3 +68,14 @@ def test_types_and_packages_are_listed(bench: Bench) -> None:
     assert packages == sorted(packages)
     assert {"rclpy", "std_msgs", "demo_nodes_py"} <= set(packages)
     assert "demo_nodes_py talker" in bench.ros2("pkg", "executables", "demo_nodes_py").stdout.splitlines()
+
+
+def test_what_the_doctor_cannot_report_is_refused_in_a_line(capsys: pytest.CaptureFixture[str]) -> None:
+    from tutor.sandbox.ros2.doctor import add_arguments, main
+
+    parser = argparse.ArgumentParser()
+    add_arguments(parser)
+    assert main(parser.parse_args(["--report-failed"])) == 2
+    said = capsys.readouterr()
+    assert (said.out, said.err.count("\n")) == ("", 1)
+    assert "--report-failed is not supported" in said.err

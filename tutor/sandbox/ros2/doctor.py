@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import os
 import platform
+import sys
 from collections.abc import Callable, Iterator
 from importlib.metadata import PackageNotFoundError, version
 
@@ -13,13 +14,17 @@ from tutor.sandbox.ros2.joining import Domain, joined
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """[--report] [--include-warnings]."""
+    """[--report] [--include-warnings]; --report-failed is refused."""
     parser.add_argument("--report", "-r", action="store_true", help="what is here, without judging it")
     parser.add_argument("--include-warnings", "-iw", action="store_true", help="warnings count as failures")
+    parser.add_argument("--report-failed", "-rf", action="store_true", help="not supported here")
 
 
 def main(arguments: argparse.Namespace) -> int:
     """Print what is wrong, and how many checks passed; 1 where one failed."""
+    if arguments.report_failed:
+        print("ros2 doctor: --report-failed is not supported here; use --report", file=sys.stderr)
+        return 2
     if arguments.report:
         for title, facts in _report():
             print(f"\n   {title}")
