@@ -73,6 +73,15 @@ os._exit(0)
     assert texts(learner) == ["first", "last"]
 
 
+async def test_what_is_printed_before_an_error_is_above_it(bench: Any) -> None:
+    source = "for n in range(300): print(n, flush=True); print(n, file=sys.stderr, flush=True)"
+    learner = await bench.start(source)
+    await ended(learner)
+    order = {(line.stream, line.text): place for place, line in enumerate(learner.output)}
+    assert len(order) == 600
+    assert [n for n in range(300) if order["stdout", str(n)] > order["stderr", str(n)]] == []
+
+
 async def test_partial_last_line(bench: Any) -> None:
     learner = await bench.start("sys.stdout.write('whole\\nhalf'); sys.stdout.flush(); forever()")
     await bench_until(lambda: texts(learner) == ["whole", "half"])

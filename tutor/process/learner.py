@@ -54,7 +54,7 @@ class LearnerProcess:
             made.callback(self._stdin.close)
             stdout = PipeReader(lambda data: self._take("stdout", data))
             made.callback(stdout.close)
-            stderr = PipeReader(lambda data: self._take("stderr", data))
+            stderr = PipeReader(self._take_stderr)
             made.pop_all()
         self._stdout, self._stderr = stdout, stderr
         self._link = WardenLink(self._run, frozenset((stdout.inode, stderr.inode)), self._set_exit)
@@ -190,6 +190,10 @@ class LearnerProcess:
     def _take(self, stream: str, data: bytes) -> None:
         self._output.feed(stream, data, time.time())
         self._changed()
+
+    def _take_stderr(self, data: bytes) -> None:
+        self._stdout.drain()  # what was printed before this is in its pipe by now, and is shown above it
+        self._take("stderr", data)
 
     def _changed(self) -> None:
         if self._on_change is not None and self._change is None:
