@@ -1,6 +1,7 @@
 """Submissions under tests/submissions are judged as their expect.yaml says: a sample, so that the tests end in minutes.
 
-Which ones, `tests.sampling` says; `python -m tests.soundness` judges all.
+Which ones, `tests.sampling` says; `python -m tests.soundness` judges all. With them all hostile ones, whose cost
+`python -m tests.hostile` shows.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from pathlib import Path
 import pytest
 
 from tests import soundness
+from tests.hostile import find_hostile
 from tests.judging import Outcome, compare, find, holds_here, judge
 from tests.sampling import sample, shows
 from tutor.content.submissions import Case, Expected
@@ -25,7 +27,7 @@ from tutor.judge.verdict import Status, Verdict
 
 JOBS = 6
 EVERY, BROKEN = find()
-ALL = [case for case in sample(EVERY) if holds_here(case)]
+ALL = [case for case in [*sample(EVERY), *find_hostile()] if holds_here(case)]
 
 
 @pytest.fixture(scope="module")
@@ -150,6 +152,7 @@ def test_the_table_counts_and_the_flaky_are_named() -> None:
 BUSY_AND_KILLED = """
 import os, signal
 from tests import soundness
+from tests.hostile import find_hostile
 soundness.BUSY_LIMIT_S = 60.0  # should this fail, nothing is left for long
 with soundness.busy_cores(2):
     os.kill(os.getpid(), signal.SIGKILL)

@@ -25,7 +25,8 @@ class Expected:
     or skipped; `either` may be anything but an error; `bonus_failed` are bonus criteria that are failed. `causes` maps
     a criterion ("" stands for all that fail) to texts, one of which is in its cause, `steps` likewise to what is in its
     next step. `gone` is in the command line of
-    no process afterwards. `ros` is the only kind of ROS that this holds for, where it is not empty.
+    no process afterwards. `ros` is the only kind of ROS that this holds for, where it is not empty. `exit` is the exit
+    code of `ros-tutor check`, where it is told; with 3, criteria may end in an error.
     """
 
     says: str
@@ -39,6 +40,7 @@ class Expected:
     steps: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     gone: str = ""
     ros: str = ""
+    exit: int | None = None
 
     @property
     def named(self) -> Mapping[str, tuple[str, ...]]:
@@ -90,6 +92,7 @@ def read_expected(file: Path) -> Expected:
         steps=_texts_of_criteria(fields, "step"),
         gone=fields.text("gone", optional=True),
         ros=fields.text("ros", optional=True),
+        exit=None if (code := fields.number("exit")) is None else int(code),
     )
     fields.done()
     return expected
