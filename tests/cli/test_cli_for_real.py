@@ -6,6 +6,8 @@ import json
 import subprocess
 import sys
 
+import pytest
+
 from tests.report.shape import assert_report_shape
 
 PROGRAM = "import sys; from tutor.cli import main; sys.exit(main(sys.argv[1:]))"
@@ -26,3 +28,19 @@ def test_our_solution_publishes() -> None:
     (exercise,) = document["exercises"]
     assert exercise["submission"] == ["temperature_publisher.py"]
     assert [criterion["id"] for criterion in exercise["criteria"]] == ["publishes"]
+
+
+def test_a_loopback_that_is_down_is_the_machines_fault() -> None:
+    private = ["unshare", "--user", "--map-root-user", "--net"]
+    if subprocess.run([*private, "true"], check=False, capture_output=True).returncode != 0:
+        pytest.skip("this kernel lets nobody have a network of their own")
+    ran = subprocess.run(
+        [*private, sys.executable, "-c", PROGRAM, "check", "i1.1", "--solution"],
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+    )
+    assert (ran.returncode, ran.stdout) == (3, "")
+    assert ran.stderr.startswith("ros-tutor: nothing can be sent to 127.0.0.1 (")
+    assert ran.stderr.endswith("switch the loopback interface on: sudo ip link set lo up\n")

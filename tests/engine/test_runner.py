@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import asyncio
+import os
+import signal
 import time
 from typing import Any
 
@@ -233,3 +235,42 @@ async def test_a_front_end_that_breaks_ends_the_check_cleanly(scene: Scene) -> N
 
     with pytest.raises(BrokenPipeError):
         await scene.judge(criterion("a", start), on_event=broken)
+
+
+async def test_killed_once_by_others_it_is_looked_at_again(scene: Scene) -> None:
+    """Who sends SIGKILL cannot be known: a program's own kill of itself shows each time."""
+    met: list[str] = []
+
+    async def meets(bench: Bench) -> str:
+        async with bench.start(FILE) as run:
+            assert await run.until(lambda: bool(run.output) or run.exit is not None, 20)
+            if not met:
+                os.kill(int(run.output[0].text), signal.SIGKILL)
+                await run.ends(20)
+            met.append(str(run.exit))
+            return met[-1]
+
+    source = "import os, time; print(os.getpid(), flush=True); time.sleep(1000)"
+    assert plain(await scene.judge(criterion("once", meets, judge=lives), source=source)) == {"once": "passed"}
+    assert met == ["signal 9", "None"]
+    source = "import os; os.kill(os.getpid(), 9)"
+    assert plain(await scene.judge(criterion("each time", meets, judge=lives), source=source)) == {
+        "each time": "failed"
+    }
+    assert met[2:] == ["signal 9", "signal 9"]
+
+
+def lives(found: str) -> Verdict:
+    return passed("lives", found) if found == "None" else fails()
+
+
+async def test_what_the_supervisors_end_does_to_a_check_is_no_failure(scene: Scene) -> None:
+    async def broken(bench: Bench) -> str:
+        async with bench.start(FILE) as run:
+            await run.ends(20)
+            raise ValueError("what the check makes of facts that mean nothing")
+
+    source = "import os, time; os.kill(os.getppid(), 9); time.sleep(1000)"
+    (judged,) = (await scene.judge(criterion("any", broken), source=source)).criteria
+    assert judged.verdict.status is Status.ERROR
+    assert "looks after the program was killed" in str(judged.verdict.cause)

@@ -316,6 +316,7 @@ async def test_the_warden_killed(bench: Any, name: str) -> None:
     assert await learner.wait(20) is not None
     assert learner.exit is not None
     assert learner.exit.signal == signal.SIGKILL
+    assert "was killed, and the program with it" in learner.fault
     await learner.end()
     assert bench.left() == []
     assert await learner.survivors() == []
@@ -357,9 +358,35 @@ while not os.path.exists('child'): time.sleep(0.001)
     child = await bench.noted_pid("child")
     found = await learner.wait(20)
     os.kill(processes()[child].parent, signal.SIGKILL)
+    await bench.until(lambda: learner.fault, "that the warden was killed is known")
     await learner.end()
     assert bench.left() == []
     assert learner.exit == found
+
+
+async def test_who_ends_it_is_no_other(bench: Any) -> None:
+    learner = await bench.start(CHILD)
+    await bench.noted_pid("child")
+    await learner.end()
+    assert learner.exit is not None
+    assert learner.exit.signal == signal.SIGKILL
+    assert not learner.killed
+    assert learner.fault == ""
+
+
+@pytest.mark.parametrize("out_of_memory", [False, True])
+async def test_killed_by_the_system(bench: Any, monkeypatch: pytest.MonkeyPatch, out_of_memory: bool) -> None:
+    """Its own kill of itself and that of the system look alike, but for the system's count of those that it made."""
+    counts = bench.folder / "vmstat"
+    counts.write_text("nr_free_pages 1\noom_kill 3\n")
+    monkeypatch.setattr("tutor.process.memory._VMSTAT", counts)
+    counted = f"open('vmstat', 'w').write('oom_kill {3 + out_of_memory}\\n')"
+    learner = await bench.start(f"{counted}\nos.kill(os.getpid(), signal.SIGKILL)")
+    assert str(await learner.wait(20)) == "signal 9"
+    assert learner.killed
+    assert learner.fault == (
+        "the machine ran out of memory, and the system killed the program" if out_of_memory else ""
+    )
 
 
 async def test_the_warden_told_to_end(bench: Any) -> None:
@@ -368,6 +395,7 @@ async def test_the_warden_told_to_end(bench: Any) -> None:
     os.kill(await warden_of(learner), signal.SIGTERM)
     await bench.all_gone()
     assert str(await learner.wait(20)) == "signal 9"
+    assert "was killed, and the program with it" in learner.fault
 
 
 async def test_the_warden_stopped(bench: Any, monkeypatch: pytest.MonkeyPatch) -> None:

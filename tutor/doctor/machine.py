@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import platform
-import socket
 import sys
 import tempfile
 from pathlib import Path
 
 from tutor.doctor.finding import Finding
-from tutor.ros.isolation import loopback_multicast_works
+from tutor.ros.isolation import loopback_multicast_works, prove_loopback
 
 _NEEDED_PYTHON = (3, 12)
 
@@ -30,11 +29,7 @@ def python_version(version: tuple[int, int] = sys.version_info[:2], platform_nam
 def loopback() -> Finding:
     """Whether a datagram to 127.0.0.1 arrives."""
     try:
-        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as own:
-            own.settimeout(1.0)
-            own.bind(("127.0.0.1", 0))
-            own.sendto(b"hello", own.getsockname())
-            own.recv(16)
+        prove_loopback()
     except OSError as error:
         text = f"Nothing can be sent to 127.0.0.1 ({error})."
         return Finding("Loopback network", False, text, "Switch the loopback interface on: sudo ip link set lo up")

@@ -36,13 +36,19 @@ UP_S = 1.5
 LAUNCH_S = 3.0
 """A launch starts and ends three processes, so it has this much longer a way to go than one node."""
 
+_WHO_KILLS = (
+    "see what else runs on this machine, and whether your program itself takes much memory or kills processes; then "
+    "check again"
+)
+
 
 @dataclass(frozen=True, slots=True)
 class LiveBench:
     """The `Bench` of `tutor.judge.bench` for one scenario.
 
     `asks_s`: how many seconds of the clock its check asks for; where several are to start, the longest goes first (a
-    start may say how many it asks for itself). `exceptions`: the check's own known ones.
+    start may say how many it asks for itself). `exceptions`: the check's own known ones. `kills`: the files whose
+    process ended with SIGKILL, by itself or by others.
     """
 
     submission: Submission
@@ -52,6 +58,7 @@ class LiveBench:
     admission: Admission = field(default_factory=Admission)
     asks_s: float = 0.0
     exceptions: tuple[Known, ...] = ()
+    kills: list[Path] = field(default_factory=list)
 
     @asynccontextmanager
     async def start(
@@ -138,7 +145,10 @@ class LiveBench:
                 async with await LearnerProcess.start(
                     argv, env=env, cwd=path.parent, terminal=terminal, on_change=facts.change
                 ) as process:
-                    yield LiveRun(path, parameters, domain_id, process, observer, facts, self.exceptions)
+                    with _unless_ended_by_others(process):
+                        yield LiveRun(path, parameters, domain_id, process, observer, facts, self.exceptions)
+                    if process.killed:
+                        self.kills.append(path)
             finally:
                 observer.close()
 
@@ -168,6 +178,18 @@ async def _told_when_up(run: Run, nodes: int, up: Callable[[], None]) -> AsyncIt
     finally:
         watching.cancel()
         await asyncio.gather(watching, return_exceptions=True)
+
+
+@contextmanager
+def _unless_ended_by_others(process: LearnerProcess) -> Iterator[None]:
+    """Whatever was seen of a process that the machine or others have ended: an EngineError says so."""
+    try:
+        yield
+    except Exception:
+        if not process.fault:
+            raise
+    if process.fault:
+        raise EngineError(process.fault, _WHO_KILLS)
 
 
 @contextmanager

@@ -32,9 +32,15 @@ async def check(
     from tutor.engine.modules import load_check
     from tutor.ros import bytecode, this_process
     from tutor.ros.environment import detect
+    from tutor.ros.isolation import prove_loopback
 
     started = time.monotonic()
     together = admission or Admission()
+    try:
+        prove_loopback()
+    except OSError as error:
+        what = f"nothing can be sent to 127.0.0.1 ({error}), and nodes talk over it"
+        raise EngineError(what, "switch the loopback interface on: sudo ip link set lo up") from error
     ros = detect()
     try:
         this_process.use(ros, isolated=True)

@@ -15,7 +15,7 @@ from types import TracebackType
 from typing import Self
 
 from tutor.judge.trace import Exit, OutputLine
-from tutor.process import sweep
+from tutor.process import memory, sweep
 from tutor.process.errors import EndError, StartError
 from tutor.process.link import WardenLink
 from tutor.process.output import Output
@@ -49,6 +49,8 @@ class LearnerProcess:
         self._exit: Exit | None = None
         self._exited: asyncio.Future[None] = self._loop.create_future()
         self._run = uuid.uuid4().hex
+        self._out_of_memory = memory.kills()
+        self._fault = ""
         with contextlib.ExitStack() as made:
             self._stdin = Stdin(terminal=terminal)
             made.callback(self._stdin.close)
@@ -111,6 +113,16 @@ class LearnerProcess:
     def exit(self) -> Exit | None:
         """How the process ended; None while it lives. Once set, all that it wrote is in `output`."""
         return self._exit
+
+    @property
+    def killed(self) -> bool:
+        """Whether it ended with SIGKILL before it was to `end`: by itself, or by others, which cannot be told apart."""
+        return self._exit is not None and self._exit.signal == signal.SIGKILL and not self._link.ending
+
+    @property
+    def fault(self) -> str:
+        """Why its exit says nothing about the program: the machine or others ended it. Empty where nothing is known."""
+        return self._link.fault or self._fault
 
     @property
     def output(self) -> tuple[OutputLine, ...]:
@@ -212,6 +224,8 @@ class LearnerProcess:
         # All that the process itself wrote is in the pipes by now; others may hold them open and go on writing.
         self._drain()
         self._exit = ended
+        if self.killed and memory.kills() > self._out_of_memory:
+            self._fault = "the machine ran out of memory, and the system killed the program"
         self._exited.set_result(None)
         self._changed()
 

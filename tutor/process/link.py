@@ -21,6 +21,8 @@ _WARDEN = Path(__file__).with_name("warden.py")
 _WARDEN_LIMIT_S = 3.0
 _SWEEP_LIMIT_S = 5.0
 
+_KILLED = "the process of ros-tutor that looks after the program was killed, and the program with it"
+
 
 class WardenLink(asyncio.Protocol):
     """The link to one warden, and through it to one process of a learner and its descendants.
@@ -33,6 +35,9 @@ class WardenLink(asyncio.Protocol):
         """`run` and `pipes` are what the processes can be known by (see `sweep.Marks`)."""
         self.pid = 0
         self.started_at = 0.0
+        self.fault = ""
+        """Why its end says nothing about the program: the warden was ended by others. Empty where it was not."""
+        self.ending = False
         self._loop = asyncio.get_running_loop()
         self.ready: asyncio.Future[str] = self._loop.create_future()
         self.gone: asyncio.Future[str] = self._loop.create_future()
@@ -44,7 +49,6 @@ class WardenLink(asyncio.Protocol):
         self._control: asyncio.Transport | None = None
         self._heard = b""
         self._last_word = False
-        self._ending = False
         self._step_in: asyncio.TimerHandle | None = None
 
     async def start(self, request: bytes, stdin: int, stdout: int, stderr: int) -> None:
@@ -79,7 +83,7 @@ class WardenLink(asyncio.Protocol):
 
     def interrupt(self) -> None:
         """Have SIGINT sent to the learner's process group."""
-        if self._control is not None and not self._ending and not self._control.is_closing():
+        if self._control is not None and not self.ending and not self._control.is_closing():
             self._control.write(b"interrupt\n")
 
     def living(self) -> list[Process]:
@@ -91,9 +95,9 @@ class WardenLink(asyncio.Protocol):
 
     def end(self) -> None:
         """Begin to end everything; `gone` tells when that is done. May be called more than once."""
-        if self._ending or self.gone.done():
+        if self.ending or self.gone.done():
             return
-        self._ending = True
+        self.ending = True
         if self._warden is None:
             self.gone.set_result("")
         elif self._control is not None and not self._control.is_closing():
@@ -111,6 +115,8 @@ class WardenLink(asyncio.Protocol):
 
     def connection_lost(self, error: Exception | None) -> None:
         """After the warden's last word all is well; else its charges are orphans, to be found by their marks."""
+        if self.pid and not self.ending:
+            self.fault = _KILLED
         if self._last_word:
             self._finish("")
         else:
@@ -129,6 +135,8 @@ class WardenLink(asyncio.Protocol):
             code = os.waitstatus_to_exitcode(int(status))
             self._exited = True
             self._on_exit(Exit(code if code >= 0 else None, -code if code < 0 else None, float(after_s)))
+        elif word == "terminated":
+            self.fault = _KILLED
         elif word == "ended":
             self._last_word = True
 

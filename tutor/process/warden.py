@@ -8,7 +8,8 @@ It talks over one socket, whose file descriptor is its only argument beside our 
 
     us to warden   a request (see `pack_request`), then `interrupt` lines; the end of the stream means: end everything.
                    The stream ends by itself when our process dies, SIGKILL included.
-    warden to us   lines: `started PID EPOCH`, or `failed SENTENCE`; `exit WAITSTATUS AFTER_S`; and `ended` as the last.
+    warden to us   lines: `started PID EPOCH`, or `failed SENTENCE`; `exit WAITSTATUS AFTER_S`; `terminated`, where a
+                   SIGTERM has it end everything; and `ended` as the last.
 
 The functions that read /proc are used on our side too.
 """
@@ -144,6 +145,8 @@ class Warden:
         if self._start(rest[: int(count)], environment, cwd):
             try:
                 self._watch()
+                if self._orphaned:
+                    self._say("terminated")
             finally:
                 self._end()
             self._say("ended")

@@ -54,6 +54,15 @@ def ports_of_this_process(environ: Mapping[str, str] = os.environ) -> tuple[int,
     return _OWN_PORTS if named == {str(PROFILE)} else None
 
 
+def prove_loopback() -> None:
+    """Send a datagram to 127.0.0.1. Raises OSError where it does not arrive within a second."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as own:
+        own.settimeout(1.0)
+        own.bind((_LOOPBACK, 0))
+        own.sendto(b"hello", own.getsockname())
+        own.recv(16)
+
+
 @cache
 def loopback_multicast_works() -> bool:
     """Whether a multicast datagram sent over the loopback interface comes back; tried once, within half a second."""

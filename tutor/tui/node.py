@@ -121,7 +121,7 @@ class Node:
             self._changed.clear()
             self._say(self._with_output(process))
             await process.wait(SHOW_EVERY_S)  # a flood gathers meanwhile; an end is shown at once
-        how, failed = _ending(process.exit, self.state)
+        how, failed = _ending(process.exit, self.state) if not process.fault else (process.fault, True)
         self._say(replace(self._with_output(process), note=how, failed=failed))
 
     async def _stop_when_asked(self, process: LearnerProcess) -> None:

@@ -53,6 +53,9 @@ def _of_exit(trace: Trace) -> Cause:
         )
     if (torn := of_torn_thread(trace.exit, trace.output)) is not None:
         return torn
+    if trace.exit.signal == signal.SIGKILL:
+        who = "it happens on each start: look for what sends SIGKILL, os.kill in your code or a tool on this machine"
+        return Cause("killed", f"{ended} (SIGKILL)", who)
     if trace.exit.signal is not None:
         return Cause("killed", f"{ended} ({_signal_name(trace.exit.signal)})", "see the last lines of its output")
     if (refused := _of_usage(trace)) is not None:
