@@ -12,13 +12,14 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import ClassVar
 
-from textual.app import App, ComposeResult
+from textual.app import ComposeResult
 
 from tutor.ros.domain import reserve_domain
 from tutor.ros.environment import detect, learner_env
 from tutor.tui import messages
 from tutor.tui.live.command import LiveCommand, live_command
 from tutor.tui.live.pane import LivePane
+from tutor.tui.text_app import TextApp
 from tutor.tui.themes import DARK, LIGHT
 
 METRONOME = Path(__file__).with_name("metronome.py")
@@ -92,7 +93,7 @@ def world() -> Iterator[World]:
             made.close()
 
 
-class LiveApp(App[int]):
+class LiveApp(TextApp[int]):
     """The live page alone."""
 
     CSS: ClassVar[str] = "LivePane { height: 1fr; }"

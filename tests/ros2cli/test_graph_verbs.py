@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from tests.ros2cli.bench import TALKER, Bench, Ran
+from tests.ros2cli.bench import TALKER, Bench, Ran, command
+from tests.ros2cli.typing_at import terminal
 
 SERVER = """
 from example_interfaces.srv import AddTwoInts
@@ -36,6 +37,11 @@ node.create_service(AddTwoInts, "/add", add).configure_introspection(
 """,
 )
 NODE = "/math/server"
+HOSTILE = """
+node = rclpy.create_node("hostile")
+node.declare_parameter("a[/]gain", "\\x1b]0;owned\\x07\\x1b[2J\\x9b2J")
+spin(node)
+"""
 
 
 def test_nodes_are_listed_and_described(bench: Bench) -> None:
@@ -172,3 +178,11 @@ def test_the_doctor_names_a_topic_that_nobody_hears(bench: Bench) -> None:
     assert told == Ran(
         "UserWarning: Publisher without subscriber detected on /chatter.\n\nAll 3 checks passed\n\n", "", 0
     )
+
+
+def test_what_a_parameter_holds_steers_no_terminal_and_is_piped_as_it_is(bench: Bench) -> None:
+    words = ("param", "get", "--hide-type", "/hostile", "a[/]gain")
+    with bench.node(HOSTILE):
+        with terminal(command(*words), bench.env, bench.folder) as shown:
+            assert shown.until("\n") == "\\x1b]0;owned\\x07\\x1b[2J\\x9b2J\r\n"
+        assert bench.ros2(*words).stdout == "\x1b]0;owned\x07\x1b[2J\x9b2J\n"

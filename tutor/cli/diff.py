@@ -56,7 +56,5 @@ def _lines(lesson: Lesson, submission: Submission, *, solution: bool) -> Iterato
 
 
 def _colored(line: str) -> str:
-    from tutor.report.plain import printable
-
     color = next((color for start, color in _COLORS if line.startswith(start)), "")
-    return terminal.style(printable(line), color, sys.stdout)
+    return terminal.style(line, color, sys.stdout)

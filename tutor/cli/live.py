@@ -20,7 +20,8 @@ from tutor.cli import terminal
 from tutor.content import Course
 from tutor.judge.events import CheckStarted, CriterionJudged, Event, Progress
 from tutor.judge.result import CriterionResult
-from tutor.report.plain import MARKS, printable, seconds
+from tutor.printable import printable
+from tutor.report.plain import MARKS, seconds
 from tutor.report.text import STYLES
 
 _PER_SECOND = 10

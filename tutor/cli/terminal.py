@@ -8,6 +8,7 @@ import sys
 import textwrap
 from typing import TextIO
 
+from tutor.printable import harmless, printable
 from tutor.workspace.errors import StorageError
 
 _PLAIN_WIDTH = 100
@@ -15,11 +16,14 @@ _WIDEST = 120
 
 
 def out(text: str) -> None:
-    """Write to stdout, whatever its encoding. A reader that has gone away (`| head`) is no error."""
+    """Write to stdout, whatever its encoding, with no control sequence but colours.
+
+    A reader that has gone away (`| head`) is no error.
+    """
     if sys.stdout is None:
         return
     try:
-        sys.stdout.write(_encodable(text, sys.stdout))
+        sys.stdout.write(_encodable(harmless(text, colors=wants_color(sys.stdout)), sys.stdout))
         sys.stdout.flush()
     except BrokenPipeError:
         _to_nowhere(sys.stdout)
@@ -33,7 +37,7 @@ def say(text: str) -> None:
     if sys.stderr is None:
         return
     try:
-        sys.stderr.write(_encodable(f"ros-tutor: {text}\n", sys.stderr))
+        sys.stderr.write(_encodable(f"ros-tutor: {printable(text)}\n", sys.stderr))
         sys.stderr.flush()
     except OSError:
         _to_nowhere(sys.stderr)
@@ -76,7 +80,7 @@ def wrap(text: str, columns: int) -> str:
 
 def style(text: str, code: str, stream: TextIO | None) -> str:
     """Put `text` into an ANSI style ("1" bold, "2" dim, "32" green, ...) where the stream shows colours."""
-    return f"\x1b[{code}m{text}\x1b[0m" if code and wants_color(stream) else text
+    return f"\x1b[{code}m{printable(text)}\x1b[0m" if code and wants_color(stream) else text
 
 
 def _encodable(text: str, stream: TextIO) -> str:

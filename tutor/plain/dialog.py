@@ -17,7 +17,7 @@ from tutor.plain.lessons import Lessons
 from tutor.plain.lines import Lines
 from tutor.plain.nodes import Nodes
 from tutor.plain.speech import counted
-from tutor.report.plain import printable
+from tutor.printable import printable
 from tutor.tui.desk import Desk
 from tutor.workspace import StorageError, WorkspaceError
 

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 
 from tutor.judge.result import CriterionResult, ExerciseResult
 from tutor.judge.verdict import Status
-from tutor.report.plain import details, evidence_lines, one_line, printable, seconds, tally
+from tutor.printable import printable
+from tutor.report.plain import details, evidence_lines, one_line, seconds, tally
 
 WORDS = {
     Status.PASSED: "passed",

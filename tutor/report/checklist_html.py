@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from html import escape as escape_html
 
+from tutor.printable import printable
 from tutor.report.assessment import Assessment, ExerciseStanding, GroupStanding, ItemStanding
 from tutor.report.checklist import TITLE
-from tutor.report.plain import printable
 from tutor.report.saying import calendar_day, say_evidence
 
 # Text colours have a contrast of at least 4.5 to 1 on their ground, in light, dark and print.

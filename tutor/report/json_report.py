@@ -7,7 +7,7 @@ from dataclasses import asdict
 from typing import Any
 
 from tutor.judge.result import CriterionResult, ExerciseResult, Report
-from tutor.report.plain import printable
+from tutor.printable import printable
 
 SCHEMA = "ros-tutor/report/1"
 

@@ -1,25 +1,12 @@
-"""Makes text from a learner's process safe to show, and words that every format shares."""
+"""Words that every format shares."""
 
 from __future__ import annotations
 
-import re
-
 from tutor.judge.result import Environment, ExerciseResult
 from tutor.judge.verdict import Status, Verdict
+from tutor.printable import printable
 
 MARKS = {Status.PASSED: "✓", Status.FAILED: "✗", Status.SKIPPED: "-", Status.ERROR: "!"}
-
-_CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\ufffe\uffff]")
-_SURROGATE = re.compile("[\ud800-\udfff]")
-
-
-def printable(text: str) -> str:
-    """Show control characters as escapes, so that no log line can steer the terminal or break a document.
-
-    Line ends stay; tabs become spaces; what is no valid Unicode becomes a replacement character.
-    """
-    text = _SURROGATE.sub("\N{REPLACEMENT CHARACTER}", text.replace("\r\n", "\n").expandtabs(4))
-    return _CONTROL.sub(lambda found: found[0].encode("unicode_escape").decode(), text)
 
 
 def one_line(text: str, most: int = 300) -> str:

@@ -13,7 +13,8 @@ from rich.text import Text
 
 from tutor.judge.result import CriterionResult, ExerciseResult, Report
 from tutor.judge.verdict import Status
-from tutor.report.plain import MARKS, describe, details, printable, seconds, tally
+from tutor.printable import printable
+from tutor.report.plain import MARKS, describe, details, seconds, tally
 
 STYLES = {Status.PASSED: "green", Status.FAILED: "red", Status.SKIPPED: "yellow", Status.ERROR: "magenta"}
 

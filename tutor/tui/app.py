@@ -9,12 +9,13 @@ from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from textual.app import App, SystemCommand
+from textual.app import SystemCommand
 from textual.events import Event, Key, Paste
 from textual.screen import Screen
 
 from tutor.tui.desk import Desk
 from tutor.tui.screens.opening import OpeningScreen
+from tutor.tui.text_app import TextApp
 from tutor.tui.themes import DARK, LIGHT
 from tutor.tui.typeahead import Typeahead
 
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
     from tutor.tui.screens.main import MainScreen
 
 
-class TutorApp(App[int]):
+class TutorApp(TextApp[int]):
     """Opens on the welcome screen where there is no workspace yet, else on the lessons."""
 
     TITLE = "ROS Tutor"
@@ -81,7 +82,7 @@ class TutorApp(App[int]):
 
     def _tell(self, text: str) -> None:
         # Told from worker threads: a message queue is the way to the app's own thread.
-        self.call_later(self.notify, text, severity="warning", timeout=12, markup=False)
+        self.call_later(self.notify, text, severity="warning", timeout=12)
 
     def get_system_commands(self, screen: Screen[Any]) -> Iterable[SystemCommand]:
         """None of Textual's own: ours are in the palette already."""

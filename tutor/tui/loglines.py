@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from tutor.judge.trace import Level, OutputLine
+from tutor.printable import plain
 
 _ROS_LOG = re.compile(r"(?:\[[\w.-]+-\d+\] )?\[(DEBUG|INFO|WARN|ERROR|FATAL)\] \[(\d+\.\d+)\] \[([^\]]*)\]: ?(.*)")
-_CONTROL = re.compile(r"\x1b\[[0-9;?]*[ -/]*[@-~]|[\x00-\x08\x0b-\x1f\x7f]")
 _PLACE = re.compile(r'\s*File "([^"]+)", line (\d+)')
 _ERROR = re.compile(r"[\w.]*(Error|Exception|Interrupt)\b")
 
@@ -40,7 +40,7 @@ class LogLine:
 
 def read(line: OutputLine) -> LogLine:
     """What a line of output is."""
-    text = _CONTROL.sub("", line.text.expandtabs(4))
+    text = plain(line.text)
     stderr = line.stream == "stderr"
     if found := _ROS_LOG.match(text):
         level, stamp, name, said = found.groups()

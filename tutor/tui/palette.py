@@ -40,7 +40,7 @@ class Actions(Provider):
     async def discover(self) -> Hits:
         """What is offered before anything is typed."""
         for name, about, run in self._offers():
-            yield DiscoveryHit(name, run, help=about)
+            yield DiscoveryHit(Content(name), run, text=name, help=_help(about))
 
     async def search(self, query: str) -> Hits:
         """What has each of the typed words in its name."""
@@ -50,7 +50,7 @@ class Actions(Provider):
                 shown = Content(name)
                 for word in wanted:
                     shown = shown.highlight_regex(_plain(word), style="bold $accent")
-                yield Hit(0.9, shown, run, help=about, text=name)
+                yield Hit(0.9, shown, run, help=_help(about), text=name)
 
 
 class LessonText(Provider):
@@ -65,7 +65,7 @@ class LessonText(Provider):
                 return
             shown = Content.assemble(text).highlight_regex(_plain(query), style="bold $accent")
             about = f"{words.label(lesson)} {lesson.title}, line {line + 1}"
-            yield Hit(0.7 - number / 100, shown, partial(screen.go_to_line, lesson, line), text=text, help=about)
+            yield Hit(0.7 - number / 100, shown, partial(screen.go_to_line, lesson, line), text=text, help=_help(about))
 
 
 def found(lessons: tuple[Lesson, ...], query: str, first: Lesson) -> Iterator[tuple[Lesson, int, str]]:
@@ -81,3 +81,8 @@ def found(lessons: tuple[Lesson, ...], query: str, first: Lesson) -> Iterator[tu
 
 def _plain(query: str) -> str:
     return f"(?i){re.escape(query.strip())}"
+
+
+def _help(text: str) -> str:
+    """As the palette takes it: as markup."""
+    return text.replace("[", r"\[")

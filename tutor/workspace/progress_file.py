@@ -9,6 +9,7 @@ from contextlib import contextmanager
 from datetime import UTC, datetime
 from pathlib import Path
 
+from tutor.printable import printable
 from tutor.workspace.atomic import write_atomically
 from tutor.workspace.errors import StorageError
 from tutor.workspace.locking import lock
@@ -19,7 +20,7 @@ _LOCK_LIMIT_S = 10.0
 
 def to_stderr(message: str) -> None:
     """Say something to the learner beside the report."""
-    print(f"ros-tutor: {message}", file=sys.stderr)
+    print(f"ros-tutor: {printable(message)}", file=sys.stderr)
 
 
 class ProgressFile:

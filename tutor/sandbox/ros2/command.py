@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from types import FrameType
 from typing import Any, NoReturn
 
+from tutor.printable import guard
 from tutor.sandbox.ros2 import completing
 from tutor.sandbox.ros2.errors import CommandError
 from tutor.sandbox.ros2.parsing import PACKAGE, LazyParser, add_choices
@@ -66,6 +67,7 @@ def _run(argv: Sequence[str]) -> int:
     if completing.is_asked():
         completing.answer(parser)
     arguments = parser.parse_args(argv)
+    sys.stdout, sys.stderr = guard(sys.stdout), guard(sys.stderr)
     if not arguments.use_python_default_buffering:
         _write_by_lines(sys.stdout)
     try:

@@ -47,11 +47,11 @@ class ParametersPanel(Vertical):
 
     def compose(self) -> ComposeResult:
         yield RowTable(id="parameters-table")
-        yield Static(id="parameters-silent")
+        yield Static(id="parameters-silent", markup=False)
         with Horizontal(id="parameter-edit"):
-            yield Static(id="parameter-name")
+            yield Static(id="parameter-name", markup=False)
             yield Input(id="parameter-value", compact=True)
-        yield Static(id="parameter-problem")
+        yield Static(id="parameter-problem", markup=False)
         yield HistoryView(id="parameter-history")
         yield ActionBar(id="parameter-actions")
 
@@ -132,7 +132,7 @@ class ParametersPanel(Vertical):
         if (chosen := self._under_cursor()) is None:
             return
         if chosen.read_only:
-            self.notify(f"{chosen.name} is read-only: it is set when the node starts.", markup=False)
+            self.notify(f"{chosen.name} is read-only: it is set when the node starts.")
             return
         self.editing = chosen
         self.query_one("#parameter-name", Static).update(f"Set {chosen.node} {chosen.name} ({chosen.type})")

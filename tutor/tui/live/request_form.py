@@ -7,6 +7,7 @@ from typing import Any
 from textual import on
 from textual.app import ComposeResult
 from textual.containers import Horizontal, Vertical, VerticalScroll
+from textual.content import Content
 from textual.message import Message
 from textual.widgets import Input, Static
 
@@ -23,7 +24,7 @@ class FieldRow(Vertical):
 
     def compose(self) -> ComposeResult:
         with Horizontal():
-            yield Static(f"{self.field.path} [$quiet]{self.field.type.replace('[', chr(92) + '[')}[/]", classes="label")
+            yield Static(Content.assemble(f"{self.field.path} ", (self.field.type, "$quiet")), classes="label")
             yield Input(self.field.default, compact=True)
         yield Static(classes="problem", markup=False)
 

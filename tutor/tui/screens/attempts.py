@@ -7,6 +7,7 @@ from typing import ClassVar
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import VerticalScroll
+from textual.content import Content
 from textual.widgets import Static
 
 from tutor.content import Lesson
@@ -30,6 +31,6 @@ class AttemptsScreen(Dialog[None]):
 
     def compose(self) -> ComposeResult:
         with VerticalScroll(classes="window") as window:
-            window.border_title = f"{words.label(self._lesson)}: your attempts"
+            window.border_title = Content(f"{words.label(self._lesson)}: your attempts")
             window.border_subtitle = "Esc closes"
             yield Static(history(self._lesson, self._progress, most=200), classes="dialog-text")

@@ -115,7 +115,7 @@ class ChecklistScreen(Screen[None]):
         found, banner = self._assessment, self.query_one("#checklist-ready", Static)
         banner.display = ready and bool(found.ready_text)
         if banner.display:
-            banner.border_title = found.ready_title
+            banner.border_title = Content(found.ready_title)
             banner.update(Content.assemble(("✓ ", "bold $good"), found.ready_text, "\n", (_rest(found), "$quiet")))
             if (row := self.focused) is not None:  # the banner takes room from below
                 self.call_after_refresh(row.scroll_visible, animate=False)

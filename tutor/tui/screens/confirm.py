@@ -5,6 +5,7 @@ from __future__ import annotations
 from textual import on
 from textual.app import ComposeResult
 from textual.containers import Horizontal, Vertical
+from textual.content import Content
 from textual.widgets import Button, Static
 
 from tutor.tui.screens.dialog import Dialog
@@ -19,11 +20,11 @@ class ConfirmScreen(Dialog[bool]):
 
     def compose(self) -> ComposeResult:
         with Vertical(classes="window") as window:
-            window.border_title = self._title_text
+            window.border_title = Content(self._title_text)
             yield Static(self._text, classes="dialog-text", markup=False)
             with Horizontal(classes="dialog-buttons"):
-                yield Button(self._no, id="no")
-                yield Button(self._yes, id="yes")
+                yield Button(Content(self._no), id="no")
+                yield Button(Content(self._yes), id="yes")
 
     def on_mount(self) -> None:
         self.query_one("#yes", Button).focus()

@@ -8,6 +8,7 @@ from textual import on
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import Horizontal, Vertical
+from textual.content import Content
 from textual.widgets import Button, Static
 
 from tutor.tui.diffing import difference
@@ -26,7 +27,7 @@ class ConflictScreen(Dialog[bool]):
 
     def compose(self) -> ComposeResult:
         with Vertical(classes="window") as window:
-            window.border_title = f"{self._name_text} was changed outside"
+            window.border_title = Content(f"{self._name_text} was changed outside")
             text = (
                 "The file has changed on the disk while you had changes here that were not saved yet.\n\n"
                 f"Both are safe: yours is kept as {self._backup}.\nWith which one do you go on?"

@@ -43,7 +43,7 @@ class HintScreen(Dialog[bool]):
             ]
         with VerticalScroll(classes="window") as window:
             count = f"hint {self._shown} of {len(hints)}" if self._shown else "a hint for what failed"
-            window.border_title = f"{name}: {count}"
+            window.border_title = Content(f"{name}: {count}")
             window.border_subtitle = f"{more}Esc closes"
             yield Static(Content.assemble(*parts), classes="dialog-text")
 

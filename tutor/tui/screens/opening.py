@@ -35,4 +35,4 @@ class OpeningScreen(Screen[None]):
         title = Content.assemble((f" {words.label(lesson)}", "bold"), f" {lesson.title}")
         level = Content.styled(f"  {words.LEVELS[lesson.difficulty]}", "$quiet")
         yield Static(Content.assemble(name, title, level), id="opening-bar")
-        yield Static(f"Opening {words.label(lesson)} {lesson.title} …", id="opening-text")
+        yield Static(f"Opening {words.label(lesson)} {lesson.title} …", id="opening-text", markup=False)

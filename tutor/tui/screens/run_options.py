@@ -31,7 +31,7 @@ class RunOptionsScreen(Dialog[tuple[RunOptions, bool]]):
 
     def compose(self) -> ComposeResult:
         with Vertical(classes="window") as window:
-            window.border_title = f"Run {self._file.name} with"
+            window.border_title = Content(f"Run {self._file.name} with")
             window.border_subtitle = "F5 runs · Ctrl+S keeps · Esc leaves it"
             kind = "Launch arguments" if self._launch else "Parameters"
             example = "topic:=/news" if self._launch else "publish_rate:=2.0"

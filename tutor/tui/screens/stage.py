@@ -67,7 +67,7 @@ class Stage(Screen[None]):
 
     def say(self, text: str, *, warn: bool = False) -> None:
         """Tell in passing."""
-        self.notify(text, severity="warning" if warn else "information", timeout=10 if warn else 5, markup=False)
+        self.notify(text, severity="warning" if warn else "information", timeout=10 if warn else 5)
 
     def ask(self, title: str, text: str, yes: str, do: Callable[[], object]) -> None:
         """Ask, and do it where the answer is yes."""

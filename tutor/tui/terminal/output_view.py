@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from typing import ClassVar
 
@@ -11,11 +10,10 @@ from textual import events
 from textual.binding import BindingType
 
 from tutor.judge.trace import OutputLine
+from tutor.printable import plain
 from tutor.tui.node import NodeState, Phase
 from tutor.tui.widgets.line_view import LineView, Row
 
-_ESCAPES = re.compile(r"\x1b(?:\[[0-?]*[ -/]*[@-~]|\][^\x07\x1b]*(?:\x07|\x1b\\)?|[@-Z\\^_])")
-_CONTROLS = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069]")
 _LEVELS = {"[WARN]": "warn", "[ERROR]": "error", "[FATAL]": "error"}
 
 
@@ -88,14 +86,9 @@ def broke(state: NodeState) -> bool:
 
 
 def _line(line: OutputLine) -> Row:
-    text = plain(line.text)
+    text = plain(line.text, tab=8)
     kind = next((kind for mark, kind in _LEVELS.items() if mark in text[:40]), "")
     return ((text, kind),)
-
-
-def plain(text: str) -> str:
-    """Text only: no colours, no moves of the cursor, nothing that a terminal would obey; tabs as spaces."""
-    return _CONTROLS.sub("\N{REPLACEMENT CHARACTER}", _ESCAPES.sub("", text).rstrip("\r")).expandtabs(8)
 
 
 def _wrapped(pieces: Row, width: int) -> list[Row]:

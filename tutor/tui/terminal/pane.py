@@ -16,12 +16,13 @@ from textual.containers import Horizontal, Vertical
 from textual.content import Content
 from textual.widgets import Input, Static
 
+from tutor.printable import plain
 from tutor.tui import messages
 from tutor.tui.live.strip import TabStrip
 from tutor.tui.node import Node, NodeState
 from tutor.tui.terminal.completion import complete
 from tutor.tui.terminal.history import History
-from tutor.tui.terminal.output_view import OutputView, broke, plain
+from tutor.tui.terminal.output_view import OutputView, broke
 from tutor.tui.terminal.prompt import Prompt
 from tutor.tui.terminal.shell import Shell
 

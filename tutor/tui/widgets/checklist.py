@@ -134,7 +134,7 @@ class GroupCard(Vertical):
     def __init__(self, group: GroupStanding) -> None:
         super().__init__(*(ItemRow(item) for item in group.items), id=f"group-{group.id}")
         self.group = group
-        self.border_title = group.title
+        self.border_title = Content(group.title)
 
     @property
     def rows(self) -> list[ItemRow]:

@@ -270,7 +270,11 @@ class CodePane(Vertical):
             if index == self._chosen:
                 parts += [Content.styled(mark + each.name, "bold $primary"), "  "]
             else:
-                parts += [mark, Content.from_markup(f"[@click=screen.show_file({index})]{each.name}[/]"), "  "]
+                parts += [
+                    mark,
+                    Content.from_markup(f"[@click=screen.show_file({index})]$name[/]", name=each.name),
+                    "  ",
+                ]
         if len(self._paths) > 1 and not self._typing:
             parts.append(("f: other file  ", "$quiet"))
         if self.editor is not None:

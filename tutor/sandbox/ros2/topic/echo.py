@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import re
 import sys
 import time
 from collections.abc import Callable, Iterable
@@ -25,7 +24,6 @@ if TYPE_CHECKING:
     from rclpy.qos import QoSProfile
 
 _GATHER_S = 0.02
-_CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f]")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -114,10 +112,10 @@ def _printer(arguments: argparse.Namespace) -> Callable[[Taken], str | None]:
         with_info = arguments.include_message_info
         if not hasattr(message, "get_fields_and_field_types"):
             head = f"---Got new message, message info:---\n{info}\n---Message data:---\n" if with_info else ""
-            return f"{head}{_harmless(str(message))}\n---\n"
+            return f"{head}{message}\n---\n"
         if arguments.csv:
             head = "".join(f"{value}," for value in info.values()) if with_info else ""
-            return f"{head}{_harmless(form.csv(message))}\n"
+            return f"{head}{form.csv(message)}\n"
         head = f"{yaml.dump(info)}---\n" if with_info else ""
         return f"{head}{form.yaml(message)}---\n"
 
@@ -142,13 +140,6 @@ def _qos(domain: Domain, arguments: argparse.Namespace) -> QoSProfile:
     if arguments.qos_depth is None and profile.durability != DurabilityPolicy.TRANSIENT_LOCAL:
         profile.depth = DEPTH  # nothing is lost in a burst
     return profile
-
-
-def _harmless(text: str) -> str:
-    """What is not YAML may hold control sequences, with which a message could steer a terminal: there, as escapes."""
-    if not sys.stdout.isatty():
-        return text
-    return _CONTROL.sub(lambda found: found[0].encode("unicode_escape").decode(), text)
 
 
 def _tell_fallback(offers: list[bool], best: str, other: str) -> None:

@@ -1,0 +1,155 @@
+"""Names, values and lines that were made to break a screen: in each panel and dialog they are text and nothing else."""
+
+from __future__ import annotations
+
+import unicodedata
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from rich.cells import cell_len
+
+from tests.tui import made
+from tutor.content import LessonFile
+from tutor.judge.trace import Parameter
+from tutor.judge.verdict import Cause, failed
+from tutor.live.facts import (
+    CallOutcome,
+    Endpoint,
+    Field,
+    Graph,
+    NodeParameters,
+    Published,
+    Qos,
+    RequestForm,
+    Service,
+    SetOutcome,
+    Topic,
+    TopicNews,
+)
+from tutor.live.protocol import News, Ready, Trouble
+from tutor.tui import messages
+from tutor.tui.live.pane import TABS, LivePane
+from tutor.tui.screens.confirm import ConfirmScreen
+from tutor.tui.screens.conflict import ConflictScreen
+from tutor.tui.screens.publish import PublishScreen
+from tutor.tui.screens.run_options import RunOptionsScreen
+from tutor.workspace import RunOptions
+
+HOSTILE = (
+    "a[/]gain",
+    "a[@click=app.quit]b[/]",
+    "a\x1b]0;title\x07\x1b[2J\x9b2Jb",
+    "a\u202eb\u2066c\ud800d",
+    "a\nb\tc\0d\re",
+    "a" * 10_000,
+)
+ALL = "".join(HOSTILE[:-1])
+
+
+def harmful(text: str) -> set[str]:
+    """What a terminal would obey, or could not be given."""
+    return {char for char in text if unicodedata.category(char) in ("Cc", "Cs") or char in "\u202e\u2066"}
+
+
+def prove_harmless(me: Any) -> None:
+    width, _ = me.app.size
+    for strip in me.app.screen._compositor.render_strips():
+        text = strip.text
+        assert not harmful(text), repr(text)
+        assert cell_len(text) == width, repr(text)
+
+
+def everything(name: str) -> tuple[News, ...]:
+    node, topic = f"/{name}", f"/t/{name}"
+    ends = (Endpoint(node, name), Endpoint(node, "std_msgs/msg/String"))
+    return (
+        Ready(1),
+        Graph((node,), (Topic(topic, ends, ends),), (Service(f"/s/{name}", (name,), (node,)),)),
+        TopicNews(topic, name, Qos(), 1, 0, None, 0.1, f"data: {name}", (name,), name, ((1.0, 2.0), (2.0, 3.0))),
+        TopicNews(topic, name, Qos(), 0, 0, None, None, problem=name),
+        NodeParameters(node, True, (Parameter(node, name, "string", name), Parameter(node, f"z{name}", name, [name]))),
+        NodeParameters(f"{node}2", False),
+        SetOutcome(1, node, name, name, True, False, name, 1.0, 0.1),
+        CallOutcome(1, f"/s/{name}", {name: name}, name, "", 1.0, 0.1),
+        CallOutcome(2, f"/s/{name}", {name: name}, None, name, 1.0, 0.1),
+        RequestForm(name, (Field(name, name, name),)),
+        RequestForm(name, problem=name),
+        Published(topic, name, 1.0, 3, 0, 1.0),
+        Published(f"{topic}2", name, 1.0, 3, 0, 1.0, problem=name),
+        Trouble(name),
+    )
+
+
+async def test_on_the_live_page(learner: Any) -> None:
+    async with learner() as me:
+        await me.press("4")
+        pane = me.main.query_one(LivePane)
+        for name in HOSTILE:
+            for news in everything(name):
+                pane.post_message(LivePane.Arrived(news))
+            await me.pilot.pause()
+            for tab in TABS:
+                pane.turn_to(tab)
+                pane.focus_content()
+                await me.press("down", "enter")
+                prove_harmless(me)
+                await me.press("enter", "escape")
+            prove_harmless(me)
+            me.app.clear_notifications()
+
+
+async def test_in_dialogs_and_notes(learner: Any) -> None:
+    async with learner() as me:
+        for name in HOSTILE:
+            file = LessonFile(name, True, Path(__file__), Path(__file__))
+            for screen in (
+                ConfirmScreen(name, name, name, name),
+                ConflictScreen(name, name, name, f"{name}\n{name}"),
+                PublishScreen(f"/{name}", lambda topic: topic, lambda command: None),
+                RunOptionsScreen(file, RunOptions((name,), (name,)), str),
+            ):
+                await me.app.push_screen(screen)
+                await me.pilot.pause()
+                prove_harmless(me)
+                me.app.pop_screen()
+            me.main.post_message(messages.Trouble(name))
+            me.main.say(name)
+            me.app.notify(name)
+            me.desk.notify(name)
+            await me.sees("a")
+            prove_harmless(me)
+            me.app.clear_notifications()
+
+
+async def test_in_the_log_the_terminal_and_the_code(learner: Any) -> None:
+    async with learner() as me:
+        said = ALL.replace("\ud800", "")
+        comment = said.translate(dict.fromkeys(map(ord, "\0\n\r")))
+        me.desk.path(me.desk.lessons[0].files[0]).write_text(f"# {comment}\nprint({said!r})\n")
+        (me.desk.workspace.root / "all.txt").write_text(said)
+        await me.press("2")
+        await me.pilot.pause()
+        prove_harmless(me)
+        await me.press("r", "3")
+        await me.sees("gain")
+        prove_harmless(me)
+        await me.press("7")
+        await me.types(f"cat {me.desk.workspace.root}/all.txt\n")
+        await me.sees("gain")
+        prove_harmless(me)
+
+
+async def test_in_a_verdict_and_the_attempts(learner: Any) -> None:
+    verdict = failed(ALL, ALL, Cause(ALL, ALL, ALL), [*HOSTILE, ALL])
+    ending = [replace(each) for each in made.ending(verdict)]
+    async with learner() as me:
+        await me.press("c")
+        await me.told(*made.started(), made.doing("rate", 0.5, ALL.replace("\ud800", "")))
+        await me.press("5")
+        prove_harmless(me)
+        await me.told(*ending)
+        await me.sees("2 of 3")
+        for key in ("down", "down", "i", "a"):
+            await me.press(key)
+            prove_harmless(me)
