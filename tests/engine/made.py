@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import uuid
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -79,8 +79,8 @@ class Scene:
         import tutor.engine.bench as live
 
         @contextmanager
-        def watched(others: Collection[int]) -> Iterator[int]:
-            with domain.reserve_domain(others) as reserved:
+        def watched() -> Iterator[int]:
+            with domain.reserve_domain() as reserved:
                 self.held.add(reserved)
                 self.domains.append(reserved)
                 try:

@@ -1,4 +1,4 @@
-"""A check and the user's own nodes never meet, not even on one domain id."""
+"""Two checks never meet, not even on one domain id."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from tutor.ros.environment import learner_env
 
 TYPE = "std_msgs/msg/String"
 
-# Publishes on /users, and says whom it sees: itself only, or others, too.
-USERS = node(
-    PUBLISHES.replace('"chatter"', '"users"').replace("node.get_name()", "'from the user'"),
+# Publishes on /other, and says whom it sees: itself only, or others, too.
+OTHERS = node(
+    PUBLISHES.replace('"chatter"', '"other"').replace("node.get_name()", "'from the other check'"),
     """
 def look():
     print(sorted(node.get_node_names()), sorted(t for t, _ in node.get_topic_names_and_types()), flush=True)
@@ -26,20 +26,15 @@ heard = node.create_subscription(String, "chatter", lambda message: print("HEARD
 
 
 @asynccontextmanager
-async def users_node(scene: Scene, folder: Path, domain_id: int) -> AsyncIterator[asyncio.StreamReader]:
-    """A node as the user starts it in a terminal; gives what it writes."""
-    (folder / "users_node.py").write_text(USERS)
-    environ = {name: value for name, value in os.environ.items() if not name.startswith(("ROS_AUTO", "FAST"))}
-    env = learner_env(
-        scene.ros,
-        domain_id=domain_id,
-        log_dir=folder,
-        package_root=None,
-        isolated=False,
-        environ={**environ, "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"},
-    )
+async def others_node(scene: Scene, folder: Path, domain_id: int, group: str) -> AsyncIterator[asyncio.StreamReader]:
+    """A node as another check starts it; gives what it writes."""
+    (folder / "others_node.py").write_text(OTHERS)
+    env = learner_env(scene.ros, domain_id=domain_id, log_dir=folder, package_root=None, isolated=True)
     process = await asyncio.create_subprocess_exec(
-        scene.ros.python, folder / "users_node.py", env=env, stdout=asyncio.subprocess.PIPE
+        scene.ros.python,
+        folder / "others_node.py",
+        env={**env, "ROS_TUTOR_GROUP": group},
+        stdout=asyncio.subprocess.PIPE,
     )
     try:
         assert process.stdout is not None
@@ -50,13 +45,13 @@ async def users_node(scene: Scene, folder: Path, domain_id: int) -> AsyncIterato
 
 
 async def test_on_one_domain_id_they_do_not_see_each_other(scene: Scene, tmp_path: Path) -> None:
-    watch = {"/chatter": TYPE, "/users": TYPE}
+    watch = {"/chatter": TYPE, "/other": TYPE}
     async with scene.bench(node(PUBLISHES)).start(FILE, watch=watch) as run:
         assert await run.until(lambda: bool(run.on("/chatter")), 20), run.trace()
         (domain_id,) = scene.domains
-        async with users_node(scene, tmp_path, domain_id) as said:
+        async with others_node(scene, tmp_path, domain_id, "239.1.2.3") as said:
             seen: list[str] = []
-            while not seen or "/users" not in seen[-1]:  # it is up, and discovery is running
+            while not seen or "/other" not in seen[-1]:  # it is up, and discovery is running
                 seen.append((await asyncio.wait_for(said.readline(), 20)).decode())
             already = len(run.on("/chatter"))
             # Both go on for longer than either needs to find a node that it can find.
@@ -64,25 +59,19 @@ async def test_on_one_domain_id_they_do_not_see_each_other(scene: Scene, tmp_pat
             while len(seen) < 20:
                 seen.append((await asyncio.wait_for(said.readline(), 20)).decode())
             graph = run.graph
-    assert run.on("/users") == []
+    assert run.on("/other") == []
     assert graph.nodes == ("/learner",)
     assert {p.topic for p in graph.publishers} == {"/chatter"}
     assert not [line for line in seen if "HEARD" in line or "_ros_tutor" in line]
     assert all(line.count("'learner'") == 1 for line in seen), "itself only"
 
 
-async def test_the_users_nodes_do_see_each_other(scene: Scene, tmp_path: Path) -> None:
+async def test_two_nodes_of_one_check_do_see_each_other(scene: Scene, tmp_path: Path) -> None:
     """So the test above could fail."""
-    from tutor.ros.domain import reserve_domain
-
-    folders = tmp_path / "a", tmp_path / "b"
-    for folder in folders:
-        folder.mkdir()
-    with reserve_domain() as domain_id:
-        async with (
-            users_node(scene, folders[0], domain_id) as said,
-            users_node(scene, folders[1], domain_id),
-        ):
+    async with scene.bench(node(PUBLISHES)).start(FILE, watch={"/other": TYPE}) as run:
+        (domain_id,) = scene.domains
+        async with others_node(scene, tmp_path, domain_id, os.environ["ROS_TUTOR_GROUP"]) as said:
             line = ""
             while line.count("'learner'") != 2:
                 line = (await asyncio.wait_for(said.readline(), 20)).decode()
+            assert await run.until(lambda: bool(run.on("/other")), 20)

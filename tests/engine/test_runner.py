@@ -141,7 +141,7 @@ async def test_no_free_domain_is_the_machines_fault_with_its_mend(
     import tutor.engine.bench as live
     from tutor.ros.domain import NoFreeDomain
 
-    def none(others: object) -> Any:
+    def none() -> Any:
         raise NoFreeDomain
 
     monkeypatch.setattr(live, "reserve_domain", none)
@@ -153,7 +153,7 @@ async def test_no_free_domain_is_the_machines_fault_with_its_mend(
     result = await scene.judge(criterion("a", start))
     assert plain(result) == {"a": "error"}
     assert "No ROS domain id" in result.criteria[0].verdict.cause
-    assert "Close other programs" in result.criteria[0].verdict.hint
+    assert "Wait until other checks" in result.criteria[0].verdict.hint
 
 
 async def test_what_the_scenario_raises_is_what_went_wrong(scene: Scene) -> None:

@@ -14,7 +14,7 @@ from typing import ClassVar
 
 from textual.app import ComposeResult
 
-from tutor.ros.domain import reserve_domain
+from tests.ros.users_domain import users_domain
 from tutor.ros.environment import detect, learner_env
 from tutor.tui import messages
 from tutor.tui.live.command import LiveCommand, live_command
@@ -85,7 +85,7 @@ class World:
 
 @contextmanager
 def world() -> Iterator[World]:
-    with reserve_domain() as domain:
+    with users_domain() as domain:
         made = World(domain)
         try:
             yield made

@@ -3,22 +3,21 @@
 from __future__ import annotations
 
 import os
-import socket
 import subprocess
 import sys
 import threading
 import time
-from contextlib import suppress
+from contextlib import ExitStack
 from pathlib import Path
 
 import pytest
 
 from tests.ros.own_network import OWN_NETWORK, needs_own_network
 from tutor.ros import domain
-from tutor.ros.domain import NoFreeDomain, busy_domains, free_domains, reserve_domain
-from tutor.ros.isolation import ports_of_checks
+from tutor.ros.domain import IDS, NoFreeDomain, reserve_domain
+from tutor.ros.isolation import DDS_PORTS, PORTS_OF_CHECKS
 
-FIRST, PER_DOMAIN = ports_of_checks()
+FIRST, PER_DOMAIN = PORTS_OF_CHECKS
 
 ROOT = Path(domain.__file__).parents[2]
 
@@ -41,31 +40,45 @@ for taker in takers:
     taker.communicate("\\n")
 ids = [int(word) for line in lines for word in line.split()]
 assert len(ids) == len(set(ids)) == 80, ids
-assert all(1 <= i <= 100 for i in ids), ids
-from tutor.ros.domain import free_domains
-assert len(free_domains()) == 100, sorted(free_domains())
+from contextlib import ExitStack
+from tutor.ros.domain import IDS, reserve_domain
+assert set(ids) < set(IDS)
+with ExitStack() as held:
+    assert {{held.enter_context(reserve_domain()) for _ in IDS}} == set(IDS)
 """
 )
 
 
 def run(code: str) -> None:
     env = {**os.environ, "PYTHONPATH": str(ROOT)}
-    env.pop("ROS_DOMAIN_ID", None)
     done = subprocess.run(
         [sys.executable, "-c", code], env=env, capture_output=True, text=True, timeout=60, check=False
     )
     assert done.returncode == 0, done.stderr
 
 
-def can_be_locked(domain: int) -> bool:
-    """Whether nobody holds this id; who else on this machine took it by chance does not hold it for long."""
+def can_be_had(wanted: int) -> bool:
+    """Whether this id can be reserved; whoever else on this machine has it by chance does not hold it for long."""
     end = time.monotonic() + 30
     while time.monotonic() < end:
-        with socket.socket(socket.AF_INET, socket.SOCK_STREAM) as lock, suppress(OSError):
-            lock.bind(("", 32768 + domain))
-            return True
+        with ExitStack() as held:
+            for _ in range(len(IDS) - 200):
+                if held.enter_context(reserve_domain()) == wanted:
+                    return True
         time.sleep(0.05)
     return False
+
+
+def test_no_domain_id_that_ros_knows_leads_to_the_ports_of_a_check() -> None:
+    farthest = FIRST + PER_DOMAIN * 232 + 10 + 2 * 31 + 1  # at which a node on 232 looks for others on localhost
+    assert farthest < FIRST + PER_DOMAIN * IDS[0]
+    assert FIRST + PER_DOMAIN * (IDS[-1] + 1) <= 32768
+    assert PER_DOMAIN * IDS.step >= 10 + 2 * 32  # nor do those of one check look at the ports of another
+
+
+def test_no_port_of_a_check_is_one_where_a_users_nodes_meet() -> None:
+    users = {DDS_PORTS[0] + DDS_PORTS[1] * id_ for id_ in range(233)}
+    assert users.isdisjoint(FIRST + PER_DOMAIN * id_ + port for id_ in IDS for port in (0, *range(10, 34)))
 
 
 @needs_own_network
@@ -74,60 +87,30 @@ def test_four_processes_with_twenty_each_get_no_id_twice_and_give_all_back() -> 
 
 
 @needs_own_network
-def test_where_every_domain_is_in_use_the_error_says_so() -> None:
+def test_a_domain_whose_port_is_taken_is_passed_over_and_where_all_are_the_error_says_so() -> None:
     run(
         OWN_NETWORK
         + """
 import socket
-from tutor.ros.domain import NoFreeDomain, reserve_domain
-from tutor.ros.isolation import ports_of_checks
-FIRST, PER_DOMAIN = ports_of_checks()
-sockets = []
-for d in range(1, 101):
-    family = socket.AF_INET6 if d % 2 else socket.AF_INET
-    sockets.append(socket.socket(family, socket.SOCK_DGRAM))
-    sockets[-1].bind(("", FIRST + PER_DOMAIN * d + 10))
-try:
-    with reserve_domain():
-        raise SystemExit("got one")
-except NoFreeDomain as error:
-    assert "free" in str(error) and error.mend
-sockets[41].close()
-with reserve_domain() as only:
-    assert only == 42, only
-    try:
-        with reserve_domain():
-            raise SystemExit("got the same one twice")
-    except NoFreeDomain:
-        pass
-"""
-    )
-
-
-@needs_own_network
-def test_where_every_lock_is_held_the_error_says_so() -> None:
-    run(
-        OWN_NETWORK
-        + """
 from contextlib import ExitStack
-from tutor.ros.domain import NoFreeDomain, reserve_domain
+from tutor.ros.domain import IDS, NoFreeDomain, reserve_domain
+from tutor.ros.isolation import PORTS_OF_CHECKS
+FIRST, PER_DOMAIN = PORTS_OF_CHECKS
+port = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+port.bind(("", FIRST + PER_DOMAIN * IDS[41]))
 with ExitStack() as held:
-    ids = {held.enter_context(reserve_domain()) for _ in range(100)}
-    assert ids == set(range(1, 101))
+    assert {held.enter_context(reserve_domain()) for _ in range(len(IDS) - 1)} == {*IDS} - {IDS[41]}
     try:
         held.enter_context(reserve_domain())
-        raise SystemExit("got a 101st")
-    except NoFreeDomain:
-        pass
+        raise SystemExit("got one too many")
+    except NoFreeDomain as error:
+        assert "free" in str(error) and error.mend
+    port.close()
+    assert held.enter_context(reserve_domain()) == IDS[41]
 with reserve_domain():
     pass
 """
     )
-
-
-def test_the_users_own_domain_is_left_to_them(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("ROS_DOMAIN_ID", "55")
-    assert 55 not in free_domains()
 
 
 def test_an_id_that_was_just_given_back_is_not_used_again_at_once() -> None:
@@ -138,15 +121,6 @@ def test_an_id_that_was_just_given_back_is_not_used_again_at_once() -> None:
     assert len(set(ids)) == 5
 
 
-def test_a_domain_with_something_on_it_counts_as_busy() -> None:
-    with reserve_domain() as one:
-        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as other:
-            other.bind(("127.0.0.1", FIRST + PER_DOMAIN * one + PER_DOMAIN - 1))
-            assert one in busy_domains()
-        assert one not in busy_domains()
-        assert one not in free_domains()
-
-
 @pytest.mark.parametrize(
     "raised", [OSError("the learner's own"), NoFreeDomain(), RuntimeError("x"), KeyboardInterrupt()]
 )
@@ -154,7 +128,7 @@ def test_whatever_the_block_raises_comes_out_as_it_is_and_the_id_is_given_back(r
     with pytest.raises(type(raised)) as caught, reserve_domain() as one:
         raise raised
     assert caught.value is raised
-    assert can_be_locked(one)
+    assert can_be_had(one)
 
 
 def test_threads_get_an_id_each() -> None:
@@ -172,10 +146,3 @@ def test_threads_get_an_id_each() -> None:
     for thread in threads:
         thread.join()
     assert len(set(got)) == len(got) == 8
-
-
-def test_ids_of_workspaces_are_the_last_to_be_taken() -> None:
-    with reserve_domain(range(0, 101, 2)) as first, reserve_domain(range(1, 100, 2)) as second:
-        assert (first % 2, second % 2) == (1, 0)
-    with reserve_domain(range(102)) as any_of_them:
-        assert 1 <= any_of_them <= 100

@@ -150,7 +150,7 @@ def test_without_loopback_multicast_ros_finds_localhost_by_itself(
     monkeypatch.setattr(isolation, "loopback_multicast_works", lambda: False)
     env = env_for(detect(PLAIN), PLAIN, tmp_path)
     assert env["ROS_AUTOMATIC_DISCOVERY_RANGE"] == "LOCALHOST"
-    assert "FASTRTPS_DEFAULT_PROFILES_FILE" not in env
+    assert env["FASTRTPS_DEFAULT_PROFILES_FILE"] == str(isolation.PROFILE)  # for its ports
 
 
 def test_multicast_over_an_interface_that_is_not_here_does_not_come_back() -> None:
@@ -280,7 +280,7 @@ def test_an_isolated_process_is_bound_to_loopback_and_uses_no_shared_memory(tmp_
         finally:
             talker.kill()
             talker.wait()
-    assert addresses == {"127.0.0.1", "239.255.0.1"}
+    assert addresses == {"127.0.0.1", env["ROS_TUTOR_GROUP"]}
     assert shared == []
 
 

@@ -12,8 +12,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from domain_coordinator import domain_id
 
+from tests.ros.users_domain import users_domain
 from tutor.sandbox import interfaces
 
 PACKAGE = "example_interfaces"
@@ -96,7 +96,7 @@ rclpy.try_shutdown()
 def environment(tmp_path: Path) -> Iterator[dict[str, str]]:
     """Nothing of ROS in it but a domain of its own, on this host only."""
     kept = {name: os.environ[name] for name in ("PATH", "HOME", "TMPDIR") if name in os.environ}
-    with domain_id() as domain:
+    with users_domain() as domain:
         yield {
             **kept,
             "ROS_DOMAIN_ID": str(domain),

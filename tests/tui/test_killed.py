@@ -13,11 +13,11 @@ from pathlib import Path
 import pytest
 
 from tests.benchmarks.terminal import Terminal
+from tests.ros.users_domain import users_domain
 from tests.tui import made
 from tutor.content import load_course
 from tutor.judge.events import ExerciseJudged
 from tutor.process.warden import processes
-from tutor.ros.domain import reserve_domain
 from tutor.workspace import Progress, Workspace, start
 
 APP = "import sys; from tutor.cli import main; sys.exit(main())"
@@ -90,7 +90,7 @@ class Killed:
 
 @pytest.fixture
 def learner(tmp_path: Path) -> Iterator[Killed]:
-    with reserve_domain() as domain:
+    with users_domain() as domain:
         learner = Killed(tmp_path, domain)
         try:
             yield learner

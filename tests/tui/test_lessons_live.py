@@ -9,9 +9,9 @@ from pathlib import Path
 
 import pytest
 
+from tests.ros.users_domain import users_domain
 from tests.tui.conftest import Learner, at
 from tutor.content import load_course
-from tutor.ros.domain import reserve_domain
 from tutor.tui.desk import Desk
 from tutor.workspace import AppState, Workspace
 
@@ -21,7 +21,7 @@ pytestmark = pytest.mark.timeout(300)
 @pytest.fixture
 def desk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Desk]:
     """A workspace in which nothing has been done yet, on a domain that nobody else uses."""
-    with reserve_domain() as domain:
+    with users_domain() as domain:
         monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
         monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
         yield Desk(load_course(), Workspace(tmp_path / "ws"))

@@ -9,10 +9,10 @@ from pathlib import Path
 
 import pytest
 
+from tests.ros.users_domain import users_domain
 from tests.running import runs
 from tests.tui.conftest import Learner, at
 from tutor.content import load_course
-from tutor.ros.domain import reserve_domain
 from tutor.tui.desk import Desk
 from tutor.tui.live.request_form import FieldRow
 from tutor.workspace import AppState, Workspace
@@ -25,7 +25,7 @@ CHECK_S = 60.0
 @pytest.fixture
 def desk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Desk]:
     """A workspace in which nothing has been done yet, on a domain that nobody else uses."""
-    with reserve_domain() as domain:
+    with users_domain() as domain:
         monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
         monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
         yield Desk(load_course(), Workspace(tmp_path / "ws"))

@@ -30,7 +30,6 @@ def examine(workspace: Path | None, environ: Mapping[str, str] = os.environ) -> 
         ("example_interfaces", lambda: ros2.example_interfaces(ros, environ)),
         ("Loopback network", machine.loopback),
         ("Loopback multicast", machine.loopback_multicast),
-        ("Domain ids", ros2.domain_ids),
         ("Discovery", lambda: ros2.discovery(ros, environ)),
         ("Temporary files", machine.temporary_files),
         ("Terminal", lambda: terminal.capabilities(environ)),

@@ -45,7 +45,7 @@ def loopback_multicast() -> Finding:
         None,
         "Multicast on the loopback interface does not work. Checks use another way for nodes to find each other, "
         "which is slower.",
-        "Allow it, and look for a firewall that blocks 239.255.0.1: sudo ip link set lo multicast on",
+        "Allow it, and look for a firewall that blocks 239.0.0.0/8: sudo ip link set lo multicast on",
     )
 
 

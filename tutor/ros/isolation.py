@@ -12,24 +12,27 @@ from pathlib import Path
 
 PROFILE = Path(__file__).resolve().with_name("isolated.xml")
 PROMPT_PROFILE = PROFILE.with_name("prompt.xml")
-_GROUP = "239.255.0.1"  # the multicast group of DDS discovery
+_GROUP = f"239.{'.'.join(map(str, secrets.token_bytes(3)))}"
+"""The multicast group in which the participants of our checks find each other. Each process that checks has one of its
+own, so that whoever joins another check's domain meets nobody there."""
 _LOOPBACK = "127.0.0.1"
-_OWN_PORTS = (17425, 150)  # as in isolated.xml, which says why
+PORTS_OF_CHECKS = (2016, 25)
+"""As `DDS_PORTS`, for a check: what isolated.xml says."""
 DDS_PORTS = (7400, 250)
 """The first UDP port of domain 0 where nothing else is set, and how many ports there are to a domain."""
 _PROFILE_VARIABLES = ("FASTRTPS_DEFAULT_PROFILES_FILE", "FASTDDS_DEFAULT_PROFILES_FILE")
 
 
 def isolated_discovery() -> dict[str, str]:
-    """The variables that keep discovery and data on this host.
+    """The variables that keep discovery and data on this host, and apart from what other processes check.
 
     Multicast over the loopback interface finds a new participant in milliseconds. Where a machine has none,
     ROS's own LOCALHOST range (unicast to 127.0.0.1) serves: right, but up to some seconds slower.
     """
-    if not loopback_multicast_works():
-        return {"ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
     return {
-        "ROS_AUTOMATIC_DISCOVERY_RANGE": "SYSTEM_DEFAULT",  # else the RMW layer writes over the profile's transports
+        # With LOCALHOST, the RMW layer writes over the profile's transports and group; its ports hold.
+        "ROS_AUTOMATIC_DISCOVERY_RANGE": "SYSTEM_DEFAULT" if loopback_multicast_works() else "LOCALHOST",
+        "ROS_TUTOR_GROUP": _GROUP,
         **dict.fromkeys(_PROFILE_VARIABLES, str(PROFILE)),
     }
 
@@ -39,19 +42,14 @@ def prompt_discovery() -> dict[str, str]:
     return dict.fromkeys(_PROFILE_VARIABLES, str(PROMPT_PROFILE))
 
 
-def ports_of_checks() -> tuple[int, int]:
-    """The first UDP port that a check may use on domain 0, and how many ports there are to a domain."""
-    return _OWN_PORTS if loopback_multicast_works() else DDS_PORTS
-
-
 def ports_of_this_process(environ: Mapping[str, str] = os.environ) -> tuple[int, int] | None:
-    """As `ports_of_checks`, for what this process joins; None where a DDS profile of the user's may say otherwise."""
+    """As `DDS_PORTS`, for what this process joins; None where a DDS profile of the user's may say otherwise."""
     named = {environ[name] for name in _PROFILE_VARIABLES if environ.get(name)}
     if Path("DEFAULT_FASTRTPS_PROFILES.xml").exists():  # Fast DDS reads it from the current folder
         return None
     if not named:
         return DDS_PORTS
-    return _OWN_PORTS if named == {str(PROFILE)} else None
+    return PORTS_OF_CHECKS if named == {str(PROFILE)} else None
 
 
 def prove_loopback() -> None:

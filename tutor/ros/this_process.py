@@ -85,8 +85,7 @@ class _NoBundledRos(MetaPathFinder):
     def find_spec(
         self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
     ) -> ModuleSpec | None:
-        # domain_coordinator is plain Python and only a lock: the bundled one serves where the system has none.
-        if path is not None or fullname == "domain_coordinator" or fullname not in self._bundled:
+        if path is not None or fullname not in self._bundled:
             return None
         found = PathFinder.find_spec(fullname, [entry for entry in sys.path if not prefixes.is_ours(entry)])
         if found is None:

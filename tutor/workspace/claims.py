@@ -55,15 +55,6 @@ def claimed_by(workspace: Path, registry: Path = REGISTRY) -> int | None:
         return None
 
 
-def claimed_domains(registry: Path = REGISTRY) -> frozenset[int]:
-    """The domains that workspaces of this machine have."""
-    try:
-        with _folder(registry) as folder:
-            return frozenset(claim.domain for claim in _claims(folder))
-    except OSError:
-        return frozenset()
-
-
 def claim(
     workspace: Path,
     wanted: Callable[[], int | None],

@@ -1,0 +1,25 @@
+"""A ROS domain as a user has one, for tests whose nodes are not isolated as a check's are."""
+
+from __future__ import annotations
+
+import random
+import socket
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from tutor.ros.domain import domains_in_use
+
+
+@contextmanager
+def users_domain() -> Iterator[int]:
+    """Hold a domain id (1 to 100) that no node of this machine uses, and no other test."""
+    for domain in random.sample(range(1, 101), 100):
+        with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as lock:
+            try:
+                lock.bind(f"\0ros-tutor-tests-{domain}")
+            except OSError:
+                continue
+            if domain not in domains_in_use():
+                yield domain
+                return
+    raise AssertionError("no domain is free")
