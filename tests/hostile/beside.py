@@ -1,0 +1,124 @@
+"""Check our solutions beside a submission that joins every domain it can, and one exercise many times at once.
+
+    uv run python -m tests.hostile.beside [--checks 24] [--at-once 4] [--isolate]
+
+Prints, for each exercise, how its checks ended. Exit code 1 where one did not pass. On a machine that is busy a check
+may say so (an error), which is told apart.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+from tutor.content import load_course
+from tutor.interpreter import of_ours
+
+JOINS_ALL = Path(__file__).with_name("submissions") / "i1_1" / "joins-them-all"
+MANY = ("i2.1", 12)
+BUSY = "this machine"
+"""What a check that gave up on a busy machine says, and no other does."""
+
+
+@dataclass(frozen=True)
+class Ended:
+    """How one check ended: its exit code, and why not 0."""
+
+    exercise: str
+    exit: int
+    why: str = ""
+
+
+def check(exercise: str, *arguments: str) -> Ended:
+    """Check with the command line, in a folder where nothing is."""
+    with tempfile.TemporaryDirectory(prefix="beside-") as folder:
+        ended = subprocess.run(
+            [*of_ours("tutor"), "check", exercise, "--format", "json", *arguments],
+            capture_output=True, text=True, cwd=folder, check=False,
+        )  # fmt: skip
+    if ended.returncode == 0:
+        return Ended(exercise, 0)
+    try:
+        criteria = [each for one in json.loads(ended.stdout)["exercises"] for each in one["criteria"]]
+    except ValueError:
+        return Ended(exercise, ended.returncode, ended.stderr[-300:].strip())
+    why = [f"{each['id']}: {each['cause']}" for each in criteria if each["status"] in ("failed", "error")]
+    return Ended(exercise, ended.returncode, "; ".join(why))
+
+
+@contextmanager
+def joined(*arguments: str) -> Iterator[list[int]]:
+    """Have the submission that joins every domain checked over and over; gives the exit codes, the last at the end."""
+    over, codes = threading.Event(), list[int]()
+    with tempfile.TemporaryDirectory(prefix="beside-") as folder:
+        command = [*of_ours("tutor"), "check", "i1.1", str(JOINS_ALL), *arguments]
+
+        def work() -> None:
+            while not over.is_set():
+                checking = subprocess.Popen(command, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+                while checking.poll() is None:
+                    if over.wait(0.1):
+                        checking.send_signal(signal.SIGINT)
+                        checking.wait()
+                codes.append(checking.returncode)
+
+        thread = threading.Thread(target=work)
+        thread.start()
+        try:
+            yield codes
+        finally:
+            over.set()
+            thread.join()
+
+
+def check_solutions(exercises: Sequence[str], at_once: int, *arguments: str) -> list[Ended]:
+    """Check our solution of each of these exercises, so many at a time."""
+    with ThreadPoolExecutor(at_once) as pool:
+        return list(pool.map(lambda exercise: check(exercise, "--solution", *arguments), exercises))
+
+
+def _table(title: str, ended: Sequence[Ended]) -> None:
+    print(f"{title}\n{'':8}{'checks':>8}{'passed':>8}{'failed':>8}{'error':>8}")
+    for exercise in dict.fromkeys(one.exercise for one in ended):
+        codes = Counter(one.exit for one in ended if one.exercise == exercise)
+        others = codes.total() - codes[0] - codes[1]
+        print(f"{exercise:8}{codes.total():>8}{codes[0]:>8}{codes[1]:>8}{others:>8}")
+    for one in ended:
+        if one.exit:
+            print(f"  {one.exercise}, exit {one.exit}{' (busy machine)' * (BUSY in one.why)}: {one.why}")
+    sys.stdout.flush()
+
+
+def main() -> int:
+    """Print two tables. Exit code 1 where a check did not pass."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--checks", type=int, default=24, help="how many checks of our solutions (24)")
+    parser.add_argument("--at-once", type=int, default=4, help="so many of them at a time (4)")
+    parser.add_argument("--isolate", action="store_true", help="all of them with --isolate")
+    arguments = parser.parse_args()
+    walls = ["--isolate"] if arguments.isolate else []
+    exercises = [lesson.id for lesson in load_course().lessons]
+    with joined(*walls) as codes:
+        beside = check_solutions(
+            [exercises[i % len(exercises)] for i in range(arguments.checks)], arguments.at_once, *walls
+        )
+    _table(f"beside one that joins every domain, checked over and over (exit codes {codes}):", beside)
+    exercise, times = MANY
+    together = check_solutions([exercise] * times, times, *walls)
+    _table(f"{times} checks at once:", together)
+    return 1 if any(one.exit for one in [*beside, *together]) else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
