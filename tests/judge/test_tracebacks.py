@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
+from pathlib import Path
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.checks.made import CRASH, FOLDER, lines, trace
 from tests.judge.real import OWN, crash
-from tutor.judge.trace import OutputLine
+from tutor.judge.causes import of_traceback
+from tutor.judge.trace import OutputLine, Trace
 from tutor.judge.tracebacks import Frame, called_by_executor, dumped, find, last, own, without
 
 CALLS = """\
@@ -201,6 +206,28 @@ def test_own_is_the_innermost_of_the_learners_frames() -> None:
     assert found.own("") is None
     assert own(reversed(frames), FOLDER) == frames[1]
     assert own((), FOLDER) is None
+
+
+@pytest.mark.parametrize(
+    ("source", "raised"),
+    [
+        (b"x = 1\ny = '\xff'\n", "SyntaxError: Non-UTF-8 code"),
+        ("x = 1\n".encode("utf-16"), "SyntaxError: Non-UTF-8 code"),
+        (b"# coding: no-such\n", "SyntaxError: encoding problem: no-such"),
+        (b"x = str('')" + b".strip()" * 100_000, "RecursionError: maximum recursion depth exceeded during compilation"),
+        (b"x = " + b"-" * 100_000 + b"1", "MemoryError: Parser stack overflowed"),
+        (b"\0", "SyntaxError: source code cannot contain null bytes"),
+    ],
+)
+def test_a_file_that_python_refuses_altogether(source: bytes, raised: str, tmp_path: Path) -> None:
+    path = tmp_path / "node.py"
+    path.write_bytes(source)
+    found = find(lines(subprocess.run([sys.executable, path], capture_output=True, text=True).stderr))
+    assert len(found) == 1
+    assert found[0].raised.startswith(raised)
+    assert not found[0].frames or found[0].own(str(tmp_path)) == found[0].frames[0]
+    cause = of_traceback(found[0], Trace(path.name, str(tmp_path)))
+    assert cause.name == "syntax error"
 
 
 def test_a_dump_of_all_stacks() -> None:

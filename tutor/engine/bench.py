@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import asyncio
 import os
-import tempfile
 from collections.abc import AsyncIterator, Callable, Iterator, Mapping
 from contextlib import asynccontextmanager, contextmanager, suppress
 from dataclasses import dataclass, field
@@ -13,6 +12,7 @@ from typing import Any, TypeVar
 
 from tutor.engine.admission import Admission
 from tutor.engine.errors import EngineError
+from tutor.engine.log_folder import log_folder
 from tutor.engine.run import Facts, LiveRun
 from tutor.judge.bench import Run, Scenario
 from tutor.judge.exceptions import Known
@@ -124,7 +124,7 @@ class LiveBench:
         with (
             _faults(),
             reserve_domain() as domain_id,
-            tempfile.TemporaryDirectory(prefix="ros-tutor-") as log_dir,
+            log_folder() as log_dir,
         ):
             observer = Observer(domain_id, facts.change)
             try:
@@ -134,13 +134,13 @@ class LiveBench:
                 env = learner_env(
                     self.ros,
                     domain_id=domain_id,
-                    log_dir=Path(log_dir),
+                    log_dir=log_dir,
                     package_root=package_root(path),
                     isolated=True,
                     environ=os.environ,
                 )
                 env["PYTHONFAULTHANDLER"] = "1"  # see LiveRun.stuck_at
-                argv = command(env, Path(log_dir))
+                argv = command(env, log_dir)
                 async with await LearnerProcess.start(
                     argv, env=env, cwd=path.parent, terminal=terminal, on_change=facts.change
                 ) as process:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
-import linecache
 import os
 import signal
 import time
@@ -16,7 +15,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from tutor.engine.errors import EngineError
-from tutor.engine.source import launch_arguments, sources, uncalled_main
+from tutor.engine.source import launch_arguments, sources, uncalled_main, with_code
 from tutor.judge import tracebacks
 from tutor.judge.bench import Handler
 from tutor.judge.exceptions import Known
@@ -295,7 +294,7 @@ class LiveRun:
             os.kill(self._process.pid, signal.SIGABRT)
         await self._process.wait(2.0)
         frames = tracebacks.dumped(line for line in self.output if line.at >= asked)
-        return tuple(replace(frame, code=linecache.getline(frame.path, frame.line).strip()) for frame in frames)
+        return with_code(frames)
 
     def trace(self) -> Trace:
         return Trace(

@@ -7,6 +7,7 @@ from dataclasses import replace
 from tutor.content import Lesson
 from tutor.judge.submission import Submission
 from tutor.judge.verdict import Status, Verdict
+from tutor.workspace.regular import read_regular
 
 
 def first_todo(lesson: Lesson, submission: Submission) -> str:
@@ -17,11 +18,12 @@ def first_todo(lesson: Lesson, submission: Submission) -> str:
         if path is None:
             continue
         try:
-            text = path.read_text(encoding="utf-8")
-            if text != file.skeleton.read_text(encoding="utf-8"):
+            skeleton = file.skeleton.read_bytes()
+            if read_regular(path, len(skeleton)) != skeleton:
                 return ""
-        except (OSError, UnicodeError):
+        except OSError:
             return ""
+        text = skeleton.decode("utf-8")
         todos += [f"{file.name}, line {n}" for n, line in enumerate(text.splitlines(), 1) if "TODO" in line]
     return todos[0] if todos else ""
 

@@ -11,10 +11,15 @@ from tutor.judge.trace import OutputLine, Trace
 
 _AT_EXIT = "Exception ignored in atexit callback"
 _HEADER = "Traceback (most recent call last):"
-_FRAME = re.compile(r'^\s*File "(?P<path>[^"]+)", line (?P<line>\d+)(?:, in (?P<function>.+))?$')
+_FRAME = re.compile(r'^\s*File "(?P<path>[^"]+)", line (?P<line>\d{1,9})(?:, in (?P<function>.+))?$')
 _RAISED = re.compile(r"^(?P<type>[^\W\d][\w.]*(?:\.<locals>\.[\w.]+)*)(?:: (?P<message>.*))?$")
-_DUMPED = re.compile(r'^  File "(?P<path>[^"]+)", line (?P<line>\d+) in (?P<function>.+)$')
+_DUMPED = re.compile(r'^  File "(?P<path>[^"]+)", line (?P<line>\d{1,9}) in (?P<function>.+)$')
 _THREAD = re.compile(r"^(?:Current thread|Thread) 0x[0-9a-f]+.*\(most recent call first\):$")
+_REFUSED = re.compile(
+    r"^(?P<type>SyntaxError|MemoryError|RecursionError): "
+    r"(?P<message>(?:Non-UTF-8 code .* in file (?P<path>.+) on line (?P<line>\d{1,9}),|encoding problem: |"
+    r"Parser stack overflowed|.* during compilation$).*)$"
+)
 _COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 _GROUP = re.compile(r"^\s*\+ Exception Group Traceback \(most recent call last\):$")
 _MARGIN = re.compile(r"^ {2,}(?:\| ?|\+ |\+(?:-\+)?-+(?: (?:\d+|\.\.\.) -+)?$)")
@@ -78,7 +83,7 @@ class Traceback:
 
 
 def find(output: Iterable[OutputLine]) -> tuple[Traceback, ...]:
-    """All tracebacks in the output, oldest first; a syntax error of the main file, which has no header, included.
+    """All tracebacks in the output, oldest first; those of a main file that Python refuses, without a header, included.
 
     An exception group is followed by the exceptions in it.
     """
@@ -159,6 +164,9 @@ def _tracebacks(written: Sequence[str]) -> Iterable[Traceback]:
         elif frame:
             code = lines[number + 1].strip() if number + 1 < len(lines) else ""
             frames.append(Frame(frame["path"], int(frame["line"]), frame["function"] or "", code))
+        elif not frames and not headed and (refused := _REFUSED.match(text)):
+            at = (Frame(refused["path"], int(refused["line"]), "", ""),) if refused["path"] else ()
+            yield Traceback(refused["type"], refused["message"], at)
         elif frames and (raised := _RAISED.match(text)):
             follows = previous if chained else None
             previous = Traceback(raised["type"], raised["message"] or "", tuple(frames), ignored, follows, at_exit)

@@ -1,0 +1,84 @@
+"""The folder for a learner's logs: small, and gone afterwards, whatever the learner makes of it."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from tutor.engine.log_folder import keep_small, log_folder
+
+
+def link(folder: Path, elsewhere: Path) -> None:
+    folder.rename(elsewhere / "moved")
+    folder.symlink_to(elsewhere)
+
+
+def file(folder: Path, elsewhere: Path) -> None:
+    folder.rename(elsewhere / "moved")
+    folder.touch()
+
+
+def other(folder: Path, elsewhere: Path) -> None:
+    folder.rename(elsewhere / "moved")
+    (folder / "sub").mkdir(parents=True)
+
+
+def deep(folder: Path, elsewhere: Path) -> None:
+    inner = os.open(folder, os.O_RDONLY)
+    for _ in range(1500):
+        os.mkdir("d", dir_fd=inner)
+        deeper = os.open("d", os.O_RDONLY, dir_fd=inner)
+        os.close(inner)
+        inner = deeper
+    os.close(inner)
+    (folder / "d").chmod(0)
+    folder.chmod(0)
+
+
+def gone(folder: Path, elsewhere: Path) -> None:
+    folder.rmdir()
+
+
+def links_in_it(folder: Path, elsewhere: Path) -> None:
+    (folder / "a.log").symlink_to(elsewhere / "kept.log")
+    (folder / "b").symlink_to(elsewhere)
+    os.mkfifo(folder / "c.log")
+
+
+@pytest.mark.parametrize("made", [link, file, other, deep, gone, links_in_it])
+async def test_it_goes_whatever_it_has_become(made: Callable[[Path, Path], None], tmp_path: Path) -> None:
+    (tmp_path / "kept.log").write_text("kept")
+    with log_folder() as folder:
+        made(folder, tmp_path)
+    assert not os.path.lexists(folder)
+    assert os.listdir(tmp_path) == ["kept.log"]
+    assert (tmp_path / "kept.log").read_text() == "kept"
+
+
+def test_log_files_are_emptied_when_they_grow_too_big_and_nothing_else_is(tmp_path: Path) -> None:
+    logs, elsewhere = tmp_path / "logs", tmp_path / "elsewhere"
+    (logs / "launch").mkdir(parents=True)
+    elsewhere.mkdir()
+    big = b"x" * 100_000
+    for name in ("logs/node.log", "logs/launch/launch.log", "logs/notes.txt", "elsewhere/a.log", "elsewhere/b.log"):
+        (tmp_path / name).write_bytes(big)
+    (logs / "a.log").symlink_to(elsewhere / "a.log")
+    (logs / "b.log").hardlink_to(elsewhere / "b.log")
+    os.mkfifo(logs / "c.log")
+    folder = os.open(logs, os.O_RDONLY)
+    try:
+        keep_small(folder, most=300_000)
+        assert (logs / "node.log").stat().st_size == len(big)
+        with (logs / "node.log").open("ab") as log:
+            keep_small(folder, most=150_000)
+            log.write(b"next")
+    finally:
+        os.close(folder)
+    assert (logs / "node.log").read_bytes() == b"next"
+    assert (logs / "launch/launch.log").stat().st_size == 0
+    assert {(tmp_path / name).stat().st_size for name in ("logs/notes.txt", "elsewhere/a.log", "elsewhere/b.log")} == {
+        len(big)
+    }

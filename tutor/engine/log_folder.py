@@ -1,0 +1,121 @@
+"""The folder that a learner's process logs into: kept small while it runs, gone afterwards, whatever became of it."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import itertools
+import os
+import stat
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from uuid import uuid4
+
+MOST_BYTES = 16_000_000
+"""What its log files may take on the disk; they are emptied when it is more. Nobody reads them in a check."""
+
+LOOK_EVERY_S = 0.2
+MOST_ENTRIES = 100
+
+_FOLDER = os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW | os.O_CLOEXEC
+_FILE = os.O_WRONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_NOCTTY | os.O_CLOEXEC
+
+
+@contextmanager
+def log_folder() -> Iterator[Path]:
+    """A new folder. The processes that use it must have ended when it is left; no error comes of what they did to it.
+
+    Needs a running event loop.
+    """
+    loop = asyncio.get_running_loop()
+    path = Path(tempfile.mkdtemp(prefix="ros-tutor-"))
+    folder = os.open(path, _FOLDER)  # stays the folder that we made, whatever takes its place
+
+    next_look = loop.call_later(LOOK_EVERY_S, lambda: look())
+
+    def look() -> None:
+        nonlocal next_look
+        keep_small(folder)
+        next_look = loop.call_later(LOOK_EVERY_S, look)
+
+    try:
+        yield path
+    finally:
+        next_look.cancel()
+        _remove(folder, path)
+        os.close(folder)
+
+
+def keep_small(folder: int, most: int = MOST_BYTES) -> None:
+    """Empty the log files in an open folder, and in the folders in it, if they take more than `most` bytes of disk."""
+    with contextlib.ExitStack() as opened, contextlib.suppress(OSError):
+        folders = [folder, *_opened(folder, "", _FOLDER, opened)]
+        files = [file for each in folders for file in _opened(each, ".log", _FILE, opened)]
+        if sum(os.fstat(file).st_blocks * 512 for file in files) > most:
+            for file in files:
+                os.ftruncate(file, 0)  # who logs opens it for appending, and goes on at its new end
+
+
+def _opened(folder: int, ending: str, flags: int, opened: contextlib.ExitStack) -> Iterator[int]:
+    """What stands in a folder, opened: no links, and no file that has another name elsewhere."""
+    with os.scandir(folder) as entries:
+        for entry in itertools.islice(entries, MOST_ENTRIES):
+            is_folder = entry.is_dir(follow_symlinks=False)
+            if is_folder != (flags == _FOLDER) or not entry.name.endswith(ending):
+                continue
+            with contextlib.suppress(OSError):
+                handle = os.open(entry.name, flags, dir_fd=folder)
+                opened.callback(os.close, handle)
+                found = os.fstat(handle)
+                if is_folder or (stat.S_ISREG(found.st_mode) and found.st_nlink == 1):
+                    yield handle
+
+
+def _remove(folder: int, path: Path) -> None:
+    """Remove the folder, wherever it is now, and what stands in its place."""
+    place = os.readlink(f"/proc/self/fd/{folder}")
+    _empty(folder)
+    with contextlib.suppress(OSError):
+        os.rmdir(place)
+    with contextlib.suppress(OSError):
+        path.unlink()
+    with contextlib.suppress(OSError):
+        other = os.open(path, _FOLDER)
+        _empty(other)
+        os.close(other)
+        path.rmdir()
+
+
+def _empty(folder: int) -> None:
+    """Remove what is in an open folder. Folders within folders come up level by level: their depth may be any."""
+    before: set[str] = set()
+    while True:
+        with contextlib.suppress(OSError):
+            os.fchmod(folder, 0o700)
+        names = set(os.listdir(folder))
+        if names == before:  # nothing, or what cannot be removed
+            return
+        before = names
+        for name in names:
+            with contextlib.suppress(OSError):
+                _remove_one(name, folder)
+
+
+def _remove_one(name: str, folder: int) -> None:
+    if not stat.S_ISDIR(os.stat(name, dir_fd=folder, follow_symlinks=False).st_mode):
+        os.unlink(name, dir_fd=folder)
+        return
+    os.chmod(name, 0o700, dir_fd=folder)
+    inner = os.open(name, _FOLDER, dir_fd=folder)
+    try:
+        for each in os.listdir(inner):
+            if stat.S_ISDIR(os.stat(each, dir_fd=inner, follow_symlinks=False).st_mode):
+                os.chmod(each, 0o700, dir_fd=inner)
+                os.rename(each, uuid4().hex, src_dir_fd=inner, dst_dir_fd=folder)
+            else:
+                os.unlink(each, dir_fd=inner)
+    finally:
+        os.close(inner)
+    os.rmdir(name, dir_fd=folder)
