@@ -307,9 +307,9 @@ async def warden_of(learner: LearnerProcess) -> int:
     return processes()[learner.pid].parent
 
 
-@pytest.mark.parametrize("name", [name for name in CASES if name != "nameless daemon"])
-async def test_the_warden_killed(bench: Any, name: str) -> None:
-    learner = await bench.start(CASES[name])
+@each_case
+async def test_the_warden_killed(bench: Any, source: str) -> None:
+    learner = await bench.start(source)
     await bench.noted_pid("main")
     await bench.noted_pid("child")
     os.kill(await warden_of(learner), signal.SIGKILL)
@@ -456,9 +456,12 @@ async def test_nobody_else_is_harmed(bench: Any) -> None:
     assert bench.left() == [other.pid]
 
 
-async def test_no_warden_and_no_zombie_of_ours_stays(bench: Any) -> None:
+@pytest.mark.parametrize("killed", [False, True])
+async def test_no_warden_and_no_zombie_of_ours_stays(bench: Any, killed: bool) -> None:
     before = {p.pid for p in descendants(os.getpid())}
     for _ in range(3):
         learner = await bench.start(CHILD)
+        if killed:
+            os.kill(await warden_of(learner), signal.SIGKILL)
         await learner.end()
     assert {p.pid for p in descendants(os.getpid())} <= before

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import os
+import signal
 import sys
+import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -11,6 +13,7 @@ import pytest
 
 from tests.benchmarks.terminal import Terminal
 from tutor.content import load_course
+from tutor.process.warden import processes
 from tutor.tui.outside_editor import EditorError, editor_command
 from tutor.workspace import Workspace, start
 
@@ -110,3 +113,23 @@ def test_which_editor_it_is() -> None:
     assert editor_command({}, there("vim", "vi")) == ["vim"]
     with pytest.raises(EditorError, match="No editor is installed"):
         editor_command({}, there())
+
+
+def test_what_an_editor_leaves_running_is_not_ours(me: Seated) -> None:
+    """As VS Code does: the command ends, and its window is a daemon."""
+    left = me.file.with_name("left")
+    me.installs("ed", f"#!/bin/sh\n(sleep 60 & echo $! >{left}.new; mv {left}.new {left}) </dev/null\n")
+    app = me.opens(EDITOR="ed", PATH=f"{me.programs}{os.pathsep}{os.environ['PATH']}")
+    for _ in range(2):  # after the first, the app is again who gets orphans
+        app.press(b"E")
+        deadline = time.monotonic() + 30
+        while not left.exists():
+            assert time.monotonic() < deadline
+            app.read(0.02)
+        app.until(b"not checked yet")
+        daemon = int(left.read_text())
+        left.unlink()
+        try:
+            assert processes()[daemon].parent != app.pid
+        finally:
+            os.kill(daemon, signal.SIGKILL)

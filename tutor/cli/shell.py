@@ -56,11 +56,18 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _run(command: list[str], env: dict[str, str]) -> int:
+    from tutor.process import prctl
+
     sys.stdout.flush()
+
+    def as_from_a_terminal() -> None:
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
+        prctl.die_with_parent(signal.SIGHUP)  # as when its terminal is closed
+
     # Ctrl+C is the shell's; we are only there to tidy up after it.
     before = signal.signal(signal.SIGINT, signal.SIG_IGN)
     try:
-        shell = subprocess.Popen(command, env=env, preexec_fn=_as_from_a_terminal)
+        shell = subprocess.Popen(command, env=env, preexec_fn=as_from_a_terminal)
         for each in (signal.SIGTERM, signal.SIGHUP):
             signal.signal(each, lambda number, _: shell.send_signal(number))
         code = shell.wait()
@@ -69,7 +76,3 @@ def _run(command: list[str], env: dict[str, str]) -> int:
     finally:
         signal.signal(signal.SIGINT, before)
     return code if code >= 0 else 128 - code
-
-
-def _as_from_a_terminal() -> None:
-    signal.signal(signal.SIGINT, signal.SIG_DFL)

@@ -15,7 +15,7 @@ from pathlib import Path
 from tutor.content import ContentError, UnknownExercise, load_course
 from tutor.engine import EngineError, check
 from tutor.judge.events import Event, encode
-from tutor.process.parent import die_with_parent
+from tutor.process.prctl import die_with_parent
 from tutor.workspace import SubmissionError, find_submission
 
 

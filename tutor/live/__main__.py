@@ -14,7 +14,7 @@ from typing import BinaryIO
 from tutor.live.facts import TopicNews
 from tutor.live.lifeline import read_lines
 from tutor.live.protocol import News, decode_command, encode
-from tutor.process.parent import die_with_parent
+from tutor.process.prctl import die_with_parent
 from tutor.ros.environment import detect
 from tutor.ros.this_process import use
 

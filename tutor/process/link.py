@@ -13,7 +13,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from tutor.judge.trace import Exit
-from tutor.process import sweep
+from tutor.process import prctl, sweep
 from tutor.process.warden import Process, descendants, kill
 
 _WARDEN = Path(__file__).with_name("warden.py")
@@ -56,6 +56,8 @@ class WardenLink(asyncio.Protocol):
 
         Raises OSError if there can be no warden.
         """
+        prctl.guard()
+        prctl.adopt_orphans(True)
         ours, theirs = socket.socketpair()
         with theirs:
             try:
@@ -73,6 +75,7 @@ class WardenLink(asyncio.Protocol):
             except OSError:
                 ours.close()
                 raise
+        sweep.wardens.add(self._warden.pid)
         try:
             self._control, _ = await self._loop.create_unix_connection(lambda: self, sock=ours)
         except BaseException:
@@ -114,7 +117,7 @@ class WardenLink(asyncio.Protocol):
             self._hear(word, rest)
 
     def connection_lost(self, error: Exception | None) -> None:
-        """After the warden's last word all is well; else its charges are orphans, to be found by their marks."""
+        """After the warden's last word all is well; else its charges are orphans, and ours."""
         if self.pid and not self.ending:
             self.fault = _KILLED
         if self._last_word:
@@ -176,6 +179,8 @@ class WardenLink(asyncio.Protocol):
         if self._warden is not None and self._warden.poll() is None:
             self._loop.call_later(0.001, self._finish, left)  # it has closed its files, so it is about to be gone
             return
+        if self._warden is not None:
+            sweep.wardens.discard(self._warden.pid)
         if self._step_in is not None:
             self._step_in.cancel()
         if not self.gone.done():

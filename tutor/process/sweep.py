@@ -1,14 +1,19 @@
-"""Finding what is left of a run whose warden is gone, so that its processes no longer lead back to anyone of ours."""
+"""Finding what is left of a run whose warden is gone: orphans, of which we are the subreaper, and what bears a mark."""
 
 from __future__ import annotations
 
+import contextlib
 import os
+import time
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from tutor.process.warden import Process, processes
+from tutor.process.warden import Process, kill, processes
 
 MARK = "ROS_TUTOR_RUN"
+
+wardens: set[int] = set()
+"""Our wardens, from their start until they are reaped: all children of ours that have a session of their own."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,16 +30,31 @@ class Marks:
 
 
 def find(marks: Marks) -> list[Process]:
-    """The living processes that bear one of the marks, and their descendants; never ourselves or our ancestors."""
+    """The living processes that bear one of the marks, orphans of any warden, and the descendants of both.
+
+    Never ourselves or our ancestors. Orphans that have ended are reaped.
+    """
     table = processes()
     spared = set(_ancestors(os.getpid(), table))
-    chosen = {p.pid for p in table.values() if p.pid not in spared and _marked(p, marks)}
+    orphans = {p.pid for p in table.values() if _is_orphan(p)}
+    for pid in orphans:
+        with contextlib.suppress(ChildProcessError):
+            os.waitpid(pid, os.WNOHANG)
+    chosen = orphans | {p.pid for p in table.values() if p.pid not in spared and _marked(p, marks)}
     grew = True
     while grew:
         more = {p.pid for p in table.values() if p.parent in chosen and p.pid not in spared} - chosen
         chosen |= more
         grew = bool(more)
     return [table[pid] for pid in sorted(chosen) if table[pid].alive]
+
+
+def end_orphans(limit_s: float = 1.0) -> None:
+    """Kill what has come to us since a process of ours that looked after it has died, and all that it started."""
+    until = time.monotonic() + limit_s
+    while (found := find(Marks("", None, frozenset()))) and time.monotonic() < until:
+        kill(found)
+        time.sleep(0.002)
 
 
 def command(pid: int) -> str:
@@ -48,6 +68,12 @@ def command(pid: int) -> str:
         if text:
             return text.decode("utf-8", "replace")
     return ""
+
+
+def _is_orphan(process: Process) -> bool:
+    """Whether a warden was its parent: one that we have started ourselves is in our own session, or a warden."""
+    ours = process.parent == os.getpid() and process.pid not in wardens
+    return ours and process.session != os.getsid(0)
 
 
 def _ancestors(pid: int, table: dict[int, Process]) -> Iterable[int]:

@@ -26,6 +26,7 @@ import sys
 import time
 
 PR_SET_PDEATHSIG = 1
+PR_SET_DUMPABLE = 4
 PR_SET_CHILD_SUBREAPER = 36
 
 
@@ -135,6 +136,7 @@ class Warden:
 
     def run(self) -> None:
         """Do one request from start to end."""
+        self._prctl(PR_SET_DUMPABLE, 0, 0, 0, 0)  # no debugger; the exec of the learner's process takes it back
         if self._prctl(PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0) != 0:
             return self._say(f"failed the system refused a subreaper: {os.strerror(ctypes.get_errno())}")
         request = self._read_request()

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Sequence
-from functools import cached_property
+from functools import cache, cached_property
 from importlib.abc import MetaPathFinder
 from importlib.machinery import ModuleSpec, PathFinder
 from pathlib import Path
@@ -60,13 +60,18 @@ def _identity(ros: RosEnvironment) -> tuple[object, ...]:
 
 
 def _wrong_libraries(ros: RosEnvironment) -> bool:
-    # What the loader was given when this process started, whatever os.environ says by now.
-    started_with = dict(
-        variable.partition("=")[::2]
-        for variable in Path("/proc/self/environ").read_bytes().decode(errors="surrogateescape").split("\0")
-    )
     wrong = prefixes.is_ours if ros.kind == "system" else prefixes.is_foreign_ros
-    return any(wrong(entry) for entry in prefixes.entries(started_with, "LD_LIBRARY_PATH"))
+    return any(wrong(entry) for entry in prefixes.entries(_started_with(), "LD_LIBRARY_PATH"))
+
+
+@cache
+def _started_with() -> dict[str, str]:
+    """What the loader was given when this process started, whatever os.environ says by now.
+
+    Read once: when learners' processes run, it is closed to us (`prctl.guard`).
+    """
+    text = Path("/proc/self/environ").read_bytes().decode(errors="surrogateescape")
+    return dict(variable.partition("=")[::2] for variable in text.split("\0"))
 
 
 def _lines(record: Path) -> list[str]:

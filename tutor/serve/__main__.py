@@ -6,7 +6,7 @@ import signal
 import sys
 from pathlib import Path
 
-from tutor.process.parent import die_with_parent
+from tutor.process.prctl import die_with_parent
 from tutor.tui import run
 
 

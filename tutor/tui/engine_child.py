@@ -11,6 +11,7 @@ from collections.abc import AsyncIterator, Sequence
 from pathlib import Path
 
 from tutor.judge.events import Event, decode
+from tutor.process import prctl, sweep
 
 CLEAN_UP_S = 10.0
 """How long a cancelled check may take to end the learner's processes, in seconds."""
@@ -30,6 +31,8 @@ class EngineChild:
     @classmethod
     async def start(cls, argv: Sequence[str], cwd: Path) -> EngineChild:
         """Start it in a process group of its own, so that no Ctrl+C in an editor hits it. Raises OSError."""
+        prctl.guard()
+        prctl.adopt_orphans(True)
         pipe = asyncio.subprocess.PIPE
         process = await asyncio.create_subprocess_exec(
             *argv,
@@ -68,6 +71,8 @@ class EngineChild:
                 except TimeoutError:
                     continue
         self._reader.cancel()
+        if self._process.returncode is not None and self._process.returncode < 0:
+            sweep.end_orphans()  # it was killed, and could not clean up
 
     @property
     def last_words(self) -> tuple[str, ...]:

@@ -12,6 +12,8 @@ from typing import Any
 
 from textual.app import App, SuspendNotSupported
 
+from tutor.process import prctl
+
 VARIABLES = ("VISUAL", "EDITOR")
 """Where a user names their editor; the first that is set counts."""
 
@@ -52,6 +54,7 @@ async def edit_outside(app: App[Any], path: Path) -> str:
         return str(error)
     name, problem = command[0], ""
     try:
+        prctl.adopt_orphans(False)  # what an editor leaves running is the user's
         with app.suspend(), app.batch_update():
             try:  # in here: the terminal comes back to the app only where nothing is raised
                 process = await asyncio.create_subprocess_exec(*command, str(path))
@@ -66,4 +69,6 @@ async def edit_outside(app: App[Any], path: Path) -> str:
                     )
     except SuspendNotSupported:
         return "This terminal cannot be handed to an editor: open the file in another one."
+    finally:
+        prctl.adopt_orphans(True)
     return problem

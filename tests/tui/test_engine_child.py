@@ -1,0 +1,37 @@
+"""A check of the app that is killed with all that looks after it: what a learner's program has started comes to us."""
+
+from __future__ import annotations
+
+import os
+import sys
+from pathlib import Path
+
+from tests.patience import seen_within
+from tutor.process.warden import processes
+from tutor.tui.engine_child import EngineChild
+
+KILLED = """
+import os, signal, sys, time
+if os.fork() == 0:
+    os.setsid()
+    if os.fork():
+        os._exit(0)
+    os.closerange(0, 100)
+    with open("new", "w") as file:
+        file.write(str(os.getpid()))
+    os.rename("new", "daemon")
+    time.sleep(1000)
+while not os.path.exists("daemon"):
+    time.sleep(0.001)
+os.kill(os.getpid(), signal.SIGKILL)
+"""
+
+
+async def test_a_daemon_does_not_outlive_it(tmp_path: Path) -> None:
+    child = await EngineChild.start([sys.executable, "-I", "-S", "-c", KILLED], tmp_path)
+    assert await seen_within((tmp_path / "daemon").exists, 20)
+    daemon = int((tmp_path / "daemon").read_text())
+    assert await child.ended() == -9
+    assert processes()[daemon].parent == os.getpid()
+    await child.stop()
+    assert daemon not in processes()
