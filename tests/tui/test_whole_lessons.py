@@ -189,3 +189,11 @@ async def test_i_publish_a_message_by_hand_once_and_at_a_rate_and_my_node_hears_
         await me.until(lambda: 'last "Hello: 8"' in me.text("#log-view").replace("\n        ", ""), "the last message")
         await me.press("4", "M")
         await me.sees("■ published on /chatter")
+
+
+async def test_i_play_a_course_from_elsewhere(tmp_path: Path, desk: Desk) -> None:
+    course = Path(__file__).parents[1] / "courses" / "greeting"
+    mine = Desk(load_course(course), Workspace(tmp_path / "ws"), course)
+    async with doing(mine, "h1.1") as me:
+        await me.press("c")
+        await me.until(lambda: "H1.1 Greeter passed" in me.screen(), "a pass", limit_s=CHECK_S)

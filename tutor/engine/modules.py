@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import importlib
-import importlib.util
+import traceback
 from pathlib import Path
 from types import ModuleType
 
@@ -25,18 +25,31 @@ def load_check(lesson: Lesson) -> Check:
         check = getattr(_module(lesson.folder.name, source), "CHECK", None)
     except TableError as error:
         raise EngineError(f"the check of {lesson.id} has a table that cannot be used: {error}", "fix it") from error
+    except Exception as error:
+        raise EngineError(
+            f"the check of {lesson.id} cannot be loaded: {_where(error, source)}: {type(error).__name__}: {error}",
+            "fix the check",
+        ) from error
     if not isinstance(check, Check):
         raise EngineError(f"{source} defines no CHECK", "assign a tutor.judge.check.Check to CHECK there")
     return check
 
 
 def _module(name: str, source: Path) -> ModuleType:
-    own = importlib.util.find_spec("checks")
-    if own is not None and any(source.is_relative_to(place) for place in own.submodule_search_locations or ()):
-        return importlib.import_module(f"checks.{name}")
-    spec = importlib.util.spec_from_file_location(f"checks_of_course.{name}", source)
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    """The module `checks.NAME`, of our own course or of another, whose folder of checks joins the package."""
+    import checks
+
+    folder = str((source.parent.parent if source.name == "__init__.py" else source.parent).resolve())
+    if folder not in checks.__path__:
+        checks.__path__.append(folder)
+    return importlib.import_module(f"checks.{name}")
+
+
+def _where(error: Exception, source: Path) -> str:
+    """The file and line of the check's that the exception came through last."""
+    if isinstance(error, SyntaxError) and error.filename:
+        return f"{error.filename}:{error.lineno}"
+    frames = [
+        frame for frame in traceback.extract_tb(error.__traceback__) if Path(frame.filename).parent == source.parent
+    ]
+    return f"{frames[-1].filename}:{frames[-1].lineno}" if frames else str(source)

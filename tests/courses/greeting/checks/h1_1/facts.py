@@ -1,0 +1,13 @@
+"""What is seen of a greeter."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class Greeting:
+    """The first text; None where none came within `limit_s` seconds."""
+
+    text: str | None
+    limit_s: float

@@ -1,0 +1,35 @@
+"""A course from elsewhere, given with --lessons: tests/courses/greeting, whose check is a package of modules."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from tutor.interpreter import of_ours
+
+COURSE = Path(__file__).parents[1] / "courses" / "greeting"
+
+
+def checked(course: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
+    command = of_ours("tutor", "check", "h1.1", "--lessons", str(course), *arguments)
+    return subprocess.run(command, capture_output=True, text=True, timeout=100, check=False)
+
+
+def test_its_check_is_loaded_with_modules_and_dataclasses_of_its_own() -> None:
+    answer = checked(COURSE, "--solution", "--format", "json")
+    (exercise,) = json.loads(answer.stdout)["exercises"]
+    assert (answer.returncode, exercise["verdict"]) == (0, "passed")
+
+
+@pytest.mark.parametrize("place", ["package", "module"])
+def test_where_its_check_is_broken_the_authors_file_is_named(tmp_path: Path, place: str) -> None:
+    course = shutil.copytree(COURSE, tmp_path / "course")
+    file = course / "checks" / "h1_1" / ("__init__.py" if place == "package" else "judges.py")
+    file.write_text(file.read_text() + "\nimport no_such_module\n")
+    answer = checked(course, "--solution")
+    assert answer.returncode == 3, answer
+    assert str(file) in answer.stdout + answer.stderr
