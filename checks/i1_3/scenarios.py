@@ -55,28 +55,41 @@ async def survey(bench: Bench) -> Calls:
     """Call every service once as `ros2 service call` does, then press Ctrl+C."""
     async with bench.start(SERVER) as run:
         bench.doing(0.1, "waiting for the four services")
-        await appears(run, lambda: not missing_of(run.graph.services))
+        known = await _services(run)
         spins = await run.parameters(2.0) is not None
         met = run.graph
         there = [name for name in SIGNS if name not in missing_of(met.services)]
         bench.doing(0.4, "calling each service")
         answers = await _ask(run, [(name, *EASY) for name in there])
         unanswered = next((answer for answer in answers if answer.response is None), None)
-        trace = await _as_met(run, met)
+        trace = await _as_met(run, met, known)
         bench.doing(0.8, "pressing Ctrl+C")
         ended = await run.interrupt() if run.exit is None else None
     stuck = await _stuck(bench, unanswered) if unanswered and trace.exit is None else ()
     return Calls(trace, answers, spins, stuck, ended)
 
 
-async def _as_met(run: Run, met: Graph) -> Trace:
+async def _services(run: Run) -> bool:
+    """Wait for the four services; whether a node was there, if only for a moment."""
+    known = False
+
+    def all_there() -> bool:
+        nonlocal known
+        known = known or bool(run.graph.nodes)
+        return not missing_of(run.graph.services)
+
+    await appears(run, all_there)
+    return known
+
+
+async def _as_met(run: Run, met: Graph, known: bool) -> Trace:
     """The facts after the calls; where one has killed the node, with the graph as met before.
 
-    A node that goes takes its services along, one by one.
+    A node that goes takes its services along, one by one. `known`: there was one, even if it was gone when we looked.
     """
     trace = run.trace()
     gone = set(missing_of(trace.graph.services)) - set(missing_of(met.services))
-    if trace.exit is None and not gone and (trace.graph.nodes or not met.nodes):
+    if trace.exit is None and not gone and (trace.graph.nodes or not (known or met.nodes)):
         return trace
     await run.ends(DYING_S)
     return replace(run.trace(), graph=met)
@@ -94,7 +107,7 @@ async def _stuck(bench: Bench, unanswered: CallAnswer) -> tuple[Frame, ...]:
 async def calculation(bench: Bench) -> Calls:
     """Calculate with operands by chance."""
     async with bench.start(SERVER) as run:
-        await appears(run, lambda: not missing_of(run.graph.services))
+        known = await _services(run)
         met = run.graph
         there = [name for name in SIGNS if name not in missing_of(met.services)]
         bench.doing(0.3, "calculating with positive and negative numbers")
@@ -102,7 +115,7 @@ async def calculation(bench: Bench) -> Calls:
         a, b = chosen[0]  # in the other order, too, which makes no whole quotient
         swapped = [(name, b, a) for name in there if name != "/divide"]
         answers = await _ask(run, [*((name, a, b) for name in there for a, b in chosen), *swapped])
-        return Calls(await _as_met(run, met), answers)
+        return Calls(await _as_met(run, met, known), answers)
 
 
 async def _ask(run: Run, questions: Sequence[tuple[str, int, int]]) -> tuple[CallAnswer, ...]:
