@@ -15,17 +15,17 @@ from tutor.judge.trace import LogRecord
 
 _COLOUR = re.compile(r"\x1b\[[0-9;]*[A-Za-z]")
 _CONTENT = re.compile(r"Hello World:\s*(\d+)", re.IGNORECASE)
-_CLOCK = re.compile(r"\d{4}-\d\d-\d\d(?:[T ]\d\d:\d\d(?::\d\d(?:[.,]\d+)?)?)?|\d+:\d\d:\d\d(?:[.,]\d+)?")
+_CLOCK = re.compile(r"\d{4}-\d\d-\d\d(?:[T ]\d\d:\d\d(?::\d\d(?:[.,]\d+)?)?)?|(?<!\d)\d+:\d\d:\d\d(?:[.,]\d+)?")
 _NUMBER = re.compile(r"(?:(?<![\w.,)\]])[-\u2212])?\d+(?:[.,]\d+|['\u2019_]\d{3}(?!\d))*(?:[eE][-+]?\d+)?")
 _THOUSANDS = re.compile(r"['\u2019_]")
 _IN_ENGLISH = re.compile(r"-?\d{1,3}(,\d{3})+(\.\d+)?")
 _IN_GERMAN = re.compile(r"-?\d{1,3}(\.\d{3})+,\d+")
 _LABEL = re.compile(
     r"\b(?:(?P<first>first|erste[rns]?|premi[eè]re?|primer[ao]?|prim[ao])|(?:last|latest|letzte[rns]?|derni[eè]re?|[uú]ltim[ao]))"
-    r"[\s_-]*(?:[^\W\d]+\s*)?[\"']?\s*[:=]\s*[^\w\s]*$",
+    r"[\s_-]*+(?:[^\W\d]++\s*+)?[\"']?\s*+[:=]\s*+[^\w\s]*$",
     re.IGNORECASE,
 )
-_DIGITS = re.compile(r"[0-9A-Za-z#]*#[0-9A-Za-z#]*")  # of an identifier, such as 0x5f3a
+_DIGITS = re.compile(r"(?<![0-9A-Za-z#])[0-9A-Za-z]*+#[0-9A-Za-z#]*")  # of an identifier, such as 0x5f3a
 _REPEATED = re.compile(r"(.)\1+")
 
 

@@ -50,10 +50,31 @@ def read(written: ast.expr, message: str, function: ast.AST | None = None) -> li
     parts = list(_parts(written, function))
     if not any(isinstance(each, str) and each.strip() for each in parts):
         return None
-    pattern = "".join(re.escape(each) if isinstance(each, str) else "(.*?)" for each in parts)
-    found = re.fullmatch(pattern, message, re.DOTALL)
     expressions = [each for each in parts if not isinstance(each, str)]
-    return list(zip(expressions, found.groups(), strict=True)) if found else None
+    between = [""]
+    for each in parts:
+        if isinstance(each, str):
+            between[-1] += each
+        else:
+            between.append("")
+    found = _filling(between, message)
+    return list(zip(expressions, found, strict=True)) if found is not None else None
+
+
+def _filling(between: Sequence[str], message: str) -> list[str] | None:
+    """What a message has between these texts, each as short as can be; None where it is not made of them."""
+    first, *others = between
+    if not message.startswith(first):
+        return None
+    found, end = [], len(first)
+    for number, text in enumerate(others, 1):
+        last = number == len(others)
+        at = max(len(message) - len(text), end) if last else message.find(text, end)
+        if at < 0 or not message.startswith(text, at):
+            return None
+        found.append(message[end:at])
+        end = at + len(text)
+    return found if end == len(message) else None
 
 
 def _parts(node: ast.expr, function: ast.AST | None, depth: int = 0) -> Iterator[Part]:

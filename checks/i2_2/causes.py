@@ -18,7 +18,7 @@ from tutor.judge.verdict import Cause
 
 _NO_PACKAGE = re.compile(r"package '(?P<name>[^']*)' not found", re.IGNORECASE)
 _NO_PROGRAM = re.compile(r"executable '(?P<name>[^']*)' not found (?:in|on)[^\n]*")
-_NOT_HERE = re.compile(r"\S+ is not supported by the launch files that run without an installed ROS 2")
+_NOT_HERE = re.compile(r"(?<!\S)\S+ is not supported by the launch files that run without an installed ROS 2")
 _ELSEWHERE = re.compile(r"`ros2 \w+` needs an installed ROS 2")
 _NO_VALUE = re.compile(r"launch configuration '(?P<name>[^']*)' does not exist")
 _NO_DEFAULT = re.compile(r"missing required argument '(?P<name>[^']*)'")

@@ -12,8 +12,8 @@ from tutor.judge.tracebacks import Traceback
 
 _COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 _PREFIX = re.compile(r"^\[(?P<process>[^\]\s]+-\d+)\] ?(?P<text>.*)$")
-_DIED = re.compile(r"\[(?P<process>[^\]\s]+-\d+)\]: process has died \[pid \d+, exit code (?P<code>-?\d+), cmd '")
-_FINISHED = re.compile(r"\[(?P<process>[^\]\s]+-\d+)\]: process has finished cleanly")
+_DIED = re.compile(r"\[(?P<process>[^\[\]\s]+-\d+)\]: process has died \[pid \d+, exit code (?P<code>-?\d+), cmd '")
+_FINISHED = re.compile(r"\[(?P<process>[^\[\]\s]+-\d+)\]: process has finished cleanly")
 
 
 @dataclass(frozen=True)

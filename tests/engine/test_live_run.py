@@ -293,6 +293,33 @@ async def test_a_flood_neither_hangs_nor_grows_without_bound(scene: Scene, monke
     assert len(trace.output) <= 2002
 
 
+BIG = """
+publisher = node.create_publisher(String, "chatter", 10)
+node.declare_parameter("name", "x" * 100_000)
+def big():
+    publisher.publish(String(data="x" * 1_000_000))
+    node.get_logger().info("y" * 1_000_000)
+node.create_timer(0.02, big)
+"""
+
+
+async def test_big_messages_are_cut_and_no_more_is_taken_than_can_be_kept(
+    scene: Scene, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from tutor.ros import messages, observer
+
+    monkeypatch.setattr(observer, "MOST_BYTES", 200_000)
+    async with scene.bench(node(BIG)).start(FILE, watch=CHATTER) as run:
+        assert await run.until(lambda: len(run.on("/chatter")) >= 5 and len(run.logs) >= 6, UP_S)
+        declared = await run.parameters(10)
+        trace = run.trace()
+    assert {len(sample.message["data"]) for sample in trace.on("/chatter")} == {messages.MOST_CHARACTERS}
+    assert max(len(log.text) for log in trace.logs) == observer.LINE_CHARACTERS
+    assert len(trace.on("/chatter")) <= 6
+    assert len(trace.logs) <= 8
+    assert [len(p.value) for p in declared or () if p.name == "name"] == [messages.MOST_CHARACTERS]
+
+
 async def test_ctrl_c_reaches_what_a_launch_started_once(scene: Scene) -> None:
     (scene.folder / "counts.py").write_text(COUNTS)
     async with scene.bench(LAUNCHES).launch(FILE) as run:

@@ -81,3 +81,12 @@ def test_cutting_counts_characters_not_bytes() -> None:
     output = Output()
     output.feed("stdout", ("𝄞" * (LINE_CHARACTERS + 5)).encode() + b"\n", 1.0)
     assert texts(output) == ["𝄞" * LINE_CHARACTERS]
+
+
+def test_no_more_is_kept_of_a_long_line_than_is_shown() -> None:
+    output = Output()
+    for _ in range(FIRST_LINES + LAST_LINES):
+        output.feed("stdout", b"x" * 100_000 + b"\n", 1.0)
+    assert {len(text) for text in texts(output)} == {LINE_CHARACTERS}
+    kept = output._streams["stdout"]
+    assert max(len(raw) for _, raw, _ in (*kept.first, *kept.last)) == LINE_CHARACTERS

@@ -17,6 +17,7 @@ from tutor.engine.run import Facts, LiveRun
 from tutor.judge.bench import Run, Scenario
 from tutor.judge.exceptions import Known
 from tutor.judge.submission import Submission
+from tutor.judge.verdict import MOST_CHARACTERS
 from tutor.process import LearnerProcess, ProcessError
 from tutor.ros.domain import NoFreeDomain, reserve_domain
 from tutor.ros.environment import RosEnvironment, learner_env
@@ -159,7 +160,7 @@ class LiveBench:
         return found
 
     def doing(self, fraction: float, text: str) -> None:
-        self.tell(min(1.0, max(0.0, fraction)), text)
+        self.tell(min(1.0, max(0.0, fraction)), text[:MOST_CHARACTERS])
 
 
 @asynccontextmanager

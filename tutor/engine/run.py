@@ -38,7 +38,7 @@ from tutor.process import CpuMeter, CpuTime, LearnerProcess, cpu_time_here
 from tutor.ros import echo, graph, parameters
 from tutor.ros.feed import TopicFeed
 from tutor.ros.messages import UnknownType, to_plain
-from tutor.ros.observer import Observer
+from tutor.ros.observer import MOST_SAMPLES, Observer
 
 T = TypeVar("T")
 
@@ -143,7 +143,8 @@ class LiveRun:
 
     def serve(self, service: str, type: str, handler: Handler) -> None:
         def served(request: Mapping[str, Any], response: Mapping[str, Any]) -> None:
-            self._facts.served.append(Served(service, request, response, time.time()))
+            if len(self._facts.served) < MOST_SAMPLES:
+                self._facts.served.append(Served(service, request, response, time.time()))
             self._facts.change()
 
         self._observer.serve(service, type, handler, served)

@@ -17,7 +17,7 @@ from tutor.judge.check import Check, Criterion
 from tutor.judge.events import CheckStarted, CriterionJudged, Event, ExerciseJudged, Progress
 from tutor.judge.result import CriterionResult, ExerciseResult
 from tutor.judge.submission import Submission
-from tutor.judge.verdict import Verdict, fault, skipped
+from tutor.judge.verdict import Verdict, bounded, fault, skipped
 from tutor.ros.environment import RosEnvironment
 
 OnEvent = Callable[[Event], None]
@@ -112,7 +112,7 @@ class Runner:
             )
 
     async def _show(self, criterion: Criterion) -> CriterionResult:
-        verdict = await self._verdicts[criterion.id]
+        verdict = bounded(await self._verdicts[criterion.id])
         text = self._texts.get(criterion.id)
         result = CriterionResult(
             criterion.id, text.text if text else criterion.id, criterion.bonus, verdict, self._elapsed()

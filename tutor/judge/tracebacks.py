@@ -9,12 +9,15 @@ from itertools import groupby
 
 from tutor.judge.trace import OutputLine, Trace
 
+MOST_CHARACTERS = 1000
+"""A longer line of a traceback is cut: there are patterns of many parts for what it says."""
+
 _AT_EXIT = "Exception ignored in atexit callback"
 _HEADER = "Traceback (most recent call last):"
 _FRAME = re.compile(r'^\s*File "(?P<path>[^"]+)", line (?P<line>\d{1,9})(?:, in (?P<function>.+))?$')
 _RAISED = re.compile(r"^(?P<type>[^\W\d][\w.]*(?:\.<locals>\.[\w.]+)*)(?:: (?P<message>.*))?$")
 _DUMPED = re.compile(r'^  File "(?P<path>[^"]+)", line (?P<line>\d{1,9}) in (?P<function>.+)$')
-_THREAD = re.compile(r"^(?:Current thread|Thread) 0x[0-9a-f]+.*\(most recent call first\):$")
+_THREAD = re.compile(r"^(?:Current thread|Thread) 0x[0-9a-f]++.*\(most recent call first\):$")
 _REFUSED = re.compile(
     r"^(?P<type>SyntaxError|MemoryError|RecursionError): "
     r"(?P<message>(?:Non-UTF-8 code .* in file (?P<path>.+) on line (?P<line>\d{1,9}),|encoding problem: |"
@@ -149,7 +152,7 @@ def without(output: Sequence[OutputLine]) -> tuple[str, ...]:
 
 
 def _tracebacks(written: Sequence[str]) -> Iterable[Traceback]:
-    lines = _without_margins([_COLOUR.sub("", text) for text in written])
+    lines = _without_margins([_COLOUR.sub("", text)[:MOST_CHARACTERS] for text in written])
     frames: list[Frame] = []
     headed = ignored = at_exit = chained = False
     previous: Traceback | None = None

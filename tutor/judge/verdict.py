@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
+
+MOST_CHARACTERS, MOST_OF_A_HINT, MOST_OF_A_LINE, MOST_LINES = 2000, 10_000, 500, 20
+"""How long the texts of a verdict are at most, its hint (which may be a whole program), and its evidence."""
 
 
 class Status(Enum):
@@ -54,6 +57,22 @@ class Verdict:
     def passed(self) -> bool:
         """Whether the criterion is met."""
         return self.status is Status.PASSED
+
+
+def bounded(verdict: Verdict) -> Verdict:
+    """The verdict with texts and evidence of bounded length: they may hold what a learner's program has written."""
+    return replace(
+        verdict,
+        expected=_cut(verdict.expected, MOST_CHARACTERS),
+        observed=_cut(verdict.observed, MOST_CHARACTERS),
+        cause=_cut(verdict.cause, MOST_CHARACTERS),
+        hint=_cut(verdict.hint, MOST_OF_A_HINT),
+        evidence=tuple(_cut(line, MOST_OF_A_LINE) for line in verdict.evidence[:MOST_LINES]),
+    )
+
+
+def _cut(text: str, most: int) -> str:
+    return text if len(text) <= most else f"{text[: most - 3]}..."
 
 
 def passed(expected: str, observed: str, evidence: Iterable[str] = ()) -> Verdict:

@@ -65,7 +65,9 @@ class Output:
             s.partial = (s.partial + rest[:_LINE_BYTES])[:_LINE_BYTES]
 
     def _finish(self, s: _Stream, line: bytes, at: float) -> _Raw:
-        line = (s.partial + line)[:_LINE_BYTES]
+        line = (s.partial + line[:_LINE_BYTES])[:_LINE_BYTES]
+        if len(line) > LINE_CHARACTERS:
+            line = _text(line).encode()
         s.partial = b""
         s.complete += 1
         return (self._order, line, at)

@@ -62,7 +62,7 @@ def command(pid: int) -> str:
     for file in ("cmdline", "comm"):
         try:
             with open(f"/proc/{pid}/{file}", "rb") as opened:
-                text = opened.read().replace(b"\0", b" ").strip()
+                text = opened.read(4096).replace(b"\0", b" ").strip()
         except OSError:
             return ""
         if text:

@@ -8,6 +8,13 @@ from collections.abc import Mapping
 from functools import cache
 from typing import Any
 
+MOST_CHARACTERS, MOST_ELEMENTS = 10_000, 100_000
+"""How much is kept of a text, and of all arrays of a message."""
+
+_EACH = 16
+_RECEIVED = 32
+"""Bytes that are received and not kept count as a byte for so many."""
+
 
 class UnknownType(LookupError):
     """A type name that this ROS does not have."""
@@ -28,8 +35,28 @@ def interface(name: str) -> Any:
 
 
 def to_plain(message: Any) -> dict[str, Any]:
-    """A message as a dict of its fields; nested messages become dicts, arrays become lists."""
-    return {name: _plain(getattr(message, name)) for name in message.get_fields_and_field_types()}
+    """A message as a dict of its fields; nested messages become dicts, arrays become lists.
+
+    Texts are cut after `MOST_CHARACTERS`, and arrays where the message has more than `MOST_ELEMENTS` in all.
+    """
+    return weighed(message)[0]
+
+
+def weighed(message: Any) -> tuple[dict[str, Any], int]:
+    """A message as `to_plain` gives it, and what it costs to keep, in bytes; what is cut off counts for a share."""
+    room = _Room()
+    plain = room.message(message)
+    return plain, room.bytes
+
+
+def cut(text: str, most: int = MOST_CHARACTERS) -> str:
+    """The text, with an ellipsis in place of what is beyond `most` characters."""
+    return text if len(text) <= most else f"{text[: most - 3]}..."
+
+
+def weight(text: str, kept: str) -> int:
+    """What it costs, in bytes, to keep a part of a text, with a share of what it cost to receive the whole."""
+    return _EACH + len(kept) * (1 if kept.isascii() else 4) + len(text) // _RECEIVED
 
 
 def fill(message: Any, values: Mapping[str, Any]) -> Any:
@@ -39,11 +66,27 @@ def fill(message: Any, values: Mapping[str, Any]) -> Any:
     return message
 
 
-def _plain(value: Any) -> Any:
-    if hasattr(value, "get_fields_and_field_types"):
-        return to_plain(value)
-    if isinstance(value, bytes):
-        return list(value)
-    if isinstance(value, (list, tuple, array.array)) or hasattr(value, "tolist"):
-        return [_plain(item) for item in value]
-    return value
+class _Room:
+    """What one message may take."""
+
+    def __init__(self) -> None:
+        self.bytes = 0
+        self._elements = MOST_ELEMENTS
+
+    def message(self, message: Any) -> dict[str, Any]:
+        return {name: self._plain(getattr(message, name)) for name in message.get_fields_and_field_types()}
+
+    def _plain(self, value: Any) -> Any:
+        if hasattr(value, "get_fields_and_field_types"):
+            return self.message(value)
+        if isinstance(value, str):
+            kept = cut(value)
+            self.bytes += weight(value, kept)
+            return kept
+        if isinstance(value, (bytes, list, tuple, array.array)) or hasattr(value, "tolist"):
+            kept = value[: self._elements]
+            self._elements -= len(kept)
+            self.bytes += _EACH * len(kept) + len(value) // _RECEIVED
+            return [self._plain(item) for item in kept]
+        self.bytes += _EACH
+        return value

@@ -19,7 +19,7 @@ from rclpy.service import Service as ServiceServer
 from rclpy.signals import SignalHandlerOptions
 
 from tutor.judge.trace import LogRecord, Sample
-from tutor.ros.messages import fill, interface, to_plain
+from tutor.ros.messages import cut, fill, interface, to_plain, weighed, weight
 
 OUR_PREFIX = "_ros_tutor"
 """Names of our own nodes begin with this (hidden, as ros2cli's are), so that they are told from the learner's."""
@@ -29,6 +29,12 @@ DEEP = 1000
 
 MOST_SAMPLES = 20_000
 """A topic is no longer listened to after this many samples: a flood must not exhaust us."""
+
+MOST_BYTES = 8_000_000
+"""Nor after so many bytes."""
+
+LINE_CHARACTERS = 2000
+"""A log message is cut at so many characters, as a line of the output is."""
 
 _number = itertools.count(1)
 
@@ -79,10 +85,14 @@ class Observer:
         def take(message: Any) -> None:
             stamp = message.stamp.sec + message.stamp.nanosec * 1e-9
             level = message.level if isinstance(message.level, int) else message.level[0]
-            record = LogRecord(level, message.name, message.msg, stamp, time.time(), message.function)
-            self._hand_over(self._log, record)
+            text, name, function = (
+                cut(each, LINE_CHARACTERS) for each in (message.msg, message.name, message.function)
+            )
+            self._hand_over(self._log, LogRecord(level, name, text, stamp, time.time(), function))
+            count(weight(message.msg, text))
 
-        self.node.create_subscription(interface("rcl_interfaces/msg/Log"), "/rosout", take, qos)
+        count = self._counter(lambda: self.node.destroy_subscription(subscription))
+        subscription = self.node.create_subscription(interface("rcl_interfaces/msg/Log"), "/rosout", take, qos)
 
     def watch(
         self,
@@ -106,15 +116,14 @@ class Observer:
         qos = QoSProfile(history=HistoryPolicy.KEEP_LAST, depth=DEEP, reliability=reliability, durability=durability)
 
         def take(message: Any, info: Any) -> None:
+            plain, cost = weighed(message)
             source = info["source_timestamp"] * 1e-9
-            self._hand_over(self._sample, Sample(topic, to_plain(message), source, time.time()))
-            taken.append(None)
-            if len(taken) == MOST_SAMPLES:
-                self.node.destroy_subscription(subscription)
+            self._hand_over(self._sample, Sample(topic, plain, source, time.time()))
+            count(cost)
 
-        taken: list[None] = []
         # rclpy gives the message's info to a callback that takes two arguments; its annotations know one only.
         callback: Any = take
+        count = self._counter(lambda: self.node.destroy_subscription(subscription))
         subscription = self.node.create_subscription(message_type, topic, callback, qos)
 
     def serve(
@@ -181,6 +190,18 @@ class Observer:
             self._executor.wake()
         return self._clients[key]
 
+    def _counter(self, leave: Callable[[], object]) -> Callable[[int], None]:
+        """Counts what comes on one topic, in messages and bytes; calls `leave` when it is enough."""
+        messages = kept = 0
+
+        def count(cost: int) -> None:
+            nonlocal messages, kept
+            messages, kept = messages + 1, kept + cost
+            if messages >= MOST_SAMPLES or kept > MOST_BYTES:
+                leave()
+
+        return count
+
     def _spin(self) -> None:
         try:
             while self._context.ok():
@@ -203,8 +224,7 @@ class Observer:
         self._on_change()
 
     def _log(self, record: LogRecord) -> None:
-        if len(self.logs) < MOST_SAMPLES:
-            self.logs.append(record)
+        self.logs.append(record)
         self._on_change()
 
     def _fail(self, error: Exception) -> None:

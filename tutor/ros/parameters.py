@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from tutor.judge.trace import Parameter, SetAnswer
-from tutor.ros.messages import interface
+from tutor.ros.messages import cut, interface
 from tutor.ros.observer import Observer
 
 _TYPES = (
@@ -35,6 +35,10 @@ _FIELDS = (
     "double_array_value",
     "string_array_value",
 )
+
+
+MOST_PARAMETERS, MOST_ELEMENTS = 500, 1000
+"""So many parameters of a node are asked for, and so many elements of an array are kept. Texts are cut, too."""
 
 
 async def ask(observer: Observer, nodes: Iterable[str], limit_s: float) -> tuple[Parameter, ...] | None:
@@ -71,7 +75,7 @@ async def set_values(
         values,
         True,
         all(result.successful for result in results) and bool(results),
-        "; ".join(result.reason for result in results if result.reason),
+        cut("; ".join(result.reason for result in results if result.reason)),
         asked,
         time.time(),
     )
@@ -81,7 +85,7 @@ async def _ask_one(observer: Observer, node: str, limit_s: float) -> tuple[Param
     listed = await observer.call(f"{node}/list_parameters", "rcl_interfaces/srv/ListParameters", {}, limit_s)
     if listed is None:
         return None
-    names = list(listed.result.names)
+    names = list(listed.result.names)[:MOST_PARAMETERS]
     if not names:
         return ()
     values, described = await asyncio.gather(
@@ -117,11 +121,17 @@ def _parameter(node: str, name: str, value: Any, descriptor: Any) -> Parameter:
         node=node,
         name=name,
         type=_TYPES[kind],
-        value=getattr(value, field) if field else None,
+        value=_kept(getattr(value, field)) if field else None,
         read_only=descriptor.read_only,
         minimum=float(ranges[0].from_value) if ranges else None,
         maximum=float(ranges[0].to_value) if ranges else None,
     )
+
+
+def _kept(value: Any) -> Any:
+    if isinstance(value, str):
+        return cut(value)
+    return value[:MOST_ELEMENTS] if hasattr(value, "__len__") else value
 
 
 def _message(name: str, value: Any, type_name: str | None = None) -> Any:

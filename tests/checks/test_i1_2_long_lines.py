@@ -1,0 +1,44 @@
+"""No log line takes long to be read, and no text that a line is made of."""
+
+from __future__ import annotations
+
+import ast
+import itertools
+import re
+import time
+
+import pytest
+
+from checks.i1_2.reading import labelled, read
+from checks.i1_2.templates import _filling
+from checks.i1_2.templates import read as read_template
+from tutor.judge.trace import LogRecord
+
+LONG = 2000
+UNITS = ["1", "1.", "1,", "1'", "1:", "1:00:", "a", "a1", "_", " ", "last", "last_ ", "#", "-", "@", "Hello World: 1 "]
+
+
+@pytest.mark.parametrize("unit", UNITS)
+def test_a_long_line_is_read_at_once(unit: str) -> None:
+    began = time.process_time()
+    for text in ((unit * LONG)[:LONG], ("last" + "_" * 900 + " " * 900 + unit)[:LONG] + 'x: "Hello World: 1"'):
+        read(LogRecord(20, "node", text, 0.0, 0.0), 1)
+        list(labelled(text))
+    assert time.process_time() - began < 0.5
+
+
+def test_a_text_of_many_parts_is_taken_apart_at_once() -> None:
+    written = ast.parse("f'" + "{a} " * 50 + "x'", mode="eval").body
+    began = time.process_time()
+    assert read_template(written, "1 " * 1000) is None
+    assert time.process_time() - began < 0.5
+
+
+def test_a_text_is_taken_apart_as_by_the_shortest_parts_from_left_to_right() -> None:
+    texts = ["", "a", "b", "ab"]
+    messages = ["".join(each) for n in range(6) for each in itertools.product("ab", repeat=n)]
+    for between in (each for n in (1, 2, 3, 4) for each in itertools.product(texts, repeat=n)):
+        pattern = re.compile("(.*?)".join(between), re.DOTALL)
+        for message in messages:
+            found = pattern.fullmatch(message)
+            assert _filling(between, message) == (list(found.groups()) if found else None)
