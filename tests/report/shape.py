@@ -11,7 +11,15 @@ TEXT_KEYS = ("id", "text", "expected", "observed", "cause", "hint")
 
 def assert_report_shape(document: Any) -> None:
     """Fail unless `document` has every key of the contract, no other, and the right types."""
-    assert list(document) == ["schema", "verdict", "duration_s", "environment", "exercises"]
+    assert [key for key in document if key != "walls"] == [
+        "schema",
+        "verdict",
+        "duration_s",
+        "environment",
+        "exercises",
+    ]
+    for wall in document.get("walls", []):
+        assert {name: type(value) for name, value in wall.items()} == {"name": str, "stands": bool, "detail": str}
     assert document["schema"] == "ros-tutor/report/1"
     assert document["verdict"] in ("passed", "failed", "error")
     assert_duration(document["duration_s"])

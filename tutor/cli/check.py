@@ -28,6 +28,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("path", metavar="PATH", nargs="?", type=Path, help="a file or folder (or the workspace's own)")
     parser.add_argument("--solution", action="store_true", help="judge our own solution instead")
     parser.add_argument("--criterion", metavar="ID", action="append", help="judge only this one (repeatable)")
+    parser.add_argument(
+        "--isolate",
+        action="store_true",
+        help="keep the submission from files, processes and network (needs bubblewrap)",
+    )
     parser.add_argument("--format", choices=_FORMATS, default="text", help="text (default), json, junit or markdown")
     parser.add_argument("--output", metavar="FILE", type=Path, help="write the report there instead of to stdout")
 
@@ -39,6 +44,8 @@ def run(arguments: argparse.Namespace, engine: Engine | None = None) -> int:
     from tutor.workspace import find_submission, solution
 
     _prove_fitting(arguments)
+    if engine is None:
+        engine = _engine(isolate=arguments.isolate)
     course = context.load_course(arguments)
     workspace = context.workspace(arguments)
     lessons = choose_lessons(arguments.exercise, arguments.criterion, course)
@@ -52,7 +59,7 @@ def run(arguments: argparse.Namespace, engine: Engine | None = None) -> int:
 
     only = frozenset(arguments.criterion) if arguments.criterion else None
     to_terminal = arguments.output is None and terminal.is_terminal(sys.stdout)
-    report = judge(engine or _engine(), submissions, course, only, display_for(course, report_follows=to_terminal))
+    report = judge(engine, submissions, course, only, display_for(course, report_follows=to_terminal))
     if report is None:
         terminal.say("interrupted; nothing that was started is left")
         return INTERRUPTED
@@ -63,10 +70,16 @@ def run(arguments: argparse.Namespace, engine: Engine | None = None) -> int:
     return _CODES[report.verdict.value]
 
 
-def _engine() -> Engine:
+def _engine(*, isolate: bool) -> Engine:
     from tutor.engine import check  # late: nothing but a check needs ROS
 
-    return check
+    if not isolate:
+        return check
+    from functools import partial
+
+    from tutor.engine.walls import Walls
+
+    return partial(check, walls=Walls.prove())  # before anything else: this process has one thread yet
 
 
 def _prove_fitting(arguments: argparse.Namespace) -> None:

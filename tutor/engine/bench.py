@@ -14,6 +14,7 @@ from tutor.engine.admission import Admission
 from tutor.engine.errors import EngineError
 from tutor.engine.log_folder import log_folder
 from tutor.engine.run import Facts, LiveRun
+from tutor.engine.walls import Walls
 from tutor.judge.bench import Run, Scenario
 from tutor.judge.exceptions import Known
 from tutor.judge.submission import Submission
@@ -58,6 +59,7 @@ class LiveBench:
     admission: Admission = field(default_factory=Admission)
     asks_s: float = 0.0
     exceptions: tuple[Known, ...] = ()
+    walls: Walls | None = None
     kills: list[Path] = field(default_factory=list)
 
     @asynccontextmanager
@@ -142,8 +144,9 @@ class LiveBench:
                 )
                 env["PYTHONFAULTHANDLER"] = "1"  # see LiveRun.stuck_at
                 argv = command(env, log_dir)
+                walls = self.walls.around(package_folder(path), log_dir, env) if self.walls else ()
                 async with await LearnerProcess.start(
-                    argv, env=env, cwd=path.parent, terminal=terminal, on_change=facts.change
+                    argv, env=env, cwd=path.parent, terminal=terminal, walls=walls, on_change=facts.change
                 ) as process:
                     with _unless_ended_by_others(process):
                         yield LiveRun(path, parameters, domain_id, process, observer, facts, self.exceptions)
@@ -212,6 +215,12 @@ def ros_arguments(parameters: Mapping[str, Any]) -> list[str]:
         written = str(value).lower() if isinstance(value, bool) else str(value)
         arguments += ["-p", f"{name}:={written}"]
     return arguments
+
+
+def package_folder(path: Path) -> Path:
+    """The folder of all that belongs to the file: its package's, where it is in one, else the one that it is in."""
+    near = [path.parent, *path.parents[1:3]]
+    return next((folder for folder in near if (folder / "package.xml").is_file()), package_root(path) or path.parent)
 
 
 def package_root(path: Path) -> Path | None:

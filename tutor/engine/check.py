@@ -10,6 +10,7 @@ from tutor import __version__
 from tutor.content import Course
 from tutor.engine.admission import Admission
 from tutor.engine.errors import EngineError
+from tutor.engine.walls import Walls
 from tutor.judge.check import Check
 from tutor.judge.events import CheckFinished, Event
 from tutor.judge.result import Environment, ExerciseResult, Report
@@ -23,11 +24,12 @@ async def check(
     only: frozenset[str] | None = None,
     on_event: Callable[[Event], None] = lambda event: None,
     admission: Admission | None = None,
+    walls: Walls | None = None,
 ) -> Report:
     """Judge each submission, in parallel; nothing that was started is left when this returns, is cancelled or raises.
 
-    `only`: the ids of the criteria to show (None: all). `admission`: shared among checks that run at once. Raises
-    EngineError where checks cannot be run here at all.
+    `only`: the ids of the criteria to show (None: all). `admission`: shared among checks that run at once. `walls`:
+    put around all that is started of the submissions. Raises EngineError where checks cannot be run here at all.
     """
     from tutor.engine.modules import load_check
     from tutor.ros import bytecode, this_process
@@ -52,7 +54,7 @@ async def check(
     async def one(submission: Submission) -> ExerciseResult:
         lesson = course.find(submission.exercise)
         found: Check = load_check(lesson)
-        return await Runner(found, lesson, submission, ros, only, on_event, together).run()
+        return await Runner(found, lesson, submission, ros, only, on_event, together, walls).run()
 
     tasks = [asyncio.ensure_future(one(submission)) for submission in submissions]
     try:
@@ -65,6 +67,7 @@ async def check(
         environment=Environment(ros_distro=ros.distro, ros=ros.kind, rmw=ros.rmw, ros_tutor=__version__),
         exercises=tuple(results),
         duration_s=time.monotonic() - started,
+        walls=walls.standing if walls else (),
     )
     on_event(CheckFinished(report))
     return report

@@ -12,6 +12,7 @@ from tutor.engine.admission import Admission
 from tutor.engine.bench import LiveBench
 from tutor.engine.errors import EngineError
 from tutor.engine.untouched import begin_there, first_todo
+from tutor.engine.walls import Walls
 from tutor.judge.bench import MachineTooBusy, OnlyWithRos, Scenario
 from tutor.judge.check import Check, Criterion
 from tutor.judge.events import CheckStarted, CriterionJudged, Event, ExerciseJudged, Progress
@@ -35,6 +36,7 @@ class Runner:
         only: frozenset[str] | None,
         on_event: OnEvent,
         admission: Admission | None = None,
+        walls: Walls | None = None,
     ) -> None:
         self._check = check
         self._texts = {text.id: text for text in lesson.criteria}
@@ -44,6 +46,7 @@ class Runner:
         self._shown = tuple(c for c in check.criteria if only is None or c.id in only)
         self._on_event = on_event
         self._admission = admission or Admission()
+        self._walls = walls
         self._scenarios: dict[Scenario[Any], asyncio.Task[Any]] = {}
         self._verdicts: dict[str, asyncio.Task[Verdict]] = {}
         self._progress: dict[Scenario[Any], tuple[float, str]] = {}
@@ -81,7 +84,9 @@ class Runner:
                 self._tell(scenario, fraction, text)
 
             known = self._check.exceptions
-            bench = LiveBench(self._submission, self._ros, self._ask, tell, self._admission, self._check.asks_s, known)
+            bench = LiveBench(
+                self._submission, self._ros, self._ask, tell, self._admission, self._check.asks_s, known, self._walls
+            )
             self._scenarios[scenario] = asyncio.ensure_future(_seen(scenario, bench))
         return self._scenarios[scenario]
 

@@ -10,7 +10,7 @@ import json
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from tutor.judge.result import CriterionResult, Environment, ExerciseResult, Report
+from tutor.judge.result import CriterionResult, Environment, ExerciseResult, Report, Wall
 from tutor.judge.verdict import Status, Verdict
 
 
@@ -116,6 +116,7 @@ def _report(fields: dict[str, Any]) -> Report:
         environment=Environment(**fields["environment"]),
         exercises=tuple(_exercise(e) for e in fields["exercises"]),
         duration_s=fields["duration_s"],
+        walls=tuple(Wall(**wall) for wall in fields["walls"]),
     )
 
 

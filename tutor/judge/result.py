@@ -57,12 +57,22 @@ class Environment:
 
 
 @dataclass(frozen=True, slots=True)
+class Wall:
+    """Something that kept the submission from the rest of the machine. `detail`: how far; where it did not, why."""
+
+    name: str
+    stands: bool
+    detail: str
+
+
+@dataclass(frozen=True, slots=True)
 class Report:
-    """Everything that one `check` found."""
+    """Everything that one `check` found. `walls`: none, unless it was asked to isolate the submission."""
 
     environment: Environment
     exercises: tuple[ExerciseResult, ...]
     duration_s: float
+    walls: tuple[Wall, ...] = ()
 
     @property
     def verdict(self) -> Status:

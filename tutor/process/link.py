@@ -9,12 +9,12 @@ import signal
 import socket
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from tutor.judge.trace import Exit
 from tutor.process import prctl, sweep
-from tutor.process.warden import Process, descendants, kill
+from tutor.process.warden import Process, descendants, innermost, kill
 
 _WARDEN = Path(__file__).with_name("warden.py")
 # How long the warden may take to end everything before we step in, and how long we then may take.
@@ -49,20 +49,26 @@ class WardenLink(asyncio.Protocol):
         self._control: asyncio.Transport | None = None
         self._heard = b""
         self._last_word = False
+        self._ours: set[int] = set()  # the warden, and what is between it and us
+        self._walled = False
         self._step_in: asyncio.TimerHandle | None = None
 
-    async def start(self, request: bytes, stdin: int, stdout: int, stderr: int) -> None:
+    async def start(self, request: bytes, stdin: int, stdout: int, stderr: int, walls: Sequence[str]) -> None:
         """Start the warden, with these descriptors for its charges and for itself, and hand it a request.
+
+        `walls`: the command in front of its own that puts it into a process namespace of its own, as the child of the
+        first one there; the kernel ends all of them with that one, and that one ends with us.
 
         Raises OSError if there can be no warden.
         """
         prctl.guard()
         prctl.adopt_orphans(True)
         ours, theirs = socket.socketpair()
+        owner = 1 if walls else os.getpid()
         with theirs:
             try:
                 self._warden = subprocess.Popen(
-                    [sys.executable, "-I", "-S", str(_WARDEN), str(theirs.fileno()), str(os.getpid())],
+                    [*walls, sys.executable, "-I", "-S", str(_WARDEN), str(theirs.fileno()), str(owner)],
                     stdin=stdin,
                     stdout=stdout,
                     stderr=stderr,
@@ -76,6 +82,8 @@ class WardenLink(asyncio.Protocol):
                 ours.close()
                 raise
         sweep.wardens.add(self._warden.pid)
+        self._ours.add(self._warden.pid)
+        self._walled = bool(walls)
         try:
             self._control, _ = await self._loop.create_unix_connection(lambda: self, sock=ours)
         except BaseException:
@@ -94,7 +102,7 @@ class WardenLink(asyncio.Protocol):
         if self._warden is None or self.gone.done():
             return []
         found = [p for p in descendants(self._warden.pid) if p.alive] or sweep.find(self._marks())
-        return [p for p in found if p.pid != self._warden.pid]
+        return [p for p in found if p.pid not in self._ours]
 
     def end(self) -> None:
         """Begin to end everything; `gone` tells when that is done. May be called more than once."""
@@ -104,7 +112,9 @@ class WardenLink(asyncio.Protocol):
         if self._warden is None:
             self.gone.set_result("")
         elif self._control is not None and not self._control.is_closing():
-            self._warden.send_signal(signal.SIGCONT)  # should a learner's program have stopped it
+            for pid in self._ours:
+                with contextlib.suppress(ProcessLookupError):
+                    os.kill(pid, signal.SIGCONT)  # should a learner's program have stopped it
             self._control.write_eof()
             self._step_in = self._loop.call_later(_WARDEN_LIMIT_S, self._take_over)
 
@@ -129,6 +139,8 @@ class WardenLink(asyncio.Protocol):
         if word == "started":
             pid, epoch = rest.split()
             self.pid, self.started_at = int(pid), float(epoch)
+            if self._walled:
+                self.pid = self._seen_from_here(self.pid)
             self._set_ready("")
         elif word == "failed":
             self._last_word = True
@@ -142,6 +154,19 @@ class WardenLink(asyncio.Protocol):
             self.fault = _KILLED
         elif word == "ended":
             self._last_word = True
+
+    def _seen_from_here(self, pid: int) -> int:
+        """The number that a charge of the warden's has here; behind walls it has another one there."""
+        assert self._warden is not None
+        found = {p.pid: p for p in descendants(self._warden.pid)}
+        one = next((p for p in found if innermost(p) == pid), None)
+        if one is None:  # it has ended already, and been reaped
+            return self._warden.pid
+        above = found[one].parent
+        while above in found:
+            self._ours.add(above)
+            above = found[above].parent
+        return one
 
     def _set_ready(self, why_not: str) -> None:
         if not self.ready.done():

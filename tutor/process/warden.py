@@ -93,6 +93,15 @@ def descendants(root: int) -> list[Process]:
     return found
 
 
+def innermost(pid: int) -> int:
+    """The number of a process in the namespace that it is in; 0 where it has gone."""
+    try:
+        with open(f"/proc/{pid}/status", "rb") as file:
+            return next((int(line.split()[-1]) for line in file if line.startswith(b"NSpid:")), pid)
+    except OSError:
+        return 0
+
+
 def kill(found: list[Process]) -> None:
     """SIGKILL to each of the processes. One that has gone, or is not ours to kill, is passed over."""
     for process in found:

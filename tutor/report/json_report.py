@@ -14,13 +14,15 @@ SCHEMA = "ros-tutor/report/1"
 
 def render(report: Report) -> str:
     """Write the document; durations are seconds, rounded to milliseconds."""
-    document = {
+    document: dict[str, Any] = {
         "schema": SCHEMA,
         "verdict": report.verdict.value,
         "duration_s": round(report.duration_s, 3),
         "environment": asdict(report.environment),
         "exercises": [_exercise(exercise) for exercise in report.exercises],
     }
+    if report.walls:
+        document["walls"] = [asdict(wall) for wall in report.walls]
     return json.dumps(document, ensure_ascii=False, indent=2, allow_nan=False) + "\n"
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tutor.judge.result import Environment, ExerciseResult
+from tutor.judge.result import Environment, ExerciseResult, Report
 from tutor.judge.verdict import Status, Verdict
 from tutor.printable import printable
 
@@ -30,6 +30,15 @@ def details(verdict: Verdict) -> list[tuple[str, str]]:
         ("next step", verdict.hint),
     )
     return [(label, printable(text).strip()) for label, text in pairs if text.strip()]
+
+
+def walls(report: Report) -> list[str]:
+    """A line for the walls that stood around the submission, and one for those that did not; none where none should."""
+    lines = []
+    for label, stands in (("isolated", True), ("not isolated", False)):
+        if found := [f"{wall.name} ({wall.detail})" for wall in report.walls if wall.stands is stands]:
+            lines.append(f"{label}: {'; '.join(found)}")
+    return lines
 
 
 def tally(exercise: ExerciseResult) -> str:

@@ -14,7 +14,7 @@ from rich.text import Text
 from tutor.judge.result import CriterionResult, ExerciseResult, Report
 from tutor.judge.verdict import Status
 from tutor.printable import printable
-from tutor.report.plain import MARKS, describe, details, seconds, tally
+from tutor.report.plain import MARKS, describe, details, seconds, tally, walls
 
 STYLES = {Status.PASSED: "green", Status.FAILED: "red", Status.SKIPPED: "yellow", Status.ERROR: "magenta"}
 
@@ -130,5 +130,5 @@ def _summary(report: Report) -> RenderableType:
     return Text.assemble(
         (f"{MARKS[verdict]} {verdict.value}", f"bold {STYLES[verdict]}"),
         of,
-        (f"  in {seconds(report.duration_s)}\n{describe(report.environment)}", "dim"),
+        ("\n".join([f"  in {seconds(report.duration_s)}", describe(report.environment), *walls(report)]), "dim"),
     )
