@@ -150,7 +150,7 @@ def _readable(env: Mapping[str, str]) -> Iterator[Path]:
         for name in ("PYTHONPATH", "AMENT_PREFIX_PATH", "LD_LIBRARY_PATH")
         for entry in env.get(name, "").split(":")
     ]
-    homes = (Path.home(), Path("/"), Path("/tmp"))
+    homes = (Path(os.path.expanduser("~")), Path("/"), Path("/tmp"))
     wanted = [Path(sys.prefix), Path(sys.base_prefix), *(hop.parent.parent for hop in hops)]
     wanted += [Path(__file__).resolve().parents[1], *map(Path, filter(os.path.isabs, named))]
     for folder in dict.fromkeys(wanted):
