@@ -6,7 +6,6 @@ import os
 import signal
 import subprocess
 import sys
-import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -15,6 +14,7 @@ from typing import ClassVar
 from textual.app import ComposeResult
 
 from tests.ros.users_domain import users_domain
+from tutor import private
 from tutor.ros.environment import detect, learner_env
 from tutor.tui import messages
 from tutor.tui.live.command import LiveCommand, live_command
@@ -41,9 +41,13 @@ class World:
     def run(self, script: Path, *arguments: str) -> subprocess.Popen[bytes]:
         """Start a node, and wait until it says that it is ready."""
         ros = detect(self.environ)
-        logs = Path(tempfile.gettempdir()) / "ros-tutor-log"
         env = learner_env(
-            ros, domain_id=self.domain, log_dir=logs, package_root=None, isolated=False, environ=self.environ
+            ros,
+            domain_id=self.domain,
+            log_dir=private.logs({}),
+            package_root=None,
+            isolated=False,
+            environ=self.environ,
         )
         process = subprocess.Popen(
             [str(ros.python), str(script), *arguments],

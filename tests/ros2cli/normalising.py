@@ -13,8 +13,8 @@ _REPLACED = [
     # A workspace that is not built has its package in src, one that is, in install.
     (r"\$WORKSPACE/(install/my_package/lib/python3\.12/site-packages|src/my_package)/my_package/", "$PACKAGE/"),
     (r"\$WORKSPACE/(install/my_package/lib|src)/my_package/", "$PROGRAMS/"),
-    (r"/\S*/ros2-overlay-\w+/prefix/lib/my_package/", "$PROGRAMS/"),
-    (r"(\$WORKSPACE|/\S*/ros2-overlay-\w+/prefix)/share/my_package\b", "$PACKAGE"),
+    (r"/\S*/ros2-overlay\.\w+/prefix/lib/my_package/", "$PROGRAMS/"),
+    (r"(\$WORKSPACE|/\S*/ros2-overlay\.\w+/prefix)/share/my_package\b", "$PACKAGE"),
     (r"\$WORKSPACE/(install/my_package(/share/my_package)?|src/my_package)(?=['\"\s]|$)", "$PACKAGE"),
     (r"searching: \[[^\]]*\]", "searching: [PREFIXES]"),
     (r"(✓ '<)\S+( object at)", r"\1HANDLER\2"),  # launch's handlers are closures there, objects of ours here

@@ -31,7 +31,7 @@ def out(text: str, *, stderr: str = "", code: int = 0) -> Output:
         (
             "ros2 launch my_package nope_launch.py",
             out("", stderr="at '$WORKSPACE/install/my_package/share/my_package'\n", code=1),
-            out("", stderr="at '/tmp/log/ros2-overlay-_a1/prefix/share/my_package'\n", code=1),
+            out("", stderr="at '/tmp/log/ros2-overlay._a1/prefix/share/my_package'\n", code=1),
         ),
         (
             "ros2 launch nopkg my_launch.py",

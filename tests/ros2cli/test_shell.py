@@ -30,7 +30,11 @@ def users_env(bench: Bench, **more: str) -> dict[str, str]:
     """The environment of a user's terminal, on the bench's domain."""
     names = ("PATH", "LANG", "ROS_DOMAIN_ID", "HOME", "TMPDIR")
     kept = {name: bench.env[name] for name in names if name in bench.env}
-    discovery = {name: value for name, value in bench.env.items() if name.startswith(("FAST", "ROS_AUTOMATIC"))}
+    discovery = {
+        name: value
+        for name, value in bench.env.items()
+        if name.startswith(("FAST", "ROS_AUTOMATIC", "ROS_TUTOR_GROUP"))
+    }
     return {**kept, **discovery, "SHELL": shutil.which("bash") or "", "TERM": "dumb", **more}
 
 
@@ -125,7 +129,7 @@ def test_it_is_the_users_own_shell(bench: Bench, workspace: Path) -> None:
         shell.until("\r\ncode 2\r\n")
         shell.type("exit 3\n")
         assert shell.end() == 3
-    assert not list((bench.folder / "log").glob("ros-tutor-shell-*"))
+    assert not list((bench.folder / "log").rglob("shell.*"))
     assert (bench.folder / ".bashrc").read_text() == RC
 
 

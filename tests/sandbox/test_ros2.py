@@ -103,7 +103,7 @@ def test_what_is_wrong_is_told_in_one_line(
     assert ran.returncode == code
     assert message in ran.stderr
     assert ran.stderr.count("\n") == 1
-    assert not list((tmp_path / "log").glob("ros2-overlay*"))
+    assert not list((tmp_path / "log").rglob("ros2-overlay*"))
 
 
 @pytest.mark.parametrize(
@@ -192,7 +192,7 @@ def test_a_launch_file_by_its_path_takes_arguments(tmp_path: Path, env: dict[str
     ran = ros2("launch", "my_launch.py", "word:=one", "word:=two", env=env, cwd=tmp_path)
     assert ran.returncode == 0, ran.stderr
     assert "[echo-1] said two" in ran.stdout + ran.stderr
-    assert not list((tmp_path / "log").glob("ros2-overlay*"))
+    assert not list((tmp_path / "log").rglob("ros2-overlay*"))
 
 
 def test_a_launch_file_of_a_package_is_found(tmp_path: Path, env: dict[str, str]) -> None:
@@ -230,7 +230,7 @@ def test_a_talker_is_heard_under_another_name(tmp_path: Path, env: dict[str, str
         for process in (talker, listener):
             os.killpg(process.pid, signal.SIGINT)
             assert process.wait(LIMIT_S) == 0
-    assert not list((tmp_path / "log").glob("ros2-overlay*"))
+    assert not list((tmp_path / "log").rglob("ros2-overlay*"))
 
 
 def test_an_exit_code_is_passed_on(tmp_path: Path, env: dict[str, str]) -> None:

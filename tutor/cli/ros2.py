@@ -6,8 +6,6 @@ import argparse
 import os
 import shlex
 import sys
-import tempfile
-from pathlib import Path
 
 from tutor.cli import context
 from tutor.cli.errors import UsageError
@@ -25,6 +23,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Become `ros2`, in the user's own ROS domain; comes back only where that cannot be."""
+    from tutor import private
     from tutor.ros.environment import detect, learner_env
     from tutor.sandbox.ros2.errors import CommandError
     from tutor.sandbox.ros2.starting import ros2
@@ -35,11 +34,10 @@ def run(arguments: argparse.Namespace) -> int:
     domain = domain_of(workspace)
     env = {**os.environ, "ROS_DOMAIN_ID": str(domain)}
     if ros.kind == "bundled":
-        log_dir = Path(os.environ.get("ROS_LOG_DIR") or Path(tempfile.gettempdir()) / "ros-tutor-log")
         env = learner_env(
             ros,
             domain_id=domain,
-            log_dir=log_dir,
+            log_dir=private.logs(),
             package_root=None,
             isolated=False,
         )

@@ -8,8 +8,6 @@ import shlex
 import signal
 import subprocess
 import sys
-import tempfile
-from pathlib import Path
 
 from tutor.cli import context, terminal
 from tutor.cli.errors import UsageError
@@ -22,6 +20,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Run the user's shell, or one command line in it; gives its exit code."""
+    from tutor import private
     from tutor.ros.environment import detect
     from tutor.sandbox.ros2 import sourced
     from tutor.sandbox.ros2.terminal import interactive, users_shell
@@ -33,8 +32,7 @@ def run(arguments: argparse.Namespace) -> int:
         raise UsageError(str(error)) from error
     workspace, ros = context.place(arguments), detect()
     domain = domain_of(workspace)
-    with tempfile.TemporaryDirectory(prefix="ros-tutor-shell-") as folder:
-        tools = Path(folder)
+    with private.folder("shell") as tools:
         env = sourced.sourced_environment(ros, workspace.root, domain, tools)
         setup = sourced.setup_file(ros, workspace.root, shell)
         if arguments.line is not None:

@@ -12,6 +12,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+from tutor import private
 from tutor.ros.domain import reserve_domain
 from tutor.ros.environment import RosEnvironment, learner_env
 
@@ -24,8 +25,8 @@ class ProbeFailed(Exception):
 
 def ask(ros: RosEnvironment, environ: Mapping[str, str], program: str, limit_s: float) -> dict[str, Any]:
     """Run one program of the probe to its end, and return its answer. Raises ProbeFailed."""
-    with tempfile.TemporaryDirectory(prefix="ros-tutor-doctor-") as folder:
-        env = learner_env(ros, domain_id=0, log_dir=Path(folder), package_root=None, isolated=True, environ=environ)
+    with private.folder("doctor") as folder:
+        env = learner_env(ros, domain_id=0, log_dir=folder, package_root=None, isolated=True, environ=environ)
         try:
             done = subprocess.run(
                 [ros.python, PROBE, program],
@@ -47,10 +48,8 @@ def first_message_ms(ros: RosEnvironment, environ: Mapping[str, str], limit_s: f
     Returns the milliseconds from the start of the publisher's process to the first message in the other. Raises
     ProbeFailed, NoFreeDomain.
     """
-    with tempfile.TemporaryDirectory(prefix="ros-tutor-doctor-") as folder, reserve_domain() as domain:
-        env = learner_env(
-            ros, domain_id=domain, log_dir=Path(folder), package_root=None, isolated=True, environ=environ
-        )
+    with private.folder("doctor") as folder, reserve_domain() as domain:
+        env = learner_env(ros, domain_id=domain, log_dir=folder, package_root=None, isolated=True, environ=environ)
         deadline = time.monotonic() + limit_s
         with _running(ros, env, folder, "listen") as listener:
             _line(listener, deadline, "the subscriber did not start")
@@ -61,7 +60,9 @@ def first_message_ms(ros: RosEnvironment, environ: Mapping[str, str], limit_s: f
 
 
 @contextmanager
-def _running(ros: RosEnvironment, env: Mapping[str, str], folder: str, program: str) -> Iterator[subprocess.Popen[str]]:
+def _running(
+    ros: RosEnvironment, env: Mapping[str, str], folder: Path, program: str
+) -> Iterator[subprocess.Popen[str]]:
     with tempfile.TemporaryFile("w+", errors="replace") as said:
         try:
             process = subprocess.Popen(

@@ -142,6 +142,7 @@ class LiveBench:
                     isolated=True,
                     environ=os.environ,
                 )
+                env["TMPDIR"] = str(log_dir)  # what is left there goes with the run
                 env["PYTHONFAULTHANDLER"] = "1"  # see LiveRun.stuck_at
                 argv = command(env, log_dir)
                 walls = self.walls.around(package_folder(path), log_dir, env) if self.walls else ()

@@ -48,7 +48,7 @@ async def check(
         this_process.use(ros, isolated=True)
         await asyncio.to_thread(bytecode.ensure, ros)
         from tutor.engine.runner import Runner  # brings in rclpy, which must find its environment chosen
-    except (ImportError, RuntimeError) as error:
+    except (ImportError, OSError, RuntimeError) as error:
         raise EngineError(f"ROS 2 cannot be used here: {error}") from error
 
     async def one(submission: Submission) -> ExerciseResult:

@@ -7,11 +7,12 @@ import contextlib
 import itertools
 import os
 import stat
-import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from uuid import uuid4
+
+from tutor import private
 
 MOST_BYTES = 16_000_000
 """What its log files may take on the disk; they are emptied when it is more. Nobody reads them in a check."""
@@ -30,8 +31,7 @@ def log_folder() -> Iterator[Path]:
     Needs a running event loop.
     """
     loop = asyncio.get_running_loop()
-    path = Path(tempfile.mkdtemp(prefix="ros-tutor-"))
-    folder = os.open(path, _FOLDER)  # stays the folder that we made, whatever takes its place
+    path, folder = private.made("check")  # it stays the folder that we made, whatever takes its place
 
     next_look = loop.call_later(LOOK_EVERY_S, lambda: look())
 

@@ -23,6 +23,8 @@ DISTRO = "jazzy"
 RMW = "rmw_fastrtps_cpp"
 # The wheels' start-up hook starts the interpreter anew to set LD_LIBRARY_PATH, unless this is set.
 BOOTSTRAP_DONE = "_ROS_WHEELS_BOOTSTRAP_COMPLETE"
+NO_LOG_FILES = ("--ros-args", "--disable-external-lib-logs")
+"""What our own processes init rclpy with: they log nothing, and need no home folder for it."""
 
 # What a learner's node must not inherit: it would change its Python, its output or its discovery.
 _ALWAYS_DROPPED = ("RCUTILS_", "PYTEST_", "COV_", "COVERAGE_", "PYTHON", "VIRTUAL_ENV", "__PYVENV_LAUNCHER__")

@@ -13,6 +13,7 @@ from rclpy.publisher import Publisher
 from rclpy.signals import SignalHandlerOptions
 
 from tutor.judge.trace import Endpoint, Sample
+from tutor.ros.environment import NO_LOG_FILES
 from tutor.ros.messages import fill, interface
 from tutor.ros.observer import OUR_PREFIX
 
@@ -26,7 +27,12 @@ class TopicFeed:
     def __init__(self, domain_id: int, topic: str, type_name: str) -> None:
         self._type: Any = interface(type_name)
         self._context = Context()
-        rclpy.init(args=[], context=self._context, domain_id=domain_id, signal_handler_options=SignalHandlerOptions.NO)
+        rclpy.init(
+            args=[*NO_LOG_FILES],
+            context=self._context,
+            domain_id=domain_id,
+            signal_handler_options=SignalHandlerOptions.NO,
+        )
         name = f"{OUR_PREFIX}_feed"
         self._node: Node = rclpy.create_node(
             name,

@@ -19,6 +19,7 @@ from rclpy.service import Service as ServiceServer
 from rclpy.signals import SignalHandlerOptions
 
 from tutor.judge.trace import LogRecord, Sample
+from tutor.ros.environment import NO_LOG_FILES
 from tutor.ros.messages import cut, fill, interface, to_plain, weighed, weight
 
 OUR_PREFIX = "_ros_tutor"
@@ -60,7 +61,12 @@ class Observer:
         self._servers: list[ServiceServer] = []
         self._closed = False
         self._context = Context()
-        rclpy.init(args=[], context=self._context, domain_id=domain_id, signal_handler_options=SignalHandlerOptions.NO)
+        rclpy.init(
+            args=[*NO_LOG_FILES],
+            context=self._context,
+            domain_id=domain_id,
+            signal_handler_options=SignalHandlerOptions.NO,
+        )
         self.node: Node = rclpy.create_node(
             f"{OUR_PREFIX}_{next(_number)}",
             context=self._context,

@@ -12,7 +12,7 @@ from pathlib import Path
 from types import ModuleType
 
 from tutor import interpreter
-from tutor.ros import prefixes
+from tutor.ros import prefixes, shared_memory
 from tutor.ros.environment import RosEnvironment, tutor_env
 
 _NOT_ANEW = "_ROS_TUTOR_STARTED_ANEW"
@@ -28,10 +28,11 @@ def use(ros: RosEnvironment, *, isolated: bool) -> None:
 
     Where this process was started with library folders of the other ROS, it starts itself anew, once, without them: the
     loader reads LD_LIBRARY_PATH only then. It may be called again for the same ROS. Raises RuntimeError where rclpy was
-    imported before the first call or for another ROS, and whatever `tutor.sandbox.interfaces.activate` raises where the
-    bundled interfaces are missing.
+    imported before the first call or for another ROS, OSError where shared memory is full, and whatever
+    `tutor.sandbox.interfaces.activate` raises where the bundled interfaces are missing.
     """
     global _in_use
+    shared_memory.prove_enough()
     env = tutor_env(ros, isolated=isolated)
     if "rclpy" in sys.modules and _in_use != _identity(ros):
         raise RuntimeError("rclpy is imported already: choose the ROS before")

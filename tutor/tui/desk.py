@@ -5,12 +5,9 @@ Nothing here imports Textual. The methods that touch the disk are called in work
 
 from __future__ import annotations
 
-import atexit
 import contextlib
 import os
 import shlex
-import shutil
-import tempfile
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -188,10 +185,13 @@ class Desk:
 
     def _world(self, package: Path | None) -> tuple[RosEnvironment, dict[str, str]]:
         """The ROS that nodes are run with, and their environment; `package` is the folder of a Python package."""
+        from tutor import private
+        from tutor.ros import shared_memory
         from tutor.ros.environment import detect, learner_env
 
         ros = detect()
-        log_dir = Path(os.environ.get("ROS_LOG_DIR") or Path(tempfile.gettempdir()) / "ros-tutor-log")
+        shared_memory.prove_enough()
+        log_dir = private.logs()
         return ros, learner_env(ros, domain_id=self.domain, log_dir=log_dir, package_root=package, isolated=False)
 
     def command_line(self, file: LessonFile, options: RunOptions) -> str:
@@ -200,12 +200,12 @@ class Desk:
 
     def shell(self) -> Shell:
         """Where the commands of the terminal page are run: as in `ros-tutor shell`. Raises OSError, ValueError."""
+        from tutor import private
         from tutor.ros.environment import detect  # late: the first paint does not wait for it
         from tutor.sandbox.ros2.sourced import sourced_environment
 
         if self._tools is None:
-            self._tools = Path(tempfile.mkdtemp(prefix="ros-tutor-terminal-"))
-            atexit.register(shutil.rmtree, self._tools, ignore_errors=True)
+            self._tools = private.lasting("terminal")
         env = sourced_environment(detect(), self.workspace.root, self.domain, self._tools)
         return Shell(env, self.workspace.root)
 

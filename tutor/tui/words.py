@@ -60,7 +60,7 @@ def short(path: Path) -> str:
     """A path with the home folder as ~."""
     try:
         return f"~/{path.relative_to(Path.home())}"
-    except ValueError:
+    except (RuntimeError, ValueError):  # it is elsewhere, or nobody knows the home
         return str(path)
 
 

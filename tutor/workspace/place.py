@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from tutor.workspace.app_state import AppStateFile
+from tutor.workspace.errors import WorkspaceError
 from tutor.workspace.progress_file import ProgressFile, to_stderr
 
 MARKER = ".ros-tutor"
@@ -57,13 +58,19 @@ def is_launch_file(name: str) -> bool:
 def find_workspace(explicit: Path | None = None) -> Path:
     """The folder of the workspace to use, whether it exists or not.
 
-    In this order: `explicit`, `ROS_TUTOR_WORKSPACE`, the workspace around the current folder, `~/ros_tutor_ws`.
+    In this order: `explicit`, `ROS_TUTOR_WORKSPACE`, the workspace around the current folder, `~/ros_tutor_ws`. Raises
+    WorkspaceError where nobody knows the home.
     """
     if explicit is not None:
         return _absolute(explicit)
     if named := os.environ.get("ROS_TUTOR_WORKSPACE"):
         return _absolute(Path(named))
-    return _around() or Path.home() / "ros_tutor_ws"
+    try:
+        return _around() or Path.home() / "ros_tutor_ws"
+    except RuntimeError:
+        raise WorkspaceError(
+            "HOME is not set, and you have no home folder: name a folder with --workspace DIR"
+        ) from None
 
 
 def _around() -> Path | None:

@@ -10,6 +10,7 @@ from types import FrameType
 from typing import Any, NoReturn
 
 from tutor.printable import guard
+from tutor.ros import shared_memory
 from tutor.sandbox.ros2 import completing
 from tutor.sandbox.ros2.errors import CommandError
 from tutor.sandbox.ros2.parsing import PACKAGE, LazyParser, add_choices
@@ -71,6 +72,8 @@ def _run(argv: Sequence[str]) -> int:
     if not arguments.use_python_default_buffering:
         _write_by_lines(sys.stdout)
     try:
+        if problem := shared_memory.problem():
+            raise CommandError(problem)
         code = arguments.run(arguments)
     except CommandError as error:
         return _say(str(error), error.code)

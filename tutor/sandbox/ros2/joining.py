@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from tutor.ros.domain import participants_here
+from tutor.ros.environment import NO_LOG_FILES
 from tutor.sandbox.ros2.errors import CommandError
 
 if TYPE_CHECKING:
@@ -70,7 +71,7 @@ def joined(arguments: argparse.Namespace, *, name: str | None = None) -> Iterato
 
     context = Context()
     # Python's own handler raises KeyboardInterrupt; rclpy's would end the context under whatever is going on.
-    rclpy.init(args=[], context=context, signal_handler_options=SignalHandlerOptions.NO)
+    rclpy.init(args=[*NO_LOG_FILES], context=context, signal_handler_options=SignalHandlerOptions.NO)
     try:
         node = rclpy.create_node(
             name or f"_ros2cli_{os.getpid()}",

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import atexit
 import os
-import shutil
 import sys
-import tempfile
 from pathlib import Path
 
+from tutor import private
 from tutor.ros.environment import UNBUFFERED, UNBUFFERED_BY_US
 from tutor.sandbox.ros2 import overlay
 from tutor.sandbox.ros2.errors import CommandError
@@ -29,10 +27,8 @@ def use(near: Path) -> None:
     """
     if Path(os.environ.get(_OVERLAY, "/nowhere")).is_dir():
         return  # of the `ros2` that started us
-    logs = os.environ.get("ROS_LOG_DIR")  # a check's is a folder of its own, which goes when the check is over
-    folder = Path(tempfile.mkdtemp(prefix="ros2-overlay-", dir=logs if logs and Path(logs).is_dir() else None))
-    atexit.register(shutil.rmtree, folder, ignore_errors=True)
     try:
+        folder = private.lasting("ros2-overlay")
         overlay.make(folder / "prefix", near, os.environ)
     except OSError as error:
         raise CommandError(f"the packages cannot be read: {error}") from error

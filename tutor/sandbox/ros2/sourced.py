@@ -5,11 +5,10 @@ from __future__ import annotations
 import os
 import shlex
 import shutil
-import tempfile
 from collections.abc import Mapping
 from pathlib import Path
 
-from tutor import interpreter
+from tutor import interpreter, private
 from tutor.ros.environment import RosEnvironment, learner_env
 from tutor.ros.prefixes import entries, is_ours, joined
 from tutor.sandbox.ros2 import sources
@@ -34,7 +33,7 @@ def sourced_environment(
     if ros.kind == "system":
         env = {**environ}
     else:
-        log_dir = Path(environ.get("ROS_LOG_DIR") or Path(tempfile.gettempdir()) / "ros-tutor-log")
+        log_dir = private.logs(environ)
         env = learner_env(ros, domain_id=domain_id, log_dir=log_dir, package_root=None, isolated=False, environ=environ)
         for name in _OF_CHECKS_ONLY:
             env.pop(name, None)

@@ -103,10 +103,16 @@ class ParameterFile:
 
 def temporary_file(text: str) -> Path:
     """A file of parameters with this text, which is there as long as the launch runs."""
-    with tempfile.NamedTemporaryFile(mode="w", prefix="launch_params_", delete=False) as file:
+    with tempfile.NamedTemporaryFile(mode="w", prefix="launch_params_", delete=False, dir=_folder()) as file:
         file.write(text)
     atexit.register(_remove, file.name)
     return Path(file.name)
+
+
+def _folder() -> str | None:
+    """That of the `ros2` around us, which goes with it however it ends."""
+    overlay = os.environ.get("ROS_TUTOR_OVERLAY", "")
+    return os.path.dirname(overlay) if os.path.isdir(overlay) else None
 
 
 def _remove(path: str) -> None:

@@ -1,0 +1,69 @@
+"""Machines as a class has them: no home, nothing that can be written to, no shared memory."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+LIMIT_S = 100.0
+CLONE = Path(__file__).resolve().parents[2]
+RUN = (sys.executable, "-I", "-m", "tutor")
+CHECK = ("check", "i1.1", str(CLONE / "lessons" / "i1_1" / "solution"), "--criterion", "range")
+UNPRIVILEGED = ("setpriv", "--inh-caps=-all", "--bounding-set=-all") if os.getuid() == 0 else ()
+FULL = """
+mount -t tmpfs -o size=1m tmpfs /dev/shm && head -c 2M /dev/zero > /dev/shm/full 2>/dev/null
+exec "$@"
+"""
+
+
+def ran(*command: str, **changed: str) -> subprocess.CompletedProcess[str]:
+    env = {**os.environ, **changed}
+    return subprocess.run(command, env=env, capture_output=True, text=True, timeout=LIMIT_S, check=False)
+
+
+def can(*command: str) -> bool:
+    try:
+        return ran(*command).returncode == 0
+    except OSError:
+        return False
+
+
+@pytest.fixture
+def read_only(tmp_path: Path) -> Path:
+    if not can(*UNPRIVILEGED, "true"):
+        pytest.skip("setpriv is missing: root can write everywhere")
+    path = tmp_path / "read-only"
+    path.mkdir(mode=0o555)
+    return path
+
+
+@pytest.mark.parametrize("variables", [("HOME",), ("HOME", "TMPDIR")], ids=" ".join)
+def test_a_check_needs_no_home_and_no_temporary_folder_of_the_users(read_only: Path, variables: list[str]) -> None:
+    found = ran(*UNPRIVILEGED, *RUN, *CHECK, **dict.fromkeys(variables, str(read_only)))
+    assert (found.returncode, found.stderr) == (0, ""), found.stdout + found.stderr
+    assert not any(read_only.iterdir())
+
+
+def test_a_check_needs_no_home_at_all() -> None:
+    found = ran("env", "-u", "HOME", *RUN, *CHECK)
+    assert (found.returncode, found.stderr) == (0, ""), found.stdout + found.stderr
+
+
+def test_the_clone_starts_where_uv_can_keep_nothing(read_only: Path) -> None:
+    found = ran(*UNPRIVILEGED, str(CLONE / "ros-tutor"), "list", HOME=str(read_only), TMPDIR=str(read_only))
+    assert (found.returncode, "Sensor Publisher" in found.stdout) == (0, True), found.stderr
+
+
+@pytest.mark.parametrize(("words", "code"), [(CHECK, 3), (("ros2", "topic", "list"), 1)], ids=["check", "ros2"])
+def test_full_shared_memory_is_told_in_a_sentence(words: tuple[str, ...], code: int) -> None:
+    apart = ("unshare", "--mount", "--map-root-user", "sh", "-c", FULL, "sh")
+    if not can(*apart, "true"):
+        pytest.skip("the kernel gives no mount namespace to this user")
+    found = ran(*apart, *RUN, *words)
+    assert (found.returncode, found.stdout) == (code, ""), found.stderr
+    assert "/dev/shm is full (1 MB)" in found.stderr
+    assert len(found.stderr.splitlines()) == 1

@@ -1,0 +1,88 @@
+"""Temporary files of ours lie where no other user of the machine can have prepared anything."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import pytest
+
+from tutor import private
+
+KEEPS_TWO = """
+import sys, tempfile, time
+from tutor import private
+tempfile.tempdir = sys.argv[1]
+one, two = private.made("run")[0], private.lasting("ros2")
+(one / "x").touch()
+print(one, two, sep="\\n", flush=True)
+time.sleep(600)
+"""
+
+
+@pytest.fixture
+def temporary(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    return tmp_path
+
+
+def test_the_users_folder_is_made_once_and_closed_to_others(temporary: Path) -> None:
+    assert private.home() == private.home() == temporary / f"ros-tutor-{os.getuid()}"
+    assert private.home().stat().st_mode & 0o777 == 0o700
+    private.home().chmod(0o777)
+    assert private.home().stat().st_mode & 0o777 == 0o700
+    assert private.logs({}) == private.home() / "log"
+    assert private.logs({"ROS_LOG_DIR": "/x"}) == Path("/x")
+
+
+def prove_it_goes_elsewhere(temporary: Path) -> None:
+    found = private.home()
+    assert found == private.home() != temporary / f"ros-tutor-{os.getuid()}"
+    assert found.stat().st_mode & 0o777 == 0o700
+    with private.folder("run") as made:
+        assert made.parent == found
+
+
+def test_a_planted_link_is_not_followed(temporary: Path) -> None:
+    (temporary / "theirs").mkdir()
+    (temporary / f"ros-tutor-{os.getuid()}").symlink_to(temporary / "theirs")
+    prove_it_goes_elsewhere(temporary)
+    assert not any((temporary / "theirs").iterdir())
+
+
+@pytest.mark.skipif(os.getuid() != 0, reason="only root can give a folder to another user")
+def test_a_folder_of_another_user_is_not_used(temporary: Path) -> None:
+    theirs = temporary / f"ros-tutor-{os.getuid()}"
+    theirs.mkdir()
+    os.chown(theirs, 65534, 65534)
+    prove_it_goes_elsewhere(temporary)
+    assert not any(theirs.iterdir())
+
+
+def test_what_a_killed_process_has_left_goes_at_the_next_start_and_a_living_ones_stays(temporary: Path) -> None:
+    command = [sys.executable, "-c", KEEPS_TWO, str(temporary)]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as other:
+        assert other.stdout is not None
+        left = [Path(other.stdout.readline().strip()) for _ in range(2)]
+        with private.folder("check") as own:
+            assert all(path.is_dir() for path in (*left, own))
+        assert not own.exists()
+        other.send_signal(signal.SIGKILL)
+    assert all(path.is_dir() for path in left)
+    with private.folder("check"):
+        assert not any(path.exists() for path in left)
+
+
+def test_where_nothing_can_be_written_the_message_says_what_to_do(
+    temporary: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def nowhere() -> str:
+        raise FileNotFoundError(2, "No usable temporary directory found")
+
+    monkeypatch.setattr(tempfile, "gettempdir", nowhere)
+    with pytest.raises(OSError, match="set TMPDIR"):
+        private.home()
