@@ -13,15 +13,40 @@ from tests.report.shape import assert_report_shape
 PROGRAM = "import sys; from tutor.cli import main; sys.exit(main(sys.argv[1:]))"
 
 
-def test_our_solution_publishes() -> None:
+LATE_IMPORTS = """
+import sys
+def hear(event, args):
+    global started
+    if event == "subprocess.Popen":
+        started = True
+    elif event == "import" and started:
+        print("imported late:", args[0], file=sys.stderr)
+started = False
+sys.addaudithook(hear)
+"""
+
+
+def test_our_solution_publishes_and_all_is_imported_before_it_starts() -> None:
     ran = subprocess.run(
-        [sys.executable, "-c", PROGRAM, "check", "i1.1", "--solution", "--criterion", "publishes", "--format", "json"],
+        [
+            sys.executable,
+            "-c",
+            LATE_IMPORTS + PROGRAM,
+            "check",
+            "i1.1",
+            "--solution",
+            "--criterion",
+            "publishes",
+            "--format",
+            "json",
+        ],
         capture_output=True,
         text=True,
         timeout=60,
         check=False,
     )
     document = json.loads(ran.stdout)
+    assert ran.stderr == ""  # a learner's program may write where our modules are
     assert_report_shape(document)
     assert (ran.returncode, document["verdict"]) == (0, "passed")
     assert document["environment"]["ros_distro"] == "jazzy"

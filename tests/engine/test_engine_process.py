@@ -17,7 +17,7 @@ import pytest
 from tests.engine.made import WAITS
 from tutor.judge.events import CheckFinished, CheckStarted, CriterionJudged, Event, ExerciseJudged, decode
 from tutor.judge.verdict import Status
-from tutor.process.warden import processes
+from tutor.process.warden import descendants, processes
 
 LIMIT_S = 60
 SOLUTION = Path(__file__).parents[2] / "lessons" / "i1_1" / "solution"
@@ -27,6 +27,7 @@ class Engine:
     """One run of the engine, and what was started by it."""
 
     def __init__(self, *arguments: str | Path) -> None:
+        self._known: set[int] = set()
         self._mark = f"TEST_TOKEN={uuid.uuid4().hex}"
         self._process = subprocess.Popen(
             [sys.executable, "-m", "tutor.engine", *map(str, arguments)],
@@ -39,13 +40,14 @@ class Engine:
 
     def left(self) -> list[int]:
         """What runs of it, itself included."""
+        self._known |= {self._process.pid, *(each.pid for each in descendants(self._process.pid))}
         found = []
         for pid, process in processes().items():
             try:
                 mine = self._mark.encode() in Path(f"/proc/{pid}/environ").read_bytes().split(b"\0")
-            except OSError:
-                continue
-            if process.alive and mine:
+            except OSError:  # it has ended, or is one of our own, which do not let everybody read it
+                mine = False
+            if process.alive and (mine or pid in self._known):
                 found.append(pid)
         return found
 

@@ -17,7 +17,7 @@ from tests.ros.users_domain import users_domain
 from tests.tui import made
 from tutor.content import load_course
 from tutor.judge.events import ExerciseJudged
-from tutor.process.warden import processes
+from tutor.process.warden import descendants, processes
 from tutor.workspace import Progress, Workspace, start
 
 APP = "import sys; from tutor.cli import main; sys.exit(main())"
@@ -30,6 +30,7 @@ class Killed:
     """A learner who has passed the first exercise, and their app."""
 
     def __init__(self, folder: Path, domain: int) -> None:
+        self.known: set[int] = set()
         self.token = f"KILLED_TOKEN={uuid.uuid4().hex}"
         lesson = load_course().lessons[0]
         self.workspace = Workspace(folder / "ws")
@@ -49,14 +50,22 @@ class Killed:
 
     def running(self) -> dict[int, str]:
         """The living processes of this app, itself too, by what started them."""
+        self.known |= {self.app.pid, *(process.pid for process in descendants(self.app.pid))}
         found = {}
         for pid, process in processes().items():
             try:
-                if process.alive and self.token.encode() in Path(f"/proc/{pid}/environ").read_bytes().split(b"\0"):
+                if process.alive and (pid in self.known or self.bears_token(pid)):
                     found[pid] = Path(f"/proc/{pid}/cmdline").read_bytes().replace(b"\0", b" ").decode()
             except OSError:
                 continue
         return found
+
+    def bears_token(self, pid: int) -> bool:
+        """Whether it has our token in its environment, which those of our own do not let everybody read."""
+        try:
+            return self.token.encode() in Path(f"/proc/{pid}/environ").read_bytes().split(b"\0")
+        except PermissionError:
+            return False
 
     def runs(self, *parts: str) -> bool:
         """Whether there is a process for each of these."""

@@ -41,6 +41,7 @@ def run(arguments: argparse.Namespace, engine: Engine | None = None) -> int:
     """Judge, write the report, and remember the result where the workspace's own files were judged."""
     from tutor.cli.choosing import ALL, choose_lessons, choose_submissions, with_missing
     from tutor.cli.judging import display_for, judge
+    from tutor.report import renderer_of
     from tutor.workspace import find_submission, solution
 
     _prove_fitting(arguments)
@@ -59,6 +60,7 @@ def run(arguments: argparse.Namespace, engine: Engine | None = None) -> int:
 
     only = frozenset(arguments.criterion) if arguments.criterion else None
     to_terminal = arguments.output is None and terminal.is_terminal(sys.stdout)
+    renderer_of(arguments.format)  # before a learner's program runs, which might write where our modules are
     report = judge(engine, submissions, course, only, display_for(course, report_follows=to_terminal))
     if report is None:
         terminal.say("interrupted; nothing that was started is left")

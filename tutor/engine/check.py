@@ -31,6 +31,7 @@ async def check(
     `only`: the ids of the criteria to show (None: all). `admission`: shared among checks that run at once. `walls`:
     put around all that is started of the submissions. Raises EngineError where checks cannot be run here at all.
     """
+    from tutor.engine import unchanged
     from tutor.engine.modules import load_check
     from tutor.ros import bytecode, this_process
     from tutor.ros.environment import detect
@@ -50,6 +51,8 @@ async def check(
         from tutor.engine.runner import Runner  # brings in rclpy, which must find its environment chosen
     except (ImportError, OSError, RuntimeError) as error:
         raise EngineError(f"ROS 2 cannot be used here: {error}") from error
+
+    unchanged.only()
 
     async def one(submission: Submission) -> ExerciseResult:
         lesson = course.find(submission.exercise)

@@ -17,11 +17,16 @@ _MODULES = {
 }
 
 
+def renderer_of(format: str) -> Callable[..., str]:
+    """What writes one of `FORMATS`. Late, since only one of them is needed: rich alone takes a tenth of a second."""
+    found: Callable[..., str] = import_module(_MODULES[format]).render
+    return found
+
+
 def render(report: Report, format: str, *, color: bool = False, width: int = 100) -> str:
     """Write `report` in one of `FORMATS`; the text ends with a line's end.
 
     `color` and `width` (in columns) matter to "text" only: terminal colours, and where lines wrap.
     """
-    # Late, since only one of them is needed: rich alone takes a tenth of a second.
-    renderer: Callable[..., str] = import_module(_MODULES[format]).render
+    renderer = renderer_of(format)
     return renderer(report, color=color, width=width) if format == "text" else renderer(report)
