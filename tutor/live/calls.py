@@ -8,8 +8,9 @@ from collections.abc import Callable
 
 from tutor.live.facts import CallOutcome, RequestForm
 from tutor.live.protocol import Call
+from tutor.live.topics import MOST_TEXT
 from tutor.ros.as_yaml import to_yaml
-from tutor.ros.messages import UnknownType
+from tutor.ros.messages import UnknownType, cut
 from tutor.ros.observer import Observer
 from tutor.ros.requests import fill_request, message_fields, request_fields
 
@@ -64,7 +65,7 @@ class Calls:
         fields = {name: getattr(request, name) for name in request.get_fields_and_field_types()}
         answer = await self._observer.call(call.service, call.type, fields, call.limit_s)
         if answer is not None:
-            return to_yaml(answer), ""
+            return cut(to_yaml(answer), MOST_TEXT), ""
         if not self._is_offered(call.service):
             return None, "no answer: no node offers this service any more"
         return None, f"no answer within {call.limit_s:g} s: does the node spin, and does its callback return?"

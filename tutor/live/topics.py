@@ -10,12 +10,21 @@ from dataclasses import dataclass, field
 from tutor.live.facts import Endpoint, Graph, Qos, Topic, TopicNews
 from tutor.live.statistics import Statistics
 from tutor.ros.as_yaml import number_at, numeric_fields, to_yaml
-from tutor.ros.messages import UnknownType, interface
+from tutor.ros.messages import UnknownType, cut, interface
 from tutor.ros.tap import Batch, Tap, read
 from tutor.ros.whole_graph import qos_of_echo
 
 POINTS_PER_NEWS = 10
 """Values sampled for a plot between two news: a hundred a second, whatever the topic's rate."""
+
+BIG = 100_000
+"""Of messages of more bytes than this, only the newest one is sampled."""
+
+BIGGEST = 10_000_000
+"""Messages of more bytes than this are counted only."""
+
+MOST_TEXT = 100_000
+"""Of a message's text, so many characters are told."""
 
 SILENT_EVERY_S = 1.0
 """How often a silent topic is told about, in seconds."""
@@ -49,6 +58,8 @@ class _Followed:
         with self.lock:
             self.statistics.add(batch.stamps, batch.numbers)
             self.newest = batch.newest
+            if len(batch.newest) > BIG:
+                self.samples.clear()
             self.samples.append((batch.stamps[-1], batch.newest))
             self.last_at = time.monotonic()
             self.stale = True
@@ -133,10 +144,11 @@ class FollowedTopics:
             followed.stale = False
         followed.told_at = now
         text, fields = self._text(followed, newest, now)
+        readable = [each for each in samples if followed.path and len(each[1]) <= BIGGEST]
         points = [
             (stamp, value)
-            for stamp, raw in samples
-            if followed.path and (value := number_at(read(followed.type, raw), followed.path)) is not None
+            for stamp, raw in readable
+            if (value := number_at(read(followed.type, raw), followed.path)) is not None
         ]
         return TopicNews(
             topic=followed.topic,
@@ -156,9 +168,12 @@ class FollowedTopics:
     def _text(self, followed: _Followed, newest: bytes | None, now: float) -> tuple[str | None, tuple[str, ...]]:
         if newest is None or newest is followed.told or now < followed.text_after:
             return None, ()
+        if len(newest) > BIGGEST:
+            followed.told = newest
+            return f"(a message of {len(newest) / 1e6:.0f} MB: too big to be shown here)", ()
         began = time.perf_counter()
         message = read(followed.type, newest)
-        text = to_yaml(message)
+        text = cut(to_yaml(message), MOST_TEXT)
         fields = numeric_fields(message)
         if not followed.path and fields:
             followed.path = next((path for path in fields if "stamp" not in path.split(".")), fields[0])

@@ -15,6 +15,10 @@ if TYPE_CHECKING:
 DEPTH = 10_000
 """Messages that may wait until they are taken: a second of a 10 kHz topic."""
 
+BIG = 10_000
+MOST_BYTES = 30_000_000
+"""Of messages with more than `BIG` bytes, no more than `MOST_BYTES` may wait, or are given at once."""
+
 _WAIT_NS = 50_000_000  # Ctrl+C is heard between two waits
 _EVENTS_EVERY_S = 0.1
 _MOST_AT_ONCE = 5_000
@@ -43,15 +47,14 @@ def taken(
 
     node = domain.node
     group = _only_events()
-    subscription = node.create_subscription(
-        message_type,
-        topic,
-        _taken_here,
-        qos,
-        callback_group=group,
-        event_callbacks=SubscriptionEventCallbacks(message_lost=on_lost),
-        raw=raw,
-    )
+
+    def subscribe() -> Subscription:
+        events = SubscriptionEventCallbacks(message_lost=on_lost)
+        return node.create_subscription(
+            message_type, topic, _taken_here, qos, callback_group=group, event_callbacks=events, raw=raw
+        )
+
+    subscription = subscribe()
     # Tells of lost messages and of QoS that does not fit, and follows a simulation's clock.
     executor = rclpy.executors.SingleThreadedExecutor(context=node.context)
     executor.add_node(node)
@@ -61,20 +64,33 @@ def taken(
         waiting.clear_entities()
         waiting.add_subscription(subscription.handle)
         waiting.wait(_WAIT_NS)
-        yield _all_of(subscription, raw)
+        found, size = _all_of(subscription, raw)
+        if qos.depth == DEPTH and size > BIG:
+            qos.depth = max(1, MOST_BYTES // size)
+            node.destroy_subscription(subscription)
+            subscription = subscribe()
+        yield found
         if (now := time.monotonic()) >= events_at:
             events_at = now + _EVENTS_EVERY_S
             executor.spin_once(timeout_sec=0)
         time.sleep(gather_s)
 
 
-def _all_of(subscription: Subscription, raw: bool) -> list[Taken]:
+def _all_of(subscription: Subscription, raw: bool) -> tuple[list[Taken], int]:
+    """What waits, or some of it where it is big; and the size of the first message, in bytes."""
+    from rclpy.serialization import deserialize_message
+
     found: list[Taken] = []
     take, message_type = subscription.handle.take_message, subscription.msg_type
     with subscription.handle:
-        while len(found) < _MOST_AT_ONCE and (one := take(message_type, raw)) is not None:
+        if (first := take(message_type, True)) is None:
+            return [], 0
+        size = len(first[0])
+        found.append(first if raw else (deserialize_message(first[0], message_type), first[1]))
+        most = min(_MOST_AT_ONCE, max(1, MOST_BYTES // size))
+        while len(found) < most and (one := take(message_type, raw)) is not None:
             found.append(one)
-    return found
+    return found, size
 
 
 def _only_events() -> Any:

@@ -1,0 +1,76 @@
+"""Big messages on a topic that is followed, or echoed: as few of them are held as can be."""
+
+from __future__ import annotations
+
+import contextlib
+from typing import Any
+
+import pytest
+
+from tests.live.test_live_process import LIMIT_S, Watching
+from tests.live.world import world
+from tutor.live.facts import TopicNews
+from tutor.live.protocol import Follow
+
+BIG = """
+import sys
+import rclpy
+from rclpy.node import Node
+from std_msgs.msg import String
+
+rclpy.init()
+node = Node("big")
+publisher = node.create_publisher(String, "big", 10)
+message = String(data="x" * int(sys.argv[1]))
+node.create_timer(0.02, lambda: publisher.publish(message))
+print("ready", flush=True)
+rclpy.spin(node)
+"""
+
+
+def peak_mb(pid: int) -> float:
+    with open(f"/proc/{pid}/status") as status:
+        return next(int(line.split()[1]) / 1024 for line in status if line.startswith("VmHWM"))
+
+
+def test_following_a_topic_of_big_messages_takes_little_memory(tmp_path: Any) -> None:
+    (tmp_path / "big.py").write_text(BIG)
+    with world() as around, contextlib.ExitStack() as stack:
+        around.run(tmp_path / "big.py", "1000000")
+        watching = Watching(around)
+        stack.callback(watching.close)
+        watching.ready()
+        before = peak_mb(watching.process.pid)
+        watching.tell(Follow("/big"))
+        news = (each for each in watching.news(LIMIT_S) if isinstance(each, TopicNews))
+        last = next(each for each in news if each.count > 100)
+        assert last.count > 100
+        assert peak_mb(watching.process.pid) - before < 100
+
+
+class Handle(contextlib.nullcontext[None]):
+    """Of a subscription on which messages of one size wait without end."""
+
+    def __init__(self, size: int) -> None:
+        super().__init__()
+        self._message = bytes(size)
+
+    def take_message(self, kind: Any, raw: bool) -> tuple[bytes, dict[str, Any]]:
+        assert raw
+        return self._message, {}
+
+
+class Subscription:
+    msg_type = None
+
+    def __init__(self, size: int) -> None:
+        self.handle = Handle(size)
+
+
+@pytest.mark.parametrize("size", [8, 100_000, 1_000_000, 100_000_000])
+def test_a_batch_of_big_messages_is_small(size: int) -> None:
+    from tutor.sandbox.ros2 import taking
+
+    found, told = taking._all_of(Subscription(size), True)  # type: ignore[arg-type]
+    assert told == size
+    assert len(found) == min(5000, max(1, taking.MOST_BYTES // size))
