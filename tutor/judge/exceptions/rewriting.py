@@ -9,12 +9,12 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 
 from tutor.judge import edits
 from tutor.judge.edits import Edit
+from tutor.judge.rewriting.syntax import slips
 from tutor.judge.source import called, tree
 
 Words = Mapping[str, str]
 
 _LEVELS = ("debug", "info", "warn", "warning", "error", "fatal")
-_BRACKETS = {"(": ")", "[": "]", "{": "}"}
 _PLACEHOLDER = re.compile(r"%[-+ #0-9.]*[sdifrgxe]")
 
 
@@ -83,77 +83,6 @@ def types_first(text: str, words: Words) -> Sequence[Edit]:
 
 def _type(name: str) -> bool:
     return name[:1].isupper() and not name.isupper()
-
-
-def brackets(text: str, words: Words) -> Sequence[Edit] | None:
-    """One bracket more or less, in this line or in those below, so that Python can read the file."""
-    lines, number = text.splitlines(), int(words["number"])
-    if number > len(lines):
-        return None
-    return _first(text, _with_bracket(lines, number, words.get("open", ""), words.get("close", "")))
-
-
-def _with_bracket(lines: Sequence[str], number: int, opened: str, closed: str) -> Iterator[Edit]:
-    code = lines[number - 1].strip()
-    for at in [at for at, each in enumerate(code) if closed and each == closed][::-1]:
-        yield edits.becomes(number, code[:at] + code[at + 1 :])
-    for below in range(number, min(number + 20, len(lines)) + 1) if opened else ():
-        code = lines[below - 1].strip()
-        for more in (1, 2):
-            for ends in ("", ":", ",", ")", "]"):
-                if code.endswith(ends):
-                    yield edits.becomes(below, code.removesuffix(ends) + _BRACKETS[opened] * more + ends)
-
-
-def comma(text: str, words: Words) -> Sequence[Edit] | None:
-    """A comma at the end of a line, or between two words of it, so that Python can read the file."""
-    lines, number = text.splitlines(), int(words["number"])
-    if number > len(lines):
-        return None
-    near = [each for each in (number, number - 1, number + 1) if 1 <= each <= len(lines)]
-    ends = [edits.becomes(each, lines[each - 1].strip() + ",") for each in near]
-    code = lines[number - 1].strip()
-    between = [edits.becomes(number, f"{code[: gap.start()]},{code[gap.start() :]}") for gap in re.finditer(" +", code)]
-    return _first(text, [*ends, *between])
-
-
-def indented(text: str, words: Words) -> Sequence[Edit] | None:
-    """Lines that belong to the block of the line above them, or stand beside it, with the indentation they need."""
-    lines, number = text.splitlines(), int(words["number"])
-    if number > len(lines):
-        return None
-    above = next((each for each in range(number - 1, 0, -1) if lines[each - 1].strip()), 0)
-    if not above:
-        return None
-    if "first" in words:
-        above = int(words["first"])
-    head = lines[above - 1]
-    margin = _margin(lines[number - 1])
-    last = number
-    while last < len(lines) and lines[last].strip() and _margin(lines[last]) >= margin:
-        last += 1
-    deeper = "    " if head.rstrip().endswith(":") else ""
-    ways = []
-    for end in range(last, number - 1, -1):
-        body = textwrap.indent(textwrap.dedent("\n".join(lines[number - 1 : end])), deeper)
-        ways.append(edits.becomes(above, "\n".join([head.strip(), *lines[above : number - 1], body]), end))
-    return _first(text, [*ways, *([edits.inside(above, "pass")] if deeper else [])])
-
-
-def _margin(line: str) -> int:
-    return len(line) - len(line.lstrip())
-
-
-def _first(text: str, ways: Sequence[Edit] | Iterator[Edit]) -> Sequence[Edit] | None:
-    return next(([each] for each in ways if _reads(text, each)), None)
-
-
-def _reads(text: str, edit: Edit) -> bool:
-    try:
-        compile(edits.apply(text, [edit]), "<edited>", "exec", dont_inherit=True)
-    except (SyntaxError, ValueError):
-        return False
-    return True
 
 
 def without(text: str, words: Words) -> Sequence[Edit] | None:
@@ -249,8 +178,12 @@ def utf8(text: str, words: Words) -> Sequence[Edit]:
     return edits.swapped(text, *swaps[:1])
 
 
+def readable(text: str, words: Words) -> Sequence[Edit] | None:
+    """The smallest change after which Python can read the file."""
+    return slips(text)
+
+
 REWRITERS: Mapping[str, Callable[[str, Words], Sequence[Edit] | None]] = {
-    each.__name__: each
-    for each in (log, imported, types_first, brackets, comma, indented, without, raised, optional, utf8)
+    each.__name__: each for each in (log, imported, types_first, readable, without, raised, optional, utf8)
 }
 """The edits by their names in the tables; each takes the file's text and the words of the exception."""

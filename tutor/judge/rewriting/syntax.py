@@ -14,41 +14,56 @@ from tutor.judge.edits import Edit, becomes, told
 
 _NEAR = 6
 """So many lines above the one that Python stops at may be the one at fault."""
+_LONGEST = 20
+"""So many lines below the one that opens a bracket may be the one that lacks its partner."""
 _SLIPS = 3
 """So many slips in one file are told in one step."""
 _ENDS = (")", "]", "}", ":", "):", "'", '"', "')", '")', "),", "],", "},", ",", "',", '",', "])", "))", "})", ")))")
 _KEYWORDS = ("class", "def", "elif", "else:", "except", "finally:", "for", "from", "if", "import", "return", "while")
+_OPEN = re.compile(r"'([(\[{])' was never closed")
+_CLOSES = {"(": ")", "[": "]", "{": "}"}
 _COMMENT = re.compile(r"\s+#[^'\"]*$")
 _QUOTES = str.maketrans("\u201c\u201d\u2018\u2019", "\"\"''")
 
 
 def readable(text: str, file: str = "") -> str | None:
     """The step after which Python can read the file; None where it can already, or where no small change helps."""
+    found = slips(text)
+    return told(text, found, file=file) if found else None
+
+
+def slips(text: str) -> list[Edit] | None:
+    """The same as edits."""
     lines = text.splitlines()
     for _ in range(_SLIPS):
         stop = _stop(lines)
         if stop is None:
             break
-        reached = [(_stop(each) or len(each) + 1, cost, each) for cost, each in _tried(lines, stop)]
+        reached = [(_stopped_at(each) or len(each) + 1, cost, each) for cost, each in _tried(lines, *stop)]
         furthest = max(reached, key=lambda each: (each[0], -each[1]), default=(0, 0.0, lines))
-        if furthest[0] <= stop:
+        if furthest[0] <= stop[0]:
             return None
         lines = furthest[2]
-    return told(text, _changed(text.splitlines(), lines), file=file) if _stop(lines) is None else None
+    return _changed(text.splitlines(), lines) if _stop(lines) is None else None
 
 
-def _stop(lines: Sequence[str]) -> int | None:
-    """The line that Python stops at; None where it can read them all."""
+def _stop(lines: Sequence[str]) -> tuple[int, str] | None:
+    """The line that Python stops at, and what it complains of; None where it can read them all."""
     try:
         compile("\n".join(lines) + "\n", "<read>", "exec", dont_inherit=True)
     except SyntaxError as error:
-        return max(1, min(error.lineno or 1, len(lines)))
+        return max(1, min(error.lineno or 1, len(lines))), error.msg
     except (ValueError, RecursionError, MemoryError):
-        return 1
+        return 1, ""
     return None
 
 
-def _tried(lines: Sequence[str], stop: int) -> Iterator[tuple[float, list[str]]]:
+def _stopped_at(lines: Sequence[str]) -> int | None:
+    stop = _stop(lines)
+    return stop[0] if stop is not None else None
+
+
+def _tried(lines: Sequence[str], stop: int, complaint: str) -> Iterator[tuple[float, list[str]]]:
     """The lines after each change that may help, with what speaks against it: how far it is, and how unlikely."""
     for number in range(stop, max(0, stop - 1 - _NEAR), -1):
         line = lines[number - 1]
@@ -61,6 +76,13 @@ def _tried(lines: Sequence[str], stop: int) -> Iterator[tuple[float, list[str]]]
             # What is not indented by fours is the likelier slip, and never the right place.
             unlikely = (_margin(line) % 4 == 0) + (_margin(moved[number - 1]) % 4 != 0)
             yield stop - number + 0.5 + order / 100 + _NEAR * unlikely, moved
+        if line.rstrip().endswith(":"):
+            yield stop - number + 3 * _NEAR, [*lines[: number - 1], f"{line.rstrip()} pass", *lines[number:]]
+    if opened := _OPEN.search(complaint):  # Python tells where a bracket is opened; a call may go on for lines
+        for number in range(stop + 1, min(stop + _LONGEST, len(lines)) + 1):
+            for order, new in enumerate(_closed(lines[number - 1].rstrip(), (_CLOSES[opened[1]],))):
+                closes = _balance(new) == 0 and bool(new.strip())
+                yield number - stop + order / 100 - 10 * closes, [*lines[: number - 1], new, *lines[number:]]
 
 
 def _balance(line: str) -> int:
@@ -81,10 +103,7 @@ def _slips(line: str) -> Iterator[str]:
             yield from (
                 code[: each.start()] + quote + code[each.start() :] for each in re.finditer(r"[,)\]:}]|$", code)
             )
-    for end in _ENDS:
-        yield code + end
-        if code.endswith((",", ":")):
-            yield code[:-1] + end + code[-1]
+    yield from _closed(code, _ENDS)
     for found in re.finditer(r"(?<=[\w'\")\]}]) +(?=[\w'\"(\[{])", code):
         yield f"{code[: found.start()]},{code[found.start() :]}"
     for found in re.finditer(r"[()\[\]{},:]", code):
@@ -92,6 +111,14 @@ def _slips(line: str) -> Iterator[str]:
     word = code.split(maxsplit=1)[0] if code.strip() else ""
     for near in difflib.get_close_matches(word, _KEYWORDS, n=1, cutoff=0.6):
         yield code.replace(word, near, 1)
+
+
+def _closed(code: str, ends: Sequence[str]) -> Iterator[str]:
+    """The line with one of these at its end, or before what ends it."""
+    for end in ends:
+        yield code + end
+        if code.endswith((",", ":")):
+            yield code[:-1] + end + code[-1]
 
 
 def _indented(lines: Sequence[str], number: int) -> Iterator[list[str]]:
