@@ -8,9 +8,10 @@ from dataclasses import replace
 
 from checks.i1_2 import steps
 from checks.i1_2.listener import find
-from checks.i1_2.parsing import Function, misread
+from checks.i1_2.parsing import misread
 from checks.i1_2.rewriting import first_value
 from tutor.judge import edits, source
+from tutor.judge.source import Function
 from tutor.judge.trace import Trace
 from tutor.judge.verdict import Cause
 

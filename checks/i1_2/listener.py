@@ -8,9 +8,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from tutor.judge import source
+from tutor.judge.source import Function, last_name
 from tutor.judge.trace import Trace
-
-Function = ast.FunctionDef | ast.AsyncFunctionDef
 
 COUNT, FIRST, LAST, START, NUMBER = "total_count", "first_message", "last_message", "start_time", "last_number"
 _CLOCKS = ("time", "monotonic", "perf_counter", "now", "time_ns", "monotonic_ns", "perf_counter_ns")
@@ -103,11 +102,6 @@ def _given(call: ast.Call, tree: Sequence[ast.AST]) -> Iterator[Function]:
         parts = ast.walk(value) if isinstance(value, ast.Lambda | ast.Call) else [inner]
         named = [name for each in parts if (name := last_name(each))]
         yield from (each for name in named for each in functions if each.name == name)
-
-
-def last_name(node: ast.AST) -> str:
-    """The last part of a name, such as "b" of a.b; empty where it is none."""
-    return node.attr if isinstance(node, ast.Attribute) else node.id if isinstance(node, ast.Name) else ""
 
 
 def reached(function: Function, tree: Sequence[ast.AST]) -> Iterator[Function]:

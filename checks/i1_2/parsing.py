@@ -6,7 +6,7 @@ import ast
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-Function = ast.FunctionDef | ast.AsyncFunctionDef
+from tutor.judge.source import Function
 
 EXAMPLES = ("Hello World: 107", "Hello World: 38", "Hello World: 4")
 

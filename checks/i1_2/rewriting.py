@@ -8,7 +8,7 @@ import textwrap
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from checks.i1_2.facts import EVERY
-from checks.i1_2.listener import COUNT, FIRST, LAST, NUMBER, START, Listener, find, last_name, reached
+from checks.i1_2.listener import COUNT, FIRST, LAST, NUMBER, START, Listener, find, reached
 from tutor.judge import source
 from tutor.judge.edits import (
     Edit,
@@ -24,6 +24,7 @@ from tutor.judge.edits import (
     statement,
     told,
 )
+from tutor.judge.source import last_name
 from tutor.judge.trace import Trace
 
 _AT_FIRST = {COUNT: "0", FIRST: "''", LAST: "''", START: "0.0", NUMBER: "None"}

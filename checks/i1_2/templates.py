@@ -25,23 +25,17 @@ class Logged:
     text: str
     call: ast.Call
     statement: ast.stmt
-    function: ast.FunctionDef | ast.AsyncFunctionDef | None
+    function: source.Function | None
     values: tuple[tuple[ast.expr, str], ...]
 
 
 def logged(trace: Trace, message: str) -> Logged | None:
     """The call that logged this message; None where this is not known."""
-    for file, text in trace.sources.items():
-        tree = source.tree(text)
-        functions = [each for each in tree if isinstance(each, ast.FunctionDef | ast.AsyncFunctionDef)]
-        for call in (each for each in tree if isinstance(each, ast.Call) and source.called(each) in _LEVELS):
-            around = [each for each in functions if call in ast.walk(each)]
-            function = max(around, key=lambda each: each.lineno, default=None)
-            if not call.args or (values := read(call.args[0], message, function)) is None:
-                continue
-            statements = [each for each in tree if isinstance(each, ast.stmt) and call in ast.walk(each)]
-            statement = max(statements, key=lambda each: each.lineno)
-            return Logged(file, text, call, statement, function, tuple(values))
+    for file in source.files(trace):
+        for call in (each for each in file.nodes if isinstance(each, ast.Call) and source.called(each) in _LEVELS):
+            function = file.within(call)
+            if call.args and (values := read(call.args[0], message, function)) is not None:
+                return Logged(file.file, file.text, call, file.statement(call), function, tuple(values))
     return None
 
 

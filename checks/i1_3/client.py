@@ -84,7 +84,7 @@ def _stepped(cause: Cause, seen: Demonstration) -> Cause:
     unmet = cause.name in ("wrong service name", "wrong type", "not called")
     unmet = unmet or cause.name == "waits too short a time"
     waits = [] if unmet else [partial(requests.answered, code, trace) for code in files(trace)]
-    file = next(iter(files(trace)), Code("", ""))
+    file = next(iter(files(trace)), Code(""))
     last = [partial(programs.all_four, file), partial(whole.client, file)] if file.file else []
     if first and (told := next((told for step in (*each_file, *waits) if (told := step()) is not None), None)):
         return replace(cause, hint=told)

@@ -6,11 +6,13 @@ import ast
 import re
 from collections.abc import Iterator, Sequence
 
-from checks.i1_3.code import Code, Function, files, given
+from checks.i1_3.code import Code, files
 from checks.i1_3.facts import SIGNS
 from checks.i1_3.services import Changes, arguments, callback, computing, new_callback, offer
 from tutor.judge import edits, source
 from tutor.judge.edits import Edit
+from tutor.judge.rewriting.node import argument
+from tutor.judge.source import Function
 from tutor.judge.trace import Trace
 
 
@@ -22,7 +24,7 @@ def added(trace: Trace, missing: Sequence[str]) -> str | None:
             continue
         at, node = place
         kind = next(
-            (ast.unparse(each) for call in code.calls("create_service") if (each := given(call, 0, "srv_type"))), ""
+            (ast.unparse(each) for call in code.calls("create_service") if (each := argument(call, 0, "srv_type"))), ""
         )
         kind = kind if kind.isidentifier() else code.imported("AddTwoInts")
         lines, defined = [], []
@@ -57,7 +59,7 @@ def _place(code: Code) -> tuple[ast.stmt, str] | None:
 
 
 def _top(code: Code, at: ast.stmt) -> int:
-    function = [each for each in code.around(at) if isinstance(each, Function)][-1]
+    function = [each for each in code.outwards(at) if isinstance(each, Function)][-1]
     return min([function.lineno, *(each.lineno for each in function.decorator_list)])
 
 
@@ -66,7 +68,7 @@ def renamed(trace: Trace, wanted: Sequence[tuple[str, str]], create: str = "crea
     for code in files(trace) if wanted else ():
         change = Changes(code)
         for call in code.calls(create):
-            name = given(call, 1, "srv_name")
+            name = argument(call, 1, "srv_name")
             if (
                 name is not None
                 and not isinstance(name, ast.Constant)
@@ -91,7 +93,7 @@ def renamed(trace: Trace, wanted: Sequence[tuple[str, str]], create: str = "crea
 
 def _spoken(code: Code, text: ast.Constant) -> bool:
     """Whether a text is an f-string's, or said to a human."""
-    return isinstance(next(code.around(text), None), ast.JoinedStr | ast.Expr)
+    return isinstance(next(code.outwards(text), None), ast.JoinedStr | ast.Expr)
 
 
 def typed(trace: Trace, wrong: Sequence[str]) -> str | None:
@@ -102,7 +104,7 @@ def typed(trace: Trace, wrong: Sequence[str]) -> str | None:
     code, kind = there.code, there.code.imported("AddTwoInts")
     change = Changes(code, more=code.importing("AddTwoInts"))
     for call in code.calls("create_service"):
-        given_one = given(call, 0, "srv_type")
+        given_one = argument(call, 0, "srv_type")
         if given_one is not None and ast.unparse(given_one) != kind:
             change.swaps.append((given_one, kind))
     return computing(trace, wrong, whole=True, change=change)
@@ -166,7 +168,7 @@ def _returns(code: Code, function: Function, usual: str) -> Iterator[Edit]:
         return
     yield from edits.returned(function, response)
     for each in ast.walk(function):
-        if isinstance(each, ast.Return) and code.function(each) is function:
+        if isinstance(each, ast.Return) and code.within(each) is function:
             value = each.value
             none = value is None or ast.unparse(value) == "None"
             if (

@@ -5,11 +5,13 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator, Sequence
 
-from checks.i1_3.code import Code, Function, body
+from checks.i1_3.code import Code
 from checks.i1_3.facts import SIGNS
 from checks.i1_3.requests import LONG
 from checks.i1_3.services import Changes
 from tutor.judge import edits, source
+from tutor.judge.rewriting.node import with_body
+from tutor.judge.source import Function
 
 _DEFINES = ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef
 _IMPORTS = ast.Import | ast.ImportFrom
@@ -58,9 +60,9 @@ def all_four(code: Code) -> str | None:
     imports = code.importing("rclpy", "AddTwoInts")
     if entry is not None:
         begun = [call for call in code.calls(entry.name) if isinstance(entry, ast.AsyncFunctionDef)]
-        around = [each for call in begun for each in code.around(call) if isinstance(each, ast.Call)]
+        around = [each for call in begun for each in code.outwards(call) if isinstance(each, ast.Call)]
         plain = [edits.instead(code.text, each, f"{entry.name}()") for each in around[:1]]
-        return code.told(imports, body(code.text, entry, lines), plain)
+        return code.told(imports, with_body(entry, "\n".join(lines)), plain)
     defined = [at for at, each in enumerate(code.top) if isinstance(each, _DEFINES)]
     program = code.top[defined[-1] + 1 :] if defined else [e for e in code.top if not isinstance(e, _IMPORTS)]
     if not program:
@@ -95,7 +97,7 @@ def ending(code: Code) -> str | None:
         if given is None or (isinstance(given, ast.Constant) and not given.value):
             continue
         begun = [each for each in ast.walk(given) if isinstance(each, ast.Call) and code.named(source.called(each))]
-        tests = [each for each in code.around(call) if isinstance(each, ast.If)]
+        tests = [each for each in code.outwards(call) if isinstance(each, ast.If)]
         if (silent := _silent(code, tests)) is not None:
             return code.told(edits.below(silent.end_lineno or 0, "return True", like=silent.body[0].lineno))
         if begun and isinstance(code.statement(call), ast.Expr):

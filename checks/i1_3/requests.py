@@ -5,10 +5,12 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator, Sequence
 
-from checks.i1_3.code import Code, Function, given
+from checks.i1_3.code import Code
 from checks.i1_3.services import Changes
 from tutor.judge import edits, source
 from tutor.judge.edits import Edit
+from tutor.judge.rewriting.node import argument
+from tutor.judge.source import Function
 from tutor.judge.trace import Trace
 
 LONG = "wait_for_service(timeout_sec=10.0)"
@@ -32,7 +34,7 @@ def waiting(code: Code) -> str | None:
     above = []
     for call, client in sites(code):
         statement = code.statement(call)
-        if "(" not in client and not any(isinstance(each, ast.Lambda) for each in code.around(call)):
+        if "(" not in client and not any(isinstance(each, ast.Lambda) for each in code.outwards(call)):
             above.append(edits.above(statement.lineno, f"{client}.{LONG}"))
     above = list(dict.fromkeys(above))
     whole = len({code.statement(call).lineno for call, _ in sites(code)}) == len(above)
@@ -69,7 +71,7 @@ def answered(code: Code, trace: Trace) -> str | None:
     """The step that waits for the answer to each request, where nothing does."""
     held = [name for each in ("create_timer", "create_subscription") for name in source.callbacks(trace, each)]
     callbacks = {each.name for each in held}
-    if any((function := code.function(call)) and function.name in callbacks for call, _ in sites(code)):
+    if any((function := code.within(call)) and function.name in callbacks for call, _ in sites(code)):
         return _awaited(code, callbacks)
     change = Changes(code, more=code.importing("rclpy"))
     for call, client in sites(code):
@@ -78,7 +80,7 @@ def answered(code: Code, trace: Trace) -> str | None:
 
 
 def _answer(code: Code, call: ast.Call, client: str, change: Changes) -> None:
-    statement, parent = code.statement(call), next(code.around(call))
+    statement, parent = code.statement(call), next(code.outwards(call))
     assert isinstance(call.func, ast.Attribute)
     if isinstance(statement, ast.Assign) and statement.value is call and call.func.attr == "call_async":
         _answer_to(code, statement, ast.unparse(statement.targets[0]), change)
@@ -96,14 +98,14 @@ def _answer(code: Code, call: ast.Call, client: str, change: Changes) -> None:
     change.more.append(edits.above(statement.lineno, f"{asked}\n{wait}"))
     whole: ast.expr = call
     if call.func.attr == "call_async" and isinstance(parent, ast.Attribute) and parent.attr == "result":
-        outer = next(code.around(parent))
+        outer = next(code.outwards(parent))
         whole = outer if isinstance(outer, ast.Call) else call
     change.swaps.append((whole, "future.result()"))
 
 
 def _answer_to(code: Code, asked: ast.Assign, future: str, change: Changes) -> None:
     """A wait for one future, right below its request, or in place of what does not wait."""
-    function = code.function(asked)
+    function = code.within(asked)
     inside = list(ast.walk(function)) if function is not None else code.nodes
     own = future.rpartition(".")[2]
     uses = [ast.unparse(each) for call in code.calls(*_SPINS, "gather", "add_done_callback") for each in _of(call)]
@@ -118,7 +120,7 @@ def _answer_to(code: Code, asked: ast.Assign, future: str, change: Changes) -> N
                 return
             change.more.append(edits.becomes(each.lineno, wait, each.end_lineno or each.lineno))
             return
-    once = [each for each in code.calls("spin_once") if code.function(each) is function]
+    once = [each for each in code.calls("spin_once") if code.within(each) is function]
     if once and code.statement(once[0]).lineno == once[0].lineno and not code.loop(once[0], asked):
         change.swaps.append((once[0], wait))
     elif not code.calls(*_SPINS) or f"{future}.result()" in ast.unparse(function or ast.Module(list(code.top), [])):
@@ -142,7 +144,7 @@ def _spin(code: Code) -> str:
 
 def _awaited(code: Code, callbacks: set[str]) -> str | None:
     """The step for requests of a callback: it awaits them, and the answers come in beside it."""
-    asking = {id(f): f for call, _ in sites(code) if (f := code.function(call)) is not None and f.name in callbacks}
+    asking = {id(f): f for call, _ in sites(code) if (f := code.within(call)) is not None and f.name in callbacks}
     names = {each.name for each in asking.values()}
     while more := [f for f in _callers(code, names) if f.name in callbacks and id(f) not in asking]:
         asking |= {id(each): each for each in more}
@@ -153,16 +155,16 @@ def _awaited(code: Code, callbacks: set[str]) -> str | None:
             line = code.text.splitlines()[function.lineno - 1].strip()
             change.more.append(edits.becomes(function.lineno, f"async {line}"))
     for call, client in sites(code):
-        if id(code.function(call)) not in asking or isinstance(next(code.around(call)), ast.Await):
+        if id(code.within(call)) not in asking or isinstance(next(code.outwards(call)), ast.Await):
             continue
         assert isinstance(call.func, ast.Attribute)
         if call.func.attr == "call":
             change.swaps.append((call, f"(await {client}.call_async({ast.unparse(call.args[0])}))"))
     for call in code.calls(*_SPINS):
-        if id(code.function(call)) in asking and (future := given(call, 1, "future")) is not None:
+        if id(code.within(call)) in asking and (future := argument(call, 1, "future")) is not None:
             change.swaps.append((call, f"await {ast.unparse(future)}"))
     for call in code.calls(*names):
-        if id(code.function(call)) in asking and not isinstance(next(code.around(call)), ast.Await):
+        if id(code.within(call)) in asking and not isinstance(next(code.outwards(call)), ast.Await):
             change.swaps.append((call, f"(await {ast.unparse(call)})"))
     for call in code.calls("create_client"):
         if not any(each.arg == "callback_group" for each in call.keywords):
@@ -173,7 +175,7 @@ def _awaited(code: Code, callbacks: set[str]) -> str | None:
 
 def _callers(code: Code, names: set[str]) -> Iterator[Function]:
     for call in code.calls(*names):
-        if (function := code.function(call)) is not None:
+        if (function := code.within(call)) is not None:
             yield function
 
 

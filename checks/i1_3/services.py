@@ -6,10 +6,12 @@ import ast
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
-from checks.i1_3.code import Code, Function, body, files, given
+from checks.i1_3.code import Code, files
 from checks.i1_3.facts import SIGNS
 from tutor.judge import edits, source
 from tutor.judge.edits import Edit
+from tutor.judge.rewriting.node import argument, with_body
+from tutor.judge.source import Function, last_name
 from tutor.judge.trace import Trace
 
 PYTHON = {**SIGNS, "/divide": "//"}
@@ -25,7 +27,7 @@ class Offer:
 
     @property
     def callback(self) -> ast.expr | None:
-        return given(self.call, 2, "callback")
+        return argument(self.call, 2, "callback")
 
 
 @dataclass
@@ -45,9 +47,9 @@ def offer(trace: Trace, service: str) -> Offer | None:
     """Where the service is offered."""
     made = [(code, call) for code in files(trace) for call in code.calls("create_service")]
     for code, call in made:
-        if _means_service(given(call, 1, "srv_name"), service):
+        if _means_service(argument(call, 1, "srv_name"), service):
             return Offer(code, call, True)
-    loose = [each for each in made if not isinstance(given(each[1], 1, "srv_name"), ast.Constant)]
+    loose = [each for each in made if not isinstance(argument(each[1], 1, "srv_name"), ast.Constant)]
     return Offer(*loose[0], False) if loose else None
 
 
@@ -60,8 +62,8 @@ def callback(trace: Trace, service: str) -> tuple[Code, Function] | None:
     if isinstance(expression, ast.Call) and source.called(expression) == "getattr":
         found = code.named(service[1:])
     elif there.alone:
-        name = _called(expression)
-        uses = [call for call in code.calls("create_service") if _called(given(call, 2, "callback")) == name]
+        name = last_name(expression)
+        uses = [call for call in code.calls("create_service") if last_name(argument(call, 2, "callback")) == name]
         found = code.named(name) if len(uses) == 1 or means(name, service) else []
     else:
         found = [each for each in code.functions if means(each.name, service) and any(_sums(each))]
@@ -84,7 +86,7 @@ def computing(trace: Trace, wrong: Sequence[str], *, whole: bool = False, change
             change.swaps.append(other)
         elif (found := callback(trace, service)) is not None:
             line = None if whole else _line(*found, service)
-            change.more.append(line or body(found[0].text, found[1], lines_of(*found, service)))
+            change.more.append(line or with_body(found[1], "\n".join(lines_of(*found, service))))
         else:
             _anew(change, there, service)
     steps = [change.told() for change in changes.values()]
@@ -145,7 +147,7 @@ def _added(code: Code, at: ast.AST, lines: Sequence[str]) -> tuple[str, Edit]:
     me, name = code.me(at), lines[0][4:].partition("(")[0]
     above: ast.stmt = code.outermost(at)
     if me:
-        above = [each for each in code.around(at) if isinstance(each, Function)][-1]
+        above = [each for each in code.outwards(at) if isinstance(each, Function)][-1]
     top = min([above.lineno, *(each.lineno for each in getattr(above, "decorator_list", []))])
     return (f"{me}.{name}" if me else name), edits.above(top, "\n".join([*lines, "", ""]))
 
@@ -158,7 +160,7 @@ def _anew(change: Changes, there: Offer, service: str) -> None:
         name, edit = new_callback(code, call, service)
         change.swaps.append((there.callback, name))
     else:
-        offered = given(call, 1, "srv_name")
+        offered = argument(call, 1, "srv_name")
         assert offered is not None
         me = code.me(call)
         lines = _for_all(me)
@@ -191,10 +193,10 @@ def _for_all(me: str) -> list[str]:
 def _other(trace: Trace, there: Offer, service: str) -> tuple[ast.expr, str] | None:
     """The callback that is named after this service, where it was given another one."""
     given_one = there.callback
-    if not there.alone or not isinstance(given_one, ast.Attribute | ast.Name) or means(_called(given_one), service):
+    if not there.alone or not isinstance(given_one, ast.Attribute | ast.Name) or means(last_name(given_one), service):
         return None
     found = [each for each in there.code.functions if means(each.name, service) and any(_sums(each))]
-    if len(found) != 1 or not there.code.named(_called(given_one)):
+    if len(found) != 1 or not there.code.named(last_name(given_one)):
         return None
     name = found[0].name
     return given_one, f"{ast.unparse(given_one.value)}.{name}" if isinstance(given_one, ast.Attribute) else name
@@ -233,14 +235,7 @@ def _sums(function: Function) -> Iterator[ast.stmt]:
 def arguments(code: Code, function: Function) -> list[str]:
     """The names of a callback's arguments, without self."""
     names = [each.arg for each in (*function.args.posonlyargs, *function.args.args)]
-    return names[1:] if isinstance(next(code.around(function), None), ast.ClassDef) else names
-
-
-def _called(expression: ast.expr | None) -> str:
-    match expression:
-        case ast.Attribute(attr=name) | ast.Name(id=name):
-            return name
-    return ""
+    return names[1:] if isinstance(next(code.outwards(function), None), ast.ClassDef) else names
 
 
 def _means_service(name: ast.expr | None, service: str) -> bool:

@@ -7,11 +7,13 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from functools import wraps
 
-from checks.i1_3.code import Code, given, stepped
+from checks.i1_3.code import Code, stepped
 from checks.i1_3.facts import SIGNS, Calls, Division
 from checks.i1_3.requests import LONG
 from checks.i1_3.services import arguments, callback, lines_for, means
 from tutor.judge import edits
+from tutor.judge.rewriting.node import argument
+from tutor.judge.rewriting.whole import rewritten
 from tutor.judge.trace import Trace
 from tutor.judge.verdict import Cause, Status, Verdict
 
@@ -34,7 +36,7 @@ def server(trace: Trace) -> str | None:
     """The step that writes a server which offers all four services, and ends with Ctrl+C."""
     if trace.file not in trace.sources:
         return None
-    code = Code(trace.file, trace.sources[trace.file])
+    code = Code(trace.sources[trace.file], trace.file)
     named = {service: _callback(trace, service) for service in SIGNS}
     own = next(iter(code.node_classes), "CalculatorServer")
     lines = [
@@ -91,12 +93,7 @@ def client(code: Code) -> str | None:
 def _written(code: Code, lines: Sequence[str]) -> str | None:
     """The lines in place of the file's code; what is said above it stays."""
     whole = "\n".join([*lines, "", "", 'if __name__ == "__main__":', "    main()"])
-    old = code.text.splitlines()
-    if not old:
-        return code.told(edits.Edit(1, 0, whole))
-    said = [each for each in code.top[:1] if isinstance(each, ast.Expr)]
-    first = next((each.lineno for each in code.top[len(said) :]), 1)
-    return code.told(edits.becomes(first, whole, len(old)))
+    return code.told(rewritten(code, whole) or edits.Edit(1, len(code.text.splitlines()), whole))
 
 
 def _callback(trace: Trace, service: str) -> tuple[str, str, str]:
@@ -115,6 +112,6 @@ def _node_name(code: Code, usual: str) -> str:
 
 def _names(code: Code) -> Iterator[str]:
     for call in code.calls("__init__", "create_node", "Node"):
-        name = given(call, 0, "node_name")
+        name = argument(call, 0, "node_name")
         if isinstance(name, ast.Constant) and isinstance(name.value, str) and name.value.isidentifier():
             yield name.value

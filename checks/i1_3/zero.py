@@ -6,9 +6,10 @@ import ast
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from checks.i1_3.code import Code, Function, files
+from checks.i1_3.code import Code, files
 from tutor.judge import edits, source
 from tutor.judge.edits import Edit
+from tutor.judge.source import Function
 from tutor.judge.trace import Trace
 
 _SAYS = "error('division by zero')"
@@ -24,12 +25,12 @@ class _Place:
 
     @property
     def around(self) -> list[tuple[ast.AST, ast.AST]]:
-        outer = list(self.code.around(self.node))
+        outer = list(self.code.outwards(self.node))
         return list(zip(outer, [self.node, *outer], strict=False))
 
     @property
     def function(self) -> Function | None:
-        return self.code.function(self.node)
+        return self.code.within(self.node)
 
 
 def where_to_log(trace: Trace) -> str | None:

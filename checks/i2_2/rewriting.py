@@ -11,10 +11,10 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
+from checks.i2_2.reading import Source
 from tutor.judge.edits import Edit, at_end, becomes, below, instead, removed
-from tutor.judge.reading import Source
-from tutor.judge.rewriting.node import Function, NodeFile, argument, node_file
-from tutor.judge.source import called
+from tutor.judge.rewriting.node import NodeFile, argument, node_file
+from tutor.judge.source import Function, called
 from tutor.judge.trace import Trace
 
 LAUNCHED = "generate_launch_description"
@@ -69,9 +69,7 @@ class Launch:
 
     def imports(self, *names: str) -> list[Edit]:
         """The imports that these classes need, as far as they are missing."""
-        if "*" in {
-            alias.name for each in ast.walk(self.file.tree) if isinstance(each, ast.ImportFrom) for alias in each.names
-        }:
+        if any(alias.name == "*" for _, alias in self.file.imports):
             names = tuple(each for each in names if not self.calls(each))
         return [edit for each in names for edit in self.file.own(each, _MODULES[each])[1]]
 
@@ -82,7 +80,7 @@ class Launch:
     @property
     def source(self) -> Source:
         """The file as it is read for the texts of a diagnosis."""
-        return Source(self.file.text, plain=True)
+        return Source(self.file.text)
 
     @property
     def demo(self) -> list[Program]:

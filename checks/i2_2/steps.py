@@ -10,6 +10,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import replace
 
+from checks.i2_2.reading import Call, Source
 from checks.i2_2.rewriting import (
     DEFAULTS,
     Launch,
@@ -27,7 +28,6 @@ from checks.i2_2.rewriting import (
 )
 from tutor.judge.edits import instead
 from tutor.judge.following import InWords, follow
-from tutor.judge.reading import Call, Source
 from tutor.judge.rewriting.node import argument as argument_of
 from tutor.judge.verdict import Cause
 
@@ -59,9 +59,9 @@ def followed(there: Launch, cause: Cause, programs: Sequence[Program] = ()) -> C
 def value(source: Source, argument: str) -> str:
     """How the file calls the argument's value: its variable, or the substitution itself."""
     written = f"LaunchConfiguration('{argument}'"
-    for each in source.assignments():
-        if each.value.startswith(written) and each.value.endswith(")") and each.target.isidentifier():
-            return each.target
+    for target, set_to in source.assignments():
+        if set_to.startswith(written) and set_to.endswith(")") and target.isidentifier():
+            return target
     return f"{written})"
 
 
@@ -201,9 +201,9 @@ def _declares(there: Launch, argument: str) -> bool:
 def text_too_early(there: Launch, name: str) -> str | None:
     """The step where a substitution was made part of a text."""
     source = there.source
-    known = {each.target for each in source.assignments() if "LaunchConfiguration(" in each.value}
-    for each in source.texts():
-        names = [part for part in each.parts if part in known or "LaunchConfiguration(" in part]
+    known = {target for target, set_to in source.assignments() if "LaunchConfiguration(" in set_to}
+    for parts in source.texts():
+        names = [part for part in parts if part in known or "LaunchConfiguration(" in part]
         if names:
             return remapped(there, name)
     return None
@@ -386,12 +386,9 @@ def missing(there: Launch, wanted: str) -> Cause | None:
     return None
 
 
-def _lines(calls: Sequence[Call], keyword: str = "") -> str:
-    """The lines of the calls; of this argument in them, where they have it."""
-    numbers = sorted({str(call.lines.get(keyword, call.line)) for call in calls}, key=int)
-    if not numbers:
-        return "every Node(...)"
-    return f"line{'s' if len(numbers) > 1 else ''} {' and '.join(numbers)}"
+def _lines(calls: Sequence[Call]) -> str:
+    numbers = sorted({call.line for call in calls})
+    return f"line{'s' if len(numbers) > 1 else ''} {' and '.join(map(str, numbers))}"
 
 
 def _is_read(source: Source, declared: Call) -> bool:

@@ -6,13 +6,15 @@ Each part is edits of the learner's own file, with its own names; none where the
 from __future__ import annotations
 
 import ast
+import textwrap
 from itertools import pairwise
 
 from checks.i2_3.facts import WORK_S
 from checks.i2_3.ticks import HZ
 from tutor.judge.edits import Edit, above, apply, instead
-from tutor.judge.rewriting.node import Function, NodeFile, argument
+from tutor.judge.rewriting.node import NodeFile, argument, is_static, with_body
 from tutor.judge.rewriting.program import program
+from tutor.judge.source import Function
 
 _GROUP = "callback_group"
 _REENTRANT = "ReentrantCallbackGroup"
@@ -55,14 +57,14 @@ def answering(file: NodeFile) -> list[Edit]:
         edits = [*imported, *file.new_method(code)]
         return [*edits, instead(file.text, given, "self.add_slowly")] if given is not None else edits
     names = [each.arg for each in found.args.args]
-    own = file.class_of(found) is not None and not _static(found)
+    own = file.class_of(found) is not None and not is_static(found)
     if len(names) - own != 2 or found.args.kwonlyargs:
         first = [*names[:1]] if own else []
         code = f"def {found.name}({', '.join([*first, 'request', 'response'])}):\n" + _indented(
             _work(sleep, "request", "response")
         )
         return [*imported, Edit(found.lineno, found.end_lineno or found.lineno, code, like=found.lineno)]
-    return [*imported, _body(found, _work(sleep, *names[-2:]))]
+    return [*imported, with_body(found, _work(sleep, *names[-2:]))]
 
 
 def _work(sleep: str, request: str, response: str) -> str:
@@ -126,14 +128,14 @@ def logged(file: NodeFile) -> list[Edit]:
         return []
     if file.class_of(found) is None or not found.args.args:
         node = file.name if isinstance(found, ast.FunctionDef) else "node"
-        return [_body(found, f"{node}.get_logger().info('Tick')")]
+        return [with_body(found, f"{node}.get_logger().info('Tick')")]
     own = found.args.args[0].arg
     counter = _counter(found, own)
     statement = file.statement(made)
     setup = (
         [] if counter and _set(file, counter, found) else [above(statement.lineno, f"{counter or f'{own}.ticks'} = 0")]
     )
-    return [*setup, _body(found, _tick(counter or f"{own}.ticks", own))]
+    return [*setup, with_body(found, _tick(counter or f"{own}.ticks", own))]
 
 
 def _tick(counter: str, node: str) -> str:
@@ -153,41 +155,14 @@ def every(file: NodeFile, *parts: list[Edit]) -> list[Edit]:
     return [] if any(first <= last for (_, last), (first, _) in pairwise(lines)) else found
 
 
-def _body(function: Function, code: str) -> Edit:
-    """The lines of a function below its first, and its docstring, with other code."""
-    first, last = function.body[0], function.body[-1]
-    if ast.get_docstring(function) is not None and len(function.body) > 1:
-        first = function.body[1]
-    if first.lineno != function.lineno and isinstance(function, ast.FunctionDef) and not function.decorator_list:
-        return Edit(first.lineno, last.end_lineno or last.lineno, code, like=first.lineno)
-    top = min([function.lineno, *(each.lineno for each in function.decorator_list)])
-    static = "@staticmethod\n" if _static(function) else ""
-    returns = f" -> {ast.unparse(function.returns)}" if function.returns is not None else ""
-    head = f"{static}def {function.name}({ast.unparse(function.args)}){returns}:"
-    return Edit(top, last.end_lineno or last.lineno, f"{head}\n{_indented(code)}", like=top)
-
-
-def _static(function: Function) -> bool:
-    return any(ast.unparse(each) == "staticmethod" for each in function.decorator_list)
-
-
 def _sleep(file: NodeFile) -> tuple[str, list[Edit]]:
     """How the file calls time.sleep, and the import, where that is missing."""
     name, edits = file.own("sleep", "time")
     taken = {node.id for node in ast.walk(file.tree) if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store)}
-    if name == "sleep" and edits and "time" not in taken and not _bound(file, "time"):
+    taken |= {alias.asname or alias.name for _, alias in file.imports}
+    if name == "sleep" and edits and "time" not in taken:
         return "time.sleep", [Edit(edits[0].first, edits[0].last, "import time", like=edits[0].like)]
     return name, edits
-
-
-def _bound(file: NodeFile, name: str) -> bool:
-    """Whether an import gives this name to anything."""
-    return any(
-        (alias.asname or alias.name) == name
-        for each in ast.walk(file.tree)
-        if isinstance(each, ast.Import | ast.ImportFrom)
-        for alias in each.names
-    )
 
 
 def _summing(file: NodeFile) -> Function | None:
@@ -221,4 +196,4 @@ def _set(file: NodeFile, counter: str, ticking_: Function) -> bool:
 
 
 def _indented(code: str) -> str:
-    return "".join(f"    {line}\n" for line in code.splitlines()).rstrip()
+    return textwrap.indent(code, "    ")

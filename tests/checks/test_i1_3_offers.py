@@ -130,5 +130,5 @@ def test_a_service_of_another_type_gets_the_type_and_a_callback_that_fills_it_in
 
 def test_a_thread_that_spins_is_waited_for_at_the_end() -> None:
     text = "t = Thread(target=executor.spin, daemon=True)\n"
-    told = programs.joined(Code("node.py", text))
+    told = programs.joined(Code(text, "node.py"))
     assert told == "in node.py, line 1 becomes: t = Thread(target=executor.spin)"

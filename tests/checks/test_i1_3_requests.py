@@ -23,7 +23,7 @@ from rclpy.node import Node
 
 def followed(text: str, step: Callable[[Code], str | None]) -> str | None:
     """The file after the step, without its head."""
-    told = step(Code("node.py", HEAD + text))
+    told = step(Code(HEAD + text, "node.py"))
     return None if told is None else follow(told, {"node.py": HEAD + text})["node.py"].removeprefix(HEAD)
 
 

@@ -66,9 +66,9 @@ def test_it_needs_no_file_that_python_can_read(text: str) -> None:
     after = followed(text, whole.server(seen(text)))
     assert after.count("self.create_service(") == 4
     assert after.count("rclpy.init()") == 1
-    after = followed(text, whole.client(Code("node.py", text)))
+    after = followed(text, whole.client(Code(text, "node.py")))
     assert "rclpy.spin_until_future_complete(node, future)" in after
-    assert whole.client(Code("node.py", after)) is None
+    assert whole.client(Code(after, "node.py")) is None
 
 
 LOOP = """\

@@ -8,13 +8,13 @@ import pytest
 
 from checks.i2_2 import rewriting, steps
 from checks.i2_2.causes import of_launch
+from checks.i2_2.reading import Source
 from checks.i2_2.rewriting import Launch
 from tests.checks.made import trace
 from tests.judging import find
 from tutor.content.submissions import Case
 from tutor.judge.edits import apply
 from tutor.judge.following import follow
-from tutor.judge.reading import Source
 from tutor.judge.rewriting.node import NodeFile
 from tutor.judge.verdict import Cause
 
@@ -301,7 +301,7 @@ def test_what_is_imported_under_another_name_is_understood_and_called_so(there: 
 
 
 def test_what_a_step_uses_and_the_file_does_not_import_is_imported() -> None:
-    plain = Source(LAUNCH.replace("LaunchConfiguration", "TextSubstitution"), plain=True)
+    plain = Source(LAUNCH.replace("LaunchConfiguration", "TextSubstitution"))
     said = steps.in_own_names(plain, Cause("a", "b", "line 1: LaunchConfiguration('topic')"))
     assert said.hint.splitlines() == [
         "line 1: LaunchConfiguration('topic')",

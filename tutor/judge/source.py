@@ -7,9 +7,95 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
-from functools import lru_cache
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
 
 from tutor.judge.trace import Trace
+
+Function = ast.FunctionDef | ast.AsyncFunctionDef
+
+
+@dataclass(frozen=True)
+class SourceFile:
+    """One file, by its syntax tree; `file` is what a step calls it. All that it gives are parts of `tree`."""
+
+    text: str
+    file: str = ""
+
+    @cached_property
+    def tree(self) -> ast.Module:
+        """The file's syntax tree, the same one for the same text; an empty one where Python cannot read it."""
+        return _parsed(self.text)
+
+    @cached_property
+    def nodes(self) -> list[ast.AST]:
+        """All nodes of the syntax tree."""
+        return list(ast.walk(self.tree))
+
+    @cached_property
+    def _parents(self) -> dict[ast.AST, ast.AST]:
+        return {child: parent for parent in self.nodes for child in ast.iter_child_nodes(parent)}
+
+    def outwards(self, node: ast.AST) -> Iterator[ast.AST]:
+        """What is around a part, from the inside out."""
+        while (parent := self._parents.get(node)) is not None:
+            yield parent
+            node = parent
+
+    def within(self, node: ast.AST) -> Function | None:
+        """The innermost function around a part."""
+        return next((each for each in self.outwards(node) if isinstance(each, Function)), None)
+
+    def class_of(self, function: ast.AST) -> ast.ClassDef | None:
+        """The class that a method belongs to."""
+        return next((each for each in self.outwards(function) if isinstance(each, ast.ClassDef)), None)
+
+    def statement(self, node: ast.AST) -> ast.stmt:
+        """The innermost statement that a part belongs to, or is."""
+        return next(each for each in (node, *self.outwards(node)) if isinstance(each, ast.stmt))
+
+    def calls(self, *names: str) -> list[ast.Call]:
+        """The calls of functions and methods of these names, in the order in which they are written."""
+        found = [each for each in self.nodes if isinstance(each, ast.Call) and called(each) in names]
+        return sorted(found, key=lambda each: (each.lineno, each.col_offset))
+
+    def kept(self, call: ast.Call) -> str:
+        """What a call's result is assigned to, such as "self.timer"; empty where it is not."""
+        match self._parents.get(call):
+            case ast.Assign(targets=[*_, target]) | ast.AnnAssign(target=target):
+                return ast.unparse(target)
+        return ""
+
+    @cached_property
+    def functions(self) -> list[Function]:
+        """Every function and method, in the order in which they are written."""
+        return sorted((each for each in self.nodes if isinstance(each, Function)), key=lambda each: each.lineno)
+
+    def named(self, name: str) -> list[Function]:
+        """The functions and methods of this name."""
+        return [each for each in self.functions if each.name == name]
+
+    @cached_property
+    def node_classes(self) -> list[str]:
+        """The names of the file's classes of nodes."""
+        found: list[str] = []
+        for each in self.nodes:
+            if isinstance(each, ast.ClassDef) and any(
+                "Node" in (base := ast.unparse(one)) or base in found for one in each.bases
+            ):
+                found.append(each.name)
+        return found
+
+    @cached_property
+    def imports(self) -> list[tuple[ast.Import | ast.ImportFrom, ast.alias]]:
+        """Each name that is imported, with the statement that does so."""
+        found = [each for each in self.nodes if isinstance(each, ast.Import | ast.ImportFrom)]
+        return [(each, alias) for each in found for alias in each.names]
+
+
+def files(trace: Trace) -> list[SourceFile]:
+    """The learner's files."""
+    return [SourceFile(text, name) for name, text in trace.sources.items()]
 
 
 def nodes(trace: Trace) -> Iterator[ast.AST]:
@@ -55,60 +141,39 @@ def assigned(trace: Trace, *names: str) -> list[tuple[str, int]]:
     return sorted(found, key=lambda each: each[1])
 
 
-def callbacks(trace: Trace, create: str) -> list[ast.FunctionDef | ast.AsyncFunctionDef]:
+def callbacks(trace: Trace, create: str) -> list[Function]:
     """The functions that are given to `create`, such as "create_subscription", and those that they call, by name."""
-    functions: dict[str, list[ast.FunctionDef | ast.AsyncFunctionDef]] = {}
-    for node in nodes(trace):
-        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
-            functions.setdefault(node.name, []).append(node)
     given = [each for call in calls(trace, create) for each in (*call.args, *(k.value for k in call.keywords))]
     inside = (node for each in given if isinstance(each, ast.Lambda) for node in ast.walk(each))
-    waiting = [_name(each) for each in given] + [called(node) for node in inside if isinstance(node, ast.Call)]
-    found: dict[str, None] = {}
+    waiting = [last_name(each) for each in given] + [called(node) for node in inside if isinstance(node, ast.Call)]
+    found: dict[str, list[Function]] = {}
     while waiting:
         name = waiting.pop(0)
-        if name in functions and name not in found:
-            found[name] = None
-            inside = (node for function in functions[name] for node in ast.walk(function))
+        named = [each for each in nodes(trace) if isinstance(each, Function) and each.name == name]
+        if named and name not in found:
+            found[name] = named
+            inside = (node for function in named for node in ast.walk(function))
             waiting += [called(node) for node in inside if isinstance(node, ast.Call)]
-    return [function for name in found for function in functions[name]]
+    return [function for named in found.values() for function in named]
 
 
-def handlers(trace: Trace) -> list[ast.ExceptHandler]:
-    """The `except` clauses, in the order in which they are written."""
-    return sorted((node for node in nodes(trace) if isinstance(node, ast.ExceptHandler)), key=lambda each: each.lineno)
-
-
-def comparisons(trace: Trace, value: object) -> list[ast.If]:
-    """The `if` statements that ask whether something is equal to this value, in the order in which they are written."""
-
-    def asks(test: ast.expr) -> bool:
-        return (
-            isinstance(test, ast.Compare)
-            and isinstance(test.ops[0], ast.Eq)
-            and any(isinstance(each, ast.Constant) and each.value == value for each in (test.left, *test.comparators))
-        )
-
-    found = [node for node in nodes(trace) if isinstance(node, ast.If) and asks(node.test)]
-    return sorted(found, key=lambda each: each.lineno)
-
-
-def function_at(trace: Trace, file: str, line: int) -> ast.FunctionDef | ast.AsyncFunctionDef | None:
+def function_at(trace: Trace, file: str, line: int) -> Function | None:
     """The innermost function of the file that this line is in."""
     found = [
         node
         for node in ast.walk(_parsed(trace.sources.get(file, "")))
-        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef) and node.lineno <= line <= (node.end_lineno or 0)
+        if isinstance(node, Function) and node.lineno <= line <= (node.end_lineno or 0)
     ]
     return max(found, key=lambda node: node.lineno, default=None)
 
 
 def called(call: ast.Call) -> str:
     """The last part of the name of what is called; empty where it has none."""
-    return _name(call.func)
+    return last_name(call.func)
 
 
-def _name(expression: ast.expr) -> str:
+def last_name(expression: ast.AST | None) -> str:
+    """The last part of a name, such as "b" of a.b; empty where it is none."""
     match expression:
         case ast.Attribute(attr=name) | ast.Name(id=name):
             return name

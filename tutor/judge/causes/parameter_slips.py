@@ -9,7 +9,8 @@ import ast
 
 from tutor.judge.edits import instead, removed, swapped
 from tutor.judge.rewriting import parameters
-from tutor.judge.rewriting.node import Function, NodeFile, argument
+from tutor.judge.rewriting.node import NodeFile, argument
+from tutor.judge.source import Function
 from tutor.judge.verdict import Cause
 
 _OVERWRITTEN = "value overwritten by the node"

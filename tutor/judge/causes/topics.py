@@ -12,8 +12,8 @@ from tutor.judge.causes.blocking import of_blocked
 from tutor.judge.causes.process import node_names, of_no_answer, of_process
 from tutor.judge.edits import Edit, above, at_end, becomes, below, instead, swapped
 from tutor.judge.qos import Policy, unmet
-from tutor.judge.rewriting.node import Function, NodeFile, argument, node_file, started
-from tutor.judge.source import called
+from tutor.judge.rewriting.node import NodeFile, argument, node_file, started
+from tutor.judge.source import Function, called
 from tutor.judge.trace import Endpoint, Service, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Cause

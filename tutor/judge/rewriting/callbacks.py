@@ -8,8 +8,8 @@ import textwrap
 from collections.abc import Sequence
 
 from tutor.judge.edits import Edit, becomes, every, instead, removed
-from tutor.judge.rewriting.node import Function, NodeFile
-from tutor.judge.source import called
+from tutor.judge.rewriting.node import NodeFile
+from tutor.judge.source import Function, called
 
 _MADE = ("create_client", "create_service", "create_timer", "create_subscription")
 _GROUP = "callback_group"

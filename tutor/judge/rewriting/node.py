@@ -6,72 +6,22 @@ Read by its syntax tree. It serves the words of a diagnosis, never a verdict.
 from __future__ import annotations
 
 import ast
+import textwrap
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
-from tutor.judge.edits import Edit, above, at_end, below, is_there, on_top, told
-from tutor.judge.source import called
+from tutor.judge.edits import Edit, above, at_end, becomes, below, is_there, on_top, told
+from tutor.judge.source import Function, SourceFile
 from tutor.judge.trace import Trace
 
-Function = ast.FunctionDef | ast.AsyncFunctionDef
 _MAKING = ("create_publisher", "create_timer", "declare_parameter", "declare_parameters")
 
 
 @dataclass(frozen=True)
-class NodeFile:
-    """One file with one node in it. All that it gives are parts of `tree`, or code.
-
-    `file` is what a step calls it, where there are others beside it.
-    """
-
-    text: str
-    file: str = ""
-
-    @cached_property
-    def tree(self) -> ast.Module:
-        """The file's syntax tree; an empty one where Python cannot read it."""
-        try:
-            return ast.parse(self.text)
-        except (SyntaxError, ValueError, RecursionError, MemoryError):
-            return ast.Module([], [])
-
-    @cached_property
-    def _parents(self) -> dict[ast.AST, ast.AST]:
-        return {child: parent for parent in ast.walk(self.tree) for child in ast.iter_child_nodes(parent)}
-
-    def outwards(self, node: ast.AST) -> Iterator[ast.AST]:
-        """What is around a part, from the inside out."""
-        while (parent := self._parents.get(node)) is not None:
-            yield parent
-            node = parent
-
-    def within(self, node: ast.AST) -> Function | None:
-        """The innermost function around a part."""
-        return next((each for each in self.outwards(node) if isinstance(each, Function)), None)
-
-    def statement(self, node: ast.AST) -> ast.stmt:
-        """The innermost statement that a part belongs to, or is."""
-        return next(each for each in (node, *self.outwards(node)) if isinstance(each, ast.stmt))
-
-    def calls(self, *names: str) -> list[ast.Call]:
-        """The calls of functions and methods of these names, in the order in which they are written."""
-        found = [each for each in ast.walk(self.tree) if isinstance(each, ast.Call) and called(each) in names]
-        return sorted(found, key=lambda each: (each.lineno, each.col_offset))
-
-    def kept(self, call: ast.Call) -> str:
-        """What a call's result is assigned to, such as "self.timer"; empty where it is not."""
-        match self._parents.get(call):
-            case ast.Assign(targets=[*_, target]) | ast.AnnAssign(target=target):
-                return ast.unparse(target)
-        return ""
-
-    @cached_property
-    def functions(self) -> list[Function]:
-        """Every function and method, in the order in which they are written."""
-        found = [each for each in ast.walk(self.tree) if isinstance(each, Function)]
-        return sorted(found, key=lambda each: each.lineno)
+class NodeFile(SourceFile):
+    """One file with one node in it. All that it gives are parts of `tree`, or code."""
 
     def function(self, callback: ast.expr | None) -> Function | None:
         """The function that an argument names, by itself or in a lambda or a partial: the last one of that name."""
@@ -120,10 +70,6 @@ class NodeFile:
         if inits and (self.name.startswith("self") or not made):
             return next((each for each in inits if any(self.within(call) is each for call in made)), inits[0])
         return self.within(made[0]) if made else None
-
-    def class_of(self, function: Function) -> ast.ClassDef | None:
-        """The class that a method belongs to."""
-        return next((each for each in self.outwards(function) if isinstance(each, ast.ClassDef)), None)
 
     @cached_property
     def timers(self) -> list[ast.Call]:
@@ -179,21 +125,17 @@ class NodeFile:
             return [below(first.end_lineno or first.lineno, code, like=first.lineno)]
         if first.lineno == function.lineno:
             return []
-        return [above(_first_line(first), code)]
+        return [above(first_line(first), code)]
 
     def own(self, name: str, module: str) -> tuple[str, list[Edit]]:
         """How the file calls what it imports from a module, and the import, where that is missing."""
-        for each in ast.walk(self.tree):
-            if isinstance(each, ast.ImportFrom):
-                for alias in each.names:
-                    if each.module == module and alias.name == name:
-                        return alias.asname or name, []
-                    if f"{each.module}.{alias.name}" == module:
-                        return f"{alias.asname or alias.name}.{name}", []
-            elif isinstance(each, ast.Import):
-                for alias in each.names:
-                    if alias.name == module:
-                        return f"{alias.asname or module}.{name}", []
+        for each, alias in self.imports:
+            if isinstance(each, ast.ImportFrom) and (each.module, alias.name) == (module, name):
+                return alias.asname or name, []
+            if isinstance(each, ast.ImportFrom) and f"{each.module}.{alias.name}" == module:
+                return f"{alias.asname or alias.name}.{name}", []
+            if isinstance(each, ast.Import) and alias.name == module:
+                return f"{alias.asname or module}.{name}", []
         return name, on_top(self.text, f"from {module} import {name}")
 
     def new_method(self, code: str) -> list[Edit]:
@@ -201,7 +143,7 @@ class NodeFile:
         owner = self.class_of(self.setup) if self.setup is not None else None
         if owner is not None:
             like = owner.body[-1]
-            return [below(like.end_lineno or like.lineno, "\n" + code, like=_first_line(like))]
+            return [below(like.end_lineno or like.lineno, "\n" + code, like=first_line(like))]
         return []
 
     def step(self, *choices: Sequence[Edit] | None) -> str | None:
@@ -236,6 +178,24 @@ def argument(call: ast.Call, position: int, name: str) -> ast.expr | None:
     return next((each.value for each in call.keywords if each.arg == name), None)
 
 
+def with_body(function: Function, code: str) -> Edit:
+    """The lines of a function below its head, and its docstring, with other code; the head too where it must."""
+    first = function.body[1 if ast.get_docstring(function) is not None and len(function.body) > 1 else 0]
+    end = function.end_lineno or function.lineno
+    alone = first.lineno > max(each.lineno for each in (function, *function.args.args))
+    if alone and isinstance(function, ast.FunctionDef) and not function.decorator_list:
+        return becomes(first.lineno, code, end)
+    static = "@staticmethod\n" if is_static(function) else ""
+    returns = f" -> {ast.unparse(function.returns)}" if function.returns is not None else ""
+    head = f"{static}def {function.name}({ast.unparse(function.args)}){returns}:"
+    return becomes(first_line(function), f"{head}\n{textwrap.indent(code, '    ')}", end)
+
+
+def is_static(function: Function) -> bool:
+    """Whether a method takes no self."""
+    return any(ast.unparse(each) == "staticmethod" for each in function.decorator_list)
+
+
 def rewritten(function: Function, code: str, *, given: str = "") -> Edit:
     """The whole function with other lines below its first one; `given`: an argument that it must take."""
     taken, names = ast.unparse(function.args), [each.arg for each in function.args.args]
@@ -247,7 +207,8 @@ def rewritten(function: Function, code: str, *, given: str = "") -> Edit:
     return Edit(function.lineno, function.end_lineno or function.lineno, "\n".join(lines), like=function.lineno)
 
 
-def _first_line(statement: ast.stmt) -> int:
+def first_line(statement: ast.stmt) -> int:
+    """The line that a statement begins with, its decorators counted."""
     decorators = statement.decorator_list if isinstance(statement, Function | ast.ClassDef) else []
     return min([statement.lineno, *(each.lineno for each in decorators)])
 

@@ -8,7 +8,8 @@ import re
 from collections.abc import Sequence
 
 from tutor.judge.edits import Edit, above, becomes, below, instead, removed, swapped
-from tutor.judge.rewriting.node import Function, NodeFile, argument, rewritten
+from tutor.judge.rewriting.node import NodeFile, argument, rewritten
+from tutor.judge.source import Function
 
 ON_SET = "add_on_set_parameters_callback"
 POST_SET = "add_post_set_parameters_callback"

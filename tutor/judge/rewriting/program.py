@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from itertools import takewhile
 
 from tutor.judge.edits import Edit, below, on_top
-from tutor.judge.rewriting.node import Function, NodeFile, node_file
-from tutor.judge.source import called
+from tutor.judge.rewriting.node import NodeFile, first_line, node_file
+from tutor.judge.source import Function, called
 from tutor.judge.trace import Trace
 
 SPINS = ("spin", "spin_once", "spin_some", "spin_until_future_complete")
@@ -156,7 +156,7 @@ def _with_daemon(file: NodeFile, call: ast.Call) -> Edit:
 def _scope(file: NodeFile) -> _Scope | None:
     """Where the program is: around rclpy.init(), or what spins or makes the node, outside of the node's class."""
     inits = [each for each in file.calls("init") if ast.unparse(each.func) in ("rclpy.init", "init")]
-    making = file.calls(*_classes(file), "create_node", "Node")
+    making = file.calls(*file.node_classes, "create_node", "Node")
     for each in [*inits, *file.calls(*SPINS), *making]:
         function = file.within(each)
         if function is None:
@@ -225,20 +225,9 @@ def _flat(body: Sequence[ast.stmt]) -> Iterator[ast.stmt]:
             yield each
 
 
-def _classes(file: NodeFile) -> list[str]:
-    """The file's classes of nodes."""
-    found: list[str] = []
-    for each in ast.walk(file.tree):
-        if isinstance(each, ast.ClassDef) and any(
-            "Node" in (base := ast.unparse(one)) or base in found for one in each.bases
-        ):
-            found.append(each.name)
-    return found
-
-
 def _nodes(file: NodeFile, kept: Sequence[ast.stmt]) -> tuple[list[str], list[str]]:
     """What the nodes are called, and the lines that make those that have no name yet."""
-    classes = _classes(file)
+    classes = file.node_classes
     makers = (*classes, "create_node", "Node")
     names = [
         name
@@ -283,12 +272,7 @@ def _of_class(file: NodeFile, node: ast.AST) -> bool:
 
 def _imported(file: NodeFile) -> list[Edit]:
     """The import of rclpy itself, which try_shutdown() needs."""
-    names = {
-        alias.asname or alias.name.split(".")[0]
-        for each in ast.walk(file.tree)
-        if isinstance(each, ast.Import)
-        for alias in each.names
-    }
+    names = {alias.asname or alias.name.split(".")[0] for each, alias in file.imports if isinstance(each, ast.Import)}
     return [] if "rclpy" in names else on_top(file.text, "import rclpy")
 
 
@@ -305,8 +289,7 @@ def _waking(file: NodeFile, scope: _Scope, call: ast.Call) -> str:
 
 
 def _code(file: NodeFile, statement: ast.stmt) -> str:
-    first = min([statement.lineno, *(each.lineno for each in getattr(statement, "decorator_list", []))])
-    lines = file.text.splitlines()[first - 1 : statement.end_lineno]
+    lines = file.text.splitlines()[first_line(statement) - 1 : statement.end_lineno]
     code = textwrap.dedent("\n".join(lines))
     try:
         alone = len(ast.parse(code).body) == 1

@@ -6,8 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from tutor.judge.edits import Edit, above, becomes, instead, removed
-from tutor.judge.rewriting.node import Function, NodeFile, argument, rewritten
-from tutor.judge.source import called
+from tutor.judge.rewriting.node import NodeFile, argument, rewritten
+from tutor.judge.source import Function, called
 
 
 def sending(file: NodeFile, code: str) -> list[Edit]:

@@ -10,8 +10,8 @@ from functools import wraps
 
 from tutor.judge.edits import Edit
 from tutor.judge.following import leads_on
-from tutor.judge.rewriting.node import Function, NodeFile
-from tutor.judge.source import called
+from tutor.judge.rewriting.node import NodeFile, first_line
+from tutor.judge.source import Function, SourceFile, called
 from tutor.judge.trace import Trace
 from tutor.judge.verdict import Status, Verdict
 
@@ -118,15 +118,13 @@ def _main(file: NodeFile) -> str:
     return starting[0].name if starting else "main"
 
 
-def rewritten(file: NodeFile, code: str) -> list[Edit]:
+def rewritten(file: SourceFile, code: str) -> list[Edit]:
     """All of a file below its docstring, with other code in its place."""
     body = file.tree.body
     if not body:
         return []
     described = ast.get_docstring(file.tree) is not None and len(body) > 1
-    first = body[1 if described else 0]
-    line = min([first.lineno, *(each.lineno for each in getattr(first, "decorator_list", []))])
-    return [Edit(line, len(file.text.splitlines()), code)]
+    return [Edit(first_line(body[1 if described else 0]), len(file.text.splitlines()), code)]
 
 
 def is_plain(file: NodeFile) -> bool:
