@@ -5,9 +5,11 @@ from __future__ import annotations
 import asyncio
 import time
 from collections.abc import Callable, Sequence
+from contextlib import nullcontext
 
 from tutor import __version__
 from tutor.content import Course
+from tutor.engine import turns
 from tutor.engine.admission import Admission
 from tutor.engine.errors import EngineError
 from tutor.engine.walls import Walls
@@ -37,7 +39,6 @@ async def check(
     from tutor.ros.environment import detect
     from tutor.ros.isolation import prove_loopback
 
-    started = time.monotonic()
     together = admission or Admission()
     try:
         prove_loopback()
@@ -59,13 +60,16 @@ async def check(
         found: Check = load_check(lesson)
         return await Runner(found, lesson, submission, ros, only, on_event, together, walls).run()
 
-    tasks = [asyncio.ensure_future(one(submission)) for submission in submissions]
-    try:
-        results = await asyncio.gather(*tasks)
-    finally:
-        for task in tasks:
-            task.cancel()
-        await asyncio.gather(*tasks, return_exceptions=True)
+    # Whoever shares an admission among checks decides how many there are at once.
+    async with turns.turn(walls.ticket if walls else None) if admission is None else nullcontext():
+        started = time.monotonic()
+        tasks = [asyncio.ensure_future(one(submission)) for submission in submissions]
+        try:
+            results = await asyncio.gather(*tasks)
+        finally:
+            for task in tasks:
+                task.cancel()
+            await asyncio.gather(*tasks, return_exceptions=True)
     report = Report(
         environment=Environment(ros_distro=ros.distro, ros=ros.kind, rmw=ros.rmw, ros_tutor=__version__),
         exercises=tuple(results),

@@ -48,6 +48,8 @@ LOOK_EVERY_S = 0.05
 MOST_PATIENT = 5
 """A limit is extended by what the node was kept from running, up to this many times the limit."""
 
+TOO_BUSY = "this machine is too busy: the node, or what watches it, was not let run"
+
 ENOUGH_CPU_S = 2.0
 """No wait is for something that takes a node more CPU time than this: its start takes 0.3 s."""
 
@@ -201,8 +203,11 @@ class LiveRun:
             if now >= deadline:
                 if self._cpu().ran_s - ran_s >= ENOUGH_CPU_S:  # one that has used this much of the CPU has run
                     return False
-                owed_s = min(lost_s() - before_s, MOST_PATIENT * limit_s) - granted_s
+                late_s, most_s = lost_s() - before_s, MOST_PATIENT * limit_s
+                owed_s = min(late_s, most_s) - granted_s
                 if owed_s < LOOK_EVERY_S:
+                    if late_s > most_s and limit_s >= 1.0:  # a shorter wait is a look, from which nothing follows
+                        raise EngineError(TOO_BUSY, "close what keeps it busy, then check again")
                     return False
                 deadline, granted_s = deadline + owed_s, granted_s + owed_s
             with contextlib.suppress(TimeoutError):

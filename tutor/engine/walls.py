@@ -17,6 +17,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from tutor.engine import turns
 from tutor.engine.errors import EngineError
 from tutor.judge.result import Wall
 
@@ -37,10 +38,11 @@ _SIOCSIFFLAGS, _IFF_UP = 0x8914, 0x1
 
 @dataclass(frozen=True, slots=True)
 class Walls:
-    """Walls that can be put up here: `Walls.prove` has tried."""
+    """Walls that can be put up here: `Walls.prove` has tried. `ticket`: see `turns`."""
 
     bwrap: str
     prlimit: str
+    ticket: socket.socket
     limits_processes: bool = True
 
     @classmethod
@@ -52,7 +54,7 @@ class Walls:
         bwrap, prlimit = shutil.which("bwrap"), shutil.which("prlimit")
         if bwrap is None or prlimit is None:
             raise EngineError(f"--isolate needs {'prlimit' if bwrap else 'bubblewrap'}, which is not here", _INSTALL)
-        walls = cls(bwrap, prlimit)
+        walls = cls(bwrap, prlimit, turns.ticket())  # of the network that all checks have in common
         try:
             _own_network()
         except OSError as error:
