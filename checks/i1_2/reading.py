@@ -5,6 +5,7 @@ In any language and any format: nothing is known of the words.
 
 from __future__ import annotations
 
+import math
 import re
 import unicodedata
 from collections.abc import Iterator
@@ -73,7 +74,8 @@ def read(log: LogRecord, messages: int) -> Line:
     text = unicodedata.normalize("NFKC", _COLOUR.sub("", log.text))
     quoted = tuple(int(found[1]) for found in _CONTENT.finditer(text))
     plain = _CLOCK.sub("@", _CONTENT.sub("“”", text))
-    numbers = tuple(number for found in _NUMBER.finditer(plain) for number in _listed(found[0]))
+    listed = (number for found in _NUMBER.finditer(plain) for number in _listed(found[0]))
+    numbers = tuple(number for number in listed if all(map(math.isfinite, number.values)))
     shape = _REPEATED.sub(r"\1", re.sub(r"\s+", " ", _DIGITS.sub("#", _NUMBER.sub("#", plain)))).strip()
     return Line(log.level, shape, text, log.stamp, messages, quoted, numbers)
 

@@ -27,6 +27,12 @@ def test_a_long_line_is_read_at_once(unit: str) -> None:
     assert time.process_time() - began < 0.5
 
 
+@pytest.mark.parametrize("text", ["9" * LONG, "1e" + "9" * 1000, "1," + "9" * 1000, "-" + "9" * 400 + ".5"])
+def test_a_number_without_end_is_none(text: str) -> None:
+    numbers = read(LogRecord(20, "node", text, 0.0, 0.0), 1).numbers
+    assert [int(value) for number in numbers for value in number.values] in ([], [1])
+
+
 def test_a_text_of_many_parts_is_taken_apart_at_once() -> None:
     written = ast.parse("f'" + "{a} " * 50 + "x'", mode="eval").body
     began = time.process_time()

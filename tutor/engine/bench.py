@@ -146,8 +146,10 @@ class LiveBench:
                 env["PYTHONFAULTHANDLER"] = "1"  # see LiveRun.stuck_at
                 argv = command(env, log_dir)
                 walls = self.walls.around(package_folder(path), log_dir, env) if self.walls else ()
+                # A program may have removed its own folder: then the next start of it says so.
+                cwd = path.parent if path.parent.is_dir() else log_dir
                 async with await LearnerProcess.start(
-                    argv, env=env, cwd=path.parent, terminal=terminal, walls=walls, on_change=facts.change
+                    argv, env=env, cwd=cwd, terminal=terminal, walls=walls, on_change=facts.change
                 ) as process:
                     with _unless_ended_by_others(process):
                         yield LiveRun(path, parameters, domain_id, process, observer, facts, self.exceptions)

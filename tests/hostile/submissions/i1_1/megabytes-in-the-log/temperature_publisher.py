@@ -10,7 +10,7 @@ class Hostile(Node):
         super().__init__("hostile")
         self.publisher = self.create_publisher(Float64, "/sensor/temperature", 10)
         self.create_timer(0.5, lambda: self.publisher.publish(Float64(data=25.0)))
-        self.create_timer(0.005, lambda: self.get_logger().info("x" * 1_000_000))
+        self.create_timer(0.02, lambda: self.get_logger().info("x" * 1_000_000))
 
 
 def main():
