@@ -12,7 +12,7 @@ import re
 from checks.i1_1.facts import HIGHEST, LOWEST, SUGGESTED_NAME, SUGGESTED_RATE, TOPIC, TYPE
 from checks.i1_1.program import program
 from tutor.judge.causes import parameter_slips, period_slips
-from tutor.judge.edits import Edit, instead, on_top, removed
+from tutor.judge.edits import Edit, instead, on_top, without
 from tutor.judge.rewriting import parameters, publishing, whole
 from tutor.judge.rewriting.node import NodeFile, node_file, started
 from tutor.judge.trace import Trace
@@ -31,7 +31,7 @@ def drawn(trace: Trace | None) -> str:
     read = file(trace)
     draw, imported = _draw(read)
     seeding = [
-        removed(read.text, statement.lineno, statement.end_lineno or 0)
+        without(read.text, statement)
         for call in read.calls("seed")
         if read.tick is not None and read.within(call) in read.reached(read.tick)
         for statement in [read.statement(call)]

@@ -45,19 +45,13 @@ def _misread(trace: Trace, functions: Sequence[Function]) -> Cause | None:
     found = misread(functions)
     if found is None:
         return None
-    step = _told(trace, found.node, [edits.instead(_of(trace, found.node)[1], found.node, found.right)])
+    step = _told(trace, found.node, [edits.instead(source.holding(trace, found.node).text, found.node, found.right)])
     return Cause("number misread", found.text, step)
 
 
 def _told(trace: Trace, node: ast.AST, change: Sequence[edits.Edit]) -> str:
     """The step that changes the file in which this node is; empty where none is sure."""
-    file, text = _of(trace, node)
-    return edits.told(text, change, file=file if len(trace.sources) > 1 else "") or ""
-
-
-def _of(trace: Trace, node: ast.AST) -> tuple[str, str]:
-    """The file in which this node is, and its text."""
-    return next(each for each in trace.sources.items() if node in source.tree(each[1]))
+    return edits.told_of(source.holding(trace, node), change) or ""
 
 
 def _from_the_count(trace: Trace, functions: Sequence[Function]) -> Cause | None:
@@ -86,7 +80,7 @@ def _with_the_last(trace: Trace, function: Function, node: ast.expr, number: str
     last = listener.new("last_number", "number_before")
     test = f"{last} is not None and {number} > {last} + 1"
     before = first_value(listener, [f"{last} = None"])
-    instead = edits.instead(_of(trace, node)[1], node, test)
+    instead = edits.instead(source.holding(trace, node).text, node, test)
     return _told(trace, node, [before, instead, edits.at_end(function, f"{last} = {number}")])
 
 

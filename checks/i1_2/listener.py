@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from tutor.judge import source
-from tutor.judge.source import Function, last_name
+from tutor.judge.source import Function, SourceFile, last_name
 from tutor.judge.trace import Trace
 
 COUNT, FIRST, LAST, START, NUMBER = "total_count", "first_message", "last_message", "start_time", "last_number"
@@ -24,14 +24,18 @@ class Listener:
     variable that is kept from one message to the next, as written in the callback.
     """
 
-    file: str
-    text: str
+    file: SourceFile
     created: ast.Call
     function: Function
     reached: tuple[Function, ...]
     owner: ast.ClassDef | None = None
     outer: Function | None = None
     names: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def text(self) -> str:
+        """The text of its file."""
+        return self.file.text
 
     @property
     def message(self) -> str:
@@ -77,48 +81,29 @@ class Listener:
 
 def find(trace: Trace) -> Listener | None:
     """The callback of the node's subscription; None where there is none, or the file is none that can be read."""
-    for file, text in trace.sources.items():
-        tree = source.tree(text)
-        calls = [each for each in tree if isinstance(each, ast.Call) and source.called(each) == "create_subscription"]
-        for call in sorted(calls, key=lambda each: each.lineno):
-            for function in _given(call, tree):
-                owner = next((each for each in tree if isinstance(each, ast.ClassDef) and function in each.body), None)
-                inside = [each for each in tree if isinstance(each, Function) and function in ast.walk(each)]
-                outer = next((each for each in inside if each is not function), None) if owner is None else None
-                led = tuple(reached(function, tree))
-                names = dict(_names(function, led, owner, tree))
-                return Listener(file, text, call, function, led, owner, outer, names)
+    for file in source.files(trace):
+        for call in file.calls("create_subscription"):
+            for function in _given(call, file):
+                parent = next(file.outwards(function), None)
+                owner = parent if isinstance(parent, ast.ClassDef) else None
+                outer = file.within(function) if owner is None else None
+                led = tuple(file.reached(function))
+                return Listener(file, call, function, led, owner, outer, dict(_names(function, led, owner, file)))
     return None
 
 
-def _given(call: ast.Call, tree: Sequence[ast.AST]) -> Iterator[Function]:
+def _given(call: ast.Call, file: SourceFile) -> Iterator[Function]:
     """The functions of the file that are given to a call, or called by a lambda that is."""
-    values = [*call.args, *(each.value for each in call.keywords)]
-    mine = next((each for each in tree if isinstance(each, ast.ClassDef) and call in ast.walk(each)), None)
-    functions = [each for each in tree if isinstance(each, Function)]
-    functions.sort(key=lambda each: mine is None or each not in mine.body)
-    for value in values:
-        inner = value.func if isinstance(value, ast.Call) else value
-        parts = ast.walk(value) if isinstance(value, ast.Lambda | ast.Call) else [inner]
+    mine = file.class_of(call)
+    functions = sorted(file.functions, key=lambda each: mine is None or each not in mine.body)
+    for value in (*call.args, *(each.value for each in call.keywords)):
+        parts = ast.walk(value) if isinstance(value, ast.Lambda | ast.Call) else [value]
         named = [name for each in parts if (name := last_name(each))]
         yield from (each for name in named for each in functions if each.name == name)
 
 
-def reached(function: Function, tree: Sequence[ast.AST]) -> Iterator[Function]:
-    """The function, and those of the file that it leads to, by name."""
-    functions = {each.name: each for each in tree if isinstance(each, Function)}
-    waiting, found = [function], [function]
-    while waiting:
-        for node in ast.walk(waiting.pop(0)):
-            other = functions.get(source.called(node)) if isinstance(node, ast.Call) else None
-            if other is not None and other not in found:
-                found.append(other)
-                waiting.append(other)
-    yield from found
-
-
 def _names(
-    function: Function, reached: Sequence[Function], owner: ast.ClassDef | None, tree: Sequence[ast.AST]
+    function: Function, reached: Sequence[Function], owner: ast.ClassDef | None, file: SourceFile
 ) -> Iterator[tuple[str, str]]:
     """The role of each variable that lasts, with the variable; of two in one role, the one that comes first counts.
 
@@ -127,7 +112,7 @@ def _names(
     called = [node.value for node in function.body if isinstance(node, ast.Expr)]
     always = {source.called(each) for each in called if isinstance(each, ast.Call)} if owner else set()
     mine = [each for each in reached if each is function or (each.name in always and owner and each in owner.body)]
-    outside = [each for each in tree if isinstance(each, Function) and each not in mine and each.name != "__init__"]
+    outside = [each for each in file.functions if each not in mine and each.name != "__init__"]
     others = {name for each in outside for name, _, _ in _kept(each)}
     found: dict[str, str] = {}
     for each in mine:

@@ -8,22 +8,10 @@ import textwrap
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from checks.i1_2.facts import EVERY
-from checks.i1_2.listener import COUNT, FIRST, LAST, NUMBER, START, Listener, find, reached
+from checks.i1_2.listener import COUNT, FIRST, LAST, NUMBER, START, Listener, find
 from tutor.judge import source
-from tutor.judge.edits import (
-    Edit,
-    above,
-    apply,
-    around,
-    at_start,
-    becomes,
-    below,
-    instead,
-    on_top,
-    removed,
-    statement,
-    told,
-)
+from tutor.judge.edits import Edit, above, after, apply, at_start, becomes, instead, on_top, told_of, without
+from tutor.judge.rewriting.node import first_line
 from tutor.judge.source import last_name
 from tutor.judge.trace import Trace
 
@@ -56,7 +44,7 @@ def whole(trace: Trace) -> str | None:
         if apply(listener.text, [written, *timers]).split() == listener.text.split():
             return None
         edits = [*on_top(listener.text, wanted), *started(listener, _AT_FIRST), written, *timers]
-        if found := step(trace, listener, edits):
+        if found := told_of(listener.file, edits):
             return found
     return _another(trace)
 
@@ -64,10 +52,10 @@ def whole(trace: Trace) -> str | None:
 def _another(trace: Trace) -> str | None:
     """The step that gives the subscription another callback, with all that lasts in the node."""
     for call in source.calls(trace, "create_subscription"):
-        file, text = next(each for each in trace.sources.items() if call in source.tree(each[1]))
+        file = source.holding(trace, call)
         given = [*call.args[2:3], *(each.value for each in call.keywords if each.arg == "callback")]
-        function, made = around(text, call.lineno), statement(text, call.lineno)
-        if not given or not isinstance(call.func, ast.Attribute) or function is None or made is None:
+        text, function, made = file.text, file.within(call), file.statement(call)
+        if not given or not isinstance(call.func, ast.Attribute) or function is None:
             continue
         node, name = ast.unparse(call.func.value), "on_message" if "on_message" not in text else "on_chatter"
         names = {role: f"{node}.{role}" for role in _AT_FIRST}
@@ -76,38 +64,31 @@ def _another(trace: Trace) -> str | None:
         method = f"def {name}({'self, ' if node == 'self' else ''}message):\n{textwrap.indent(code, '    ')}"
         starts = "\n".join(f"{names[role]} = {value}" for role, value in _AT_FIRST.items())
         if node == "self":
-            edits = [above(made.lineno, starts), below(function.end_lineno or 0, f"\n{method}", like=function.lineno)]
+            edits = [above(made.lineno, starts), after(function, f"\n{method}")]
         else:
             edits = [above(made.lineno, f"{starts}\n\n{method}\n")]
-        others = [
-            each
-            for each in source.calls(trace, "create_subscription")
-            if each is not call and each in source.tree(text)
-        ]
-        for made in (statement(text, each.lineno) for each in others):
-            edits += [removed(text, made.lineno, made.end_lineno or 0)] if made else []
+        others = [each for each in file.calls("create_subscription") if each is not call]
+        edits += [without(text, file.statement(each)) for each in others]
         callback = f"self.{name}" if node == "self" else name
         edits += [*on_top(text, wanted), instead(text, given[0], callback)]
-        if name not in text and (found := told(text, edits, file=file if len(trace.sources) > 1 else "")):
+        if name not in text and (found := told_of(file, edits)):
             return found
     return None
 
 
 def _without_timers(listener: Listener) -> Iterator[Edit]:
     """Takes out the timers that log, with what they call: the callback does so."""
-    tree = source.tree(listener.text)
-    functions = {each.name: each for each in tree if isinstance(each, ast.FunctionDef)}
-    for call in (each for each in tree if isinstance(each, ast.Call) and source.called(each) == "create_timer"):
-        made = statement(listener.text, call.lineno)
+    functions = {each.name: each for each in listener.file.functions}
+    for call in listener.file.calls("create_timer"):
         names = [last_name(node) for each in call.args[1:2] for node in ast.walk(each)]
         name = next((each for each in names if each in functions), "")
-        if made is None or not name or functions[name] in listener.reached:
+        if not name or functions[name] in listener.reached:
             continue
-        inside = [node for each in reached(functions[name], tree) for node in ast.walk(each)]
+        inside = [node for each in listener.file.reached(functions[name]) for node in ast.walk(each)]
         if any(isinstance(each, ast.Call) and source.called(each) == "get_logger" for each in inside):
-            yield removed(listener.text, made.lineno, made.end_lineno or 0)
+            yield without(listener.text, listener.file.statement(call))
             if len(re.findall(rf"\b{name}\b", listener.text)) == 2:
-                yield removed(listener.text, functions[name].lineno, functions[name].end_lineno or 0)
+                yield without(listener.text, functions[name])
 
 
 def clock(text: str) -> tuple[str, str]:
@@ -115,11 +96,6 @@ def clock(text: str) -> tuple[str, str]:
     if re.search(r"^from time import", text, re.MULTILINE):
         return "from time import monotonic", "monotonic()"
     return "import time", "time.monotonic()"
-
-
-def step(trace: Trace, listener: Listener, edits: Sequence[Edit]) -> str | None:
-    """The edits in words, with the file where there is more than one."""
-    return told(listener.text, edits, file=listener.file if len(trace.sources) > 1 else "")
 
 
 def declared(listener: Listener, names: Iterable[str], code: str) -> str:
@@ -141,7 +117,7 @@ def body(listener: Listener, code: str) -> Edit:
     documented = isinstance(text, ast.Expr) and isinstance(text.value, ast.Constant)
     rest = function.body[documented:]
     if not rest:
-        return below(text.end_lineno or text.lineno, code, like=text.lineno)
+        return after(text, code)
     return becomes(rest[0].lineno, code, rest[-1].end_lineno or 0)
 
 
@@ -163,9 +139,7 @@ def started(listener: Listener, roles: Mapping[str, str]) -> Iterator[Edit]:
 def first_value(listener: Listener, lines: Sequence[str]) -> Edit:
     """Where variables that last are given their first value."""
     if listener.owner is None:
-        return above(
-            min(each.lineno for each in (listener.function, *listener.function.decorator_list)), "\n".join(lines)
-        )
+        return above(first_line(listener.function), "\n".join(lines))
     for node in listener.owner.body:
         if isinstance(node, ast.FunctionDef) and node.name == "__init__":
             made = next((each for each in node.body if listener.created in ast.walk(each)), node.body[-1])
@@ -177,7 +151,7 @@ def first_value(listener: Listener, lines: Sequence[str]) -> Edit:
 def _settings(listener: Listener) -> Iterator[ast.Assign | ast.AnnAssign]:
     """The assignments that are no part of what is done with a message."""
     inside = {each for function in listener.reached for each in ast.walk(function)}
-    tree: Sequence[ast.AST] = source.tree(listener.text)
+    tree: Sequence[ast.AST] = listener.file.nodes
     if listener.owner is None:
         scope = listener.outer or tree[0]
         tree = scope.body if isinstance(scope, ast.Module | ast.FunctionDef | ast.AsyncFunctionDef) else []

@@ -61,12 +61,10 @@ def of_waits(trace: Trace, text: str) -> Cause | None:
 
 def without(trace: Trace, call: ast.Call) -> str | None:
     """The step that takes out the statement of this call; None where it is part of more."""
-    for file, text in trace.sources.items():
-        made = edits.statement(text, call.lineno) if call in source.tree(text) else None
-        if isinstance(made, ast.Expr | ast.Assign) and ast.unparse(made.value) == ast.unparse(call):
-            edit = edits.removed(text, made.lineno, made.end_lineno or 0)
-            return edits.told(text, edit, file=file if len(trace.sources) > 1 else "")
-    return None
+    file = source.holding(trace, call)
+    made = file.statement(call)
+    whole = isinstance(made, ast.Expr | ast.Assign) and made.value is call
+    return edits.told_of(file, edits.without(file.text, made)) if whole else None
 
 
 def _spinning(trace: Trace, loop: ast.While | ast.For) -> str | None:
@@ -76,11 +74,7 @@ def _spinning(trace: Trace, loop: ast.While | ast.For) -> str | None:
     if not plain or len(loop.body) > 2 or len(spins) != 1 or not isinstance(spins[0].func, ast.Attribute):
         return None
     code = f"{ast.unparse(spins[0].func.value)}.spin({', '.join(map(ast.unparse, spins[0].args[:1]))})"
-    for file, text in trace.sources.items():
-        if loop in source.tree(text):
-            edit = edits.becomes(loop.lineno, code, loop.end_lineno or 0)
-            return edits.told(text, edit, file=file if len(trace.sources) > 1 else "")
-    return None
+    return edits.told_of(source.holding(trace, loop), edits.in_place(loop, code))
 
 
 def _short_queue(trace: Trace) -> ast.Call | None:

@@ -11,7 +11,7 @@ from checks.i1_2.listener import find
 from checks.i1_2.templates import logged
 from tutor.judge import source
 from tutor.judge.causes import names
-from tutor.judge.edits import at_end, inside, instead, on_top, removed, told
+from tutor.judge.edits import at_end, inside, instead, on_top, removed, told_of
 from tutor.judge.trace import Trace
 from tutor.judge.verdict import Cause
 
@@ -41,10 +41,9 @@ def unthrottled(trace: Trace) -> str | None:
     """Logs each time; None where nothing is throttled."""
     for call in (node for node in source.nodes(trace) if isinstance(node, ast.Call)):
         kept = [each for each in call.keywords if each.arg != "throttle_duration_sec"]
-        file = next((file for file, text in trace.sources.items() if call in source.tree(text)), None)
-        if len(kept) < len(call.keywords) and file is not None:
-            plain = ast.unparse(ast.Call(call.func, call.args, kept))
-            return told(trace.sources[file], instead(trace.sources[file], call, plain))
+        if len(kept) < len(call.keywords):
+            file, plain = source.holding(trace, call), ast.unparse(ast.Call(call.func, call.args, kept))
+            return told_of(file, instead(file.text, call, plain))
     return None
 
 
@@ -57,7 +56,7 @@ def first_kept(trace: Trace) -> str | None:
                 case ast.Assign(targets=[target], value=ast.Constant(value=None | "")) if "first" in ast.unparse(
                     target
                 ):
-                    if listener and (step := rewriting.step(trace, listener, [removed(listener.text, node.lineno)])):
+                    if listener and (step := told_of(listener.file, [removed(listener.text, node.lineno)])):
                         return step
     return rewriting.whole(trace)
 
@@ -79,7 +78,7 @@ def silent(trace: Trace) -> str | None:
                 and _falls(node.test)
             ):
                 code = f"{listener.logger}.warning('the publisher was restarted: counting from zero')"
-                if step := rewriting.step(trace, listener, [inside(node.lineno, code)]):
+                if step := told_of(listener.file, [inside(node.lineno, code)]):
                     return step
     return rewriting.whole(trace)
 
@@ -103,8 +102,8 @@ def alive(trace: Trace, cause: Cause) -> Cause:
             return replace(cause, hint=step)
     for each in inside_class if "exit" in ends else ():
         if isinstance(each, ast.Raise) and each.exc is not None and ast.unparse(each.exc).startswith("SystemExit"):
-            file, text = next(pair for pair in trace.sources.items() if each in source.tree(pair[1]))
-            if step := told(text, removed(text, each.lineno), file=file if len(trace.sources) > 1 else ""):
+            file = source.holding(trace, each)
+            if step := told_of(file, removed(file.text, each.lineno)):
                 return replace(cause, hint=step)
     step = _subscribed(trace) if cause.name == "no subscription" else None
     return replace(cause, hint=step) if step else cause
@@ -112,9 +111,8 @@ def alive(trace: Trace, cause: Cause) -> Cause:
 
 def _subscribed(trace: Trace) -> str | None:
     """Subscribes with a method that takes a message."""
-    for file, text in trace.sources.items():
-        tree = source.tree(text)
-        for owner in (each for each in tree if isinstance(each, ast.ClassDef)):
+    for file in source.files(trace):
+        for owner in (each for each in file.nodes if isinstance(each, ast.ClassDef)):
             methods = [each for each in owner.body if isinstance(each, ast.FunctionDef)]
             made = next((each for each in methods if each.name == "__init__"), None)
             for method in methods:
@@ -122,8 +120,7 @@ def _subscribed(trace: Trace) -> str | None:
                 reads = any(isinstance(each, ast.Attribute) and each.attr == "data" for each in ast.walk(method))
                 if made is not None and len(given) == 1 and reads and method is not made:
                     code = f"self.subscription = self.create_subscription(String, 'chatter', self.{method.name}, 10)"
-                    edits = [*on_top(text, "from std_msgs.msg import String"), at_end(made, code)]
-                    return told(text, edits, file=file if len(trace.sources) > 1 else "")
+                    return told_of(file, on_top(file.text, "from std_msgs.msg import String"), at_end(made, code))
     return None
 
 
@@ -141,6 +138,6 @@ def gaps(trace: Trace, false: Sequence[str] = ()) -> str | None:
             rewriting.on_entry(listener, [last], code),
             *(removed(each.text, each.statement.lineno, each.statement.end_lineno or 0) for each in told if each),
         ]
-        if step := rewriting.step(trace, listener, edits):
+        if step := told_of(listener.file, edits):
             return step
     return rewriting.whole(trace)

@@ -21,7 +21,6 @@ Part = str | ast.expr
 class Logged:
     """A call that logs. `values`: each expression in its text, with what it came to; `function`: what it is in."""
 
-    file: str
     text: str
     call: ast.Call
     statement: ast.stmt
@@ -35,7 +34,7 @@ def logged(trace: Trace, message: str) -> Logged | None:
         for call in (each for each in file.nodes if isinstance(each, ast.Call) and source.called(each) in _LEVELS):
             function = file.within(call)
             if call.args and (values := read(call.args[0], message, function)) is not None:
-                return Logged(file.file, file.text, call, file.statement(call), function, tuple(values))
+                return Logged(file.text, call, file.statement(call), function, tuple(values))
     return None
 
 

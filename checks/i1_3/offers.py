@@ -38,7 +38,7 @@ def added(trace: Trace, missing: Sequence[str]) -> str | None:
             lines.append(f"{node}.create_service({kind}, '{service[1:]}', {name})")
         above = [edits.above(_top(code, at), "".join(defined))] if defined and code.me(at) else []
         written = "".join([*([] if code.me(at) else defined), "\n".join(lines)])
-        below = edits.below(at.end_lineno or at.lineno, written, like=at.lineno)
+        below = edits.after(at, written)
         imports = code.importing("AddTwoInts") if kind == "AddTwoInts" else []
         if (step := code.told(imports, above, below)) is not None:
             return step
@@ -178,7 +178,7 @@ def _returns(code: Code, function: Function, usual: str) -> Iterator[Edit]:
                 and not _given(function, value, response)
             ):
                 sums = [] if f"{response}.sum" == ast.unparse(value) else [f"{response}.sum = {ast.unparse(value)}"]
-                yield edits.becomes(each.lineno, "\n".join([*sums, f"return {response}"]), each.end_lineno or 0)
+                yield edits.in_place(each, "\n".join([*sums, f"return {response}"]))
 
 
 def _given(function: Function, value: ast.expr, response: str) -> bool:

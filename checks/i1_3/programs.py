@@ -122,7 +122,7 @@ def without(code: Code, *names: str) -> str | None:
     """The step that takes out the statements that only call one of these functions."""
     calls = [code.statement(call) for call in code.calls(*names)]
     gone = [each for each in calls if isinstance(each, ast.Expr)]
-    return code.told([edits.removed(code.text, each.lineno, each.end_lineno or each.lineno) for each in gone])
+    return code.told([edits.without(code.text, each) for each in gone])
 
 
 def unasked(code: Code) -> str | None:
@@ -130,7 +130,7 @@ def unasked(code: Code) -> str | None:
     change = Changes(code)
     for call in code.calls("input"):
         if isinstance(code.statement(call), ast.Expr) and code.statement(call).value is call:  # type: ignore[attr-defined]
-            change.more.append(edits.removed(code.text, call.lineno, call.end_lineno or call.lineno))
+            change.more.append(edits.without(code.text, call))
         else:
             change.swaps.append((call, repr("8" if not change.swaps else "2")))
     return change.told() if change.swaps or change.more else None
@@ -155,4 +155,4 @@ def shut_down(code: Code) -> str | None:
     if not code.top:
         return None
     last = code.top[-1]
-    return code.told(edits.below(last.end_lineno or last.lineno, f"{rclpy}.shutdown()", like=last.lineno))
+    return code.told(edits.after(last, f"{rclpy}.shutdown()"))

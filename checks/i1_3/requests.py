@@ -118,13 +118,13 @@ def _answer_to(code: Code, asked: ast.Assign, future: str, change: Changes) -> N
         if isinstance(each, ast.While) and f"{future}.done()" in ast.unparse(each.test):
             if any(isinstance(part, ast.Call) and "spin" in source.called(part) for part in ast.walk(each)):
                 return
-            change.more.append(edits.becomes(each.lineno, wait, each.end_lineno or each.lineno))
+            change.more.append(edits.in_place(each, wait))
             return
     once = [each for each in code.calls("spin_once") if code.within(each) is function]
     if once and code.statement(once[0]).lineno == once[0].lineno and not code.loop(once[0], asked):
         change.swaps.append((once[0], wait))
     elif not code.calls(*_SPINS) or f"{future}.result()" in ast.unparse(function or ast.Module(list(code.top), [])):
-        change.more.append(edits.below(asked.end_lineno or asked.lineno, wait, like=asked.lineno))
+        change.more.append(edits.after(asked, wait))
         returned = [each for each in inside if isinstance(each, ast.Return) and each.value is not None]
         for each in returned:
             if each.value is not None and ast.unparse(each.value) == future and ".result(" not in code.text:

@@ -213,7 +213,7 @@ def _line(code: Code, function: Function, service: str) -> Edit | None:
     if not (a and b) or any(isinstance(each, ast.IfExp) for each in ast.walk(found[0].value)):
         return None
     new = f"{ast.unparse(found[0].targets[0])} = {a} {PYTHON[service]} {b}"
-    return None if new == ast.unparse(found[0]) else edits.becomes(found[0].lineno, new, found[0].end_lineno or 0)
+    return None if new == ast.unparse(found[0]) else edits.in_place(found[0], new)
 
 
 def means(function: str, service: str) -> bool:

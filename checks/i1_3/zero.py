@@ -72,7 +72,7 @@ def _in_handler(place: _Place, log: str) -> Edit | None:
             rest = [ast.unparse(each) for each in handler.body if not isinstance(each, ast.Pass)]
             head = ast.unparse(ast.ExceptHandler(handler.type, handler.name, [ast.Pass()])).partition(":\n")[0]
             code = "\n    ".join([f"{head}:", f"{log}.{_SAYS}", *rest])
-            return edits.becomes(handler.lineno, code, handler.end_lineno or 0)
+            return edits.in_place(handler, code)
     return None
 
 
@@ -94,7 +94,7 @@ def _in_test(place: _Place, log: str) -> Edit | None:
         branch = test.body if asked else test.orelse
         if not branch:
             code = f"else:\n    {log}.{_SAYS}"
-            return edits.below(test.end_lineno or 0, code, like=test.lineno)
+            return edits.after(test, code)
         if branch[0].lineno != test.lineno:
             return _above(branch[0], f"{log}.{_SAYS}")
         return None

@@ -12,7 +12,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from checks.i2_2.reading import Source
-from tutor.judge.edits import Edit, at_end, becomes, below, instead, removed
+from tutor.judge.edits import Edit, at_end, becomes, below, imported_instead, instead, without
 from tutor.judge.rewriting.node import NodeFile, argument, node_file
 from tutor.judge.source import Function, called
 from tutor.judge.trace import Trace
@@ -206,15 +206,10 @@ def misplaced(there: Launch) -> list[Edit]:
     """The imports of classes from where they are not, with the module that has them."""
     edits = []
     for each in there.file.tree.body:
-        if not isinstance(each, ast.ImportFrom) or each.level:
-            continue
-        kept = [alias for alias in each.names if _place(alias.name) in ("", each.module)]
-        if len(kept) == len(each.names):
-            continue
-        lines = [ast.unparse(ast.ImportFrom(each.module, kept, 0))] if kept else []
-        moved = [(alias, _place(alias.name)) for alias in each.names if alias not in kept]
-        lines += [ast.unparse(ast.ImportFrom(module, [alias], 0)) for alias, module in moved]
-        edits.append(becomes(each.lineno, "\n".join(lines), each.end_lineno or 0))
+        if isinstance(each, ast.ImportFrom) and not each.level:
+            found = [(alias, _place(alias.name)) for alias in each.names]
+            moved = [(alias, f"from {at} import {alias.name}") for alias, at in found if at not in ("", each.module)]
+            edits += [imported_instead(each, moved)] if moved else []
     return edits
 
 
@@ -310,7 +305,7 @@ def unended(there: Launch) -> list[Edit]:
     """The file without what ends Python while it is loaded."""
     ends = ("exit", "_exit", "quit", "abort", "kill")
     return [
-        removed(there.file.text, each.lineno, each.end_lineno or 0)
+        without(there.file.text, each)
         for each in there.file.tree.body
         if isinstance(each, ast.Expr) and isinstance(each.value, ast.Call) and called(each.value) in ends
     ]

@@ -11,7 +11,7 @@ from itertools import pairwise
 
 from checks.i2_3.facts import WORK_S
 from checks.i2_3.ticks import HZ
-from tutor.judge.edits import Edit, above, apply, instead
+from tutor.judge.edits import Edit, above, apply, in_place, instead
 from tutor.judge.rewriting.node import NodeFile, argument, is_static, with_body
 from tutor.judge.rewriting.program import program
 from tutor.judge.source import Function
@@ -63,7 +63,7 @@ def answering(file: NodeFile) -> list[Edit]:
         code = f"def {found.name}({', '.join([*first, 'request', 'response'])}):\n" + _indented(
             _work(sleep, "request", "response")
         )
-        return [*imported, Edit(found.lineno, found.end_lineno or found.lineno, code, like=found.lineno)]
+        return [*imported, in_place(found, code)]
     return [*imported, with_body(found, _work(sleep, *names[-2:]))]
 
 

@@ -13,7 +13,7 @@ from checks.i2_3.facts import SERVICE, WORK_S
 from checks.i2_3.rewriting import every, service, ticking, timer, working
 from checks.i2_3.ticks import HZ
 from tutor.judge.causes.printing import audible
-from tutor.judge.edits import Edit, becomes, instead, removed
+from tutor.judge.edits import Edit, becomes, in_place, instead, without
 from tutor.judge.rewriting.node import NodeFile, argument, started
 from tutor.judge.rewriting.program import program
 from tutor.judge.source import called
@@ -82,11 +82,11 @@ def _executor(file: NodeFile) -> list[Edit]:
     name, imported = file.own(_MANY, "rclpy.executors")
     if spun is not None and many is not None and own is not None:
         statement = file.statement(spun)
-        return [removed(file.text, statement.lineno, statement.end_lineno or 0)]
+        return [without(file.text, statement)]
     if spun is not None and many is not None and (kept := file.kept(many)) and len(spun.args) == 1:
         node = ast.unparse(spun.args[0])
         added = "" if file.calls("add_node") else f"{kept}.add_node({node})\n"
-        return [becomes(spun.lineno, f"{added}{kept}.spin()", spun.end_lineno or 0)]
+        return [in_place(spun, f"{added}{kept}.spin()")]
     if spun is None and many is None and single is not None:
         return [*imported, instead(file.text, single, f"{name}(num_threads={_THREADS})")]
     return rewriting.spun(file)
@@ -217,7 +217,7 @@ def period(file: NodeFile) -> str | None:
     naps = [each for each in ast.walk(found) if isinstance(each, ast.Call) and called(each) == "sleep"] if found else []
     if naps:
         statement = file.statement(naps[0])
-        return file.step([removed(file.text, statement.lineno, statement.end_lineno or 0)]) or ticks(file)
+        return file.step([without(file.text, statement)]) or ticks(file)
     right = f"{1 / HZ:g}"
     if given is not None and not _is_right(file, given):
         return file.step([instead(file.text, given, right)]) or ticks(file)

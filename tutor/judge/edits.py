@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 from pyflakes import checker, messages
 
-Function = ast.FunctionDef | ast.AsyncFunctionDef
+from tutor.judge.source import Function, SourceFile
 
 _NODE = {
     *(
@@ -79,6 +79,21 @@ def removed(text: str, first: int, last: int = 0) -> Edit:
     return edit if _parses(apply(text, [edit])) else Edit(first, last or first, "pass", like=first)
 
 
+def in_place(node: ast.stmt | ast.expr | ast.excepthandler, code: str) -> Edit:
+    """All lines of a statement, with other code."""
+    return becomes(node.lineno, code, node.end_lineno or 0)
+
+
+def without(text: str, statement: ast.stmt | ast.expr) -> Edit:
+    """A statement taken out."""
+    return removed(text, statement.lineno, statement.end_lineno or 0)
+
+
+def after(statement: ast.stmt, code: str) -> Edit:
+    """Code written below a statement, indented as it is."""
+    return below(statement.end_lineno or statement.lineno, code, like=statement.lineno)
+
+
 def above(line: int, code: str) -> Edit:
     """Code written above a line, indented as it is."""
     return Edit(line, line - 1, code, like=line)
@@ -133,7 +148,7 @@ def _own(body: Sequence[ast.stmt]) -> Iterator[ast.AST]:
 
 def _within(node: ast.AST) -> Iterator[ast.AST]:
     yield node
-    if not isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef | ast.Lambda):
+    if not isinstance(node, Function | ast.ClassDef | ast.Lambda):
         for each in ast.iter_child_nodes(node):
             yield from _within(each)
 
@@ -154,37 +169,6 @@ def _falls_through(body: Sequence[ast.stmt]) -> bool:
     return True
 
 
-def statement(text: str, line: int) -> ast.stmt | None:
-    """The innermost statement that this line belongs to; of a compound one, its head does."""
-    found = [
-        each
-        for each in ast.walk(_tree(text))
-        if isinstance(each, ast.stmt) and each.lineno <= line <= (each.end_lineno or each.lineno)
-    ]
-    return max(found, key=lambda each: (each.lineno, -(each.end_lineno or 0)), default=None)
-
-
-def function(text: str, name: str, line: int = 0) -> Function | None:
-    """The function of this name: the one that `line` is in, else the last."""
-    found = [
-        each
-        for each in ast.walk(_tree(text))
-        if isinstance(each, ast.FunctionDef | ast.AsyncFunctionDef) and each.name == name
-    ]
-    around = [each for each in found if each.lineno <= line <= (each.end_lineno or 0)]
-    return max(around or found, key=lambda each: each.lineno, default=None)
-
-
-def around(text: str, line: int) -> Function | None:
-    """The innermost function that a line is in."""
-    found = [
-        each
-        for each in ast.walk(_tree(text))
-        if isinstance(each, Function) and each.lineno <= line <= (each.end_lineno or 0)
-    ]
-    return max(found, key=lambda each: each.lineno, default=None)
-
-
 def every(text: str, pattern: str, by: str) -> list[Edit]:
     """Each line that a pattern is found in, with it replaced."""
     found = []
@@ -197,7 +181,7 @@ def every(text: str, pattern: str, by: str) -> list[Edit]:
 
 def on_top(text: str, code: str) -> list[Edit]:
     """An import at the top of the file, below what must come first; nothing where the file has it."""
-    tree = _tree(text)
+    tree = SourceFile(text).tree
     if code in {ast.unparse(each) for each in tree.body if isinstance(each, ast.Import | ast.ImportFrom)}:
         return []
     first = [each for each in tree.body if isinstance(each, ast.Import | ast.ImportFrom)]
@@ -206,6 +190,14 @@ def on_top(text: str, code: str) -> list[Edit]:
         return [below(after[-1].end_lineno or after[-1].lineno, code)]
     line = first[0].lineno if first else 1
     return [Edit(line, line - 1, code)]
+
+
+def imported_instead(there: ast.ImportFrom, moved: Sequence[tuple[ast.alias, str]]) -> Edit:
+    """Names taken out of an import, each with another import in its place, such as "from a.b import Name"."""
+    rest = [each for each in there.names if each not in [alias for alias, _ in moved]]
+    lines = [ast.unparse(ast.ImportFrom(there.module, rest, there.level))] if rest else []
+    lines += [code + (f" as {alias.asname}" if alias.asname else "") for alias, code in moved]
+    return in_place(there, "\n".join(lines))
 
 
 def instead(text: str, node: ast.expr, new: str) -> Edit:
@@ -268,6 +260,11 @@ def told(text: str, *edits: Edit | Sequence[Edit], file: str = "") -> str | None
     return (f"in {file}, " if file else "") + "\n".join(words)
 
 
+def told_of(file: SourceFile, *edits: Edit | Sequence[Edit]) -> str | None:
+    """The same of a file, called as it is there."""
+    return told(file.text, *edits, file=file.file)
+
+
 def is_there(text: str, edit: Edit) -> bool:
     """Whether an edit would write lines that stand above or below their place already."""
     if edit.last >= edit.first or not edit.code:
@@ -305,14 +302,14 @@ def _unknown(before: str, after: str) -> set[str]:
 
 
 def _undefined(text: str) -> Iterator[str]:
-    tree = _tree(text)
+    tree = ast.parse(text) if _parses(text) else ast.Module([], [])
     for found in checker.Checker(tree).messages:
         if isinstance(found, messages.UndefinedName | messages.UndefinedLocal):
             yield str(found.message_args[0])
     own = [each for each in ast.walk(tree) if isinstance(each, ast.Attribute) and ast.unparse(each.value) == "self"]
     kept = {each.attr for each in own if isinstance(each.ctx, ast.Store)} | _NODE
     for each in ast.walk(tree):
-        if isinstance(each, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
+        if isinstance(each, Function | ast.ClassDef):
             kept.add(each.name)
         elif isinstance(each, ast.Name) and isinstance(each.ctx, ast.Store):
             kept.add(each.id)  # of the class, not only of the object
@@ -325,10 +322,3 @@ def _parses(text: str) -> bool:
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         return False
     return True
-
-
-def _tree(text: str) -> ast.Module:
-    try:
-        return ast.parse(text)
-    except (SyntaxError, ValueError, RecursionError, MemoryError):
-        return ast.Module([], [])

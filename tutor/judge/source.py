@@ -71,9 +71,42 @@ class SourceFile:
         """Every function and method, in the order in which they are written."""
         return sorted((each for each in self.nodes if isinstance(each, Function)), key=lambda each: each.lineno)
 
+    def function_at(self, line: int) -> Function | None:
+        """The innermost function that a line is in."""
+        found = [each for each in self.functions if each.lineno <= line <= (each.end_lineno or 0)]
+        return max(found, key=lambda each: each.lineno, default=None)
+
+    def statement_at(self, line: int) -> ast.stmt | None:
+        """The innermost statement that a line belongs to; of a compound one, its head does."""
+        statements = [each for each in self.nodes if isinstance(each, ast.stmt)]
+        found = [each for each in statements if each.lineno <= line <= (each.end_lineno or 0)]
+        return max(found, key=lambda each: (each.lineno, -(each.end_lineno or 0)), default=None)
+
     def named(self, name: str) -> list[Function]:
         """The functions and methods of this name."""
         return [each for each in self.functions if each.name == name]
+
+    def function(self, callback: ast.expr | None) -> Function | None:
+        """The function that an argument names, by itself or in a lambda or a partial: the last one of that name."""
+        match callback:
+            case ast.Attribute(attr=name) | ast.Name(id=name):
+                return next((each for each in reversed(self.functions) if each.name == name), None)
+            case ast.Lambda(body=ast.Call(func=inner)):
+                return self.function(inner)
+            case ast.Call(args=[first, *_]):
+                return self.function(first)
+        return None
+
+    def reached(self, function: Function) -> list[Function]:
+        """The function, and those of the file that it leads to."""
+        found, todo = [], [function]
+        while todo:
+            each = todo.pop(0)
+            if each not in found:
+                found.append(each)
+                calls = [inner for inner in ast.walk(each) if isinstance(inner, ast.Call)]
+                todo += [led for inner in calls if (led := self.function(inner.func)) is not None]
+        return found
 
     @cached_property
     def node_classes(self) -> list[str]:
@@ -94,8 +127,14 @@ class SourceFile:
 
 
 def files(trace: Trace) -> list[SourceFile]:
-    """The learner's files."""
-    return [SourceFile(text, name) for name, text in trace.sources.items()]
+    """The learner's files, with their names where there are several."""
+    several = len(trace.sources) > 1
+    return [SourceFile(text, name if several else "") for name, text in trace.sources.items()]
+
+
+def holding(trace: Trace, node: ast.AST) -> SourceFile:
+    """The file that a part of a syntax tree is of."""
+    return next(each for each in files(trace) if node in each.nodes)
 
 
 def nodes(trace: Trace) -> Iterator[ast.AST]:
@@ -155,16 +194,6 @@ def callbacks(trace: Trace, create: str) -> list[Function]:
             inside = (node for function in named for node in ast.walk(function))
             waiting += [called(node) for node in inside if isinstance(node, ast.Call)]
     return [function for named in found.values() for function in named]
-
-
-def function_at(trace: Trace, file: str, line: int) -> Function | None:
-    """The innermost function of the file that this line is in."""
-    found = [
-        node
-        for node in ast.walk(_parsed(trace.sources.get(file, "")))
-        if isinstance(node, Function) and node.lineno <= line <= (node.end_lineno or 0)
-    ]
-    return max(found, key=lambda node: node.lineno, default=None)
 
 
 def called(call: ast.Call) -> str:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import ast
 
-from tutor.judge.edits import instead, removed, swapped
+from tutor.judge.edits import instead, swapped, without
 from tutor.judge.rewriting import parameters
 from tutor.judge.rewriting.node import NodeFile, argument
 from tutor.judge.source import Function
@@ -26,7 +26,7 @@ def _set_by_itself(file: NodeFile, name: str) -> Cause | None:
         function = file.within(call)
         where = ast.unparse(call) if "[" in ast.unparse(call) or function is None else ast.unparse(function)
         statement = file.statement(call)
-        step = file.step([removed(file.text, statement.lineno, statement.end_lineno or 0)])
+        step = file.step([without(file.text, statement)])
         if name in where and step is not None:
             return Cause(
                 _OVERWRITTEN,
@@ -60,7 +60,7 @@ def _assigned_again(file: NodeFile, name: str) -> Cause | None:
         target = ast.unparse(node.targets[0])
         corrected = any(isinstance(each, ast.If) and target in ast.unparse(each.test) for each in file.outwards(node))
         if target == ast.unparse(_target(kept)) and later and not corrected:  # a bad value may well be replaced
-            step = file.step([removed(file.text, node.lineno, node.end_lineno or 0)])
+            step = file.step([without(file.text, node)])
             text = f"{_line(node)} overwrites what line {kept.lineno} has read of {name}"
             return Cause(_OVERWRITTEN, text, step) if step else None
     return None
@@ -96,7 +96,7 @@ def _defined_twice(file: NodeFile, given: ast.expr | None) -> Cause | None:
     if len(same) < 2 or len({file.class_of(each) for each in same}) > 1:
         return None
     first, last = same[0], same[-1]
-    step = file.step([removed(file.text, last.lineno, last.end_lineno or 0)])
+    step = file.step([without(file.text, last)])
     text = (
         f"{name} is defined in line {first.lineno} and again in line {last.lineno}: the second replaces the first, "
         "which is never called"

@@ -22,9 +22,7 @@ def print_of(trace: Trace, text: str) -> ast.Call | None:
 
 def python_logging(trace: Trace, text: str = "") -> ast.Call | None:
     """The call of Python's logging module that wrote this text, or the first one where there is none."""
-    if "logging" not in {
-        alias.name for node in source.nodes(trace) if isinstance(node, ast.Import) for alias in node.names
-    }:
+    if "logging" not in {alias.name for file in source.files(trace) for _, alias in file.imports}:
         return None
     loggers = {name for name, _ in source.assigned(trace, "getLogger")} | {"logging"}
     calls = [
@@ -55,8 +53,7 @@ def audible(file: NodeFile) -> str | None:
 
 def logged(trace: Trace, call: ast.Call) -> str:
     """The step: the line with the node's own logger in it."""
-    around = [each for each in source.nodes(trace) if isinstance(each, ast.FunctionDef | ast.AsyncFunctionDef)]
-    function = next((each for each in around if call in ast.walk(each)), None)
+    function = source.holding(trace, call).within(call)
     mine = function is not None and [each.arg for each in function.args.args[:1]] == ["self"]
     level = source.called(call)
     level = {"print": "info", "critical": "fatal", "exception": "error", "debug": "info"}.get(level, level)

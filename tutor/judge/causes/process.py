@@ -10,7 +10,7 @@ from tutor.judge import tracebacks
 from tutor.judge.causes import names, spinning
 from tutor.judge.causes.blocking import of_blocked
 from tutor.judge.causes.exceptions import known, of_traceback
-from tutor.judge.edits import removed
+from tutor.judge.edits import without
 from tutor.judge.rewriting.node import started
 from tutor.judge.rewriting.program import main_called, program, step
 from tutor.judge.source import called
@@ -136,17 +136,12 @@ def same_name(trace: Trace) -> Cause | None:
 def _one_only(trace: Trace) -> str | None:
     """The step where a second node is made of the same class: that line goes, and those that use the node."""
     file = started(trace)
-    classes = [
-        each.name
-        for each in ast.walk(file.tree)
-        if isinstance(each, ast.ClassDef) and any("Node" in ast.unparse(base) for base in each.bases)
-    ]
-    made = file.calls(*classes)
+    made = file.calls(*file.node_classes)
     extra = [each for at, each in enumerate(made) if called(each) in map(called, made[:at])]
     names_of = {kept for each in extra if (kept := file.kept(each))}
     used = [each for each in ast.walk(file.tree) if isinstance(each, ast.Name) and each.id in names_of]
     statements = {file.statement(each) for each in (*extra, *used)}
-    return file.step([removed(file.text, each.lineno, each.end_lineno or 0) for each in statements])
+    return file.step([without(file.text, each) for each in statements])
 
 
 def last_words(trace: Trace, most: int = 6) -> tuple[str, ...]:

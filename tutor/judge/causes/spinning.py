@@ -7,12 +7,12 @@ from collections.abc import Sequence
 
 from tutor.judge import edits, source, tracebacks
 from tutor.judge.causes import names
-from tutor.judge.rewriting.node import node_file, started
+from tutor.judge.rewriting.callbacks import Loop, idle, outermost
+from tutor.judge.rewriting.node import NodeFile, node_file, started
 from tutor.judge.trace import Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Cause
 
-_Loop = ast.While | ast.For
 _TIDYING = "destroy_node", "shutdown", "try_shutdown", "exit", "_exit"
 _SPINS = "spin", "spin_once", "spin_some", "spin_until_future_complete"
 
@@ -26,7 +26,7 @@ def staying(trace: Trace, stuck: Sequence[Frame], nodes: str) -> Cause | None:
     at = tracebacks.own(mains[0] if mains else stuck, trace.folder)
     if at is None or "spin" in at.code or any(frame.path.endswith("rclpy/executors.py") for frame in stuck):
         return None
-    loop = _loop_at(trace, at)
+    loop = outermost(_file(trace, at), at.line)
     where = f"at {at}" + (f", in the loop of {_line(loop)}" if loop is not None and loop.lineno != at.line else "")
     return Cause(
         names.NO_SPIN,
@@ -35,19 +35,23 @@ def staying(trace: Trace, stuck: Sequence[Frame], nodes: str) -> Cause | None:
     )
 
 
-def _in_place(trace: Trace, at: Frame, loop: _Loop | None) -> str:
+def _file(trace: Trace, at: Frame) -> NodeFile:
+    return node_file(trace.sources.get(at.name, ""), at.name if len(trace.sources) > 1 else "")
+
+
+def _in_place(trace: Trace, at: Frame, loop: Loop | None) -> str:
     """What is written in place of the line, or the loop, at which the program stays."""
-    file = node_file(trace.sources.get(at.name, ""), at.name if len(trace.sources) > 1 else "")
-    function = source.function_at(trace, at.name, at.line)
+    file = _file(trace, at)
+    function = file.function_at(at.line)
     own = function is not None and function.name != "main" and "self" in [each.arg for each in function.args.args[:1]]
     node = "self" if own else _node(trace)
     spin = "" if own or _spun(trace, function) else f"rclpy.spin({node})"
-    statement = loop or edits.statement(file.text, at.line)
+    statement = loop or file.statement_at(at.line)
     if statement is None:
         return f"take line {at.line}, {at.code}, out: what has to wait is done by a timer, while the node spins"
     lines = statement.lineno, statement.end_lineno or statement.lineno
     code = spin
-    if loop is not None and (work := [each for each in loop.body if not _idle(each)]):
+    if loop is not None and (work := [each for each in loop.body if not idle(each)]):
         period = next((ast.unparse(nap.args[0]) for nap in _naps(loop) if nap.args), "1.0")
         callback, defined = _callback(loop, work, function)
         code = "\n".join([*defined, f"{node}.create_timer({period}, {callback})", *([spin] if spin else [])])
@@ -57,9 +61,7 @@ def _in_place(trace: Trace, at: Frame, loop: _Loop | None) -> str:
     )
 
 
-def _callback(
-    loop: _Loop, work: Sequence[ast.stmt], function: ast.FunctionDef | ast.AsyncFunctionDef | None
-) -> tuple[str, list[str]]:
+def _callback(loop: Loop, work: Sequence[ast.stmt], function: source.Function | None) -> tuple[str, list[str]]:
     """The function that does the work of a loop once, and the lines that define it, where it is not there yet."""
     if len(work) == 1 and (called := _plain_call(work[0])) is not None:
         return called, []
@@ -80,7 +82,7 @@ def ended(trace: Trace, said: str) -> Cause | None:
     """Why a program ends by itself: it never spins, or spins once only. `said`: that it has ended, and how."""
     if not trace.sources or source.calls(trace, "spin"):
         return None
-    in_loops = {id(call) for loop in source.nodes(trace) if isinstance(loop, _Loop) for call in ast.walk(loop)}
+    in_loops = {id(call) for loop in source.nodes(trace) if isinstance(loop, Loop) for call in ast.walk(loop)}
     once = source.calls(trace, "spin_once", "spin_some")
     if once and not any(id(call) in in_loops for call in once):
         code = ast.unparse(once[0])
@@ -107,7 +109,7 @@ def ended(trace: Trace, said: str) -> Cause | None:
 def _spinning_at_end(trace: Trace, node: str, line: int) -> str | None:
     """The step where a node is spun once all is set up: before the program tidies up, or at its end."""
     file = started(trace)
-    made = edits.statement(file.text, line)
+    made = file.statement_at(line)
     bodies = [body for each in ast.walk(file.tree) if isinstance(body := getattr(each, "body", None), list)]
     body = next(
         (each for each in bodies if any(made is not None and other.lineno == made.lineno for other in each)), []
@@ -123,9 +125,7 @@ def _spinning_at_end(trace: Trace, node: str, line: int) -> str | None:
     if tidying:
         return file.step([edits.above(tidying[0].lineno, code)])
     last = body[-1] if body else made
-    return (
-        file.step([edits.below(last.end_lineno or last.lineno, code, like=last.lineno)]) if last is not None else None
-    )
+    return file.step([edits.after(last, code)]) if last is not None else None
 
 
 def _whole(call: ast.Call) -> str:
@@ -138,11 +138,7 @@ def _whole(call: ast.Call) -> str:
 
 def _made(trace: Trace) -> tuple[str, int] | None:
     """What the node is called where it is made, outside of its own class, and the line."""
-    classes = [
-        node.name
-        for node in source.nodes(trace)
-        if isinstance(node, ast.ClassDef) and any("Node" in ast.unparse(base) for base in node.bases)
-    ]
+    classes = [name for file in source.files(trace) for name in file.node_classes]
     found = [each for each in source.assigned(trace, *classes, "Node", "create_node") if each[0]]
     return found[0] if found else None
 
@@ -152,32 +148,10 @@ def _node(trace: Trace) -> str:
     return made[0] if made else "node"
 
 
-def _spun(trace: Trace, function: ast.FunctionDef | ast.AsyncFunctionDef | None) -> bool:
+def _spun(trace: Trace, function: source.Function | None) -> bool:
     """Whether the same function spins already, outside of the loop: that line is reached once the loop is gone."""
     inside = ast.walk(function) if function is not None else source.nodes(trace)
     return any(isinstance(each, ast.Call) and source.called(each) == "spin" for each in inside)
-
-
-def _loop_at(trace: Trace, at: Frame) -> _Loop | None:
-    """The outermost loop around a line, in its function."""
-    function = source.function_at(trace, at.name, at.line)
-    inside = ast.walk(function) if function is not None else source.nodes(trace)
-    found = [
-        each
-        for each in inside
-        if isinstance(each, _Loop) and each.lineno <= at.line <= (each.end_lineno or each.lineno)
-    ]
-    return min(found, key=lambda each: each.lineno, default=None)
-
-
-def _idle(statement: ast.stmt) -> bool:
-    """Whether it does nothing but wait."""
-    if isinstance(statement, ast.Pass | ast.Continue):
-        return True
-    return isinstance(statement, ast.Expr) and (
-        isinstance(statement.value, ast.Constant)
-        or (isinstance(statement.value, ast.Call) and source.called(statement.value) in ("sleep", "wait"))
-    )
 
 
 def _plain_call(statement: ast.stmt) -> str | None:
@@ -187,11 +161,11 @@ def _plain_call(statement: ast.stmt) -> str | None:
     return None
 
 
-def _naps(loop: _Loop) -> list[ast.Call]:
+def _naps(loop: Loop) -> list[ast.Call]:
     return [each for each in ast.walk(loop) if isinstance(each, ast.Call) and source.called(each) == "sleep"]
 
 
-def _line(loop: _Loop) -> str:
+def _line(loop: Loop) -> str:
     head = (
         f"while {ast.unparse(loop.test)}" if isinstance(loop, ast.While) else f"for {ast.unparse(loop.target)} in ..."
     )

@@ -10,7 +10,7 @@ from dataclasses import replace
 from tutor.judge.causes import names, period_slips
 from tutor.judge.causes.blocking import of_blocked
 from tutor.judge.causes.process import node_names, of_no_answer, of_process
-from tutor.judge.edits import Edit, above, at_end, becomes, below, instead, swapped
+from tutor.judge.edits import Edit, above, after, at_end, in_place, instead, swapped
 from tutor.judge.qos import Policy, unmet
 from tutor.judge.rewriting.node import NodeFile, argument, node_file, started
 from tutor.judge.source import Function, called
@@ -208,7 +208,7 @@ def _activating(on_activate: Function) -> list[Edit]:
     code = f"return super().on_activate({on_activate.args.args[-1].arg})"
     last = on_activate.body[-1]
     if isinstance(last, ast.Return):
-        return [becomes(last.lineno, code, last.end_lineno or 0)]
+        return [in_place(last, code)]
     return [at_end(on_activate, code)]
 
 
@@ -223,7 +223,7 @@ def _woken(file: NodeFile) -> list[Edit]:
         statement, node = file.statement(call), file.kept(call)
         if node:
             code = f"{node}.trigger_configure()\n{node}.trigger_activate()"
-            return [below(statement.end_lineno or statement.lineno, code, like=statement.lineno)]
+            return [after(statement, code)]
         code = f"node = {ast.unparse(call)}\nnode.trigger_configure()\nnode.trigger_activate()"
         return [above(statement.lineno, code), instead(file.text, call, "node")]
     return []

@@ -13,6 +13,7 @@ from tutor.judge import edits
 from tutor.judge.edits import Edit
 from tutor.judge.exceptions.rewriting import REWRITERS
 from tutor.judge.exceptions.table import WORD, Known
+from tutor.judge.source import Function, SourceFile
 from tutor.judge.tracebacks import Frame, Traceback, within
 from tutor.judge.verdict import Cause
 
@@ -150,13 +151,13 @@ def _edit(text: str, edit: Mapping[str, str | list[str]], words: Mapping[str, st
         case {"async": number}:
             return _made_async(text, int(number))
         case {"function": name}:
-            return _of_function(edits.function(text, name, int(words.get("number", 0))), given)
+            return _of_function(_function(text, name, int(words.get("number", 0))), given)
     return _of_statement(text, given)
 
 
 def _of_statement(text: str, given: Mapping[str, str]) -> Sequence[Edit] | None:
     number = next(given[key] for key in ("unwrapped", "moved", "removed", "above", "below") if key in given)
-    there = edits.statement(text, int(number))
+    there = SourceFile(text).statement_at(int(number))
     if there is None:
         return None
     end = there.end_lineno or there.lineno
@@ -177,14 +178,21 @@ def _of_statement(text: str, given: Mapping[str, str]) -> Sequence[Edit] | None:
 
 def _made_async(text: str, number: int) -> Sequence[Edit] | None:
     """The function that a line is in, as one that may await."""
-    function = edits.around(text, number)
+    function = SourceFile(text).function_at(number)
     if function is None:
         return None
     code = text.splitlines()[function.lineno - 1].strip()
     return [] if code.startswith("async ") else [edits.becomes(function.lineno, f"async {code}")]
 
 
-def _of_function(function: edits.Function | None, given: Mapping[str, str]) -> Sequence[Edit] | None:
+def _function(text: str, name: str, line: int) -> Function | None:
+    """The function of this name: the one that `line` is in, else the last."""
+    found = SourceFile(text).named(name)
+    around = [each for each in found if each.lineno <= line <= (each.end_lineno or 0)]
+    return next(iter([*around[-1:], *found[-1:]]), None)
+
+
+def _of_function(function: Function | None, given: Mapping[str, str]) -> Sequence[Edit] | None:
     if function is None:
         return None
     if "returns" in given:
@@ -196,12 +204,12 @@ def _of_function(function: edits.Function | None, given: Mapping[str, str]) -> S
 
 def _moved(text: str, moved: ast.stmt, place: Mapping[str, str]) -> Sequence[Edit] | None:
     """A statement taken to another place, above or below the statement of a line."""
-    there = edits.statement(text, int(next(iter(place.values()))))
+    there = SourceFile(text).statement_at(int(next(iter(place.values()))))
     if there is None or moved.lineno == there.lineno:
         return None
     end = moved.end_lineno or moved.lineno
     code = textwrap.dedent("\n".join(text.splitlines()[moved.lineno - 1 : end]))
-    below = edits.below(there.end_lineno or there.lineno, code, like=there.lineno)
+    below = edits.after(there, code)
     return [edits.above(there.lineno, code) if "above" in place else below, edits.removed(text, moved.lineno, end)]
 
 

@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from tutor.judge import edits
 from tutor.judge.edits import Edit
 from tutor.judge.rewriting.syntax import slips
-from tutor.judge.source import called, tree
+from tutor.judge.source import Function, SourceFile, called, last_name, tree
 
 Words = Mapping[str, str]
 
@@ -20,7 +20,7 @@ _PLACEHOLDER = re.compile(r"%[-+ #0-9.]*[sdifrgxe]")
 
 def log(text: str, words: Words) -> Sequence[Edit]:
     """Log calls with values behind the text, as those of logging are written: one text each."""
-    there = edits.statement(text, int(words["number"]))
+    there = SourceFile(text).statement_at(int(words["number"]))
     if there is None:
         return []
     calls = [each for each in tree(text) if isinstance(each, ast.Call) and called(each) in _LEVELS]
@@ -51,19 +51,16 @@ def _one_text(text: str, call: ast.Call) -> str:
 
 def imported(text: str, words: Words) -> Sequence[Edit] | None:
     """A name taken out of an import, and imported from where it is; under its right name wherever it is used."""
-    there = edits.statement(text, int(words["number"]))
+    there = SourceFile(text).statement_at(int(words["number"]))
     if not isinstance(there, ast.ImportFrom):
         return None
     name, right = words["name"], words.get("nearest") or words["name"]
     taken = next((each for each in there.names if each.name == name), None)
     if taken is None:
         return None
-    rest = [each for each in there.names if each is not taken]
-    lines = [ast.unparse(ast.ImportFrom(there.module, rest, there.level))] if rest else []
-    lines.append(words["found"] + (f" as {taken.asname}" if taken.asname else ""))
     uses = [each for each in tree(text) if isinstance(each, ast.Name) and each.id == name and right != name]
     swaps = [] if taken.asname else edits.swapped(text, *((each, right) for each in uses))
-    return [edits.becomes(there.lineno, "\n".join(lines), there.end_lineno or there.lineno), *swaps]
+    return [edits.imported_instead(there, [(taken, words["found"])]), *swaps]
 
 
 def types_first(text: str, words: Words) -> Sequence[Edit]:
@@ -87,12 +84,12 @@ def _type(name: str) -> bool:
 
 def without(text: str, words: Words) -> Sequence[Edit] | None:
     """A statement taken out, with those that only use what it makes."""
-    there = edits.statement(text, int(words["number"]))
+    there = SourceFile(text).statement_at(int(words["number"]))
     if there is None:
         return None
     made = ast.unparse(there.targets[0]) if isinstance(there, ast.Assign) else ""
     uses = [each for each in tree(text) if made and isinstance(each, ast.Expr) and _uses(each, made)]
-    return [edits.removed(text, each.lineno, each.end_lineno or each.lineno) for each in (there, *uses)]
+    return [edits.without(text, each) for each in (there, *uses)]
 
 
 def _uses(statement: ast.stmt, made: str) -> bool:
@@ -101,8 +98,8 @@ def _uses(statement: ast.stmt, made: str) -> bool:
 
 def raised(text: str, words: Words) -> Sequence[Edit] | None:
     """What a callback raises is logged; a parameter callback refuses the change, with what was raised as the reason."""
-    there = edits.statement(text, int(words["number"]))
-    function = edits.around(text, there.lineno) if there is not None else None
+    there = SourceFile(text).statement_at(int(words["number"]))
+    function = SourceFile(text).function_at(there.lineno) if there is not None else None
     if not isinstance(there, ast.Raise) or there.exc is None or function is None:
         return None
     given = there.exc.args[0] if isinstance(there.exc, ast.Call) and there.exc.args else there.exc
@@ -114,7 +111,7 @@ def raised(text: str, words: Words) -> Sequence[Edit] | None:
             return [*_result(text), edits.becomes(there.lineno, code, end)]
         calls = [each for each in ast.walk(checks) if isinstance(each, ast.Call) and called(each) == function.name]
         if calls:
-            return [*_result(text), _refused(text, edits.statement(text, calls[0].lineno))]
+            return [*_result(text), _refused(text, SourceFile(text).statement_at(calls[0].lineno))]
     me = function.args.args[0].arg if function.args.args else ""
     if me != "self" or function.name == "__init__":
         return None
@@ -136,13 +133,11 @@ def _refused(text: str, there: ast.stmt | None) -> Edit:
     return edits.becomes(there.lineno, f"try:\n{code}\nexcept Exception as error:\n    {refuse}", end)
 
 
-def _callbacks(text: str, create: str) -> Iterator[edits.Function]:
+def _callbacks(text: str, create: str) -> Iterator[Function]:
     for call in tree(text):
         if isinstance(call, ast.Call) and called(call) == create:
             for each in (*call.args, *(given.value for given in call.keywords)):
-                name = each.attr if isinstance(each, ast.Attribute) else each.id if isinstance(each, ast.Name) else ""
-                if name and (found := edits.function(text, name)) is not None:
-                    yield found
+                yield from SourceFile(text).named(last_name(each))[-1:]
 
 
 def optional(text: str, words: Words) -> Sequence[Edit]:
@@ -166,7 +161,7 @@ def optional(text: str, words: Words) -> Sequence[Edit]:
 
 def utf8(text: str, words: Words) -> Sequence[Edit]:
     """The encoding, in each call of a statement that opens a file without one."""
-    there = edits.statement(text, int(words["number"]))
+    there = SourceFile(text).statement_at(int(words["number"]))
     swaps: list[tuple[ast.expr, str]] = []
     for call in ast.walk(there) if there is not None else ():
         if not isinstance(call, ast.Call) or called(call) not in ("open", "read_text", "write_text"):

@@ -7,9 +7,9 @@ import re
 import textwrap
 from collections.abc import Sequence
 
-from tutor.judge.edits import Edit, becomes, every, instead, removed
+from tutor.judge.edits import Edit, becomes, every, in_place, instead, removed
 from tutor.judge.rewriting.node import NodeFile
-from tutor.judge.source import Function, called
+from tutor.judge.source import called
 
 _MADE = ("create_client", "create_service", "create_timer", "create_subscription")
 _GROUP = "callback_group"
@@ -20,10 +20,9 @@ Loop = ast.While | ast.For
 
 def awaited(file: NodeFile, line: int, code: str, last: int = 0) -> list[Edit]:
     """A line, or the lines up to `last`, that await; in a coroutine, and each callback in a reentrant group."""
-    around = [each for each in file.functions if each.lineno <= line <= (each.end_lineno or 0)]
-    if not around:
+    function = file.function_at(line)
+    if function is None:
         return []
-    function = max(around, key=lambda each: each.lineno)
     edits = [becomes(line, code, last)]
     if isinstance(function, ast.FunctionDef):
         head = file.text.splitlines()[function.lineno - 1].strip()
@@ -53,7 +52,7 @@ def without_lock(file: NodeFile, line: int) -> list[Edit]:
     if not around:
         return []
     held = max(around, key=lambda each: each.lineno)
-    return [Edit(held.lineno, held.end_lineno or held.lineno, _code(file, held.body), like=held.lineno)]
+    return [in_place(held, _code(file, held.body))]
 
 
 def reentrant_lock(file: NodeFile) -> list[Edit]:
@@ -76,9 +75,11 @@ def outermost(file: NodeFile, line: int) -> Loop | None:
     found = [
         each for each in ast.walk(file.tree) if isinstance(each, Loop) and each.lineno <= line <= (each.end_lineno or 0)
     ]
-    inner = [each for each in file.functions if each.lineno <= line <= (each.end_lineno or 0)]
-    function: Function | None = max(inner, key=lambda each: each.lineno, default=None)
-    return min((each for each in found if file.within(each) is function), key=lambda each: each.lineno, default=None)
+    return min(
+        (each for each in found if file.within(each) is file.function_at(line)),
+        key=lambda each: each.lineno,
+        default=None,
+    )
 
 
 def idle(statement: ast.stmt) -> bool:

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
-from tutor.judge.edits import Edit, above, at_end, becomes, below, is_there, on_top, told
+from tutor.judge.edits import Edit, above, after, at_end, becomes, below, in_place, is_there, on_top, told
 from tutor.judge.source import Function, SourceFile
 from tutor.judge.trace import Trace
 
@@ -22,28 +22,6 @@ _MAKING = ("create_publisher", "create_timer", "declare_parameter", "declare_par
 @dataclass(frozen=True)
 class NodeFile(SourceFile):
     """One file with one node in it. All that it gives are parts of `tree`, or code."""
-
-    def function(self, callback: ast.expr | None) -> Function | None:
-        """The function that an argument names, by itself or in a lambda or a partial: the last one of that name."""
-        match callback:
-            case ast.Attribute(attr=name) | ast.Name(id=name):
-                return next((each for each in reversed(self.functions) if each.name == name), None)
-            case ast.Lambda(body=ast.Call(func=inner)):
-                return self.function(inner)
-            case ast.Call(args=[first, *_]):
-                return self.function(first)
-        return None
-
-    def reached(self, function: Function) -> list[Function]:
-        """The function, and those of the file that it leads to."""
-        found, todo = [], [function]
-        while todo:
-            each = todo.pop(0)
-            if each not in found:
-                found.append(each)
-                calls = [inner for inner in ast.walk(each) if isinstance(inner, ast.Call)]
-                todo += [led for inner in calls if (led := self.function(inner.func)) is not None]
-        return found
 
     @cached_property
     def name(self) -> str:
@@ -112,7 +90,7 @@ class NodeFile(SourceFile):
         made = [self.statement(each) for each in self.calls(*_MAKING) if self.within(each) is self.setup]
         if made:
             last = max(made, key=lambda each: each.end_lineno or each.lineno)
-            return [below(last.end_lineno or last.lineno, code, like=last.lineno)]
+            return [after(last, code)]
         return [at_end(self.setup, code)] if self.setup is not None else []
 
     def begins(self, function: Function, code: str) -> list[Edit]:
@@ -122,7 +100,7 @@ class NodeFile(SourceFile):
         if text and len(function.body) > 1:
             first = function.body[1]
         elif text:
-            return [below(first.end_lineno or first.lineno, code, like=first.lineno)]
+            return [after(first, code)]
         if first.lineno == function.lineno:
             return []
         return [above(first_line(first), code)]
@@ -204,7 +182,7 @@ def rewritten(function: Function, code: str, *, given: str = "") -> Edit:
     head = f"{'async ' if isinstance(function, ast.AsyncFunctionDef) else ''}def {function.name}({taken})"
     returns = f" -> {ast.unparse(function.returns)}" if function.returns is not None else ""
     lines = [f"{head}{returns}:", *(f"    {line}" for line in code.splitlines())]
-    return Edit(function.lineno, function.end_lineno or function.lineno, "\n".join(lines), like=function.lineno)
+    return in_place(function, "\n".join(lines))
 
 
 def first_line(statement: ast.stmt) -> int:

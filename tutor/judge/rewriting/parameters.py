@@ -7,7 +7,7 @@ import difflib
 import re
 from collections.abc import Sequence
 
-from tutor.judge.edits import Edit, above, becomes, below, instead, removed, swapped
+from tutor.judge.edits import Edit, above, after, becomes, instead, removed, swapped, without
 from tutor.judge.rewriting.node import NodeFile, argument, rewritten
 from tutor.judge.source import Function
 
@@ -131,7 +131,7 @@ def declared_once(file: NodeFile, line: int) -> list[Edit]:
     ]
     missing = [ast.unparse(each) for each in again if each.args and ast.unparse(each.args[0]) not in elsewhere]
     return [
-        *(removed(file.text, each.lineno, each.end_lineno or 0) for each in bare),
+        *(without(file.text, each) for each in bare),
         *swapped(file.text, *reads),
         *(_below_super(file, "\n".join(missing)) if missing else []),
     ]
@@ -142,7 +142,7 @@ def _below_super(file: NodeFile, code: str) -> list[Edit]:
     for call in file.calls("__init__", "create_node", "Node"):
         statement = file.statement(call)
         if file.within(call) is file.setup and not isinstance(statement, ast.ClassDef | ast.FunctionDef):
-            return [below(statement.end_lineno or statement.lineno, code, like=statement.lineno)]
+            return [after(statement, code)]
     return file.adds_to_setup(code)
 
 
@@ -157,7 +157,7 @@ def checked_at_start(file: NodeFile, rate: str) -> list[Edit]:
         f"    {file.name}.get_logger().fatal('{rate} must be > 0')\n"
         "    raise SystemExit(1)"
     )
-    return [below(statement.end_lineno or statement.lineno, code, like=statement.lineno)]
+    return [after(statement, code)]
 
 
 def _default_beside(node: ast.AST, name: str) -> ast.expr | None:
@@ -179,7 +179,7 @@ def _is_text(node: ast.expr | None, text: str) -> bool:
 
 def _without(file: NodeFile, call: ast.Call) -> Edit:
     statement = file.statement(call)
-    return removed(file.text, statement.lineno, statement.end_lineno or 0)
+    return without(file.text, statement)
 
 
 def _argument(function: Function) -> str:

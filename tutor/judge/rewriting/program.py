@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import takewhile
 
-from tutor.judge.edits import Edit, below, on_top
+from tutor.judge.edits import Edit, after, below, in_place, on_top
 from tutor.judge.rewriting.node import NodeFile, first_line, node_file
 from tutor.judge.source import Function, called
 from tutor.judge.trace import Trace
@@ -69,7 +69,7 @@ def program(file: NodeFile, *, threads: bool = False) -> list[Edit]:
     edits = [*_imported(file), *edits, *imported, *_started(file, scope)]
     if not rest:
         last = scope.body[-1]
-        return [*edits, below(last.end_lineno or last.lineno, "\n".join(code), like=last.lineno)]
+        return [*edits, after(last, "\n".join(code))]
     first, last = rest[0], rest[-1]
     if first.lineno == (prefix[-1].end_lineno if prefix else scope.function.lineno if scope.function else 0):
         return []
@@ -94,7 +94,7 @@ def guarded(file: NodeFile, call: ast.Call) -> list[Edit]:
     end = "" if file.calls("try_shutdown", "shutdown") else "\nfinally:\n    rclpy.try_shutdown()"
     body = textwrap.indent(_code(file, statement), "    ")
     code = f"try:\n{body}\n{both}:\n    pass{end}"
-    return [*imported, Edit(statement.lineno, statement.end_lineno or statement.lineno, code, like=statement.lineno)]
+    return [*imported, in_place(statement, code)]
 
 
 def main_called(file: NodeFile) -> list[Edit]:
@@ -107,9 +107,9 @@ def _called(file: NodeFile, main: Function) -> list[Edit]:
     code = f'if __name__ == "__main__":\n    {main.name}()'
     for each in file.tree.body:
         if isinstance(each, ast.If) and "__name__" in ast.unparse(each.test):
-            return [Edit(each.lineno, each.end_lineno or each.lineno, code, like=each.lineno)]
+            return [in_place(each, code)]
         if isinstance(each, ast.Expr) and ast.unparse(each.value) == main.name:
-            return [Edit(each.lineno, each.end_lineno or each.lineno, f"{main.name}()", like=each.lineno)]
+            return [in_place(each, f"{main.name}()")]
     last = file.tree.body[-1]
     return [below(last.end_lineno or last.lineno, f"\n\n{code}", like=main.lineno)]
 
@@ -135,9 +135,7 @@ def _free(file: NodeFile) -> list[Edit]:
     for each in file.calls("signal", "register"):
         statement = file.statement(each)
         if isinstance(statement, ast.Expr) and ast.unparse(each.func) in ("signal.signal", "atexit.register"):
-            found.append(
-                Edit(statement.lineno, statement.end_lineno or statement.lineno, "pass", like=statement.lineno)
-            )
+            found.append(in_place(statement, "pass"))
     return found
 
 

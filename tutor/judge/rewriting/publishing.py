@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from tutor.judge.edits import Edit, above, becomes, instead, removed
+from tutor.judge.edits import Edit, above, in_place, instead, without
 from tutor.judge.rewriting.node import NodeFile, argument, rewritten
 from tutor.judge.source import Function, called
 
@@ -45,7 +45,7 @@ def _in_place(file: NodeFile, expression: ast.expr, code: str) -> list[Edit]:
     statement = file.statement(expression)
     if isinstance(statement, ast.Assign) and statement.value is expression:
         target = ast.unparse(statement.targets[0])
-        return [becomes(statement.lineno, f"{target} = {code}", statement.end_lineno or 0)]
+        return [in_place(statement, f"{target} = {code}")]
     return [instead(file.text, expression, code)]
 
 
@@ -53,10 +53,7 @@ def waiting_while_off(file: NodeFile, enabled: str) -> list[Edit]:
     """The timer's callback, with nothing to do while a parameter is false; without a timer, only no publishing."""
     if file.first_timer is not None and file.tick is not None and file.tick is not file.setup:
         return file.begins(file.tick, f"if not {file.value(enabled)}:\n    return")
-    return [
-        becomes(each.lineno, f"if {file.value(enabled)}:\n    {ast.unparse(each)}", each.end_lineno or 0)
-        for each in _publishing(file)
-    ]
+    return [in_place(each, f"if {file.value(enabled)}:\n    {ast.unparse(each)}") for each in _publishing(file)]
 
 
 def logging(file: NodeFile, parameter: str) -> list[Edit]:
@@ -214,4 +211,4 @@ def only_timer(file: NodeFile) -> list[Edit]:
         and (other := argument(each, 1, "callback")) is not None
         and ast.unparse(other) == ast.unparse(same)
     ]
-    return [removed(file.text, each.lineno, each.end_lineno or 0) for each in others]
+    return [without(file.text, each) for each in others]
