@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 import os
+import resource
 import subprocess
 import sys
 from pathlib import Path
@@ -67,3 +69,43 @@ def test_full_shared_memory_is_told_in_a_sentence(words: tuple[str, ...], code: 
     assert (found.returncode, found.stdout) == (code, ""), found.stderr
     assert "/dev/shm is full (1 MB)" in found.stderr
     assert len(found.stderr.splitlines()) == 1
+
+
+def test_few_descriptors_leave_the_report_alone() -> None:
+    few = lambda: resource.setrlimit(resource.RLIMIT_NOFILE, (40, 40))  # noqa: E731
+    command = [*RUN, *CHECK, "--format", "json"]
+    found = subprocess.run(command, capture_output=True, text=True, timeout=LIMIT_S, check=False, preexec_fn=few)
+    assert found.returncode == 3, found.stderr
+    assert not found.stdout or json.loads(found.stdout)["verdict"] == "error"
+
+
+def test_a_pipe_as_progress_file_or_output_holds_nothing_up(tmp_path: Path) -> None:
+    workspace = ("--workspace", str(tmp_path / "ws"))
+    assert ran(*RUN, *workspace, "start", "i1.1").returncode == 0
+    progress = tmp_path / "ws" / ".ros-tutor" / "progress.json"
+    assert progress.is_file()
+    progress.unlink()
+    os.mkfifo(progress)
+    found = ran(*RUN, *workspace, "list")
+    assert (found.returncode, "is kept as" in found.stderr) == (0, True), found.stderr
+    os.mkfifo(tmp_path / "report")
+    found = ran(*RUN, *workspace, "checklist", "export", "--format", "json", "--output", str(tmp_path / "report"))
+    assert (found.returncode, "Traceback" in found.stderr) == (3, False), found.stderr
+
+
+PRESSES_EARLY = """
+import os, runpy, signal, sys
+
+class Press:
+    def find_spec(self, name, *_):
+        if name == "tutor.cli":
+            os.kill(os.getpid(), signal.SIGINT)
+
+sys.meta_path.insert(0, Press())
+runpy.run_module("tutor", run_name="__main__")
+"""
+
+
+def test_ctrl_c_while_the_program_is_being_imported_is_no_traceback() -> None:
+    found = ran(sys.executable, "-c", PRESSES_EARLY)
+    assert (found.returncode, found.stdout, found.stderr) == (130, "", "")

@@ -48,6 +48,7 @@ async def check(
     ros = detect()
     try:
         this_process.use(ros, isolated=True)
+        this_process.keep_stdout()
         await asyncio.to_thread(bytecode.ensure, ros)
         from tutor.engine.runner import Runner  # brings in rclpy, which must find its environment chosen
     except (ImportError, OSError, RuntimeError) as error:

@@ -55,6 +55,19 @@ def use(ros: RosEnvironment, *, isolated: bool) -> None:
     interfaces.activate()
 
 
+def keep_stdout() -> None:
+    """Keep standard output for us: what the libraries of ROS write to it goes to stderr. Call it after `use`."""
+    try:
+        if sys.stdout.fileno() != 1 or sys.stderr.fileno() != 2:
+            return
+    except (AttributeError, OSError, ValueError):  # one of them is closed, or no file
+        return
+    sys.stdout.flush()
+    ours = os.dup(1)
+    os.dup2(2, 1)
+    sys.stdout = os.fdopen(ours, "w", encoding=sys.stdout.encoding, errors=sys.stdout.errors)
+
+
 def _identity(ros: RosEnvironment) -> tuple[object, ...]:
     # Without its problems: they are those of the variables around us, which `use` has cleaned.
     return ros.kind, ros.distro, ros.python, ros.rmw

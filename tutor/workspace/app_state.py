@@ -11,6 +11,7 @@ from typing import Any
 
 from tutor.workspace.atomic import write_atomically
 from tutor.workspace.errors import StorageError
+from tutor.workspace.regular import read_text
 
 SCHEMA = "ros-tutor/app/1"
 
@@ -97,13 +98,13 @@ class AppStateFile:
     def read(self) -> AppState:
         """What is on disk; the defaults where there is nothing. A damaged file is set aside, and `notify` is told."""
         try:
-            return decode(self.path.read_bytes().decode("utf-8"))
+            return decode(read_text(self.path))
         except FileNotFoundError:
             return AppState()
         except OSError as error:
             self._notify(f"what the app remembered cannot be read: {error.strerror or error}")
         except ValueError as error:
-            self._set_aside("it is damaged" if isinstance(error, UnicodeDecodeError) else str(error))
+            self._set_aside(str(error))
         return AppState()
 
     def write(self, state: AppState) -> None:

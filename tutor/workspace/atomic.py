@@ -27,7 +27,11 @@ def _write(path: Path, content: bytes) -> None:
     except FileNotFoundError:
         mode = None
     if mode is not None and not stat.S_ISREG(mode):
-        path.write_bytes(content)
+        # A pipe that nobody reads refuses to be opened, in place of waiting for a reader.
+        handle = os.open(path, os.O_WRONLY | os.O_NONBLOCK | os.O_NOCTTY | os.O_CLOEXEC)
+        os.set_blocking(handle, True)
+        with os.fdopen(handle, "wb") as file:
+            file.write(content)
         return
     temporary = path.with_name(f".{path.name}.{os.getpid()}.tmp")
     try:

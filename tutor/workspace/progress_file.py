@@ -14,6 +14,7 @@ from tutor.workspace.atomic import write_atomically
 from tutor.workspace.errors import StorageError
 from tutor.workspace.locking import lock
 from tutor.workspace.progress import Progress, decode, encode
+from tutor.workspace.regular import read_text
 
 _LOCK_LIMIT_S = 10.0
 
@@ -74,13 +75,11 @@ class ProgressFile:
 
     def _load(self) -> Progress:
         try:
-            return decode(self.path.read_bytes().decode("utf-8"))
+            return decode(read_text(self.path))
         except FileNotFoundError:
             return Progress()
         except OSError as error:
             raise StorageError.of(f"read {self.path}", error) from error
-        except UnicodeDecodeError as error:
-            raise ValueError("it is damaged") from error
 
     def _set_aside(self, reason: str) -> None:
         stamp = f"{datetime.now(UTC):%Y%m%dT%H%M%S%fZ}"

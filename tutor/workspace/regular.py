@@ -1,4 +1,4 @@
-"""Reading a file that a learner's code may have put there: only a regular one, and only so much of it."""
+"""Reading a file that anybody may have put there: only a regular one, and only so much of it."""
 
 from __future__ import annotations
 
@@ -18,3 +18,14 @@ def read_regular(path: Path | str, most: int) -> bytes | None:
             return None
         data = file.read(most + 1)
         return data if len(data) <= most else None
+
+
+def read_text(path: Path, most: int = 16_000_000) -> str:
+    """The text of a file of ours. Raises OSError, and ValueError where it is no file of text."""
+    data = read_regular(path, most)
+    if data is None:
+        raise ValueError("it is damaged")
+    try:
+        return data.decode("utf-8")
+    except UnicodeDecodeError as error:
+        raise ValueError("it is damaged") from error
