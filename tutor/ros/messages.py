@@ -12,7 +12,7 @@ MOST_CHARACTERS, MOST_ELEMENTS = 10_000, 100_000
 """How much is kept of a text, and of all arrays of a message."""
 
 _EACH = 16
-_RECEIVED = 32
+_RECEIVED = 8
 """Bytes that are received and not kept count as a byte for so many."""
 
 

@@ -1,4 +1,4 @@
-"""Strings of a megabyte, 200 times a second."""
+"""Strings of a megabyte, 100 times a second."""
 
 import rclpy
 from rclpy.node import Node
@@ -13,7 +13,7 @@ class Hostile(Node):
         self.declare_parameter("publish_rate", 1.0)
         self.declare_parameter("enabled", True)
         self.message = String(data="Hello #0 " + "x" * 1_000_000)
-        self.create_timer(0.005, lambda: self.publisher.publish(self.message))
+        self.create_timer(0.01, lambda: self.publisher.publish(self.message))
 
 
 def main():
