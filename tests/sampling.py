@@ -7,10 +7,12 @@ that every exercise shares.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from pathlib import Path
 
 from tutor.content.submissions import RIGHT, WRONG, Case
 from tutor.judge.causes.names import MEANINGS
 
+SHARED = tuple(f"tutor/{package}/" for package in ("engine", "judge", "process", "ros", "sandbox"))
 CONTRACT = frozenset(name.casefold() for name in MEANINGS)
 
 
@@ -30,6 +32,26 @@ def sample(cases: Sequence[Case]) -> list[Case]:
             wrong.remove(best)
             missing -= shows(best)
     return [case for case in cases if case in right or case in chosen]
+
+
+def changed(cases: Sequence[Case], paths: Iterable[str]) -> list[Case]:
+    """The cases that a change of these files (relative to the clone) may concern.
+
+    Each case whose own files changed, all of an exercise whose check, skeleton or solution did, and the sample where
+    something did that all checks share.
+    """
+    folders = {"/".join(Path(path).parts[:5]) for path in paths if path.startswith("tests/submissions/")}
+    exercises = {
+        Path(path).parts[1] for path in paths if path.startswith(("checks/", "lessons/")) and path.count("/") > 1
+    }
+    shared = any(path.startswith(SHARED) for path in paths)
+    chosen = sample(cases) if shared else []
+
+    def is_concerned(case: Case) -> bool:
+        exercise = case.exercise.replace(".", "_")
+        return exercise in exercises or f"tests/submissions/{exercise}/{case.kind}/{case.folder.name}" in folders
+
+    return [case for case in cases if case in chosen or is_concerned(case)]
 
 
 def shows(case: Case) -> frozenset[tuple[str, str]]:

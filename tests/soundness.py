@@ -1,6 +1,9 @@
 """Judge every submission under tests/submissions and compare with what its expect.yaml says.
 
-    uv run python -m tests.soundness [EXERCISE[/right|wrong[/NAME]] ...] [--times N] [--jobs N] [--busy]
+    uv run python -m tests.soundness [EXERCISE[/right|wrong[/NAME]] ...] [--changed] [--times N] [--jobs N] [--busy]
+
+`--changed` judges those that differ from the branch main, all of an exercise whose check differs, and, where what all
+checks share does, the sample of the tests.
 
 tells of each run on stderr. At the end, on stdout: each verdict that is not as expected, the submissions that are not
 judged the same each time, and a table: for each exercise how many right and wrong ones were judged right, the false
@@ -22,6 +25,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 
 from tests.judging import Outcome, find, holds_here, judge
+from tests.sampling import changed
 from tutor.content.submissions import Case
 
 # Ends by itself when its owner is gone, however that happened: before its first instruction, too, so it is told who
@@ -120,12 +124,21 @@ def flaky(outcomes: Sequence[Outcome]) -> list[str]:
     return lines
 
 
+def _paths_changed() -> list[str]:
+    """The files that differ from the branch main, and those that are not committed."""
+    git = ("git", "-C", os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+    differing = subprocess.check_output([*git, "diff", "--name-only", "--merge-base", "main"], text=True)
+    untracked = subprocess.check_output([*git, "ls-files", "--others", "--exclude-standard"], text=True)
+    return [*differing.splitlines(), *untracked.splitlines()]
+
+
 def main() -> int:
     """Exit code 0 where every verdict is as expected, 1 where not, 2 where there is nothing to judge."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("wanted", nargs="*")
     parser.add_argument("--times", type=int, default=1, help="judge each so often")
     parser.add_argument("--jobs", type=int, default=3, help="so many at a time")
+    parser.add_argument("--changed", action="store_true", help="only what a difference from main may concern")
     parser.add_argument("--busy", action="store_true", help="with a busy loop beside it for each core")
     parser.add_argument("--json", action="store_true", help="print the wrong ones as JSON, too")
     arguments = parser.parse_args()
@@ -135,6 +148,11 @@ def main() -> int:
     here = [case for case in found if holds_here(case)]
     if len(here) < len(found):
         print(f"{len(found) - len(here)} are about another ROS than this, and left out", file=sys.stderr)
+    if arguments.changed:
+        here = changed(here, _paths_changed())
+        if not here:
+            print("nothing that differs from main concerns a submission", file=sys.stderr)
+            return 0
     if not here:
         print(f"no submission is called {' or '.join(arguments.wanted) or 'anything'}", file=sys.stderr)
         return 2

@@ -20,7 +20,7 @@ import pytest
 from tests import soundness
 from tests.hostile import find_hostile
 from tests.judging import Outcome, compare, find, holds_here, judge
-from tests.sampling import sample, shows
+from tests.sampling import changed, sample, shows
 from tutor.content.submissions import Case, Expected
 from tutor.judge.result import CriterionResult, ExerciseResult
 from tutor.judge.verdict import Status, Verdict
@@ -129,6 +129,19 @@ def test_the_real_sample_leaves_nothing_out() -> None:
     assert set().union(*map(shows, chosen)) == set().union(*map(shows, EVERY))
     right = [[case.exercise for case in cases if case.kind == "right"] for cases in (chosen, EVERY)]
     assert all(6 * right[0].count(each) >= right[1].count(each) - 5 for each in set(right[1]))
+
+
+def test_of_what_changed_only_what_it_concerns_is_judged() -> None:
+    cases = [_case("r1", "right"), _case("one"), _case("two"), _case("three", exercise="x1.2")]
+
+    def names(*paths: str) -> list[str]:
+        return [case.folder.name for case in changed(cases, paths)]
+
+    assert names("README.md", "checks/__init__.py") == []
+    assert names("tests/submissions/x1_1/wrong/two/expect.yaml") == ["two"]
+    assert names("checks/x1_1/judges.py") == ["r1", "one", "two"]
+    assert names("lessons/x1_2/solution/a.py") == ["three"]
+    assert names("tutor/judge/rates.py") == [case.folder.name for case in sample(cases)]
 
 
 def _outcome(name: str, verdict: str, took_s: float, *wrong: str) -> Outcome:
