@@ -139,7 +139,7 @@ def test_some_criteria_only(run: Run, engine: FakeEngine, home: Path) -> None:
     assert kept.best is None
     assert kept.last is not None
     assert kept.last.judged == ("echo", "rate")
-    assert "last check: passed, 2 of 2, some criteria only" in run("list").out
+    assert "2 of 6 met, last check passed" in run("list").out
 
 
 def test_attempts_at_some_criteria_say_nothing_of_the_others(run: Run, engine: FakeEngine, home: Path) -> None:

@@ -37,7 +37,7 @@ def test_list_follows_the_learner(run: Run, engine: FakeEngine) -> None:
     run("check", "i1.1")
     line = line_of(run("list").out, "i1.1")
     assert "✗ not passed yet" in line
-    assert "last check: failed, 5 of 6" in line
+    assert "5 of 6 met, last check failed" in line
 
     engine.verdicts = {}
     run("check", "i1.1")
@@ -45,7 +45,7 @@ def test_list_follows_the_learner(run: Run, engine: FakeEngine) -> None:
     run("check", "i1.1")
     ran = run("list")
     assert "✓ passed" in line_of(ran.out, "i1.1")
-    assert "last check: failed, 5 of 6" in line_of(ran.out, "i1.1")
+    assert "last check failed" in line_of(ran.out, "i1.1")
     assert "1 of " in ran.out
     assert ran.err == ""
 

@@ -98,7 +98,7 @@ def test_lesson_check_hints_and_checklist_by_a_pipe(tmp_path: Path, env: dict[st
         "You have not passed this lesson yet. Type yes to read our solution: no",
         "You are at i1.2 Message Counter and Statistics, medium, not started.",
         "You are at i1.3 Calculator Service, medium, not started.",
-        "You are at i1.1 Sensor Publisher, easy, not passed yet, 5 of 6 criteria passed in the last check.",
+        "You are at i1.1 Sensor Publisher, easy, not passed yet, 5 of 6 criteria met.",
         "There is no command chek. Did you mean check? help lists them all.",
         "There is no lesson 9: they go from 1 to 6.",
         "1 of 15 ticked.",

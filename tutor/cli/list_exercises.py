@@ -9,18 +9,18 @@ from typing import TYPE_CHECKING
 
 from tutor.cli import context, terminal
 from tutor.cli.errors import PASSED
-from tutor.cli.standing import Standing, next_command, next_lesson, standings
+from tutor.cli.standing import next_command, next_lesson, standings
 from tutor.invocation import command
 
 if TYPE_CHECKING:
     from tutor.content import Course, Lesson
-    from tutor.workspace import ExerciseProgress, Progress, Workspace
+    from tutor.workspace import ExerciseProgress, Progress, Standing, Workspace
 
 _WORDS = {
-    Standing.PASSED: ("✓ passed        ", "32"),
-    Standing.NOT_PASSED: ("✗ not passed yet", "31"),
-    Standing.STARTED: ("· started       ", "33"),
-    Standing.NOT_STARTED: ("  not started   ", "2"),
+    "passed": ("✓ passed        ", "32"),
+    "not_passed": ("✗ not passed yet", "31"),
+    "started": ("· started       ", "33"),
+    "not_started": ("  not started   ", "2"),
 }
 
 
@@ -53,7 +53,7 @@ def _text(course: Course, progress: Progress, workspace: Workspace) -> str:
     known = standings(course, progress, workspace)
     width = max((len(lesson.title) for lesson in course.lessons), default=0)
     lines = [_line(lesson, progress.of(lesson.id), known[lesson.id], width) for lesson in course.lessons]
-    passed = sum(standing is Standing.PASSED for standing in known.values())
+    passed = sum(standing.is_passed for standing in known.values())
     following = next_lesson(course.lessons, known)
     word = "Next" if following is not None else "You have done them all"
     lines += ["", f"{passed} of {len(lines)} passed. {word}: {next_command(following, known)}"]
@@ -63,19 +63,17 @@ def _text(course: Course, progress: Progress, workspace: Workspace) -> str:
 
 
 def _line(lesson: Lesson, progress: ExerciseProgress, standing: Standing, width: int) -> str:
-    state = terminal.style(*_WORDS[standing], sys.stdout)
+    state = terminal.style(*_WORDS[standing.state.value], sys.stdout)
     name = f"{lesson.id:6} {lesson.title:{width}}  {lesson.difficulty.value:9}"
-    return f"{name}  {state}  {_last(lesson, progress)}".rstrip()
+    return f"{name}  {state}  {_last(progress, standing)}".rstrip()
 
 
-def _last(lesson: Lesson, progress: ExerciseProgress) -> str:
+def _last(progress: ExerciseProgress, standing: Standing) -> str:
     last = progress.last
     if last is None:
         return ""
-    required = last.asked(criterion.id for criterion in lesson.criteria if not criterion.bonus)
-    count = f"{sum(criterion in last.passed for criterion in required)} of {len(required)}"
-    partly = "" if last.whole else ", some criteria only"
-    return f"last check: {last.verdict.value}, {count}{partly} ({_day(last.at)})"
+    count = "" if standing.is_passed else f"{standing.count} met, "
+    return f"{count}last check {last.verdict.value} ({_day(last.at)})"
 
 
 def _day(at: str) -> str:

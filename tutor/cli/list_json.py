@@ -5,11 +5,11 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING, Any
 
-from tutor.cli.standing import Standing, next_command, next_lesson, standings
+from tutor.cli.standing import next_command, next_lesson, standings
 
 if TYPE_CHECKING:
     from tutor.content import Course, Lesson
-    from tutor.workspace import ExerciseProgress, Progress, Workspace
+    from tutor.workspace import ExerciseProgress, Progress, Standing, Workspace
 
 SCHEMA = "ros-tutor/list/1"
 
@@ -27,7 +27,7 @@ def render(course: Course, progress: Progress, workspace: Workspace) -> str:
             "exists": workspace.exists,
             "ros_domain_id": domain_of(workspace) if workspace.exists else None,
         },
-        "passed": sum(standing is Standing.PASSED for standing in known.values()),
+        "passed": sum(standing.is_passed for standing in known.values()),
         "next": {"exercise": None if following is None else following.id, "command": next_command(following, known)},
         "exercises": [
             _exercise(lesson, progress.of(lesson.id), known[lesson.id], workspace) for lesson in course.lessons
@@ -42,7 +42,7 @@ def _exercise(lesson: Lesson, progress: ExerciseProgress, standing: Standing, wo
         "id": lesson.id,
         "title": lesson.title,
         "difficulty": lesson.difficulty.value,
-        "standing": standing.value,
+        "standing": standing.state.value,
         "files": [str(workspace.path_of(file.name)) for file in lesson.files],
         "criteria": [{"id": criterion.id, "bonus": criterion.bonus} for criterion in lesson.criteria],
         "hints_shown": progress.hints,

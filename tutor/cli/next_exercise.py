@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING
 
 from tutor.cli import context, terminal
 from tutor.cli.errors import PASSED
-from tutor.cli.standing import Standing, next_command, next_lesson, standings
+from tutor.cli.standing import next_command, next_lesson, standings
 from tutor.invocation import command
 
 if TYPE_CHECKING:
     from tutor.content import Lesson
-    from tutor.workspace import ExerciseProgress, Workspace
+    from tutor.workspace import Standing, Workspace
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -32,18 +32,16 @@ def run(arguments: argparse.Namespace) -> int:
         return PASSED
     heading = f"{lesson.id} {lesson.title} ({lesson.difficulty.value})"
     lines = [terminal.style(heading, "1", sys.stdout), lesson.objective.strip(), ""]
-    if known[lesson.id] is not Standing.NOT_STARTED:
-        lines += _so_far(lesson, progress.of(lesson.id), workspace)
+    if known[lesson.id].is_started:
+        lines += _so_far(lesson, known[lesson.id], workspace)
     lines += [f"Next: {next_command(lesson, known)}"]
     terminal.out(terminal.wrap("\n".join(lines), terminal.width(sys.stdout)))
     return PASSED
 
 
-def _so_far(lesson: Lesson, progress: ExerciseProgress, workspace: Workspace) -> list[str]:
+def _so_far(lesson: Lesson, standing: Standing, workspace: Workspace) -> list[str]:
     lines = [f"  to edit   {context.shown(workspace.path_of(file.name))}" for file in lesson.files]
-    if progress.last is not None:
-        asked = progress.last.asked(criterion.id for criterion in lesson.criteria if not criterion.bonus)
-        missed = [id for id in asked if id not in progress.last.passed]
-        lines += [f"  not yet   {', '.join(missed)}"] if missed else []
+    if standing.is_attempted:
+        lines += [f"  not yet   {', '.join(standing.missed)}"] if standing.missed else []
         lines += [f"  a hint    {command('hint', lesson.id)}"]
     return [*lines, f"  to run    {command('run', lesson.id)}", ""]

@@ -22,7 +22,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("exercise", metavar="EXERCISE", help="for example i2.1")
     parser.add_argument("path", metavar="PATH", nargs="?", type=Path, help="a file or folder (or the workspace's own)")
     parser.add_argument("--criterion", metavar="ID", action="append", help="judge only this one (repeatable)")
-    parser.set_defaults(solution=False, format="text", output=None)
+    parser.set_defaults(solution=False, isolate=False, format="text", output=None)
 
 
 def run(arguments: argparse.Namespace, engine: Engine | None = None) -> int:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import sys
 import traceback
 from pathlib import Path
 from types import ModuleType
@@ -40,8 +41,12 @@ def _module(name: str, source: Path) -> ModuleType:
     import checks
 
     folder = str((source.parent.parent if source.name == "__init__.py" else source.parent).resolve())
-    if folder not in checks.__path__:
-        checks.__path__.append(folder)
+    checks.__path__[:] = [folder, *(path for path in checks.__path__ if path != folder)]
+    loaded = sys.modules.get(f"checks.{name}")
+    if loaded is not None and Path(loaded.__file__ or "") != source.resolve():  # of another course, loaded before
+        for module in [each for each in sys.modules if f"{each}.".startswith(f"checks.{name}.")]:
+            del sys.modules[module]
+    importlib.invalidate_caches()
     return importlib.import_module(f"checks.{name}")
 
 

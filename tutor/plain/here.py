@@ -9,7 +9,7 @@ from pathlib import Path
 from tutor.content import Lesson, UnknownExercise
 from tutor.judge.verdict import Status
 from tutor.tui.desk import Desk
-from tutor.workspace import Progress, StorageError
+from tutor.workspace import Progress, State, StorageError, standing
 
 
 class Refused(Exception):
@@ -60,14 +60,13 @@ class Here:
 
     def standing(self, lesson: Lesson, progress: Progress) -> str:
         """How far the learner is with a lesson."""
-        known = progress.of(lesson.id)
-        if known.best is Status.PASSED:
-            return "passed"
-        if known.last is not None:
-            required = known.last.asked(criterion.id for criterion in lesson.criteria if not criterion.bonus)
-            met = sum(id in known.last.passed for id in required)
-            return f"not passed yet, {met} of {len(required)} criteria passed in the last check"
-        return "started" if known.started_at else "not started"
+        found = standing(lesson, progress.of(lesson.id))
+        return {
+            State.PASSED: "passed",
+            State.NOT_PASSED: f"not passed yet, {found.count} criteria met",
+            State.STARTED: "started",
+            State.NOT_STARTED: "not started",
+        }[found.state]
 
     def find(self, text: str) -> Lesson:
         """A lesson by its number in the list, or by its id. Raises Refused."""

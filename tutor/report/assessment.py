@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from tutor.content import ChecklistItem, Course, CriterionText, Lesson
 from tutor.judge.verdict import Status
-from tutor.workspace import Attempt, ExerciseProgress, Progress
+from tutor.workspace import Attempt, ExerciseProgress, Progress, State, standing
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,7 +62,7 @@ class GroupStanding:
 
 @dataclass(frozen=True, slots=True)
 class ExerciseStanding:
-    """One exercise. `met` and `bonus_met` count the criteria that passed in the latest check (of those that passed).
+    """One exercise. `met` and `bonus_met` count the criteria that are met (see `tutor.workspace.standing`).
 
     `passed_at` and `last_at` are UTC times in ISO 8601, None where there is none (or it is no longer known).
     """
@@ -166,22 +166,18 @@ def _is_pass(attempt: Attempt) -> bool:
 
 
 def _exercise(lesson: Lesson, progress: ExerciseProgress) -> ExerciseStanding:
-    required = {criterion.id for criterion in lesson.criteria if not criterion.bonus}
-    bonus = {criterion.id for criterion in lesson.criteria if criterion.bonus}
-    passed = progress.best is Status.PASSED
-    whole = [attempt for attempt in progress.attempts if attempt.whole]
-    passes = [attempt for attempt in whole if _is_pass(attempt)]
-    met = set((passes or whole)[-1].passed) if passes or whole else set()
+    found = standing(lesson, progress)
+    passes = [attempt for attempt in progress.attempts if _is_pass(attempt)]
     return ExerciseStanding(
         id=lesson.id,
         title=lesson.title,
         difficulty=lesson.difficulty.value,
-        passed=passed,
+        passed=found.state is State.PASSED,
         started=progress.started_at is not None,
-        met=len(required) if passed else len(required & met),
-        required=len(required),
-        bonus_met=len(bonus & met),
-        bonus=len(bonus),
+        met=len(found.met),
+        required=len(found.required),
+        bonus_met=len(found.bonus_met),
+        bonus=len(found.bonus),
         attempts=len(progress.attempts),
         passed_at=passes[0].at if passes else None,
         last_at=progress.last.at if progress.last else None,

@@ -9,14 +9,14 @@ from tutor.content import Lesson
 from tutor.judge.events import CheckFinished, CheckStarted, CriterionJudged, Event, ExerciseJudged, Progress
 from tutor.judge.result import CriterionResult, ExerciseResult
 from tutor.judge.verdict import Verdict, fault
-from tutor.workspace import ExerciseProgress
+from tutor.workspace import ExerciseProgress, last_met
 
 
 @dataclass(frozen=True, slots=True)
 class Finding:
     """One criterion: how far its check is (`fraction`, 0 to 1), what is being done, and in the end its verdict.
 
-    `before`: whether the last check met it, of those made before the app was started; None where there was none.
+    `before`: whether it was met when it was last checked before the app was started; None where it was not.
     """
 
     id: str
@@ -71,7 +71,8 @@ class Findings:
         """With what the progress file says of the last check; it holds no diagnosis, so a verdict of ours says more."""
         if self.judged or self.checking or (last := progress.last) is None:
             return self
-        known = tuple(replace(f, before=f.id in last.passed) for f in self.criteria)
+        met = last_met((f.id for f in self.criteria), progress)
+        known = tuple(replace(f, before=met.get(f.id)) for f in self.criteria)
         return replace(self, criteria=known, before=last.at)
 
     def after(self, event: Event) -> Findings:

@@ -6,10 +6,11 @@ from datetime import datetime
 from pathlib import Path
 from textwrap import shorten
 
+from tutor import workspace
 from tutor.content import Difficulty, Lesson
 from tutor.judge.result import ExerciseResult
 from tutor.judge.verdict import Status
-from tutor.workspace import ExerciseProgress
+from tutor.workspace import ExerciseProgress, State
 
 MARKS = {Status.PASSED: "✓", Status.FAILED: "✗", Status.SKIPPED: "-", Status.ERROR: "!"}
 """One cell wide in every terminal font that matters."""
@@ -27,13 +28,13 @@ def label(lesson: Lesson) -> str:
 
 def standing(lesson: Lesson, progress: ExerciseProgress) -> tuple[str, str]:
     """How a lesson stands: a mark and words. The mark is ✓ only where the whole exercise has been passed."""
-    required = [criterion.id for criterion in lesson.criteria if not criterion.bonus]
-    if progress.best is Status.PASSED:
-        return "✓", "passed"
-    if progress.last is not None:
-        met = sum(id in progress.last.passed for id in required)
-        return "◐", f"{met} of {len(required)} met"
-    return ("◐", "started") if progress.started_at else ("○", "new")
+    found = workspace.standing(lesson, progress)
+    return {
+        State.PASSED: ("✓", "passed"),
+        State.NOT_PASSED: ("◐", f"{found.count} met"),
+        State.STARTED: ("◐", "started"),
+        State.NOT_STARTED: ("○", "new"),
+    }[found.state]
 
 
 def summary(result: ExerciseResult) -> str:

@@ -9,6 +9,7 @@ from tutor.workspace.placing import Placed, place
 from tutor.workspace.progress import Attempt, ExerciseProgress, Progress
 from tutor.workspace.progress_file import ProgressFile
 from tutor.workspace.saving import Saved, keep_aside, read_source, save_over
+from tutor.workspace.standing import Standing, State, last_met, standing
 from tutor.workspace.starting import TEMPLATE, Started, start, start_in
 from tutor.workspace.submissions import find_submission, is_own, is_started, solution
 
@@ -23,7 +24,9 @@ __all__ = [
     "ProgressFile",
     "RunOptions",
     "Saved",
+    "Standing",
     "Started",
+    "State",
     "StorageError",
     "SubmissionError",
     "Workspace",
@@ -35,10 +38,12 @@ __all__ = [
     "is_own",
     "is_started",
     "keep_aside",
+    "last_met",
     "place",
     "read_source",
     "save_over",
     "solution",
+    "standing",
     "start",
     "start_in",
     "write_atomically",
