@@ -53,14 +53,15 @@ class Checked:
     wrong: list[str] = field(default_factory=list)
 
 
-class Peaks:
-    """The highest resident memory of each of our processes, as the kernel counts it."""
+class Peak:
+    """The highest resident memory of our processes that live at a time, each by the kernel's own high-water mark."""
 
     def __init__(self) -> None:
-        self._kb: dict[int, int] = {}
+        self.mb = 0.0
 
     def look(self, root: int) -> None:
         """Read it for `root` and those of its descendants that are ours."""
+        together_kb = 0
         for pid in (root, *(p.pid for p in descendants(root))):
             try:
                 words = Path(f"/proc/{pid}/cmdline").read_bytes().split(b"\0")
@@ -70,11 +71,8 @@ class Peaks:
             except OSError:  # it has just ended
                 continue
             peak = next((line.split()[1] for line in status.splitlines() if line.startswith("VmHWM")), "0")
-            self._kb[pid] = max(self._kb.get(pid, 0), int(peak))
-
-    @property
-    def together_mb(self) -> float:
-        return sum(self._kb.values()) / 1024
+            together_kb += int(peak)
+        self.mb = max(self.mb, together_kb / 1024)
 
 
 def check(name: str, exercise: str, arguments: Iterable[str], folder: Path | None) -> tuple[Checked, bytes]:
@@ -88,23 +86,23 @@ def check(name: str, exercise: str, arguments: Iterable[str], folder: Path | Non
         command = [*of_ours("tutor"), "check", exercise, *arguments, "--format", "json"]
         if folder:
             command.append(str(work))
-        started, peaks = time.monotonic(), Peaks()
+        started, peak = time.monotonic(), Peak()
         report = base / "report"
         with report.open("wb") as out, (base / "errors").open("wb") as errors:
             environment = {**os.environ, "TMPDIR": str(base / "tmp"), "HOME": str(base / "home")}
             process = subprocess.Popen(command, stdout=out, stderr=errors, cwd=work, env=environment)
             while process.poll() is None and time.monotonic() - started < LIMIT_S:
-                peaks.look(process.pid)
+                peak.look(process.pid)
                 time.sleep(LOOK_EVERY_S)
         took_s = time.monotonic() - started
-        found = Checked(name, process.poll() or 0, took_s, peaks.together_mb, report.stat().st_size / 1024)
+        found = Checked(name, process.poll() or 0, took_s, peak.mb, report.stat().st_size / 1024)
         if process.returncode is None:
             found.wrong.append(f"it has not ended after {LIMIT_S:g} s")
             process.kill()
             process.wait()
         found.left = [*_end_orphans(), *_files(base / "tmp")]
         found.left += [f"/dev/shm/{name}" for name in sorted(set(os.listdir("/dev/shm")) - shared)]
-        if found.exit not in (0, 1):
+        if found.exit not in (0, 1, 3):
             found.wrong.append((base / "errors").read_text(errors="replace")[-300:].strip())
         return found, report.read_bytes()
 
@@ -126,7 +124,11 @@ def _end_orphans() -> list[str]:
 
 
 def _files(folder: Path) -> list[str]:
-    return [str(each.relative_to(folder.parent)) for each in sorted(folder.iterdir())]
+    """What is in a temporary folder, but for our own in it, which stays, and the logs there."""
+    own = folder / f"ros-tutor-{os.getuid()}"
+    left = [each for each in folder.iterdir() if each != own]
+    left += [each for each in own.iterdir() if each.name != "log"] if own.exists() else []
+    return [str(each.relative_to(folder.parent)) for each in sorted(left)]
 
 
 def compare_with_expected(case: Case, found: Checked, report: bytes, ordinary_mb: float) -> None:

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import array
 import importlib
+import importlib.util
 from collections.abc import Mapping
 from functools import cache
+from pathlib import Path
 from typing import Any
 
 MOST_CHARACTERS, MOST_ELEMENTS = 10_000, 100_000
@@ -28,10 +30,19 @@ def interface(name: str) -> Any:
     """
     try:
         package, kind, type_name = name.split("/")
+        if not _has_interfaces(package):  # the name may be a learner's: not any module is to be run here
+            raise UnknownType(name)
         found: Any = getattr(importlib.import_module(f"{package}.{kind}"), type_name)
     except (ValueError, ImportError, AttributeError) as error:
         raise UnknownType(name) from error
     return found
+
+
+def _has_interfaces(package: str) -> bool:
+    """Whether a top-level package brings the type support that messages and services are made with."""
+    found = importlib.util.find_spec(package) if package.isidentifier() else None
+    places = (found.submodule_search_locations or ()) if found else ()
+    return any(any(Path(place).glob(f"{package}_s__rosidl_typesupport_c*.so")) for place in places)
 
 
 def to_plain(message: Any) -> dict[str, Any]:

@@ -1,0 +1,31 @@
+"""Message types by their names."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+CODE = """
+import sys
+from tutor.ros.messages import UnknownType, interface
+for name in ("this.msg/msg/X", "this/msg/X", "antigravity/msg/X", "os/path/join", "../msg/X", "/msg/X", "std_msgs/msg/X"):
+    try:
+        interface(name)
+    except UnknownType:
+        print(name)
+print("this" in sys.modules, "antigravity" in sys.modules, interface("std_msgs/msg/Float64").__name__)
+"""
+
+
+def test_a_type_of_a_package_without_interfaces_is_unknown_and_nothing_of_it_is_run() -> None:
+    ran = subprocess.run([sys.executable, "-c", CODE], capture_output=True, text=True, check=True)
+    assert ran.stdout.splitlines() == [
+        "this.msg/msg/X",
+        "this/msg/X",
+        "antigravity/msg/X",
+        "os/path/join",
+        "../msg/X",
+        "/msg/X",
+        "std_msgs/msg/X",
+        "False False Float64",
+    ]
