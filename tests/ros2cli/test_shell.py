@@ -7,10 +7,12 @@ import shutil
 import signal
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
+from tests.ros.users_domain import users_domain
 from tests.ros2cli.bench import TALKER, Bench, Ran
 from tests.ros2cli.typing_at import terminal
 from tutor.ros.isolation import PROFILE
@@ -46,8 +48,17 @@ def tutor(bench: Bench, *words: str, env: dict[str, str]) -> Ran:
 
 
 @pytest.fixture
-def workspace(bench: Bench) -> Path:
-    """A workspace with a node of the learner's. Its domain is kept to the test by a DDS profile of the user's."""
+def workspace(bench: Bench) -> Iterator[Path]:
+    """A workspace with a node of the learner's, on a domain as users have them.
+
+    It is kept to the test by a DDS profile of the user's.
+    """
+    with users_domain() as domain:
+        bench.env["ROS_DOMAIN_ID"] = str(domain)
+        yield _workspace(bench)
+
+
+def _workspace(bench: Bench) -> Path:
     profile = bench.folder / "profile.xml"
     profile.write_bytes(PROFILE.read_bytes())
     bench.env |= {name: str(profile) for name, value in bench.env.items() if value == str(PROFILE)}
