@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -49,43 +49,46 @@ def judge_client(seen: Demonstration) -> Verdict:
     return passed(expected, f"{len(seen.served)} calls, {ended}", calls_made)
 
 
+_Step = Callable[[Code, Cause, Demonstration], str | None]
+
+
+def _without(code: Code, _cause: Cause, _seen: Demonstration, names: Sequence[str] = ("_exit",)) -> str | None:
+    return programs.without(code, *names)
+
+
+_STEPS: Mapping[str, Sequence[_Step]] = {
+    "service not waited for": [lambda code, *_: requests.waiting(code)],
+    "waits too short a time": [_without, lambda code, *_: requests.lengthened(code)],
+    "non-zero exit": [lambda code, *_: programs.ending(code)],
+    "coroutine not awaited": [lambda code, cause, _: requests.plain(code, cause.text.partition(" ")[0])],
+    "incompatible QoS": [lambda code, *_: offers.reliable(code)],
+    "thread still running": [lambda code, *_: programs.joined(code)],
+    "not called": [_without, lambda code, _, seen: programs.listed(code, _missing(seen))],
+}
+"""The smallest steps for a cause."""
+
+
 def _stepped(cause: Cause, seen: Demonstration) -> Cause:
     """The cause with a step that can be followed word for word: one for it, or what waits for each answer, or all."""
     assert seen.trace is not None
     trace, own = seen.trace, tracebacks.own(seen.stuck, seen.trace.folder)
     found = tracebacks.last(trace)
     raised = own_frame.code if found is not None and (own_frame := found.own(trace.folder)) is not None else ""
-    steps: list[Callable[[Code], str | None]] = []
-    first = cause.name != "no main call"
-    match cause.name:
-        case "service not waited for":
-            steps = [requests.waiting]
-        case "waits too short a time":
-            steps = [lambda code: programs.without(code, "_exit"), requests.lengthened]
-        case "non-zero exit":
-            steps = [programs.ending]
-        case "coroutine not awaited":
-            steps = [lambda code: requests.plain(code, cause.text.partition(" ")[0])]
-        case "incompatible QoS":
-            steps = [offers.reliable]
-        case "thread still running":
-            steps = [programs.joined]
-        case "not called":
-            steps = [lambda code: programs.without(code, "_exit"), lambda code: programs.listed(code, _missing(seen))]
-        case "did not end" if own is not None and "sleep(" in own.code:
-            steps = [lambda code: programs.without(code, "sleep")]
-        case "did not end" if not _missing(seen) and source.calls(trace, "Thread"):
-            steps = [programs.shut_down]
-        case _:
-            first = _of_no_answer(found)
+    if cause.name == "did not end" and own is not None and "sleep(" in own.code:
+        steps: Sequence[_Step] = [partial(_without, names=("sleep",))]
+    elif cause.name == "did not end" and not _missing(seen) and source.calls(trace, "Thread"):
+        steps = [lambda code, *_: programs.shut_down(code)]
+    else:
+        steps = _STEPS.get(cause.name, [])
+    first = bool(steps) or _of_no_answer(found)
     if "input(" in raised or (own is not None and "input(" in own.code):
-        steps, first = [programs.unasked], True
-    each_file = [partial(step, code) for step in steps for code in files(trace)]
+        steps, first = [lambda code, *_: programs.unasked(code)], True
+    each_file = [partial(step, code, cause, seen) for step in steps for code in files(trace)]
     unmet = cause.name in ("wrong service name", "wrong type", "not called")
     unmet = unmet or cause.name == "waits too short a time"
     waits = [] if unmet else [partial(requests.answered, code, trace) for code in files(trace)]
     file = next(iter(files(trace)), Code(""))
-    last = [partial(programs.all_four, file), partial(whole.client, file)] if file.file else []
+    last = [partial(whole.client, file)] if file.file else []
     if first and (told := next((told for step in (*each_file, *waits) if (told := step()) is not None), None)):
         return replace(cause, hint=told)
     return stepped(cause, trace, *each_file, *waits, *last)

@@ -7,14 +7,11 @@ from collections.abc import Iterator, Sequence
 
 from checks.i1_3.code import Code
 from checks.i1_3.facts import SIGNS
-from checks.i1_3.requests import LONG
 from checks.i1_3.services import Changes
 from tutor.judge import edits, source
-from tutor.judge.rewriting.node import with_body
 from tutor.judge.source import Function
 
 _DEFINES = ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef
-_IMPORTS = ast.Import | ast.ImportFrom
 _EXITS = "exit", "_exit", "quit", "SystemExit"
 
 
@@ -37,38 +34,6 @@ def _first_text(item: ast.expr) -> Iterator[ast.Constant]:
         item = item.elts[0]
     if isinstance(item, ast.Constant) and isinstance(item.value, str):
         yield item
-
-
-def all_four(code: Code) -> str | None:
-    """The last resort: main(), or the program without it, that asks all four services and ends."""
-    entry = _entry(code)
-    rclpy, kind = code.imported("rclpy"), code.imported("AddTwoInts")
-    node = code.node(entry.body[0]) if entry is not None else code.node(code.nodes[0])
-    made = f"{rclpy}.create_node('calculator_client')"
-    lines = [
-        f"{rclpy}.init()",
-        f"{node} = {made}",
-        "for name in ('add', 'subtract', 'multiply', 'divide'):",
-        f"    service = {node}.create_client({kind}, name)",
-        f"    service.{LONG}",
-        f"    future = service.call_async({kind}.Request(a=8, b=2))",
-        f"    {rclpy}.spin_until_future_complete({node}, future)",
-        f"    {node}.get_logger().info(f'{{name}}: {{future.result().sum}}')",
-        f"{node}.destroy_node()",
-        f"{rclpy}.shutdown()",
-    ]
-    imports = code.importing("rclpy", "AddTwoInts")
-    if entry is not None:
-        begun = [call for call in code.calls(entry.name) if isinstance(entry, ast.AsyncFunctionDef)]
-        around = [each for call in begun for each in code.outwards(call) if isinstance(each, ast.Call)]
-        plain = [edits.instead(code.text, each, f"{entry.name}()") for each in around[:1]]
-        return code.told(imports, with_body(entry, "\n".join(lines)), plain)
-    defined = [at for at, each in enumerate(code.top) if isinstance(each, _DEFINES)]
-    program = code.top[defined[-1] + 1 :] if defined else [e for e in code.top if not isinstance(e, _IMPORTS)]
-    if not program:
-        return None
-    last = program[-1]
-    return code.told(imports, edits.becomes(program[0].lineno, "\n".join(lines), last.end_lineno or last.lineno))
 
 
 def joined(code: Code) -> str | None:

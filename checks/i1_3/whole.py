@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Iterator, Sequence
+import textwrap
+from collections.abc import Callable
 from dataclasses import replace
 from functools import wraps
 
@@ -13,9 +14,41 @@ from checks.i1_3.requests import LONG
 from checks.i1_3.services import arguments, callback, lines_for, means
 from tutor.judge import edits
 from tutor.judge.rewriting.node import argument
-from tutor.judge.rewriting.whole import rewritten
+from tutor.judge.rewriting.whole import MAIN, rewritten
 from tutor.judge.trace import Trace
 from tutor.judge.verdict import Cause, Status, Verdict
+
+_SERVER = """\
+import rclpy
+from example_interfaces.srv import AddTwoInts
+from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
+
+
+class {own}(Node):
+    def __init__(self):
+        super().__init__({node!r})"""
+
+_CLIENT = """\
+import rclpy
+from example_interfaces.srv import AddTwoInts
+
+
+def main():
+    rclpy.init()
+    node = rclpy.create_node({node!r})
+    for name in ('add', 'subtract', 'multiply', 'divide'):
+        client = node.create_client(AddTwoInts, name)
+        client.{wait}
+        future = client.call_async(AddTwoInts.Request(a=8, b=2))
+        rclpy.spin_until_future_complete(node, future)
+        node.get_logger().info(f'{{name}}: {{future.result().sum}}')
+    node.destroy_node()
+    rclpy.try_shutdown()
+
+
+if __name__ == '__main__':
+    main()"""
 
 
 def followable[Seen: Calls | Division](judge: Callable[[Seen], Verdict]) -> Callable[[Seen], Verdict]:
@@ -36,64 +69,32 @@ def server(trace: Trace) -> str | None:
     """The step that writes a server which offers all four services, and ends with Ctrl+C."""
     if trace.file not in trace.sources:
         return None
-    code = Code(trace.sources[trace.file], trace.file)
+    file = Code(trace.sources[trace.file], trace.file)
     named = {service: _callback(trace, service) for service in SIGNS}
-    own = next(iter(code.node_classes), "CalculatorServer")
-    lines = [
-        "import rclpy",
-        "from example_interfaces.srv import AddTwoInts",
-        "from rclpy.executors import ExternalShutdownException",
-        "from rclpy.node import Node",
-        *("", ""),
-        f"class {own}(Node):",
-        "    def __init__(self):",
-        f"        super().__init__({_node_name(code, 'calculator_server')!r})",
-        *(f"        self.create_service(AddTwoInts, {name[1:]!r}, self.{named[name][0]})" for name in SIGNS),
-    ]
-    for service, (name, request, response) in named.items():
-        body = lines_for(request, response, service, "self.get_logger()")
-        lines += ["", f"    def {name}(self, {request}, {response}):", *(f"        {line}" for line in body)]
-    lines += [
-        *("", ""),
-        "def main():",
-        "    rclpy.init()",
-        f"    node = {own}()",
-        "    try:",
-        "        rclpy.spin(node)",
-        "    except (KeyboardInterrupt, ExternalShutdownException):",
-        "        pass",
-        "    finally:",
-        "        node.destroy_node()",
-        "        rclpy.try_shutdown()",
-    ]
-    return _written(code, lines)
+    own = next(iter(file.node_classes), "CalculatorServer")
+    code = "\n".join(
+        [
+            _SERVER.format(own=own, node=_node_name(file, "calculator_server")),
+            *(f"        self.create_service(AddTwoInts, {each[1:]!r}, self.{named[each][0]})" for each in SIGNS),
+            *(_method(each, *named[each]) for each in SIGNS),
+        ]
+    )
+    return _written(file, f"{code}\n{MAIN.format(main='main', node_class=own)}")
+
+
+def _method(service: str, name: str, request: str, response: str) -> str:
+    body = "\n".join(lines_for(request, response, service, "self.get_logger()"))
+    return f"\n    def {name}(self, {request}, {response}):\n{textwrap.indent(body, ' ' * 8)}"
 
 
 def client(code: Code) -> str | None:
     """The step that writes a client which waits for each service, calls it, and ends."""
-    lines = [
-        "import rclpy",
-        "from example_interfaces.srv import AddTwoInts",
-        *("", ""),
-        "def main():",
-        "    rclpy.init()",
-        f"    node = rclpy.create_node({_node_name(code, 'calculator_client')!r})",
-        "    for name in ('add', 'subtract', 'multiply', 'divide'):",
-        "        client = node.create_client(AddTwoInts, name)",
-        f"        client.{LONG}",
-        "        future = client.call_async(AddTwoInts.Request(a=8, b=2))",
-        "        rclpy.spin_until_future_complete(node, future)",
-        "        node.get_logger().info(f'{name}: {future.result().sum}')",
-        "    node.destroy_node()",
-        "    rclpy.try_shutdown()",
-    ]
-    return _written(code, lines)
+    return _written(code, _CLIENT.format(node=_node_name(code, "calculator_client"), wait=LONG))
 
 
-def _written(code: Code, lines: Sequence[str]) -> str | None:
-    """The lines in place of the file's code; what is said above it stays."""
-    whole = "\n".join([*lines, "", "", 'if __name__ == "__main__":', "    main()"])
-    return code.told(rewritten(code, whole) or edits.Edit(1, len(code.text.splitlines()), whole))
+def _written(file: Code, code: str) -> str | None:
+    """The code in place of the file's; what is said above it stays."""
+    return file.told(rewritten(file, code) or edits.Edit(1, len(file.text.splitlines()), code))
 
 
 def _callback(trace: Trace, service: str) -> tuple[str, str, str]:
@@ -107,11 +108,6 @@ def _callback(trace: Trace, service: str) -> tuple[str, str, str]:
 
 
 def _node_name(code: Code, usual: str) -> str:
-    return next(_names(code), usual)
-
-
-def _names(code: Code) -> Iterator[str]:
-    for call in code.calls("__init__", "create_node", "Node"):
-        name = argument(call, 0, "node_name")
-        if isinstance(name, ast.Constant) and isinstance(name.value, str) and name.value.isidentifier():
-            yield name.value
+    given = [argument(call, 0, "node_name") for call in code.calls("__init__", "create_node", "Node")]
+    told = [each.value for each in given if isinstance(each, ast.Constant) and isinstance(each.value, str)]
+    return next((each for each in told if each.isidentifier()), usual)

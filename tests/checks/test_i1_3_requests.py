@@ -204,20 +204,3 @@ def test_what_is_not_called_comes_into_the_list(text: str, after: str | None) ->
 )
 def test_a_program_that_did_all_its_work_ends_with_0(text: str, after: str | None) -> None:
     assert followed(text, programs.ending) == after
-
-
-@pytest.mark.parametrize(
-    "text",
-    [
-        "class Client(Node):\n    pass\n\n\ndef main(args=None):\n    node = Client()\n    node.ask()\n\n\nmain()\n",
-        "NAMES = ['add']\n\n\nclass Client(Node):\n    names = NAMES\n\n\nrclpy.init()\nnode = Client()\n",
-        "async def run():\n    await Client().ask()\n\n\nif __name__ == '__main__':\n    asyncio.run(run())\n",
-    ],
-)
-def test_the_last_resort_is_a_program_that_calls_all_four(text: str) -> None:
-    after = followed(text, programs.all_four)
-    assert after is not None
-    assert "for name in ('add', 'subtract', 'multiply', 'divide'):" in after
-    assert "rclpy.spin_until_future_complete(node, future)" in after
-    assert after.count("rclpy.init()") == 1
-    assert "asyncio.run(" not in after

@@ -94,3 +94,19 @@ def test_no_step_of_a_server_is_in_words_only() -> None:
     verdict = judge_services(Calls(seen(text), ()))
     after = followed(text, verdict.hint)
     assert after.count("create_service(") == 4
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "class Client(Node):\n    pass\n\n\ndef main(args=None):\n    node = Client()\n    node.ask()\n\n\nmain()\n",
+        "NAMES = ['add']\n\n\nclass Client(Node):\n    names = NAMES\n\n\nrclpy.init()\nnode = Client()\n",
+        "async def run():\n    await Client().ask()\n\n\nif __name__ == '__main__':\n    asyncio.run(run())\n",
+    ],
+)
+def test_a_client_as_a_whole_calls_all_four(text: str) -> None:
+    after = followed(text, whole.client(Code(text, "node.py")))
+    assert "for name in ('add', 'subtract', 'multiply', 'divide'):" in after
+    assert "rclpy.spin_until_future_complete(node, future)" in after
+    assert after.count("rclpy.init()") == 1
+    assert "asyncio.run(" not in after
