@@ -11,7 +11,7 @@ from checks.i1_2.listener import find
 from checks.i1_2.parsing import misread
 from checks.i1_2.rewriting import first_value
 from tutor.judge import edits, source
-from tutor.judge.source import Function
+from tutor.judge.source import Function, where
 from tutor.judge.trace import Trace
 from tutor.judge.verdict import Cause
 
@@ -65,7 +65,7 @@ def _from_the_count(trace: Trace, functions: Sequence[Function]) -> Cause | None
                 if ast.unparse(number) in numbers and ast.unparse(counter) in counters:
                     return Cause(
                         "number compared with the count",
-                        f"{_at(node)} compares the N of a message with {ast.unparse(counter)}, how many have come: "
+                        f"{where(node)} compares the N of a message with {ast.unparse(counter)}, how many have come: "
                         "these differ for anyone who starts late, and for good after a gap",
                         _with_the_last(trace, function, node, ast.unparse(number)),
                     )
@@ -101,19 +101,21 @@ def _left_behind(function: Function, last: str, right: str) -> tuple[str, list[e
     at_end = [edits.at_end(function, right)]
     counted = next((each for each in inside if isinstance(each, ast.AugAssign) and _sets(each, last)), None)
     if counted is not None:
-        text = f"{_at(counted)} goes on counting from before the gap, and never follows it"
+        text = f"{where(counted)} goes on counting from before the gap, and never follows it"
         return text, [edits.becomes(counted.lineno, right)] if counted in function.body else at_end
     kept = [each for each in inside if isinstance(each, ast.Assign) and _sets(each, last)]
     if not kept:
         return f"{last} is never set to the number of the message that came last", at_end
     always = [each for each in kept if each in function.body]
     if not always:
-        text = f"{_at(kept[-1])} is not done for each message, only under a condition: after a gap {last} stays behind"
+        text = (
+            f"{where(kept[-1])} is not done for each message, only under a condition: after a gap {last} stays behind"
+        )
         return text, at_end
     end = next((each for each in inside if isinstance(each, ast.Return) and each.lineno < always[-1].lineno), None)
     if end is None:
         return None
-    text = f"line {end.lineno}: return leaves {function.name} before {_at(always[-1])}"
+    text = f"line {end.lineno}: return leaves {function.name} before {where(always[-1])}"
     return text, [edits.above(end.lineno, ast.unparse(always[-1]))]
 
 
@@ -126,7 +128,7 @@ def _too_early(functions: Sequence[Function]) -> Cause | None:
                 if each.lineno < node.lineno and _sets(each, last) and ast.unparse(each.value) == number:
                     return Cause(
                         "gap not noticed",
-                        f"{_at(each)} comes before line {node.lineno} compares the two, and then they are always the "
+                        f"{where(each)} comes before line {node.lineno} compares the two, and then they are always the "
                         "same",
                         "",
                     )
@@ -143,7 +145,7 @@ def _only_backwards(functions: Sequence[Function]) -> Cause | None:
         _, last, node = lower[0]
         if not any(_sets(each, last) for each in function.body if each.lineno < node.lineno):
             return Cause(
-                "gap not noticed", f"{_at(node)} is about lower numbers only, and nothing asks for higher ones", ""
+                "gap not noticed", f"{where(node)} is about lower numbers only, and nothing asks for higher ones", ""
             )
     return None
 
@@ -208,11 +210,6 @@ def _compared(function: Function) -> Iterator[tuple[str, str, bool, ast.expr]]:
         base = other.left if isinstance(other, ast.BinOp) else other
         if isinstance(base, ast.Attribute):
             yield ast.unparse(number), ast.unparse(base), shift, node
-
-
-def _at(node: ast.expr | ast.stmt) -> str:
-    """The line, and what it says there."""
-    return f"line {node.lineno}: {ast.unparse(node)}"
 
 
 def _sets(node: ast.stmt, name: str) -> bool:

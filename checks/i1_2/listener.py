@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from tutor.judge import source
-from tutor.judge.source import Function, SourceFile, last_name
+from tutor.judge.source import Function, SourceFile, last_name, values_of
 from tutor.judge.trace import Trace
 
 COUNT, FIRST, LAST, START, NUMBER = "total_count", "first_message", "last_message", "start_time", "last_number"
@@ -174,9 +174,5 @@ def value_of(value: ast.expr, function: Function) -> ast.expr:
     """What a local variable was set to, if it is one and was set once; else the expression itself."""
     if not isinstance(value, ast.Name):
         return value
-    given = [
-        node.value
-        for node in ast.walk(function)
-        if isinstance(node, ast.Assign) and any(ast.unparse(target) == value.id for target in node.targets)
-    ]
+    given = values_of(value.id, function)
     return given[0] if len(given) == 1 else value

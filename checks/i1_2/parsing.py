@@ -6,7 +6,7 @@ import ast
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from tutor.judge.source import Function
+from tutor.judge.source import Function, values_of
 
 EXAMPLES = ("Hello World: 107", "Hello World: 38", "Hello World: 4")
 
@@ -66,11 +66,7 @@ class _Reader:
         raise _Unknown
 
     def _named(self, name: str, depth: int) -> object:
-        given = [
-            node.value
-            for node in ast.walk(self.function)
-            if isinstance(node, ast.Assign) and any(isinstance(t, ast.Name) and t.id == name for t in node.targets)
-        ]
+        given = values_of(name, self.function)
         if len(given) == 1:
             return self.value(given[0], depth + 1)
         if not given and name in {each.arg for each in self.function.args.args}:
@@ -126,11 +122,7 @@ def _text_of(function: Function, node: ast.expr, depth: int = 0) -> str | None:
     for each in ast.walk(node):
         if not isinstance(each, ast.Name) or each is node or depth > _DEEPEST:
             continue
-        given = [
-            other.value
-            for other in ast.walk(function)
-            if isinstance(other, ast.Assign) and any(isinstance(t, ast.Name) and t.id == each.id for t in other.targets)
-        ]
+        given = values_of(each.id, function)
         if len(given) == 1 and (found := _text_of(function, given[0], depth + 1)) is not None:
             return found
         apart = any(isinstance(other, ast.Subscript | ast.Attribute) for other in ast.walk(node))

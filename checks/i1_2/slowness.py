@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
 
 from checks.i1_2.backlog import Lost
 from tutor.judge import edits, source
@@ -35,8 +34,8 @@ def of_waits(trace: Trace, text: str) -> Cause | None:
     """Where its source makes it wait while messages come; `text` says what follows from it."""
     loops = [loop for loop in source.nodes(trace) if isinstance(loop, ast.While | ast.For)]
     for loop in loops:
-        if any(source.called(call) in SPINS_ONCE for call in _calls(loop)):
-            for nap in _naps(loop):
+        if source.calls_in(loop, *SPINS_ONCE):
+            for nap in source.calls_in(loop, "sleep"):
                 return Cause(
                     "nap between messages",
                     f"{text}, since the loop sleeps between one message and the next: line {nap.lineno}: "
@@ -48,8 +47,10 @@ def of_waits(trace: Trace, text: str) -> Cause | None:
                 )
     for function in source.callbacks(trace, "create_subscription"):
         # In a loop that waits for something, it is not the nap that keeps it.
-        waiting = {nap for loop in ast.walk(function) if isinstance(loop, ast.While) for nap in _naps(loop)}
-        for nap in (nap for nap in _naps(function) if nap not in waiting):
+        waiting = {
+            nap for loop in ast.walk(function) if isinstance(loop, ast.While) for nap in source.calls_in(loop, "sleep")
+        }
+        for nap in (nap for nap in source.calls_in(function, "sleep") if nap not in waiting):
             return Cause(
                 "slow callback",
                 f"{text}, since its callback sleeps: line {nap.lineno}: {ast.unparse(nap)}",
@@ -69,7 +70,7 @@ def without(trace: Trace, call: ast.Call) -> str | None:
 
 def _spinning(trace: Trace, loop: ast.While | ast.For) -> str | None:
     """The step that writes spin() in place of a loop that does nothing but spin_once() and sleep."""
-    spins = [call for call in _calls(loop) if source.called(call) in SPINS_ONCE]
+    spins = source.calls_in(loop, *SPINS_ONCE)
     plain = all(isinstance(each, ast.Expr) and isinstance(each.value, ast.Call) for each in loop.body)
     if not plain or len(loop.body) > 2 or len(spins) != 1 or not isinstance(spins[0].func, ast.Attribute):
         return None
@@ -83,11 +84,3 @@ def _short_queue(trace: Trace) -> ast.Call | None:
         if any(isinstance(depth, ast.Constant) and depth.value == 1 for depth in given):
             return call
     return None
-
-
-def _naps(inside: ast.AST) -> Iterator[ast.Call]:
-    return (call for call in _calls(inside) if source.called(call) == "sleep")
-
-
-def _calls(inside: ast.AST) -> Iterator[ast.Call]:
-    return (node for node in ast.walk(inside) if isinstance(node, ast.Call))

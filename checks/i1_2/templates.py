@@ -89,11 +89,7 @@ def _parts(node: ast.expr, function: ast.AST | None, depth: int = 0) -> Iterator
         case ast.Call(func=ast.Name(id="str"), args=[inner]):
             yield inner
         case ast.Name(id=name) if function is not None and depth < 3:
-            given = [
-                each.value
-                for each in ast.walk(function)
-                if isinstance(each, ast.Assign) and any(ast.unparse(target) == name for target in each.targets)
-            ]
+            given = source.values_of(name, function)
             yield from _parts(given[0], function, depth + 1) if len(given) == 1 else [node]
         case _:
             yield node

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from checks.i2_2.reading import Source
 from tutor.judge.edits import Edit, at_end, becomes, below, imported_instead, instead, without
 from tutor.judge.rewriting.node import NodeFile, argument, node_file
-from tutor.judge.source import Function, called
+from tutor.judge.source import Function, called, values_of
 from tutor.judge.trace import Trace
 
 LAUNCHED = "generate_launch_description"
@@ -151,8 +151,7 @@ class Launch:
 
     def _constant(self, given: ast.expr | None) -> str:
         if isinstance(given, ast.Name):
-            assigned = [each for each in ast.walk(self.file.tree) if isinstance(each, ast.Assign)]
-            given = next((each.value for each in assigned if ast.unparse(each.targets[0]) == given.id), None)
+            given = next(iter(values_of(given.id, self.file.tree)), None)
         return _text(given)
 
 
@@ -240,8 +239,7 @@ def listed_first(there: Launch, *wanted: str) -> list[Edit]:
     made = next(iter(there.calls("LaunchDescription")), None)
     given_ = argument(made, 0, "initial_entities") if made is not None else None
     if isinstance(given_, ast.Name) and there.function is not None:
-        sets = [each for each in ast.walk(there.function) if isinstance(each, ast.Assign)]
-        given_ = next((each.value for each in sets if ast.unparse(each.targets[0]) == given_.id), None)
+        given_ = next(iter(values_of(given_.id, there.function)), None)
     if not isinstance(given_, ast.List) or not given_.elts:
         return []
     first = given_.elts[0]

@@ -16,7 +16,7 @@ from tutor.judge.causes.printing import audible
 from tutor.judge.edits import Edit, becomes, in_place, instead, without
 from tutor.judge.rewriting.node import NodeFile, argument, started
 from tutor.judge.rewriting.program import program
-from tutor.judge.source import called
+from tutor.judge.source import calls_in, values_of
 from tutor.judge.trace import Trace
 from tutor.judge.verdict import Cause
 
@@ -64,7 +64,7 @@ def _slept(file: NodeFile) -> list[Edit]:
     found = working(file)
     if found is None or any(isinstance(each, ast.While | ast.For | ast.If) for each in ast.walk(found)):
         return []
-    naps = [each for each in ast.walk(found) if isinstance(each, ast.Call) and called(each) in ("sleep", "wait")]
+    naps = calls_in(found, "sleep", "wait")
     if len(naps) != 1 or len(naps[0].args) != 1:
         return []
     return [instead(file.text, naps[0].args[0], str(WORK_S))]
@@ -198,8 +198,7 @@ def not_added(file: NodeFile) -> Cause | None:
 def too_early(file: NodeFile) -> Cause | None:
     """Whether the callback answers while another thread is still at work."""
     found = working(file)
-    inside = [each for each in ast.walk(found) if isinstance(each, ast.Call)] if found is not None else []
-    started = next((each for each in inside if called(each) in ("Thread", "Timer", "submit", "create_task")), None)
+    started = next(iter(calls_in(found, "Thread", "Timer", "submit", "create_task")), None)
     if found is None or started is None or (step := answering(file)) is None:
         return None
     return Cause(
@@ -214,8 +213,7 @@ def period(file: NodeFile) -> str | None:
     """The step where the timer has another period than it should, its callback takes too long, or bears no number."""
     made, found = timer(file), ticking(file)
     given = argument(made, 0, "timer_period_sec") if made is not None else None
-    naps = [each for each in ast.walk(found) if isinstance(each, ast.Call) and called(each) == "sleep"] if found else []
-    if naps:
+    if naps := calls_in(found, "sleep"):
         statement = file.statement(naps[0])
         return file.step([without(file.text, statement)]) or ticks(file)
     right = f"{1 / HZ:g}"
@@ -226,12 +224,7 @@ def period(file: NodeFile) -> str | None:
 
 def _is_right(file: NodeFile, given: ast.expr) -> bool:
     """Whether the period is written as 0.1, or as something that is set to it."""
-    texts = [given] + [
-        each.value
-        for each in ast.walk(file.tree)
-        if isinstance(each, ast.Assign) and ast.unparse(each.targets[0]) == ast.unparse(given)
-    ]
-    return any(_number(each) == 1 / HZ for each in texts)
+    return any(_number(each) == 1 / HZ for each in (given, *values_of(ast.unparse(given), file.tree)))
 
 
 def _number(expression: ast.expr) -> float | None:
@@ -263,8 +256,7 @@ def silent(file: NodeFile) -> Cause | None:
         return _found(f"line {off.lineno}: what the node logs does not leave it", audible(file))
     if made is None or found is None:
         return _found("the node makes no timer", everything(file)) if file.tree.body and not file.timers else None
-    logs = [each for each in ast.walk(found) if isinstance(each, ast.Call) and called(each) in _LOGS]
-    quiet = next((each for each in ast.walk(found) if isinstance(each, ast.Call) and called(each) == "debug"), None)
+    logs, quiet = calls_in(found, *_LOGS), next(iter(calls_in(found, "debug")), None)
     if quiet is not None and not logs:
         info = instead(file.text, quiet.func, f"{ast.unparse(quiet.func).removesuffix('debug')}info")
         return _found(f"line {quiet.lineno}: {ast.unparse(quiet)}: debug messages are not shown", file.step([info]))

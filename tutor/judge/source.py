@@ -104,8 +104,7 @@ class SourceFile:
             each = todo.pop(0)
             if each not in found:
                 found.append(each)
-                calls = [inner for inner in ast.walk(each) if isinstance(inner, ast.Call)]
-                todo += [led for inner in calls if (led := self.function(inner.func)) is not None]
+                todo += [led for inner in calls_in(each) if (led := self.function(inner.func)) is not None]
         return found
 
     @cached_property
@@ -183,17 +182,33 @@ def assigned(trace: Trace, *names: str) -> list[tuple[str, int]]:
 def callbacks(trace: Trace, create: str) -> list[Function]:
     """The functions that are given to `create`, such as "create_subscription", and those that they call, by name."""
     given = [each for call in calls(trace, create) for each in (*call.args, *(k.value for k in call.keywords))]
-    inside = (node for each in given if isinstance(each, ast.Lambda) for node in ast.walk(each))
-    waiting = [last_name(each) for each in given] + [called(node) for node in inside if isinstance(node, ast.Call)]
+    inside = [call for each in given if isinstance(each, ast.Lambda) for call in calls_in(each)]
+    waiting = [last_name(each) for each in given] + [called(call) for call in inside]
     found: dict[str, list[Function]] = {}
     while waiting:
         name = waiting.pop(0)
         named = [each for each in nodes(trace) if isinstance(each, Function) and each.name == name]
         if named and name not in found:
             found[name] = named
-            inside = (node for function in named for node in ast.walk(function))
-            waiting += [called(node) for node in inside if isinstance(node, ast.Call)]
+            waiting += [called(call) for function in named for call in calls_in(function)]
     return [function for named in found.values() for function in named]
+
+
+def calls_in(node: ast.AST | None, *names: str) -> list[ast.Call]:
+    """The calls within a part of a syntax tree: all, or those of functions and methods of these names."""
+    found = [each for each in ast.walk(node) if isinstance(each, ast.Call)] if node is not None else []
+    return [each for each in found if not names or called(each) in names]
+
+
+def values_of(target: str, node: ast.AST) -> list[ast.expr]:
+    """What a variable or an attribute, as written, is set to within a part of a syntax tree."""
+    made = [each for each in ast.walk(node) if isinstance(each, ast.Assign)]
+    return [each.value for each in made if any(ast.unparse(one) == target for one in each.targets)]
+
+
+def where(node: ast.stmt | ast.expr) -> str:
+    """Line and code, to be put into a sentence."""
+    return f"line {node.lineno}: {ast.unparse(node)}"
 
 
 def called(call: ast.Call) -> str:

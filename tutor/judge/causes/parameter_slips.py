@@ -10,7 +10,7 @@ import ast
 from tutor.judge.edits import instead, swapped, without
 from tutor.judge.rewriting import parameters
 from tutor.judge.rewriting.node import NodeFile, argument
-from tutor.judge.source import Function
+from tutor.judge.source import Function, where
 from tutor.judge.verdict import Cause
 
 _OVERWRITTEN = "value overwritten by the node"
@@ -24,13 +24,13 @@ def overridden(file: NodeFile, name: str) -> Cause | None:
 def _set_by_itself(file: NodeFile, name: str) -> Cause | None:
     for call in file.calls("set_parameters", "set_parameters_atomically"):
         function = file.within(call)
-        where = ast.unparse(call) if "[" in ast.unparse(call) or function is None else ast.unparse(function)
+        code = ast.unparse(call) if "[" in ast.unparse(call) or function is None else ast.unparse(function)
         statement = file.statement(call)
         step = file.step([without(file.text, statement)])
-        if name in where and step is not None:
+        if name in code and step is not None:
             return Cause(
                 _OVERWRITTEN,
-                f"{_line(call)} sets {name} itself, so that the value somebody gives it does not last",
+                f"{where(call)} sets {name} itself, so that the value somebody gives it does not last",
                 step,
             )
     return None
@@ -47,7 +47,7 @@ def _ignoring(file: NodeFile, name: str) -> Cause | None:
     step = file.step(swapped(file.text, *found)) if first is not None else None
     if first is None or step is None:
         return None
-    text = f"{_line(first)}: with ignore_override=True, the value given at start-up is not taken"
+    text = f"{where(first)}: with ignore_override=True, the value given at start-up is not taken"
     return Cause(_OVERWRITTEN, text, step)
 
 
@@ -61,7 +61,7 @@ def _assigned_again(file: NodeFile, name: str) -> Cause | None:
         corrected = any(isinstance(each, ast.If) and target in ast.unparse(each.test) for each in file.outwards(node))
         if target == ast.unparse(_target(kept)) and later and not corrected:  # a bad value may well be replaced
             step = file.step([without(file.text, node)])
-            text = f"{_line(node)} overwrites what line {kept.lineno} has read of {name}"
+            text = f"{where(node)} overwrites what line {kept.lineno} has read of {name}"
             return Cause(_OVERWRITTEN, text, step) if step else None
     return None
 
@@ -72,14 +72,14 @@ def not_called(file: NodeFile) -> Cause | None:
         given = argument(call, 0, "callback")
         if isinstance(given, ast.Call) and file.function(given.func) is not None:
             step = file.step([instead(file.text, given, ast.unparse(given.func))])
-            text = f"{_line(call)} calls the callback at once, and registers what it returns"
+            text = f"{where(call)} calls the callback at once, and registers what it returns"
             return Cause("callback not registered", text, step) if step else None
         if (twice := _defined_twice(file, given)) is not None:
             return twice
         function = file.within(call)
         if function is not None and file.setup is not None and function not in file.reached(file.setup):
             step = file.step([*file.adds_to_setup(ast.unparse(call))])
-            text = f"{_line(call)} stands in {function.name}, which nothing calls when the node starts"
+            text = f"{where(call)} stands in {function.name}, which nothing calls when the node starts"
             return Cause("callback not registered", text, step) if step else None
     if file.calls(parameters.ON_SET, parameters.POST_SET, parameters.PRE_SET):
         return None
@@ -128,7 +128,7 @@ def old_value_read(file: NodeFile, name: str) -> Cause | None:
     if not reads:
         return None
     text = (
-        f"{_line(reads[0])} still gives the old value here: an on-set callback is called before the new one is stored"
+        f"{where(reads[0])} still gives the old value here: an on-set callback is called before the new one is stored"
     )
     loops = [
         each for each in file.outwards(reads[0]) if isinstance(each, ast.For) and isinstance(each.target, ast.Name)
@@ -162,11 +162,6 @@ def _target(assignment: ast.Assign | ast.AnnAssign) -> ast.expr:
 def _in_init(file: NodeFile, node: ast.AST) -> bool:
     function = file.within(node)
     return function is None or function is file.setup
-
-
-def _line(node: ast.stmt | ast.expr) -> str:
-    """Line and code, to be put into a sentence."""
-    return f"line {node.lineno}: {ast.unparse(node)}"
 
 
 def _named(function: Function) -> str:

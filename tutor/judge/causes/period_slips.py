@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from tutor.judge.edits import instead
 from tutor.judge.rewriting.node import NodeFile, argument
+from tutor.judge.source import values_of
 from tutor.judge.verdict import Cause
 
 
@@ -50,6 +51,4 @@ def _spots(file: NodeFile) -> Iterator[ast.expr]:
         given = argument(call, 0, "timer_period_sec")
         if given is not None:
             yield given
-            for each in ast.walk(file.tree):
-                if isinstance(each, ast.Assign) and ast.unparse(each.targets[0]) == ast.unparse(given):
-                    yield each.value
+            yield from values_of(ast.unparse(given), file.tree)

@@ -52,7 +52,7 @@ def _in_place(trace: Trace, at: Frame, loop: Loop | None) -> str:
     lines = statement.lineno, statement.end_lineno or statement.lineno
     code = spin
     if loop is not None and (work := [each for each in loop.body if not idle(each)]):
-        period = next((ast.unparse(nap.args[0]) for nap in _naps(loop) if nap.args), "1.0")
+        period = next((ast.unparse(nap.args[0]) for nap in source.calls_in(loop, "sleep") if nap.args), "1.0")
         callback, defined = _callback(loop, work, function)
         code = "\n".join([*defined, f"{node}.create_timer({period}, {callback})", *([spin] if spin else [])])
     edit = edits.becomes(lines[0], code, lines[1]) if code else edits.removed(file.text, *lines)
@@ -115,12 +115,7 @@ def _spinning_at_end(trace: Trace, node: str, line: int) -> str | None:
         (each for each in bodies if any(made is not None and other.lineno == made.lineno for other in each)), []
     )
     after = [each for each in body if each.lineno > line]
-    tidying = [
-        each
-        for each in after
-        if any(source.called(call) in _TIDYING for call in ast.walk(each) if isinstance(call, ast.Call))
-        or "__name__" in ast.unparse(each)
-    ]
+    tidying = [each for each in after if source.calls_in(each, *_TIDYING) or "__name__" in ast.unparse(each)]
     code = f"rclpy.spin({node})"
     if tidying:
         return file.step([edits.above(tidying[0].lineno, code)])
@@ -159,10 +154,6 @@ def _plain_call(statement: ast.stmt) -> str | None:
     if isinstance(statement, ast.Expr) and isinstance(call := statement.value, ast.Call):
         return None if call.args or call.keywords else ast.unparse(call.func)
     return None
-
-
-def _naps(loop: Loop) -> list[ast.Call]:
-    return [each for each in ast.walk(loop) if isinstance(each, ast.Call) and source.called(each) == "sleep"]
 
 
 def _line(loop: Loop) -> str:

@@ -10,7 +10,7 @@ from itertools import takewhile
 
 from tutor.judge.edits import Edit, after, below, in_place, on_top
 from tutor.judge.rewriting.node import NodeFile, first_line, node_file
-from tutor.judge.source import Function, called
+from tutor.judge.source import Function, called, calls_in
 from tutor.judge.trace import Trace
 
 SPINS = ("spin", "spin_once", "spin_some", "spin_until_future_complete")
@@ -182,7 +182,7 @@ def _kept(file: NodeFile, body: Sequence[ast.stmt]) -> Iterator[ast.stmt]:
         if isinstance(each, ast.ClassDef):
             yield each
             continue
-        calls = [inner for inner in ast.walk(each) if isinstance(inner, ast.Call)]
+        calls = calls_in(each)
         read = {inner.id for inner in ast.walk(each) if isinstance(inner, ast.Name) and isinstance(inner.ctx, ast.Load)}
         out = isinstance(each, ast.While | ast.For | ast.Return | ast.Raise | ast.Pass)
         out = out or any(_ends(call) for call in calls) or bool(read & gone) or _only_does(file, each)

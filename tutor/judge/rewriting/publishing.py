@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from tutor.judge.edits import Edit, above, in_place, instead, without
 from tutor.judge.rewriting.node import NodeFile, argument, rewritten
-from tutor.judge.source import Function, called
+from tutor.judge.source import Function, called, calls_in
 
 
 def sending(file: NodeFile, code: str) -> list[Edit]:
@@ -145,13 +145,9 @@ def publishing(
     if not file.timers or tick is None:
         callback = f"{'self.' if of_class else ''}{method}"
         missing.append(f"{file.holder}.timer = {file.name}.create_timer({period}, {callback})")
-    if not of_class and not any(called(each).startswith("spin") for each in _calls(file)):
+    if not of_class and not any(called(each).startswith("spin") for each in calls_in(file.tree)):
         missing.append(f"rclpy.spin({file.name})")
     return [*edits, *(file.adds_to_setup("\n".join(missing)) if missing else [])]
-
-
-def _calls(file: NodeFile) -> list[ast.Call]:
-    return [each for each in ast.walk(file.tree) if isinstance(each, ast.Call)]
 
 
 def of_one_type(file: NodeFile, topic: str, type_name: str) -> list[Edit]:

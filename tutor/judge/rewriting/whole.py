@@ -11,7 +11,7 @@ from functools import wraps
 from tutor.judge.edits import Edit
 from tutor.judge.following import leads_on
 from tutor.judge.rewriting.node import NodeFile, first_line
-from tutor.judge.source import Function, SourceFile, called
+from tutor.judge.source import Function, SourceFile, calls_in
 from tutor.judge.trace import Trace
 from tutor.judge.verdict import Status, Verdict
 
@@ -112,8 +112,7 @@ def _main(file: NodeFile) -> str:
     starting = [
         each
         for each in file.tree.body
-        if isinstance(each, Function)
-        and any(isinstance(one, ast.Call) and ast.unparse(one.func) == "rclpy.init" for one in ast.walk(each))
+        if isinstance(each, Function) and any(ast.unparse(one.func) == "rclpy.init" for one in calls_in(each))
     ]
     return starting[0].name if starting else "main"
 
@@ -143,7 +142,7 @@ def is_plain(file: NodeFile) -> bool:
         and not looping
         and re.fullmatch(r"self\.\w+", file.kept(made)) is not None
         and len([each for each in file.tree.body if isinstance(each, ast.ClassDef)]) == 1
-        and not any(isinstance(each, ast.Call) and called(each) in waits for each in ast.walk(file.tree))
+        and not file.calls(*waits)
     )
 
 
