@@ -85,7 +85,6 @@ def of_launch(trace: Trace) -> Cause | None:
             "an f-string, str() or + has turned a substitution, such as LaunchConfiguration, into text like "
             "<launch.substitutions... object at 0x...>: its value is known only when the launch runs",
             steps.text_too_early(there, "chatter")
-            or steps.anew(there)
             or "give a list instead, whose parts are joined then: [LaunchConfiguration('namespace'), '/', 'name']",
         )
     if (found := _NO_TEXT.search(text)) and (hint := steps.text_too_early(there, "chatter")):
@@ -124,7 +123,7 @@ def of_launch(trace: Trace) -> Cause | None:
         return Cause(
             "error in the launch",
             _ERROR.sub("", error),
-            steps.anew(there) or f"mend this in {FILE}, then launch it yourself",
+            f"mend this in {FILE}, then launch it yourself",
         )
     if dead := gone(trace.output):
         return _of_dead(dead[0], trace)
@@ -157,7 +156,7 @@ def _of_dead(dead: Gone, trace: Trace) -> Cause:
     return Cause(
         "a node that ends",
         f"{dead.process} has ended by itself with exit code {dead.code}" + (f": {words[0]}" if words else ""),
-        steps.anew(launch(trace)) or "start this program alone, with ros2 run or python3, and see what it says",
+        "start this program alone, with ros2 run or python3, and see what it says",
     )
 
 
@@ -172,7 +171,7 @@ def of_missing(seen: Launched) -> Cause:
         return Cause(
             "no node",
             "the launch runs, but no ROS node has come up",
-            steps.anew(launch(trace)) or "start programs that are nodes, with Node(...)",
+            "start programs that are nodes, with Node(...)",
         )
     if (sending or taking) and not (sending and taking):
         missing, present = ("subscriber", sending) if sending else ("publisher", taking)
@@ -183,15 +182,14 @@ def of_missing(seen: Launched) -> Cause:
         return Cause(
             f"no {missing}",
             f"there is {_nodes(present)}, but nothing {verb}",
-            steps.anew(there)
-            or f"add a Node(...) for the {missing}, and put it into the list that LaunchDescription([...]) is given",
+            f"add a Node(...) for the {missing}, and put it into the list that LaunchDescription([...]) is given",
         )
     return Cause(
         "one node only",
         f"{_nodes([*sending, *taking])} does all by itself"
         if sending
         else f"the nodes {', '.join(trace.graph.nodes)} do neither",
-        steps.anew(launch(trace)) or "start two programs, with a Node(...) for each",
+        "start two programs, with a Node(...) for each",
     )
 
 
@@ -238,7 +236,7 @@ def of_topic(usual: Launched, seen: Launched, wanted: str) -> Cause:
     return Cause(
         "no messages",
         f"both nodes are on {wanted}, but nothing is sent there",
-        steps.anew(there) or "start both by hand with this topic, and see what they say",
+        "start both by hand with this topic, and see what they say",
     )
 
 
@@ -255,8 +253,7 @@ def of_namespace(usual: Launched, seen: Launched) -> Cause:
         return Cause(
             "namespace applied twice",
             f"{twice} is in {under[:-1]} of {under[:-1]}",
-            steps.anew(there)
-            or "use one of the two: namespace=LaunchConfiguration('namespace') for each node, or a PushRosNamespace",
+            "use one of the two: namespace=LaunchConfiguration('namespace') for each node, or a PushRosNamespace",
         )
     within = [each for each in ends if each.node.startswith(under)]
     outside = [each for each in ends if not each.node.startswith(under)]
@@ -292,7 +289,7 @@ def of_namespace(usual: Launched, seen: Launched) -> Cause:
     return Cause(
         "nodes apart",
         f"{_uses(ends)}: no node subscribes to what another one publishes",
-        steps.anew(there) or "give both nodes the same namespace and the same remappings",
+        "give both nodes the same namespace and the same remappings",
     )
 
 
@@ -312,7 +309,7 @@ def _of_added(there: Launch, graph: Graph, wanted: str) -> Cause | None:
             return Cause(
                 "wrong topic",
                 f"{each.node} uses {each.topic}: something is added to the argument's value, {word}",
-                steps.anew(there) or "remap to LaunchConfiguration('topic') alone",
+                "remap to LaunchConfiguration('topic') alone",
             )
     return None
 
@@ -340,8 +337,7 @@ def _of_ignored(seen: Launched, argument: str, value: str, usual: Launched | Non
         return Cause(
             "argument missing",
             f"{argument}:={word} changes nothing: no such argument is declared",
-            steps.anew(there)
-            or f"put {steps.declaration(argument)} first into the list in LaunchDescription([...]), and give every "
+            f"put {steps.declaration(argument)} first into the list in LaunchDescription([...]), and give every "
             f"Node(...) {right}",
         )
     if argument == "namespace":
@@ -415,7 +411,7 @@ def of_pair(seen: Launched) -> Cause:
     return Cause(
         "wrong topic",
         f"{_uses(sends)}, {_uses(takes, 'subscribes to')}: nobody subscribes to what is published",
-        steps.anew(launch(seen.trace)) or "remap both to the same name: ('chatter', LaunchConfiguration('topic'))",
+        "remap both to the same name: ('chatter', LaunchConfiguration('topic'))",
     )
 
 

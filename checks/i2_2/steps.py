@@ -97,7 +97,6 @@ def undeclared(there: Launch, argument: str) -> Cause:
             name,
             text,
             there.step(listed_first(there, *map(there.declaration, every)))
-            or anew(there)
             or f"begin the list in LaunchDescription([...]){where} with: {', '.join(map(declaration, every))}",
         )
     made = declared[0]
@@ -109,14 +108,12 @@ def undeclared(there: Launch, argument: str) -> Cause:
             name,
             f"line {made.line} makes the argument '{argument}', but it is not in the launch description",
             there.step(listed_first(there, *left_out))
-            or anew(there)
             or f"begin the list in LaunchDescription([...]){where} with: {', '.join(left_out)}",
         )
     return Cause(
         name,
         f"the argument '{argument}' is declared (line {made.line}) after the nodes that read its value",
-        anew(there)
-        or f"move it to the front of the list in LaunchDescription([...]){where}: what is listed first is done first",
+        f"move it to the front of the list in LaunchDescription([...]){where}: what is listed first is done first",
     )
 
 
@@ -132,7 +129,7 @@ def without_default(there: Launch, argument: str) -> Cause:
     return Cause(
         "argument without a default",
         f"'{argument}' has no default_value, so that a launch without arguments is refused",
-        there.step(edits) or anew(there) or declaration(argument),
+        there.step(edits) or declaration(argument),
     )
 
 
@@ -148,50 +145,46 @@ def _read_bare(source: Source) -> list[str]:
 
 def no_program(there: Launch, keyword: str, wrong: str, right: str) -> str | None:
     """The step where a package or an executable is not called so, and `right` is."""
-    return there.step(replaced(there, keyword, wrong, right)) or anew(there)
+    return there.step(replaced(there, keyword, wrong, right))
 
 
 def nothing_listed(there: Launch) -> str | None:
     """The step where a launch description has nothing to start in it."""
     made = [node.kept for node in nodes(there.source) if node.kept and not there.source.uses(node.kept)]
-    return there.step(unended(there), opaque_returned(there), listed_first(there, *made) if made else None) or anew(
-        there
-    )
+    return there.step(unended(there), opaque_returned(there), listed_first(there, *made) if made else None)
 
 
 def not_returned(there: Launch) -> str | None:
     """The step where generate_launch_description() returns nothing."""
-    return there.step(returned(there)) or anew(there)
+    return there.step(returned(there))
 
 
 def other_function(there: Launch) -> str | None:
     """The step where no function is called generate_launch_description."""
-    return there.step(called_so(there)) or anew(there)
+    return there.step(called_so(there))
 
 
 def other_name(there: Launch, argument: str, others: Sequence[str]) -> str | None:
     """The step where an argument is called otherwise."""
     near = [other for other in others if len(others) == 1 or argument[:2] in other]
-    return next((step for each in near if (step := _renamed(there, each, argument))), None) or anew(there)
+    return next((step for each in near if (step := _renamed(there, each, argument))), None)
 
 
 def _renamed(there: Launch, other: str, right: str) -> str | None:
-    return there.step(renamed(there, other, right)) or anew(there)
+    return there.step(renamed(there, other, right))
 
 
 def remapped(there: Launch, name: str, *without: str) -> str | None:
     """The step that gives every node the remapping, and leaves out other arguments."""
     same = _declares(there, "topic") and len({each.topic for each in there.programs()}) < 2
     values = (value(there.source, "topic"), there.value("topic")) if same else ()
-    return there.step(*(given(there, "remappings", f"[('{name}', {each})]", *without) for each in values)) or anew(
-        there
-    )
+    return there.step(*(given(there, "remappings", f"[('{name}', {each})]", *without) for each in values))
 
 
 def spaced(there: Launch, *without: str) -> str | None:
     """The step that puts every node into the namespace, and leaves out other arguments."""
     values = (value(there.source, "namespace"), there.value("namespace")) if _declares(there, "namespace") else ()
-    return there.step(*(given(there, "namespace", each, *without) for each in values)) or anew(there)
+    return there.step(*(given(there, "namespace", each, *without) for each in values))
 
 
 def _declares(there: Launch, argument: str) -> bool:
@@ -269,7 +262,7 @@ def _in_command(there: Launch, cause: str, rule: str) -> Cause | None:
     return Cause(
         cause,
         f"the command in line {started[0].line} has no remapping in it",
-        anew(there) or f"in {_lines(started)}, at the end of cmd=[...]: '--ros-args', '-r', {rule}",
+        f"in {_lines(started)}, at the end of cmd=[...]: '--ros-args', '-r', {rule}",
     )
 
 
@@ -358,7 +351,7 @@ def missing(there: Launch, wanted: str) -> Cause | None:
             return Cause(
                 f"no {wanted}",
                 f"the Node in line {node.line} has condition={node.named['condition']}, which is not met",
-                anew(there) or f"leave condition=... out of the Node in line {node.line}",
+                f"leave condition=... out of the Node in line {node.line}",
             )
         if node.kept and not source.uses(node.kept):
             listed = next(iter(source.calls("LaunchDescription")), node)
@@ -366,8 +359,7 @@ def missing(there: Launch, wanted: str) -> Cause | None:
                 f"no {wanted}",
                 f"{node.kept} (line {node.line}) is described, but is not in the list that LaunchDescription is given",
                 there.step(listed_first(there, node.kept))
-                or anew(there)
-                or f"line {listed.line}: put {node.kept} into the list in LaunchDescription([...])",
+                or f"put {node.kept} into the list in LaunchDescription([...]), line {listed.line}",
             )
     for call in source.calls("OnProcessExit", "TimerAction", "OnExecutionComplete", "OnShutdown"):
         outer = next((each for each in source.calls("RegisterEventHandler") if call.code in each.code), call)
@@ -379,8 +371,7 @@ def missing(there: Launch, wanted: str) -> Cause | None:
         return Cause(
             f"no {wanted}",
             f"line {call.line}: what {call.name} holds is started {when}",
-            anew(there)
-            or f"put {inner.strip('[]') or 'the node'} itself into the list in LaunchDescription([...]), instead of "
+            f"put {inner.strip('[]') or 'the node'} itself into the list in LaunchDescription([...]), instead of "
             f"{outer.name}(...) in line {outer.line}",
         )
     return None

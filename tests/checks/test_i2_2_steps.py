@@ -55,6 +55,12 @@ def changed(*pairs: tuple[str, str]) -> Launch:
     return of(code)
 
 
+def followed(there: Launch, cause: Cause | None) -> Cause:
+    """What a learner reads of a cause."""
+    assert cause is not None
+    return steps.followed(there, cause)
+
+
 @pytest.mark.parametrize(
     ("there", "cause", "step"),
     [
@@ -122,8 +128,7 @@ RIGHT = "remappings=[('chatter', name)]"
     ],
 )
 def test_topic(there: Launch, cause: str, step: str) -> None:
-    found = steps.topic(there, "chatter")
-    assert found is not None
+    found = followed(there, steps.topic(there, "chatter"))
     assert found.name == cause, found
     assert step in found.hint
     assert "parameters=" not in found.hint
@@ -142,8 +147,7 @@ def test_topic(there: Launch, cause: str, step: str) -> None:
     ],
 )
 def test_namespace(there: Launch, step: str) -> None:
-    found = steps.namespace(there)
-    assert found is not None
+    found = followed(there, steps.namespace(there))
     assert found.name == "namespace not used"
     assert step in found.hint
     assert "name=[" not in found.hint
@@ -171,8 +175,7 @@ def test_namespace(there: Launch, step: str) -> None:
     ],
 )
 def test_a_node_that_is_not_started(there: Launch, says: str, step: str) -> None:
-    found = steps.missing(there, "subscriber")
-    assert found is not None
+    found = followed(there, steps.missing(there, "subscriber"))
     assert found.name == "no subscriber"
     assert says in found.text
     assert step in found.hint
@@ -264,8 +267,7 @@ def generate_launch_description():
 
 
 def test_commands_instead_of_nodes_become_nodes() -> None:
-    found = steps.topic(of(COMMANDS), "chatter")
-    assert found is not None
+    found = followed(of(COMMANDS), steps.topic(of(COMMANDS), "chatter"))
     assert "executable='listener'," in found.hint
     assert "from launch_ros.actions import Node" in found.hint
     assert steps.one_word(of(COMMANDS)) is None
@@ -314,8 +316,7 @@ def test_arguments_in_a_dict_that_nodes_share_are_not_given_twice() -> None:
         (REMAPPED, ", **common"),
         ("    talker =", "    common = dict(\n        parameters=[{'topic': name}],\n    )\n    talker ="),
     )
-    found = steps.topic(shared, "chatter")
-    assert found is not None
+    found = followed(shared, steps.topic(shared, "chatter"))
     assert "**common" not in found.hint
     assert "remappings=[('chatter', LaunchConfiguration('topic'))]," in found.hint
 
