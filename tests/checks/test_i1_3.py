@@ -683,7 +683,7 @@ rclpy.spin(node)
     ("text", "step"),
     [
         (DONE, "line 3 becomes:\n    for future in node.futures:\n        rclpy.spin_until_future_complete("),
-        (DONE.replace("future.add", "self.create_timer(1.0, self.ask);future.add"), "service.wait_for_service("),
+        (DONE.replace("future.add", "self.create_timer(1.0, self.ask);future.add"), "client.wait_for_service("),
         ("import rclpy\n\nrclpy.spin(node)", "remove line 3: rclpy.spin(node)"),
     ],
 )
