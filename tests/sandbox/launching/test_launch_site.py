@@ -99,6 +99,37 @@ def test_every_name_of_the_real_ones_can_be_imported_from_every_module_that_has_
     assert ran.code == 0
 
 
+ALIASED = """\
+import importlib, inspect, pickle, sys
+from launch import _aliases
+import launch.actions.opaque_function as module
+from launch.actions import OpaqueFunction
+from launch.actions.opaque_function import OpaqueFunction as Same
+print(module.OpaqueFunction is OpaqueFunction is Same, sys.modules["launch.actions.opaque_function"] is module)
+print(OpaqueFunction.__module__, inspect.getmodule(OpaqueFunction) is module)
+print(inspect.getsource(OpaqueFunction).splitlines()[0])
+for home, packages in _aliases.MODULES.items():
+    for package, names in packages.items():
+        for name in names.split():
+            alias = importlib.import_module(f"{package}.{name}".lstrip("."))
+            for each in alias.__all__:
+                thing = getattr(alias, each)
+                if isinstance(thing, type) and thing.__module__.startswith("launch"):
+                    if pickle.loads(pickle.dumps(thing)) is not thing or inspect.getmodule(thing) is None:
+                        print(alias, each)
+"""
+
+
+def test_a_module_without_a_file_of_its_own_is_one_all_the_same(stage: Stage) -> None:
+    ran = stage.run(write(stage, f"{ALIASED}{EMPTY}"))
+    assert ran.lines[2:] == (
+        "True True",
+        "launch.actions.opaque_function True",
+        "class OpaqueFunction(Action):",
+    ), ran.lines
+    assert ran.code == 0
+
+
 IMPORTED = """\
 from launch.launch_description import DeclareLaunchArgument
 from launch import LaunchIntrospector

@@ -18,20 +18,24 @@ from . import (  # noqa: E402
     substitutions,
     utilities,
 )
-from .action import Action  # noqa: E402
-from .condition import Condition  # noqa: E402
-from .event import Event  # noqa: E402
-from .event_handler import EventHandler  # noqa: E402
-from .invalid_launch_file_error import InvalidLaunchFileError  # noqa: E402
+from ._entities import (  # noqa: E402
+    Action,
+    Condition,
+    Event,
+    EventHandler,
+    InvalidLaunchFileError,
+    LaunchDescriptionEntity,
+    SomeEntitiesType,
+    SomeEntitiesType_types_tuple,
+    SomeSubstitutionsType,
+    SomeSubstitutionsType_types_tuple,
+    Substitution,
+)
 from .launch_context import LaunchContext  # noqa: E402
 from .launch_description import LaunchDescription  # noqa: E402
-from .launch_description_entity import LaunchDescriptionEntity  # noqa: E402
-from .launch_description_source import LaunchDescriptionSource  # noqa: E402
+from .launch_description_sources import LaunchDescriptionSource  # noqa: E402
 from .launch_introspector import LaunchIntrospector  # noqa: E402
 from .launch_service import LaunchService  # noqa: E402
-from .some_entities_type import SomeEntitiesType, SomeEntitiesType_types_tuple  # noqa: E402
-from .some_substitutions_type import SomeSubstitutionsType, SomeSubstitutionsType_types_tuple  # noqa: E402
-from .substitution import Substitution  # noqa: E402
 
 __all__ = [
     "Action",

@@ -1,7 +1,9 @@
 """Lets every public name of the real packages be imported from every module that has it there.
 
-`names.txt` lists them. What a module of ours does not define, its `__getattr__` gives: the thing itself where another
-of our modules has it, else a stand-in that refuses when it is used. Modules that are not here are made on the spot.
+`names.txt` lists them. Our modules are fewer: `_aliases.py` says which one defines the names of a module that has no
+file here, and that module is made beside it, as an alias. What a module does not define, its `__getattr__` gives: the
+thing itself where another module has it, else a stand-in that refuses when it is used. Modules that only the real
+packages have are made on the spot.
 """
 
 from __future__ import annotations
@@ -13,16 +15,22 @@ from functools import cache, partial
 from importlib.abc import Loader
 from importlib.machinery import ModuleSpec, PathFinder, SourceFileLoader
 from pathlib import Path
-from types import ModuleType
+from types import FunctionType, ModuleType
 from typing import Any
 
 from . import _unsupported
+from ._aliases import MODULES
 
 _LIST = Path(__file__).with_name("names.txt")
 _SITE = str(_LIST.parents[1])
 PACKAGES = frozenset(
     {"launch", "launch_ros", "launch_xml", "launch_yaml", "launch_testing", "launch_testing_ros", "launch_pytest"}
 )
+_ALIASES = {
+    home: [f"{package}.{name}".lstrip(".") for package, names in packages.items() for name in names.split()]
+    for home, packages in MODULES.items()
+}
+_HOMES = {alias: home for home, aliases in _ALIASES.items() for alias in aliases}
 _STAND_INS: dict[str, type] = {}
 
 
@@ -33,12 +41,15 @@ def install() -> None:
 
 
 def complete(module: ModuleType) -> None:
-    """Give a module of ours the names that the real one has besides."""
-    module.__getattr__ = partial(_get, module.__name__)  # type: ignore[method-assign]
+    """Give a module of ours the names that the real one has besides, and make its aliases."""
+    if module.__name__ in _modules():
+        _prepare(module)
+    for alias in _ALIASES.get(module.__name__, ()):
+        _make_alias(alias, module)
 
 
 class _Finder:
-    """Finds our modules, to complete them, and those that only the real packages have."""
+    """Finds our modules, to complete them, their aliases, and the modules that only the real packages have."""
 
     def find_spec(
         self, fullname: str, path: Sequence[str] | None = None, target: ModuleType | None = None
@@ -46,14 +57,15 @@ class _Finder:
         package = fullname.partition(".")[0]
         if package not in PACKAGES:
             return None
+        if fullname in _HOMES:
+            importlib.import_module(_HOMES[fullname])
+            return _spec(fullname)
         spec = PathFinder.find_spec(fullname, path)
         if spec is not None and spec.origin is not None:
             if spec.origin.startswith(_SITE):
                 spec.loader = _Completing(fullname, spec.origin)
             return spec
-        if fullname not in _modules():
-            return None
-        return ModuleSpec(fullname, _Making(), is_package=_modules()[fullname][0])
+        return _spec(fullname) if fullname in _modules() else None
 
 
 class _Completing(SourceFileLoader):
@@ -65,20 +77,54 @@ class _Completing(SourceFileLoader):
 
 
 class _Making(Loader):
-    """Makes a module that is not here."""
+    """Makes a module that has no file here; an alias is there already."""
 
-    def create_module(self, spec: ModuleSpec) -> None:
-        return None
+    def create_module(self, spec: ModuleSpec) -> ModuleType | None:
+        return sys.modules.get(spec.name)
 
     def exec_module(self, module: ModuleType) -> None:
-        names = _modules()[module.__name__][1]
+        if module.__name__ in _HOMES:
+            return
         module.__doc__ = "Not here; each of its names refuses when it is used."
-        module.__dict__["__all__"] = sorted(names)
-        complete(module)
+        module.__dict__["__all__"] = sorted(_modules()[module.__name__][1])
+        _prepare(module)
+
+
+def _spec(module: str) -> ModuleSpec:
+    return ModuleSpec(module, _Making(), is_package=_modules()[module][0])
+
+
+def _prepare(module: ModuleType) -> None:
+    module.__getattr__ = partial(_get, module.__name__)  # type: ignore[method-assign]
+    if _modules()[module.__name__][0] and not hasattr(module, "__path__"):
+        module.__path__ = []  # a file of ours where the real one is a package: what is below it is an alias
+
+
+def _make_alias(name: str, home: ModuleType) -> None:
+    """Put the module into `sys.modules`; what it defines tells it as its module, in tracebacks and for pickle."""
+    names = _modules()[name][1]
+    alias = ModuleType(name, home.__doc__)
+    alias.__spec__ = _spec(name)
+    alias.__loader__ = alias.__spec__.loader
+    alias.__package__ = alias.__spec__.parent
+    alias.__file__ = home.__file__
+    alias.__dict__["__all__"] = sorted(each for each, origin in names.items() if not origin or each in vars(home))
+    _prepare(alias)
+    for each, origin in names.items():
+        defined = vars(home).get(each)
+        if not origin and isinstance(defined, type | FunctionType) and defined.__module__ == home.__name__:
+            defined.__module__ = name
+    sys.modules[name] = alias
 
 
 def _get(module: str, name: str) -> Any:
     origin = _modules().get(module, (False, {}))[1].get(name)
+    if module in _HOMES and not name.startswith("__"):
+        home = vars(sys.modules[_HOMES[module]])
+        if name in home:
+            return home[name]
+    if f"{module}.{name}" in _HOMES:
+        return importlib.import_module(f"{module}.{name}")
     if origin is None or name.startswith("_"):
         raise AttributeError(f"module {module!r} has no attribute {name!r}")
     if not origin:

@@ -8,10 +8,8 @@ from collections import deque
 from collections.abc import Callable, Iterable, Mapping, MutableMapping
 from typing import TYPE_CHECKING, Any
 
-from .event import Event
-from .event_handler import BaseEventHandler
+from ._entities import BaseEventHandler, Event, Substitution
 from .logging import get_logger
-from .substitution import Substitution
 
 if TYPE_CHECKING:
     from ._subprocess import Process

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
-from .action import Action
-from .launch_description_entity import LaunchDescriptionEntity
+from ._entities import Action, LaunchDescriptionEntity
+from .logging import get_logger
 
 if TYPE_CHECKING:
-    from .actions.declare_launch_argument import DeclareLaunchArgument
-    from .actions.include_launch_description import IncludeLaunchDescription
+    from .actions._composition import IncludeLaunchDescription
+    from .actions._scope import DeclareLaunchArgument
     from .launch_context import LaunchContext
 
     ArgumentAndIncludes = tuple[DeclareLaunchArgument, list[IncludeLaunchDescription] | None]
@@ -48,8 +48,6 @@ class LaunchDescription(LaunchDescriptionEntity):
 
     def visit(self, context: LaunchContext) -> Sequence[LaunchDescriptionEntity]:
         if self._deprecated_reason is not None:
-            from .logging import get_logger
-
             where = context.get_locals_as_dict().get("current_launch_file_path")
             start = f"launch file [{where}] is deprecated" if where else "deprecated launch description"
             get_logger().warning(f"{start}: {self._deprecated_reason}")
@@ -67,9 +65,8 @@ class LaunchDescription(LaunchDescriptionEntity):
         self, conditional_inclusion: bool = False
     ) -> list[ArgumentAndIncludes]:
         """Each argument, the first of each name, with the includes passed on the way (None: declared at the top)."""
-        from .actions.declare_launch_argument import DeclareLaunchArgument
-        from .actions.include_launch_description import IncludeLaunchDescription
-        from .actions.reset_launch_configurations import ResetLaunchConfigurations
+        from .actions._composition import IncludeLaunchDescription
+        from .actions._scope import DeclareLaunchArgument, ResetLaunchConfigurations
 
         found: dict[str, ArgumentAndIncludes] = {}
 

@@ -5,14 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
-from .actions.emit_event import EmitEvent
-from .actions.execute_process import ExecuteProcess
-from .actions.log_info import LogInfo
-from .actions.register_event_handler import RegisterEventHandler
+from ._entities import LaunchDescriptionEntity, SomeSubstitutionsType
+from .actions._composition import LogInfo
+from .actions._events import EmitEvent, RegisterEventHandler
+from .actions._process import ExecuteProcess
 from .launch_description import LaunchDescription
-from .launch_description_entity import LaunchDescriptionEntity
-from .some_substitutions_type import SomeSubstitutionsType
-from .utilities.normalize_to_list_of_substitutions_impl import normalize_to_list_of_substitutions
+from .utilities import normalize_to_list_of_substitutions
 
 Tree = tuple[str, list[Any]]
 """A line, and the trees below it."""

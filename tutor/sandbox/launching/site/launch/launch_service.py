@@ -10,20 +10,15 @@ from collections.abc import Iterable
 from typing import Any
 
 from . import _subprocess, _tracebacks
-from .event import Event
-from .event_handlers.on_include_launch_description import OnIncludeLaunchDescription
-from .event_handlers.on_shutdown import OnShutdown
-from .events.include_launch_description import IncludeLaunchDescription
-from .events.shutdown import Shutdown
+from ._entities import Event, LaunchDescriptionEntity
+from .event_handlers import OnIncludeLaunchDescription, OnShutdown
+from .events import IncludeLaunchDescription, Shutdown
 from .launch_context import LaunchContext
 from .launch_description import LaunchDescription
-from .launch_description_entity import LaunchDescriptionEntity
 from .logging import get_logger, launch_config, log_launch_config
-from .utilities.class_tools_impl import is_a_subclass
-from .utilities.visit_all_entities_and_collect_futures_impl import visit_all_entities_and_collect_futures
+from .utilities import is_a_subclass, visit_all_entities_and_collect_futures
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGQUIT)
-
 KILL_AFTER_S = 2.0
 """How long processes have to end after SIGTERM, when the launch itself was told to terminate."""
 

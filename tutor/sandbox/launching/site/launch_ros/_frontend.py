@@ -5,15 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from launch._entities import Action
 from launch._frontend import actions as launch_actions
 from launch._frontend.actions import children, condition, pairs, process, text, texts, value
-from launch._frontend.entity import Entity
-from launch._frontend.substitutions import TABLE
-from launch._frontend.text import parse_substitution, parse_words
-from launch.action import Action
+from launch._frontend.entities import Entity
+from launch._frontend.text import TABLE, parse_substitution, parse_words
 
 from . import actions
-from .descriptions.composable_node import ComposableNode
+from .descriptions import ComposableNode
 from .parameter_descriptions import ParameterFile, ParameterValue
 from .substitutions import ExecutableInPackage, FindPackagePrefix, FindPackageShare, Parameter
 
@@ -138,6 +137,7 @@ launch_actions.MAKERS |= {
     "set_ros_log_dir": lambda entity: actions.SetROSLogDir(text(entity, "new_log_dir"), **condition(entity)),
     "set_use_sim_time": lambda entity: actions.SetUseSimTime(value(entity.get("value", bool)), **condition(entity)),
 }
+
 TABLE |= {
     "exec-in-pkg": (2, 2, lambda executable, package: ExecutableInPackage(executable=executable, package=package)),
     "find-pkg-prefix": (1, 1, FindPackagePrefix),

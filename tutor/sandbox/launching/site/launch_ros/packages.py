@@ -7,7 +7,7 @@ import shutil
 from pathlib import Path
 from typing import Protocol
 
-from launch.substitutions.substitution_failure import SubstitutionFailure
+from launch._entities import SubstitutionFailure
 
 
 class Resolver(Protocol):

@@ -1,4 +1,9 @@
-"""Parameters with a type, a name, or in a file."""
+"""Parameters as they are written, in the few forms in which they are evaluated, and as the node gets them.
+
+In those forms a name is a tuple of substitutions; nested dicts are names with dots. A value stays what it is, or is a
+tuple: of values of one type, of substitutions (one text, read as YAML), or of lists of substitutions (one for each
+item).
+"""
 
 from __future__ import annotations
 
@@ -6,17 +11,21 @@ import atexit
 import contextlib
 import os
 import tempfile
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import yaml
-from launch._frontend import parse_substitution
+from launch._entities import SomeSubstitutionsType, Substitution, TextSubstitution
+from launch._frontend.text import parse_substitution
 from launch.launch_context import LaunchContext
-from launch.some_substitutions_type import SomeSubstitutionsType
-from launch.substitution import Substitution
-from launch.utilities import ensure_argument_type, normalize_to_list_of_substitutions, perform_substitutions
-from launch.utilities.type_utils import normalize_typed_substitution, perform_typed_substitution
+from launch.utilities import (
+    ensure_argument_type,
+    normalize_to_list_of_substitutions,
+    normalize_typed_substitution,
+    perform_substitutions,
+    perform_typed_substitution,
+)
 
 
 class ParameterValue:
@@ -118,3 +127,143 @@ def _folder() -> str | None:
 def _remove(path: str) -> None:
     with contextlib.suppress(OSError):
         os.unlink(path)
+
+
+Name = tuple[Substitution, ...]
+
+
+def normalize_parameters(parameters: Any) -> tuple[ParameterFile | Parameter | dict[Name, Any], ...]:
+    """Dicts, files and parameters; TypeError for anything else than a list of them."""
+    if isinstance(parameters, str) or not isinstance(parameters, Sequence):
+        raise TypeError(f"Expecting list of parameters, got {parameters}")
+    return tuple(_normalize(item) for item in parameters)
+
+
+def _normalize(item: Any) -> ParameterFile | Parameter | dict[Name, Any]:
+    if isinstance(item, Mapping):
+        return normalize_parameter_dict(item)
+    if isinstance(item, Parameter | ParameterFile):
+        return item
+    return ParameterFile(item)
+
+
+def normalize_parameter_dict(parameters: Mapping[Any, Any], *, _prefix: Sequence[Substitution] = ()) -> dict[Name, Any]:
+    """One dict of parameters; TypeError where a value is none that a parameter can have."""
+    if not isinstance(parameters, Mapping):
+        raise TypeError("expected dict")
+    normalized: dict[Name, Any] = {}
+    for given_name, value in parameters.items():
+        name = (*_prefix, *normalize_to_list_of_substitutions(given_name))
+        if isinstance(value, Mapping):
+            normalized.update(normalize_parameter_dict(value, _prefix=(*name, TextSubstitution(text="."))))
+        else:
+            normalized[name] = _value(value)
+    return normalized
+
+
+def _value(value: Any) -> Any:
+    if isinstance(value, ParameterValue | float | bool | int | bytes):
+        return value
+    if isinstance(value, str):
+        # As YAML it comes back as the text that it is: "1" stays a text.
+        return tuple(normalize_to_list_of_substitutions(yaml.dump(value)))
+    if isinstance(value, Substitution):
+        return (value,)
+    if isinstance(value, Sequence):
+        return _array(value)
+    raise TypeError(f"Unexpected type for parameter value {value!r}")
+
+
+def _array(value: Sequence[Any]) -> Any:
+    for item in value:
+        ensure_argument_type(item, (float, int, str, bool, Substitution, Sequence), "subvalue")
+    kinds: set[type] = {
+        type(item) if isinstance(item, str | bool | int | float) else Substitution
+        for item in value
+        if not _is_nested(item)
+    }
+    if any(_is_nested(item) for item in value):
+        kinds.add(tuple)
+    if kinds in ({int}, {bool}):
+        return tuple(value)
+    if kinds in ({float}, {int, float}):
+        return tuple(float(item) for item in value)
+    if Substitution in kinds and kinds <= {str, Substitution}:
+        return tuple(normalize_to_list_of_substitutions(value))  # one text in several parts
+    items = [yaml.dump(item) if isinstance(item, float | int | bool | str) else item for item in value]
+    return tuple(normalize_to_list_of_substitutions(item) for item in items)
+
+
+def _is_nested(item: Any) -> bool:
+    return isinstance(item, Sequence) and not isinstance(item, str)
+
+
+SCALARS = (bool, int, float, str)
+Evaluated = Path | Parameter | dict[str, Any]
+
+
+def evaluate_parameters(context: LaunchContext, parameters: Iterable[Any]) -> tuple[Evaluated, ...]:
+    """What normalize_parameters gave: files as paths, dicts with names and values; a Parameter stays what it is."""
+    evaluated: list[Evaluated] = []
+    for item in parameters:
+        if isinstance(item, ParameterFile):
+            evaluated.append(item.evaluate(context))
+        elif isinstance(item, Parameter):
+            evaluated.append(item)
+        else:
+            evaluated.append(evaluate_parameter_dict(context, item))
+    return tuple(evaluated)
+
+
+def evaluate_parameter_dict(context: LaunchContext, parameters: Mapping[Any, Any]) -> dict[str, Any]:
+    """Names and values; TypeError where a value is none that a parameter can have. Arrays become tuples."""
+    evaluated: dict[str, Any] = {}
+    for parts, value in parameters.items():
+        name = perform_substitutions(context, parts)
+        evaluated[name] = _evaluate(context, name, value)
+    return evaluated
+
+
+def _evaluate(context: LaunchContext, name: str, value: Any) -> Any:
+    if isinstance(value, ParameterValue):
+        return value.evaluate(context)
+    if not isinstance(value, tuple):
+        ensure_argument_type(value, (float, int, str, bool, bytes), "value")
+        return value
+    if value and isinstance(value[0], Substitution):
+        return _from_text(name, perform_substitutions(context, value))
+    if value and isinstance(value[0], Sequence) and not isinstance(value[0], str):
+        items = [yaml.safe_load(perform_substitutions(context, item)) for item in value]
+        return _uniform(name, items)
+    if not value:
+        raise TypeError(f'Expected a non-empty sequence for "{name}"')
+    return value
+
+
+def _from_text(name: str, text: str) -> Any:
+    advice = (
+        "If the parameter is meant to be a string, try wrapping it in "
+        "launch_ros.parameter_descriptions.ParameterValue(value, value_type=str)"
+    )
+    try:
+        loaded = yaml.safe_load(text if text else "''")
+    except yaml.YAMLError as error:
+        raise TypeError(f"Unable to parse the value of parameter {name} as yaml. {advice}") from error
+    if type(loaded) in (*SCALARS, bytes):
+        return loaded
+    if isinstance(loaded, Sequence):
+        return _uniform(name, loaded)
+    raise TypeError(
+        "Allowed value types are bytes, bool, int, float, str, Sequence[bool], Sequence[int], Sequence[float], "
+        f'Sequence[str]. Got {type(loaded).__name__} for "{name}". {advice}'
+    )
+
+
+def _uniform(name: str, items: Sequence[Any]) -> tuple[Any, ...]:
+    kinds = {type(item) for item in items}
+    if len(kinds) != 1 or not kinds <= set(SCALARS):
+        raise TypeError(
+            "Expected a non-empty sequence, with items of uniform type. Allowed sequence item types are bool, int, "
+            f'float, str. Got inconsistent input for "{name}"'
+        )
+    return tuple(items)

@@ -7,11 +7,9 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from .. import actions
-from ..action import Action
+from .._entities import Action, Substitution, TextSubstitution
 from ..conditions import IfCondition, UnlessCondition
-from ..substitution import Substitution
-from ..substitutions.text_substitution import TextSubstitution
-from .entity import Entity
+from .entities import Entity
 from .text import parse_substitution, parse_words
 
 Arguments = dict[str, Any]

@@ -7,23 +7,16 @@ import signal
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from ..action import Action
-from ..event import Event
-from ..event_handler import BaseEventHandler
-from ..events.matchers import matches_action
-from ..events.process.process_targeted_event import ProcessTargetedEvent
-from ..events.process.signal_process import SignalProcess
+from .._entities import Action, BaseEventHandler, Event, SomeEntitiesType, Substitution
+from ..events import ProcessTargetedEvent, SignalProcess, matches_action
 from ..launch_context import LaunchContext
-from ..some_entities_type import SomeEntitiesType
-from ..substitution import Substitution
-from ..substitutions.python_expression import PythonExpression
-from ..utilities.perform_substitutions_impl import perform_substitutions
-from .emit_event import EmitEvent
-from .opaque_function import OpaqueFunction
-from .timer_action import TimerAction
+from ..substitutions._logic import PythonExpression
+from ..utilities import perform_substitutions
+from ._composition import OpaqueFunction
+from ._events import EmitEvent, TimerAction
 
 if TYPE_CHECKING:
-    from .execute_local import ExecuteLocal
+    from ._process import ExecuteLocal
 
 
 class OnTargeted(BaseEventHandler):

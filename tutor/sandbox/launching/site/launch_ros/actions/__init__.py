@@ -1,19 +1,19 @@
 """The actions that know ROS."""
 
-from .composable_node_container import ComposableNodeContainer
-from .lifecycle_node import LifecycleNode
-from .lifecycle_transition import LifecycleTransition
-from .load_composable_nodes import LoadComposableNodes
-from .node import Node
-from .push_ros_namespace import PushROSNamespace
-from .push_ros_namespace import PushROSNamespace as PushRosNamespace
-from .ros_timer import ROSTimer
-from .ros_timer import ROSTimer as RosTimer
-from .set_parameter import SetParameter
-from .set_parameters_from_file import SetParametersFromFile
-from .set_remap import SetRemap
-from .set_ros_log_dir import SetROSLogDir
-from .set_use_sim_time import SetUseSimTime
+from ._composable import ComposableNodeContainer, LoadComposableNodes
+from ._lifecycle import LifecycleNode, LifecycleTransition
+from ._node import Node
+from ._settings import (
+    PushROSNamespace,
+    ROSTimer,
+    SetParameter,
+    SetParametersFromFile,
+    SetRemap,
+    SetROSLogDir,
+    SetUseSimTime,
+)
+from ._settings import PushROSNamespace as PushRosNamespace
+from ._settings import ROSTimer as RosTimer
 
 __all__ = [
     "ComposableNodeContainer",

@@ -1,0 +1,151 @@
+"""The elements of an XML file and the keys of a YAML file, as entities with attributes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+from xml.etree import ElementTree
+
+from ..utilities import SCALARS, coerce_to_type, extract_type
+
+
+class Entity:
+    """One entity. What of it has been asked for is kept, so that what is not known can be told."""
+
+    def __init__(self, type_name: str) -> None:
+        self.type_name = type_name
+        self._asked: set[str] = set()
+
+    @property
+    def children(self) -> Sequence[Entity]:
+        """All entities below it."""
+        raise NotImplementedError
+
+    def find(self, name: str, data_type: Any = str) -> Any:
+        """An attribute of a type (None: whatever YAML takes it for), or the text that it is; None without it.
+
+        TypeError where it is neither.
+        """
+        raise NotImplementedError
+
+    def get(self, name: str, data_type: Any = str) -> Any:
+        """An attribute; AttributeError without it."""
+        value = self.find(name, data_type)
+        if value is None:
+            raise AttributeError(f"Attribute '{name}' of type '{data_type}' not found in Entity '{self.type_name}'")
+        return value
+
+    def below(self, name: str) -> Sequence[Entity]:
+        """The entities of this name below it."""
+        raise NotImplementedError
+
+    def require_all_known(self) -> None:
+        """ValueError where it has what nobody has asked for."""
+        raise NotImplementedError
+
+
+class XmlEntity(Entity):
+    """An element."""
+
+    def __init__(self, element: ElementTree.Element) -> None:
+        super().__init__(element.tag)
+        self._element = element
+
+    @property
+    def children(self) -> Sequence[Entity]:
+        self._asked.update(f"<{item.tag}>" for item in self._element)
+        return [XmlEntity(item) for item in self._element]
+
+    def find(self, name: str, data_type: Any = str) -> Any:
+        text = self._element.attrib.get(name)
+        self._asked.update((name, f"{name}-sep"))
+        if text is None:
+            return None
+        separator = self._element.attrib.get(f"{name}-sep")
+        if separator is None:
+            return _coerce(text, data_type)
+        item_type = None if data_type is None else extract_type(data_type)[0]
+        return [_coerce(item, item_type) for item in text.split(separator)]
+
+    def below(self, name: str) -> Sequence[Entity]:
+        self._asked.add(f"<{name}>")
+        return [XmlEntity(item) for item in self._element if item.tag == name]
+
+    def require_all_known(self) -> None:
+        tags = {item.tag for item in self._element if f"<{item.tag}>" not in self._asked}
+        if tags:
+            raise ValueError(f"Unexpected nested tag(s) found in `{self.type_name}`: {tags}")
+        attributes = set(self._element.attrib) - self._asked
+        if attributes:
+            raise ValueError(f"Unexpected attribute(s) found in `{self.type_name}`: {attributes}")
+
+
+class YamlEntity(Entity):
+    """The value of a key: a mapping, or a list of entities."""
+
+    def __init__(self, type_name: str, value: Any) -> None:
+        super().__init__(type_name)
+        self._value = value
+
+    @property
+    def children(self) -> Sequence[Entity]:
+        self._asked.add("children")
+        items = self._value
+        if isinstance(items, dict):
+            if "children" not in items:
+                raise ValueError(f"Expected entity `{self.type_name}` to have children entities")
+            items = items["children"]
+        if not isinstance(items, list):
+            raise TypeError(f"Expected a list of entities in `{self.type_name}`, got {type(items)}")
+        for item in items:
+            if not isinstance(item, dict) or len(item) != 1:
+                raise RuntimeError("Subentities must be a dictionary with only one key, which is the entity type")
+        return [YamlEntity(*next(iter(item.items()))) for item in items]
+
+    def find(self, name: str, data_type: Any = str) -> Any:
+        self._asked.add(name)
+        value = self._mapping.get(name)
+        if value is not None and not _is_of(value, data_type):
+            raise TypeError(
+                f"Attribute '{name}' of Entity '{self.type_name}' expected to be of type '{data_type}', "
+                f"got '{type(value)}'"
+            )
+        return value
+
+    def below(self, name: str) -> Sequence[Entity]:
+        self._asked.add(name)
+        items = self._mapping.get(name)
+        if items is None:
+            return []
+        if not isinstance(items, list) or not all(isinstance(item, dict) for item in items):
+            raise TypeError(f"Attribute '{name}' of Entity '{self.type_name}' expected to be a list of dictionaries.")
+        return [YamlEntity(name, item) for item in items]
+
+    @property
+    def _mapping(self) -> dict[str, Any]:
+        return self._value if isinstance(self._value, dict) else {}
+
+    def require_all_known(self) -> None:
+        if isinstance(self._value, list) and "children" not in self._asked:
+            raise ValueError(f"Unexpected nested entity(ies) found in `{self.type_name}`: {self._value}")
+        unknown = set(self._mapping) - self._asked
+        if unknown:
+            raise ValueError(f"Unexpected key(s) found in `{self.type_name}`: {unknown}")
+
+
+def _coerce(text: str, data_type: Any) -> Any:
+    """The text as a value of this type; the text itself where it is none, for it may hold substitutions."""
+    try:
+        return coerce_to_type(text, data_type) if text else text
+    except ValueError:
+        return text
+
+
+def _is_of(value: Any, data_type: Any) -> bool:
+    if data_type is None:
+        items = value if isinstance(value, list) else [value]
+        return all(isinstance(item, SCALARS) for item in items)
+    scalar, is_list = extract_type(data_type)
+    if is_list:
+        return isinstance(value, list) and all(isinstance(item, str | scalar) for item in value)
+    return isinstance(value, str | scalar)

@@ -1,0 +1,172 @@
+"""Actions on events and their handlers, and timers."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable, Iterable
+from typing import Any
+
+from .._entities import (
+    Action,
+    BaseEventHandler,
+    Event,
+    LaunchDescriptionEntity,
+    SomeEntitiesType,
+    SomeSubstitutionsType,
+    Substitution,
+)
+from ..event_handlers import OnShutdown
+from ..events import TimerEvent
+from ..launch_context import LaunchContext
+from ..utilities import ensure_argument_type, is_a_subclass, normalize_typed_substitution, perform_typed_substitution
+from ._scope import PopLaunchConfigurations
+
+
+class EmitEvent(Action):
+    """Emits the event."""
+
+    def __init__(self, *, event: Event, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        if not is_a_subclass(event, Event):
+            raise RuntimeError(f"EmitEvent() expected an event instance, got '{event}'.")
+        self._event = event
+
+    @property
+    def event(self) -> Event:
+        return self._event
+
+    def execute(self, context: LaunchContext) -> None:
+        context.emit_event_sync(self._event)
+
+
+class RegisterEventHandler(Action):
+    """From here on the handler gets the events that match."""
+
+    def __init__(self, event_handler: BaseEventHandler, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self._event_handler = event_handler
+
+    @property
+    def event_handler(self) -> BaseEventHandler:
+        return self._event_handler
+
+    def describe_conditional_sub_entities(self) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
+        words, entities = self._event_handler.describe()
+        return [(words, entities)] if entities else []
+
+    def execute(self, context: LaunchContext) -> None:
+        context.register_event_handler(self._event_handler)
+
+
+class UnregisterEventHandler(Action):
+    """From here on the handler gets no events."""
+
+    def __init__(self, event_handler: BaseEventHandler, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self._event_handler = event_handler
+
+    @property
+    def event_handler(self) -> BaseEventHandler:
+        return self._event_handler
+
+    def execute(self, context: LaunchContext) -> None:
+        context.unregister_event_handler(self._event_handler)
+
+
+class _OnTimer(BaseEventHandler):
+    """Has the actions visited of whichever timer has fired, with what was known when they were set."""
+
+    def __init__(self) -> None:
+        super().__init__(matcher=lambda event: isinstance(event, TimerEvent))
+
+    def handle(self, event: Event, context: LaunchContext) -> SomeEntitiesType | None:
+        super().handle(event, context)
+        assert isinstance(event, TimerEvent)
+        return event.timer_action.handle(context)
+
+
+class TimerAction(Action):
+    """Visits the actions when `period` seconds are over, unless it is cancelled, or the launch ends, before.
+
+    They see the launch configurations as they were when the timer was set, and are a scope of them.
+    """
+
+    def __init__(
+        self,
+        *,
+        period: float | SomeSubstitutionsType,
+        actions: Iterable[LaunchDescriptionEntity],
+        cancel_on_shutdown: bool | SomeSubstitutionsType = True,
+        **kwargs: Any,
+    ) -> None:
+        super().__init__(**kwargs)
+        ensure_argument_type(period, (str, Substitution, Iterable, float, int), "period", "TimerAction")
+        ensure_argument_type(actions, Iterable, "actions", "TimerAction")
+        self._period = normalize_typed_substitution(float(period) if isinstance(period, str | int) else period, float)
+        self._actions = list(actions)
+        self._cancel_on_shutdown = normalize_typed_substitution(cancel_on_shutdown, bool)
+        self._locals: dict[str, Any] = {}
+        self._configurations: dict[str, Any] = {}
+        self._is_cancelled = False
+        self._cancelled: asyncio.Future[None] | None = None
+        self._completed: asyncio.Future[None] | None = None
+
+    @property
+    def period(self) -> Any:
+        return self._period
+
+    @property
+    def actions(self) -> list[LaunchDescriptionEntity]:
+        return self._actions
+
+    def describe(self) -> str:
+        return f"TimerAction(period={self._period}, actions=<actions>)"
+
+    def describe_conditional_sub_entities(self) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
+        return [(f"{self._period} seconds pass without being canceled", self._actions)]
+
+    def cancel(self) -> None:
+        """Never visit the actions, if that has not been done yet."""
+        self._is_cancelled = True
+        if self._cancelled is not None and not self._cancelled.done():
+            self._cancelled.set_result(None)
+
+    def handle(self, context: LaunchContext) -> SomeEntitiesType | None:
+        context.extend_locals(self._locals)
+        context._push_launch_configurations()
+        context.launch_configurations.clear()
+        context.launch_configurations.update(self._configurations)
+        return [*self._actions, PopLaunchConfigurations()]
+
+    def execute(self, context: LaunchContext) -> None:
+        loop = context.asyncio_loop
+        self._completed = loop.create_future()
+        self._cancelled = loop.create_future()
+        if self._is_cancelled:
+            self._completed.set_result(None)
+            return
+        if not any(isinstance(handler, _OnTimer) for handler in context._event_handlers):
+            context.register_event_handler(_OnTimer())
+        self._locals = context.get_locals_as_dict()
+        self._configurations = dict(context.launch_configurations)
+        period = perform_typed_substitution(context, self._period, float)
+        waiting = loop.create_task(self._wait(context, period, self._cancelled, self._completed))
+        self._completed.add_done_callback(lambda _: waiting.done())  # the task lives as long as the future
+        if perform_typed_substitution(context, self._cancel_on_shutdown, bool):
+            on_shutdown: Callable[..., None] = lambda event, context: self.cancel()  # noqa: E731
+            context.register_event_handler(OnShutdown(on_shutdown=on_shutdown))
+
+    def get_asyncio_future(self) -> asyncio.Future[None] | None:
+        return self._completed
+
+    async def _wait(
+        self,
+        context: LaunchContext,
+        period: float,
+        cancelled: asyncio.Future[None],
+        completed: asyncio.Future[None],
+    ) -> None:
+        await asyncio.wait([cancelled], timeout=period)
+        if not cancelled.done():
+            context.emit_event_sync(TimerEvent(timer_action=self))
+        completed.set_result(None)

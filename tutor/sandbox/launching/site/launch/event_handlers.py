@@ -1,0 +1,225 @@
+"""The event handlers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING, Any
+
+from ._entities import Action, BaseEventHandler, Event, ExecutionComplete, LaunchDescriptionEntity, SomeEntitiesType
+from .events import IncludeLaunchDescription, ProcessExited, ProcessIO, ProcessStarted, Shutdown
+from .launch_context import LaunchContext
+from .utilities import is_a_subclass
+
+if TYPE_CHECKING:
+    from .actions._process import ExecuteLocal, ExecuteProcess
+
+    Listener = Callable[[ProcessIO], SomeEntitiesType | None]
+
+
+__all__ = [
+    "OnActionEventBase",
+    "OnExecutionComplete",
+    "OnIncludeLaunchDescription",
+    "OnProcessExit",
+    "OnProcessIO",
+    "OnProcessStart",
+    "OnShutdown",
+    "event_named",
+]
+
+
+def event_named(name: str) -> Callable[[Event], bool]:
+    """True for events of this name."""
+    return lambda event: event.name == name
+
+
+class OnActionEventBase(BaseEventHandler):
+    """Picks the events of one class that come from one action, from those a matcher picks, or (None) from any.
+
+    What the event leads to are entities, or what a callable returns that is given event and context.
+    """
+
+    def __init__(
+        self,
+        *,
+        action_matcher: Callable[[Any], bool] | Action | None,
+        on_event: SomeEntitiesType | Callable[[Any, LaunchContext], SomeEntitiesType | None] | None,
+        target_event_cls: type[Event],
+        target_action_cls: type[Action],
+        **kwargs: Any,
+    ) -> None:
+        is_action = isinstance(action_matcher, target_action_cls)
+        if action_matcher is not None and not is_action and not callable(action_matcher):
+            raise TypeError(f"action_matcher must be an '{target_action_cls.__name__}' instance or a callable")
+
+        def matches(event: Event) -> bool:
+            if not isinstance(event, target_event_cls):
+                return False
+            action = getattr(event, "action", None)
+            if action_matcher is None:
+                return True
+            return action_matcher(action) if callable(action_matcher) else action is action_matcher
+
+        super().__init__(matcher=matches, **kwargs)
+        from_action = "" if action_matcher is None else f" and {target_action_cls.__name__}(event.action)"
+        self._matcher_words = f"event == {target_event_cls.__name__}{from_action}"
+        self._callable: Callable[[Any, LaunchContext], SomeEntitiesType | None] | None = None
+        self._entities: list[LaunchDescriptionEntity] = []
+        if callable(on_event):
+            self._callable = on_event
+        elif isinstance(on_event, LaunchDescriptionEntity):
+            self._entities = [on_event]
+        elif isinstance(on_event, Iterable):
+            self._entities = list(on_event)
+            for item in self._entities:
+                if not isinstance(item, LaunchDescriptionEntity):
+                    raise TypeError(
+                        "expected all items in 'on_event' iterable to be of type 'LaunchDescriptionEntity' "
+                        f"but got '{type(item)}'"
+                    )
+        elif on_event is not None:
+            raise TypeError(f"expected actions or a callable for an event, got '{type(on_event)}'")
+
+    @property
+    def matcher_description(self) -> str:
+        return self._matcher_words
+
+    @property
+    def handler_description(self) -> str:
+        return "<actions>" if self._entities else str(self._callable)
+
+    def describe(self) -> tuple[str, list[LaunchDescriptionEntity]]:
+        words, entities = super().describe()
+        return words, [*entities, *self._entities]
+
+    def handle(self, event: Event, context: LaunchContext) -> SomeEntitiesType | None:
+        super().handle(event, context)
+        return self._callable(event, context) if self._callable is not None else self._entities
+
+
+class OnExecutionComplete(OnActionEventBase):
+    """Nothing of the target action is going on any more; with no target, of any action."""
+
+    def __init__(
+        self,
+        *,
+        target_action: Callable[[Any], bool] | Action | None = None,
+        on_completion: SomeEntitiesType | Callable[[ExecutionComplete, LaunchContext], SomeEntitiesType | None],
+        **kwargs: Any,
+    ) -> None:
+        super().__init__(
+            action_matcher=target_action,
+            on_event=on_completion,
+            target_event_cls=ExecutionComplete,
+            target_action_cls=Action,
+            **kwargs,
+        )
+
+
+class OnProcessStart(OnActionEventBase):
+    """The target action's process runs; with no target, any process."""
+
+    def __init__(
+        self,
+        *,
+        target_action: Callable[[Any], bool] | ExecuteProcess | None = None,
+        on_start: SomeEntitiesType | Callable[[ProcessStarted, LaunchContext], SomeEntitiesType | None] | None,
+        **kwargs: Any,
+    ) -> None:
+        from .actions._process import ExecuteProcess
+
+        super().__init__(
+            action_matcher=target_action,
+            on_event=on_start,
+            target_event_cls=ProcessStarted,
+            target_action_cls=ExecuteProcess,
+            **kwargs,
+        )
+
+
+class OnProcessIO(OnActionEventBase):
+    """The target action's process has printed something; with no target, any process."""
+
+    def __init__(
+        self,
+        *,
+        target_action: Callable[[Any], bool] | ExecuteLocal | None = None,
+        on_stdin: Listener | None = None,
+        on_stdout: Listener | None = None,
+        on_stderr: Listener | None = None,
+        **kwargs: Any,
+    ) -> None:
+        from .actions._process import ExecuteLocal
+
+        def pass_on(event: ProcessIO, context: LaunchContext) -> SomeEntitiesType | None:
+            listener = on_stdout if event.from_stdout else on_stderr if event.from_stderr else on_stdin
+            return listener(event) if listener is not None else None
+
+        super().__init__(
+            action_matcher=target_action,
+            on_event=pass_on,
+            target_event_cls=ProcessIO,
+            target_action_cls=ExecuteLocal,
+            **kwargs,
+        )
+
+
+class OnProcessExit(OnActionEventBase):
+    """The target action's process has ended; with no target, any process."""
+
+    def __init__(
+        self,
+        *,
+        target_action: Callable[[Any], bool] | ExecuteLocal | None = None,
+        on_exit: SomeEntitiesType | Callable[[ProcessExited, LaunchContext], SomeEntitiesType | None] | None,
+        **kwargs: Any,
+    ) -> None:
+        from .actions._process import ExecuteLocal
+
+        super().__init__(
+            action_matcher=target_action,
+            on_event=on_exit,
+            target_event_cls=ProcessExited,
+            target_action_cls=ExecuteLocal,
+            **kwargs,
+        )
+
+
+class OnIncludeLaunchDescription(BaseEventHandler):
+    """Has the launch description of the event visited."""
+
+    def __init__(self, **kwargs: Any) -> None:
+        super().__init__(matcher=lambda event: isinstance(event, IncludeLaunchDescription), **kwargs)
+
+    def handle(self, event: Event, context: LaunchContext) -> SomeEntitiesType | None:
+        super().handle(event, context)
+        assert isinstance(event, IncludeLaunchDescription)
+        return event.launch_description
+
+
+class OnShutdown(BaseEventHandler):
+    """The launch is ending: by Ctrl+C, by a Shutdown, by an error, or because nothing is going on."""
+
+    def __init__(
+        self,
+        *,
+        on_shutdown: SomeEntitiesType | Callable[[Shutdown, LaunchContext], SomeEntitiesType | None],
+        **kwargs: Any,
+    ) -> None:
+        super().__init__(matcher=lambda event: is_a_subclass(event, Shutdown), **kwargs)
+        self._on_shutdown = on_shutdown
+
+    @property
+    def matcher_description(self) -> str:
+        return "event issubclass of launch.events.Shutdown"
+
+    @property
+    def handler_description(self) -> str:
+        return str(self._on_shutdown)
+
+    def handle(self, event: Event, context: LaunchContext) -> SomeEntitiesType | None:
+        super().handle(event, context)
+        if callable(self._on_shutdown):
+            assert isinstance(event, Shutdown)
+            return self._on_shutdown(event, context)
+        return self._on_shutdown

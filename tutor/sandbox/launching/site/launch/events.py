@@ -1,0 +1,256 @@
+"""The events, those of processes among them."""
+
+from __future__ import annotations
+
+import signal
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from ._entities import Action, Event, ExecutionComplete
+from .launch_description import LaunchDescription
+from .utilities import ensure_argument_type
+
+if TYPE_CHECKING:
+    from .actions._events import TimerAction
+    from .actions._process import ExecuteLocal
+
+
+__all__ = [
+    "ExecutionComplete",
+    "IncludeLaunchDescription",
+    "Shutdown",
+    "TimerEvent",
+    "matches_action",
+    "process",  # noqa: F822 - an alias
+]
+
+
+class IncludeLaunchDescription(Event):
+    """Asks for the visit of a launch description."""
+
+    name = "launch.events.IncludeLaunchDescription"
+
+    def __init__(self, launch_description: LaunchDescription) -> None:
+        self._description = launch_description
+
+    @property
+    def launch_description(self) -> LaunchDescription:
+        return self._description
+
+
+class Shutdown(Event):
+    """The launch ends; `due_to_sigint` where Ctrl+C is the reason, and the terminal has told the processes, too."""
+
+    name = "launch.events.Shutdown"
+
+    def __init__(self, *, reason: str = "reason not given", due_to_sigint: bool = False) -> None:
+        self._reason = reason
+        self._due_to_sigint = due_to_sigint
+
+    @property
+    def reason(self) -> str:
+        return self._reason
+
+    @property
+    def due_to_sigint(self) -> bool:
+        return self._due_to_sigint
+
+
+class TimerEvent(Event):
+    """The period of a TimerAction is over."""
+
+    name = "launch.events.TimerEvent"
+
+    def __init__(self, *, timer_action: TimerAction) -> None:
+        self._timer_action = timer_action
+
+    @property
+    def timer_action(self) -> TimerAction:
+        return self._timer_action
+
+
+def matches_action(target_action: Action) -> Callable[[Action], bool]:
+    """True for this action and no other."""
+    return lambda action: action is target_action
+
+
+class RunningProcessEvent(Event):
+    """Something about a process that was started."""
+
+    name = "launch.events.process.RunningProcessEvent"
+
+    def __init__(
+        self,
+        *,
+        action: ExecuteLocal,
+        name: str,
+        cmd: list[str],
+        cwd: str | None,
+        env: dict[str, str] | None,
+        pid: int,
+    ) -> None:
+        self._action = action
+        self._process_name = name
+        self._cmd = cmd
+        self._cwd = cwd
+        self._env = env
+        self._pid = pid
+
+    @property
+    def action(self) -> ExecuteLocal:
+        return self._action
+
+    @property
+    def execute_process_action(self) -> ExecuteLocal:
+        return self._action
+
+    @property
+    def process_name(self) -> str:
+        return self._process_name
+
+    @property
+    def cmd(self) -> list[str]:
+        return self._cmd
+
+    @property
+    def cwd(self) -> str | None:
+        return self._cwd
+
+    @property
+    def env(self) -> dict[str, str] | None:
+        return self._env
+
+    @property
+    def pid(self) -> int:
+        return self._pid
+
+
+class ProcessStarted(RunningProcessEvent):
+    """The process has been started."""
+
+    name = "launch.events.process.ProcessStarted"
+
+
+class ProcessExited(RunningProcessEvent):
+    """The process has ended; a negative return code is the signal that ended it."""
+
+    name = "launch.events.process.ProcessExited"
+
+    def __init__(self, *, returncode: int, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self._returncode = returncode
+
+    @property
+    def returncode(self) -> int:
+        return self._returncode
+
+
+class ProcessIO(RunningProcessEvent):
+    """Some bytes, as they came, from one of the three streams (`fd` 0, 1 or 2)."""
+
+    name = "launch.events.process.ProcessIO"
+
+    def __init__(self, *, text: bytes, fd: int, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self._text = text
+        self._fd = fd
+
+    @property
+    def text(self) -> bytes:
+        return self._text
+
+    @property
+    def from_stdin(self) -> bool:
+        return self._fd == 0
+
+    @property
+    def from_stdout(self) -> bool:
+        return self._fd == 1
+
+    @property
+    def from_stderr(self) -> bool:
+        return self._fd == 2
+
+
+class ProcessStdin(ProcessIO):
+    """Bytes for the process."""
+
+    name = "launch.events.process.ProcessStdin"
+
+    def __init__(self, *, text: bytes, **kwargs: Any) -> None:
+        super().__init__(text=text, fd=0, **kwargs)
+
+
+class ProcessStdout(ProcessIO):
+    """Bytes on the process's stdout."""
+
+    name = "launch.events.process.ProcessStdout"
+
+    def __init__(self, *, text: bytes, **kwargs: Any) -> None:
+        super().__init__(text=text, fd=1, **kwargs)
+
+
+class ProcessStderr(ProcessIO):
+    """Bytes on the process's stderr."""
+
+    name = "launch.events.process.ProcessStderr"
+
+    def __init__(self, *, text: bytes, **kwargs: Any) -> None:
+        super().__init__(text=text, fd=2, **kwargs)
+
+
+class ProcessTargetedEvent(Event):
+    """Meant for the processes that the matcher picks."""
+
+    name = "launch.events.process.ProcessTargetedEvent"
+
+    def __init__(self, *, process_matcher: Callable[[ExecuteLocal], bool]) -> None:
+        self._process_matcher = process_matcher
+
+    @property
+    def process_matcher(self) -> Callable[[ExecuteLocal], bool]:
+        return self._process_matcher
+
+
+class SignalProcess(ProcessTargetedEvent):
+    """The process is to get a signal, given by number or by name."""
+
+    name = "launch.events.process.SignalProcess"
+
+    def __init__(self, *, signal_number: str | signal.Signals, process_matcher: Callable[[ExecuteLocal], bool]) -> None:
+        super().__init__(process_matcher=process_matcher)
+        ensure_argument_type(signal_number, (str, signal.Signals), "signal_number", "SignalProcess")
+        self._signal = signal_number
+
+    @property
+    def signal(self) -> str | signal.Signals:
+        return self._signal
+
+    @property
+    def signal_name(self) -> str:
+        return self._signal if isinstance(self._signal, str) else self._signal.name
+
+
+class ShutdownProcess(ProcessTargetedEvent):
+    """The process is to end: SIGINT, and more if that does not help."""
+
+    name = "launch.events.process.ShutdownProcess"
+
+
+def matches_pid(pid: int) -> Callable[[ExecuteLocal], bool]:
+    """True for the process with this id."""
+    return lambda action: action.process_details is not None and action.process_details.get("pid") == pid
+
+
+def matches_name(name: str) -> Callable[[ExecuteLocal], bool]:
+    """True for the process of this name, `talker-1` for instance."""
+    return lambda action: action.process_details is not None and action.process_details["name"] == name
+
+
+def matches_executable(executable: str) -> Callable[[ExecuteLocal], bool]:
+    """True for processes whose executable's path ends like this."""
+
+    def matches(action: ExecuteLocal) -> bool:
+        return action.process_details is not None and str(action.process_details["cmd"][0]).endswith(executable)
+
+    return matches

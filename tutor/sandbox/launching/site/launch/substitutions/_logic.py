@@ -1,0 +1,217 @@
+"""Substitutions that compute: truth values, comparisons, Python expressions."""
+
+from __future__ import annotations
+
+import importlib
+import math
+from collections.abc import Callable, Iterable
+from typing import Any
+
+from .._entities import SomeSubstitutionsType, Substitution, SubstitutionFailure
+from ..launch_context import LaunchContext
+from ..utilities import (
+    ensure_argument_type,
+    is_substitution,
+    normalize_to_list_of_substitutions,
+    perform_substitutions,
+    perform_typed_substitution,
+)
+
+
+class _Boolean(Substitution):
+    """Combines truth values into `true` or `false`; each is evaluated."""
+
+    _combine: Callable[[Iterable[bool]], bool]
+
+    def __init__(self, *args: SomeSubstitutionsType) -> None:
+        self._args = [normalize_to_list_of_substitutions(arg) for arg in args]
+
+    @property
+    def args(self) -> list[list[Substitution]]:
+        return self._args
+
+    def describe(self) -> str:
+        return f"{type(self).__name__}({' '.join(str(arg) for arg in self._args)})"
+
+    def perform(self, context: LaunchContext) -> str:
+        try:
+            values = [bool(perform_typed_substitution(context, arg, bool)) for arg in self._args]
+        except (TypeError, ValueError) as error:
+            raise SubstitutionFailure(error) from error
+        return str(type(self)._combine(values)).lower()
+
+
+class AnySubstitution(_Boolean):
+    """Whether at least one is true."""
+
+    _combine = staticmethod(any)
+
+
+class AllSubstitution(_Boolean):
+    """Whether all are true."""
+
+    _combine = staticmethod(all)
+
+
+class NotSubstitution(_Boolean):
+    """Whether it is false."""
+
+    _combine = staticmethod(lambda values: not any(values))
+
+    def __init__(self, value: SomeSubstitutionsType) -> None:
+        super().__init__(value)
+
+    @property
+    def value(self) -> list[Substitution]:
+        return self._args[0]
+
+
+class _Pair(_Boolean):
+    """Two truth values."""
+
+    def __init__(self, left: SomeSubstitutionsType, right: SomeSubstitutionsType) -> None:
+        super().__init__(left, right)
+
+    @property
+    def left(self) -> list[Substitution]:
+        return self._args[0]
+
+    @property
+    def right(self) -> list[Substitution]:
+        return self._args[1]
+
+
+class AndSubstitution(_Pair):
+    """Whether both are true."""
+
+    _combine = staticmethod(all)
+
+
+class OrSubstitution(_Pair):
+    """Whether at least one of the two is true."""
+
+    _combine = staticmethod(any)
+
+
+TRUE, FALSE = ("true", "1"), ("false", "0")
+
+
+class EqualsSubstitution(Substitution):
+    """`true` where both are the same truth value, the same number, or the same text."""
+
+    def __init__(self, left: Any, right: Any) -> None:
+        self._left = normalize_to_list_of_substitutions(_text(left))
+        self._right = normalize_to_list_of_substitutions(_text(right))
+
+    @property
+    def left(self) -> list[Substitution]:
+        return self._left
+
+    @property
+    def right(self) -> list[Substitution]:
+        return self._right
+
+    def describe(self) -> str:
+        return f"{type(self).__name__}({self._left} {self._right})"
+
+    def perform(self, context: LaunchContext) -> str:
+        return str(self._equal(context)).lower()
+
+    def _equal(self, context: LaunchContext) -> bool:
+        left, right = perform_substitutions(context, self._left), perform_substitutions(context, self._right)
+        truths = [_truth(left), _truth(right)]
+        if None not in truths:
+            return truths[0] == truths[1]
+        try:
+            return math.isclose(float(left), float(right))
+        except ValueError:
+            return left == right
+
+
+def _text(value: Any) -> Any:
+    if is_substitution(value):
+        return value
+    if value is None:
+        return ""
+    return str(value).lower() if isinstance(value, bool) else str(value)
+
+
+def _truth(text: str) -> bool | None:
+    return True if text.lower() in TRUE else False if text.lower() in FALSE else None
+
+
+class NotEqualsSubstitution(EqualsSubstitution):
+    """`true` where the two do not mean the same."""
+
+    def perform(self, context: LaunchContext) -> str:
+        return str(not self._equal(context)).lower()
+
+
+class IfElseSubstitution(Substitution):
+    """The first text where the condition is true, else the second."""
+
+    def __init__(
+        self,
+        condition: SomeSubstitutionsType,
+        if_value: SomeSubstitutionsType = "",
+        else_value: SomeSubstitutionsType = "",
+    ) -> None:
+        if if_value == else_value == "":
+            raise RuntimeError("One of if_value and else_value must be specified")
+        self._condition = normalize_to_list_of_substitutions(condition)
+        self._if = normalize_to_list_of_substitutions(if_value)
+        self._else = normalize_to_list_of_substitutions(else_value)
+
+    @property
+    def condition(self) -> list[Substitution]:
+        return self._condition
+
+    @property
+    def if_value(self) -> list[Substitution]:
+        return self._if
+
+    @property
+    def else_value(self) -> list[Substitution]:
+        return self._else
+
+    def describe(self) -> str:
+        return f"IfElseSubstitution({self._condition}, {self._if}, {self._else})"
+
+    def perform(self, context: LaunchContext) -> str:
+        try:
+            chosen = self._if if perform_typed_substitution(context, self._condition, bool) else self._else
+        except (TypeError, ValueError) as error:
+            raise SubstitutionFailure(error) from error
+        return perform_substitutions(context, chosen)
+
+
+class PythonExpression(Substitution):
+    """The text of what the expression evaluates to; it knows the modules named, and what `math` holds."""
+
+    def __init__(self, expression: SomeSubstitutionsType, python_modules: SomeSubstitutionsType = ("math",)) -> None:
+        ensure_argument_type(expression, (str, Substitution, Iterable), "expression", "PythonExpression")
+        ensure_argument_type(python_modules, (str, Substitution, Iterable), "python_modules", "PythonExpression")
+        self._expression = normalize_to_list_of_substitutions(expression)
+        self._modules = normalize_to_list_of_substitutions(python_modules)
+
+    @property
+    def expression(self) -> list[Substitution]:
+        return self._expression
+
+    @property
+    def python_modules(self) -> list[Substitution]:
+        return self._modules
+
+    def describe(self) -> str:
+        expression = " + ".join(part.describe() for part in self._expression)
+        return f"PythonExpr({expression}, [{', '.join(part.describe() for part in self._modules)}])"
+
+    def perform(self, context: LaunchContext) -> str:
+        names: dict[str, Any] = {}
+        for item in self._modules:
+            module = importlib.import_module(context.perform_substitution(item))
+            if module.__name__ == "math":
+                names.update(vars(module))
+            names[module.__name__] = module
+        # The launch file is the learner's own code: its expressions may do what it may do.
+        return str(eval(perform_substitutions(context, self._expression), {}, names))

@@ -1,0 +1,216 @@
+"""ROS nodes with a lifecycle, their transitions, and the handler of those."""
+
+from __future__ import annotations
+
+import importlib
+import threading
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from launch._entities import (
+    Action,
+    BaseEventHandler,
+    Event,
+    EventHandler,
+    LaunchDescriptionEntity,
+    SomeEntitiesType,
+    SomeSubstitutionsType,
+)
+from launch.actions._composition import OpaqueFunction
+from launch.actions._events import EmitEvent, RegisterEventHandler
+from launch.launch_context import LaunchContext
+from launch.logging import get_logger
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+from ..events import STATES, TRANSITIONS, ChangeState, StateTransition, matches_node_name
+from ..ros_adapters import get_ros_node
+from ._node import Node
+
+_LOOK_EVERY_S = 0.2
+"""How often a wait for the node is looked at, in case the launch ends meanwhile."""
+
+
+class LifecycleNode(Node):
+    """Starts a node, emits StateTransition when it changes its state, and has ChangeState events change it."""
+
+    def __init__(self, *, name: SomeSubstitutionsType, namespace: SomeSubstitutionsType, **kwargs: Any) -> None:
+        super().__init__(name=name, namespace=namespace, **kwargs)
+        self._current_state = STATES[0]
+        self._client: Any = None
+        self._subscription: Any = None
+
+    def execute(self, context: LaunchContext) -> Sequence[LaunchDescriptionEntity] | None:
+        self._find_names(context)
+        if self.UNSPECIFIED_NODE_NAME in self.node_name:
+            raise RuntimeError("node_name unexpectedly incomplete for lifecycle node")
+        messages = importlib.import_module("lifecycle_msgs.msg")
+        services = importlib.import_module("lifecycle_msgs.srv")
+        node = get_ros_node(context)
+
+        def on_transition(message: Any) -> None:
+            self._current_state = STATES[message.goal_state.id]
+            event = StateTransition(action=self, msg=message)
+            context.asyncio_loop.call_soon_threadsafe(context.emit_event_sync, event)
+
+        topic = f"{self.node_name}/transition_event"
+        self._subscription = node.create_subscription(messages.TransitionEvent, topic, on_transition, 10)
+        self._client = node.create_client(services.ChangeState, f"{self.node_name}/change_state")
+        context.register_event_handler(self._on_change_state(services.ChangeState.Request))
+        return super().execute(context)
+
+    def _on_change_state(self, request_type: Any) -> BaseEventHandler:
+        def ask(context: LaunchContext) -> None:
+            event = context.locals.event
+            if not event.lifecycle_node_matcher(self):
+                return
+            request = request_type()
+            request.transition.id = event.transition_id
+            asked = context.asyncio_loop.run_in_executor(None, self._change_state, request, context)
+            context.add_completion_future(asked)
+
+        return EventHandler(
+            matcher=lambda event: isinstance(event, ChangeState), entities=[OpaqueFunction(function=ask)]
+        )
+
+    def _change_state(self, request: Any, context: LaunchContext) -> None:
+        """Call the node's service, in a thread of its own."""
+        logger = get_logger("launch_ros.actions.lifecycle_node")
+        service = self._client.srv_name
+        while not self._client.wait_for_service(timeout_sec=_LOOK_EVERY_S):
+            if context.is_shutdown:
+                logger.warning(f"Abandoning wait for the '{service}' service, due to shutdown.")
+                return
+        answered = threading.Event()
+        answer = self._client.call_async(request)
+        answer.add_done_callback(lambda _: answered.set())
+        while not answered.wait(_LOOK_EVERY_S):
+            if context.is_shutdown:
+                logger.warning(f"Abandoning wait for the '{service}' service response, due to shutdown.")
+                answer.cancel()
+                return
+        if not answer.result().success:
+            name = TRANSITIONS[request.transition.id]
+            logger.error(f"Failed to make transition '{name}' for LifecycleNode '{self.node_name}'")
+
+
+class OnStateTransition(EventHandler):
+    """Picks transitions by all that is given: node, transition, start and goal; or by `matcher` alone."""
+
+    def __init__(
+        self,
+        *,
+        entities: SomeEntitiesType,
+        target_lifecycle_node: LifecycleNode | None = None,
+        transition: str | None = None,
+        start_state: str | None = None,
+        goal_state: str | None = None,
+        matcher: Callable[[Event], bool] | None = None,
+        **kwargs: Any,
+    ) -> None:
+        if target_lifecycle_node is not None and not isinstance(target_lifecycle_node, LifecycleNode):
+            raise RuntimeError("OnStateTransition requires a 'LifecycleNode' action as the target")
+
+        def matches(event: Event) -> bool:
+            return (
+                isinstance(event, StateTransition)
+                and target_lifecycle_node in (None, event.action)
+                and transition in (None, event.transition)
+                and start_state in (None, event.start_state)
+                and goal_state in (None, event.goal_state)
+            )
+
+        super().__init__(matcher=matcher or matches, entities=entities, **kwargs)
+        self._target = target_lifecycle_node
+
+    @property
+    def handler_description(self) -> str:
+        return "<actions>"
+
+    @property
+    def matcher_description(self) -> str:
+        if self._target is None:
+            return "event == StateTransition"
+        return f"event == StateTransition and event.action == LifecycleNode({hex(id(self._target))})"
+
+
+GOALS = {
+    1: ("configuring", "inactive"),
+    2: ("cleaningup", "unconfigured"),
+    3: ("activating", "active"),
+    4: ("deactivating", "inactive"),
+    5: ("shuttingdown", "finalized"),
+    6: ("shuttingdown", "finalized"),
+    7: ("shuttingdown", "finalized"),
+}
+"""For each transition the state that it passes through, and the one that it leads to."""
+
+
+class LifecycleTransition(Action):
+    """Has each node make the transitions: the next one when it has reached the goal of the one before."""
+
+    def __init__(
+        self,
+        *,
+        lifecycle_node_names: Sequence[SomeSubstitutionsType],
+        transition_ids: Sequence[int | SomeSubstitutionsType],
+        **kwargs: Any,
+    ) -> None:
+        super().__init__(**kwargs)
+        if not transition_ids:
+            raise ValueError("No transition_ids provided.")
+        if not lifecycle_node_names:
+            raise ValueError("No lifecycle_node_names provided.")
+        self._names = [normalize_to_list_of_substitutions(name) for name in lifecycle_node_names]
+        self._ids = [
+            normalize_to_list_of_substitutions(str(number) if isinstance(number, int) else number)
+            for number in transition_ids
+        ]
+
+    def execute(self, context: LaunchContext) -> list[Action]:
+        numbers = [_number(perform_substitutions(context, number)) for number in self._ids]
+        actions: list[Action] = []
+        for parts in self._names:
+            actions += _of_node(perform_substitutions(context, parts), numbers)
+        return actions
+
+
+def _number(text: str) -> int:
+    try:
+        return int(text)
+    except ValueError:
+        raise ValueError(f"expected integer for lifecycle transition, got {text}") from None
+
+
+def _of_node(name: str, numbers: Sequence[int]) -> list[Action]:
+    is_it = matches_node_name(name)
+    handlers: list[BaseEventHandler] = []
+
+    def forget(context: LaunchContext, reason: str = "") -> None:
+        if reason:
+            get_logger("launch_ros.actions.lifecycle_transition").info(
+                f"Stopping transitions for {name} because '{reason}'"
+            )
+        for handler in handlers:
+            if handler in context._event_handlers:
+                context.unregister_event_handler(handler)
+
+    def has_failed(event: Event) -> bool:
+        return isinstance(event, StateTransition) and is_it(event.action) and event.goal_state == "errorprocessing"
+
+    changes = [EmitEvent(event=ChangeState(lifecycle_node_matcher=is_it, transition_id=number)) for number in numbers]
+    for number, then in zip(numbers, [*changes[1:], OpaqueFunction(function=forget)], strict=True):
+        handlers.append(OnStateTransition(matcher=_reaches(is_it, *GOALS[number]), entities=[then], handle_once=True))
+    failed = OpaqueFunction(function=forget, kwargs={"reason": "error occured during transitions"})
+    handlers.append(EventHandler(matcher=has_failed, entities=[failed], handle_once=True))
+    return [*map(RegisterEventHandler, handlers), changes[0]]
+
+
+def _reaches(is_it: Any, start: str, goal: str) -> Any:
+    def reaches(event: Event) -> bool:
+        return (
+            isinstance(event, StateTransition)
+            and is_it(event.action)
+            and (event.start_state, event.goal_state) == (start, goal)
+        )
+
+    return reaches

@@ -1,0 +1,132 @@
+"""Actions that set something for all nodes behind them, and a timer."""
+
+from __future__ import annotations
+
+import os.path
+from typing import Any
+
+from launch._entities import Action, SomeSubstitutionsType, Substitution, SubstitutionFailure
+from launch.actions._events import TimerAction
+from launch.launch_context import LaunchContext
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+from ..parameter_descriptions import evaluate_parameter_dict, normalize_parameter_dict
+from ..utilities import InvalidNamespaceException, make_namespace_absolute, prefix_namespace, validate_namespace
+
+
+class PushROSNamespace(Action):
+    """Nodes that follow in this scope are in the namespace, which is itself in the one pushed before."""
+
+    def __init__(self, namespace: SomeSubstitutionsType, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self._namespace = normalize_to_list_of_substitutions(namespace)
+
+    @property
+    def namespace(self) -> list[Substitution]:
+        return self._namespace
+
+    def execute(self, context: LaunchContext) -> None:
+        pushed = perform_substitutions(context, self._namespace)
+        previous = context.launch_configurations.get("ros_namespace")
+        namespace = make_namespace_absolute(prefix_namespace(previous, pushed))
+        try:
+            validate_namespace(namespace or "")
+        except InvalidNamespaceException as error:
+            raise SubstitutionFailure(
+                f"The resulting namespace is invalid: [previous_namespace='{previous}', pushed_namespace='{pushed}']"
+            ) from error
+        context.launch_configurations["ros_namespace"] = namespace
+
+
+class SetParameter(Action):
+    """Nodes that follow in this scope get this parameter; their own count more."""
+
+    def __init__(self, name: SomeSubstitutionsType, value: Any, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self._parameter = normalize_parameter_dict({tuple(normalize_to_list_of_substitutions(name)): value})
+
+    @property
+    def name(self) -> Any:
+        return next(iter(self._parameter))
+
+    @property
+    def value(self) -> Any:
+        return next(iter(self._parameter.values()))
+
+    def execute(self, context: LaunchContext) -> None:
+        evaluated = evaluate_parameter_dict(context, self._parameter)
+        context.launch_configurations.setdefault("global_params", []).extend(evaluated.items())
+
+
+class SetParametersFromFile(Action):
+    """Nodes that follow in this scope get the parameters in the file."""
+
+    def __init__(self, filename: SomeSubstitutionsType, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self._file = normalize_to_list_of_substitutions(filename)
+
+    def execute(self, context: LaunchContext) -> None:
+        path = perform_substitutions(context, self._file)
+        context.launch_configurations.setdefault("global_params", []).append(path)
+
+
+class SetUseSimTime(Action):
+    """Sets `use_sim_time` on the launch's own node, and on no other. Here it has none, so nothing is done."""
+
+    def __init__(self, value: bool, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self._value = value
+
+    @property
+    def value(self) -> bool:
+        return self._value
+
+    def execute(self, context: LaunchContext) -> None:
+        return None
+
+
+class SetRemap(Action):
+    """Nodes that follow in this scope get this remapping, before their own."""
+
+    def __init__(self, src: SomeSubstitutionsType, dst: SomeSubstitutionsType, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self._src = normalize_to_list_of_substitutions(src)
+        self._dst = normalize_to_list_of_substitutions(dst)
+
+    @property
+    def src(self) -> list[Substitution]:
+        return self._src
+
+    @property
+    def dst(self) -> list[Substitution]:
+        return self._dst
+
+    def execute(self, context: LaunchContext) -> None:
+        rule = (perform_substitutions(context, self._src), perform_substitutions(context, self._dst))
+        # The list itself is shared, not copied, by an inner scope that finds it: so does the original.
+        context.launch_configurations.setdefault("ros_remaps", []).append(rule)
+
+
+def _current(context: LaunchContext) -> str:
+    home = context.environment.get("ROS_HOME") or os.path.expanduser("~/.ros")
+    return context.environment.get("ROS_LOG_DIR") or os.path.join(home, "log")
+
+
+class SetROSLogDir(Action):
+    """Processes started from here on, in this scope, have another ROS_LOG_DIR; a relative one is below the last."""
+
+    def __init__(self, new_log_dir: SomeSubstitutionsType, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self._log_dir = normalize_to_list_of_substitutions(new_log_dir)
+
+    @property
+    def log_dir(self) -> list[Substitution]:
+        return self._log_dir
+
+    def execute(self, context: LaunchContext) -> None:
+        folder = perform_substitutions(context, self._log_dir)
+        context.environment["ROS_LOG_DIR"] = os.path.join(_current(context), folder)
+
+
+class ROSTimer(TimerAction):
+    """A timer on the clock of the launch's own node, which is the system's here: there is no simulated time."""
