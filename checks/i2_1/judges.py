@@ -36,6 +36,7 @@ from checks.i2_1.facts import (
 from tutor.judge import causes, ending, tracebacks
 from tutor.judge.causes import names, parameter_slips, period_slips, slips
 from tutor.judge.rates import TOLERANCE, Rate, describe
+from tutor.judge.rewriting.node import started
 from tutor.judge.rewriting.whole import followable
 from tutor.judge.trace import Level, Parameter, SetAnswer, Trace
 from tutor.judge.tracebacks import Frame
@@ -130,7 +131,7 @@ def judge_launch(seen: Launched) -> Verdict:
 
 def _why_launch_rate(seen: Launched) -> Cause:
     rate, trace = seen.rate, seen.trace
-    if (whole := period_slips.whole_division(steps.file(trace))) is not None:
+    if (whole := period_slips.whole_division(started(trace))) is not None:
         return whole
     if rate is not None and rate.in_bursts:
         return causes.in_bursts(steps.steady(trace))
@@ -147,7 +148,7 @@ def _are_alike(rate: Rate, other: Rate | None) -> bool:
 
 
 def _other_rate(trace: Trace) -> Cause:
-    return period_slips.whole_division(steps.file(trace)) or Cause(
+    return period_slips.whole_division(started(trace)) or Cause(
         "wrong rate", f"{RATE} has an effect, but not this one", steps.heeded(trace, RATE)
     )
 
@@ -161,7 +162,7 @@ def _made_whole(rate: Rate | None, asked: float, step: str) -> Cause | None:
 
 
 def _ignored(name: str, trace: Trace) -> Cause:
-    return parameter_slips.overridden(steps.file(trace), name) or Cause(
+    return parameter_slips.overridden(started(trace), name) or Cause(
         "parameter ignored", f"{name} given at start-up has no effect", steps.heeded(trace, name)
     )
 
@@ -258,7 +259,7 @@ def _ignored_later(name: str, trace: Trace) -> Cause:
     compared = slips.truth_as_text(trace) if name == ENABLED else None
     if compared is not None:
         return Cause("parameter ignored", f"{name} is accepted, but compared with a text", compared)
-    read = steps.file(trace)
+    read = started(trace)
     old = parameter_slips.old_value_read(read, name)
     if (cause := parameter_slips.overridden(read, name) or parameter_slips.not_called(read)) is not None:
         return cause
@@ -377,7 +378,7 @@ def judge_timer(seen: Retimed) -> Verdict:
 def _why_timer(seen: Retimed, asked: float, rate: Rate | None) -> Cause:
     if seen.trace.exit and (cause := causes.of_process(seen.trace)):
         return cause
-    read, trace = steps.file(seen.trace), seen.trace
+    read, trace = started(seen.trace), seen.trace
     whole_division = period_slips.whole_division(read)
     if rate is not None and rate.in_bursts:
         return whole_division or causes.in_bursts(steps.steady(trace))
@@ -399,7 +400,7 @@ def _why_timer(seen: Retimed, asked: float, rate: Rate | None) -> Cause:
 
 def _not_replaced(trace: Trace) -> Cause:
     """The parameter has a new value, the timer its old period."""
-    read = steps.file(trace)
+    read = started(trace)
     if (cause := parameter_slips.overridden(read, RATE)) is not None:
         return cause
     if (old := parameter_slips.old_value_read(read, RATE)) is not None:
@@ -410,7 +411,7 @@ def _not_replaced(trace: Trace) -> Cause:
 
 def _not_refused(trace: Trace, bad: float) -> Cause:
     """A bad number is taken."""
-    read = steps.file(trace)
+    read = started(trace)
     return parameter_slips.not_called(read) or Cause(
         "no validation", parameter_slips.why_accepted(read, bad), steps.refused(trace)
     )

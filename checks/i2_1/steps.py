@@ -18,14 +18,9 @@ from tutor.judge.trace import SetAnswer, Trace
 from tutor.judge.tracebacks import Frame
 
 
-def file(trace: Trace) -> NodeFile:
-    """The learner's file that was started."""
-    return started(trace)
-
-
 def declared(trace: Trace, names: Sequence[str]) -> str:
     """These parameters are declared with their defaults."""
-    read = file(trace)
+    read = started(trace)
     edits = [
         edit
         for name in names
@@ -39,14 +34,14 @@ def declared(trace: Trace, names: Sequence[str]) -> str:
 
 def published(trace: Trace) -> str:
     """A publisher, a timer and its callback that sends the messages."""
-    read = file(trace)
+    read = started(trace)
     data = publishing.text_with(read, PREFIX)
     return read.step(publishing.publishing(read, TOPIC, TYPE, data, RATE, enabled=ENABLED), program(read)) or ""
 
 
 def heeded(trace: Trace, name: str) -> str:
     """What the node does follows the parameter: each message looks its value up."""
-    read = file(trace)
+    read = started(trace)
     if name == RATE:
         first = publishing.period(read, f"1.0 / {read.value(RATE)}")
     elif name == PREFIX:
@@ -59,7 +54,7 @@ def heeded(trace: Trace, name: str) -> str:
 
 def heeded_later(trace: Trace, name: str) -> str:
     """As `heeded`, while the node runs: the whole callback, where it does not follow the other parameter either."""
-    read = file(trace)
+    read = started(trace)
     others = {PREFIX, ENABLED} - {name}
     if all(parameters.is_followed(read, other) for other in others):
         return heeded(trace, name)
@@ -68,7 +63,7 @@ def heeded_later(trace: Trace, name: str) -> str:
 
 def followed(trace: Trace) -> str:
     """Every change of a parameter takes effect: its callbacks are rewritten, or else the timer's, too."""
-    read = file(trace)
+    read = started(trace)
     return read.step(*_larger(read, _following_by_one, _whole)) or (
         "in a post-set callback: cancel the timer, and make another one with the period 1.0 / rate"
     )
@@ -76,7 +71,7 @@ def followed(trace: Trace) -> str:
 
 def resumed(trace: Trace) -> str:
     """The timer goes on, whatever `enabled` says: the timer's callback and those of the parameters are rewritten."""
-    read = file(trace)
+    read = started(trace)
     return read.step(*_larger(read, _whole)) or (
         f"let one timer run on, and only skip publish() while {ENABLED} is false"
     )
@@ -84,7 +79,7 @@ def resumed(trace: Trace) -> str:
 
 def steady(trace: Trace) -> str:
     """One message for each call of the timer's callback, by one timer."""
-    read = file(trace)
+    read = started(trace)
     return read.step(*_larger(read, _ticking_by_one, _whole)) or (
         f"publish one message in each callback of one timer, whose period is 1.0 / {RATE}"
     )
@@ -92,13 +87,13 @@ def steady(trace: Trace) -> str:
 
 def cancelled(trace: Trace) -> str:
     """The old timer is cancelled before there is a new one."""
-    read = file(trace)
+    read = started(trace)
     return read.step(parameters.cancelling(read)) or followed(trace)
 
 
 def freed(trace: Trace, stuck: Sequence[Frame]) -> str:
     """Nothing waits in the callbacks of the timer or of the parameters, whichever it was."""
-    read = file(trace)
+    read = started(trace)
     tick = read.tick
     here = {frame.line for frame in stuck}
     if tick is not None and any(tick.lineno <= line <= (tick.end_lineno or 0) for line in here):
@@ -108,7 +103,7 @@ def freed(trace: Trace, stuck: Sequence[Frame]) -> str:
 
 def refused(trace: Trace) -> str:
     """Bad rates are refused, before anything else is done."""
-    read = file(trace)
+    read = started(trace)
     first = [*parameters.without_pre_set(read), *parameters.refusing(read, RATE)]
     return read.step(first, *_larger(read, _following)) or (
         "return SetParametersResult(successful=False, reason='...') from an on-set-parameters callback"
@@ -117,7 +112,7 @@ def refused(trace: Trace) -> str:
 
 def taken(trace: Trace, answer: SetAnswer) -> str:
     """A good value is accepted: the declaration leaves it free, and so do the callbacks."""
-    read, reason = file(trace), answer.reason
+    read, reason = started(trace), answer.reason
     if "parameter list cannot be empty" in reason:
         return refused(trace)
     if (causes.RCLPYS_OWN.match(reason) and "Callback returned" not in reason) or "out of range" in reason:
@@ -131,7 +126,7 @@ def taken(trace: Trace, answer: SetAnswer) -> str:
 
 def separate(trace: Trace) -> str:
     """All values are checked before one takes effect."""
-    read = file(trace)
+    read = started(trace)
     return read.step(*_larger(read, _following, _whole)) or (
         "only validate in the on-set callback; apply in a post-set callback (add_post_set_parameters_callback)"
     )
@@ -139,7 +134,7 @@ def separate(trace: Trace) -> str:
 
 def checked_at_start(trace: Trace) -> str:
     """A bad rate that the node is started with is told by the parameter's name."""
-    read = file(trace)
+    read = started(trace)
     return read.step(parameters.checked_at_start(read, RATE), program(read)) or (
         f"check it after declaring it, and log an error that names {RATE}"
     )
@@ -147,7 +142,7 @@ def checked_at_start(trace: Trace) -> str:
 
 def anything(trace: Trace) -> str:
     """The program as a whole, whatever its fault is; empty where Python cannot read the file."""
-    read = file(trace)
+    read = started(trace)
     return read.step(program(read)) or ""
 
 

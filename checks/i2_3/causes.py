@@ -11,7 +11,7 @@ from checks.i2_3.facts import SERVICE, SHORTEST_S, TYPE, Lone, Quiet, Three, rig
 from checks.i2_3.pace import During, Fault
 from checks.i2_3.ticks import HZ, Series
 from tutor.judge import causes, tracebacks
-from tutor.judge.rewriting.node import NodeFile
+from tutor.judge.rewriting.node import NodeFile, started
 from tutor.judge.trace import CallAnswer, Service, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Cause
@@ -34,7 +34,7 @@ def of_no_service(trace: Trace) -> Cause:
             return Cause(
                 "wrong type",
                 f"{SERVICE} has the type {service.type}, not {TYPE}",
-                steps.offering(steps.read(trace))
+                steps.offering(started(trace))
                 or f"create it with AddTwoInts: self.create_service(AddTwoInts, '{SERVICE[1:]}', ...)",
             )
     same_type = [service for service in offered if service.type == TYPE]
@@ -44,13 +44,13 @@ def of_no_service(trace: Trace) -> Cause:
         return Cause(
             "wrong service name",
             f"there is {service.name} instead of {SERVICE}",
-            steps.offering(steps.read(trace))
+            steps.offering(started(trace))
             or f"name it '{SERVICE[1:]}', spelled like this, without a namespace or ~ in front",
         )
     return Cause(
         "service missing",
         f"the node is up, but offers no {SERVICE}",
-        steps.offering(steps.read(trace))
+        steps.offering(started(trace))
         or f"in __init__: self.create_service(AddTwoInts, '{SERVICE[1:]}', self.slow_add, callback_group=...)",
     )
 
@@ -61,20 +61,20 @@ def of_no_answer(seen: Lone) -> Cause:
         return broken
     if (unmatched := causes.incompatible_service(_here(seen.trace))) is not None:
         return unmatched
-    if not seen.spins and (empty := steps.not_added(steps.read(seen.trace))) is not None:
+    if not seen.spins and (empty := steps.not_added(started(seen.trace))) is not None:
         return empty
     if not seen.spins or causes.in_call(seen.stuck):
-        return _fixed(causes.of_no_answer(seen.trace, seen.stuck), steps.read(seen.trace))
+        return _fixed(causes.of_no_answer(seen.trace, seen.stuck), started(seen.trace))
     blocked = causes.of_blocked(seen.trace, seen.stuck, spins=True)
     if blocked is not None and blocked.name != "blocked executor":
-        return _fixed(blocked, steps.read(seen.trace))
+        return _fixed(blocked, started(seen.trace))
     if (locked := causes.waiting_for_lock(seen.trace, seen.stuck)) is not None:
-        return _fixed(replace(locked, name="no answer"), steps.read(seen.trace))
+        return _fixed(replace(locked, name="no answer"), started(seen.trace))
     own = tracebacks.own(seen.stuck, seen.trace.folder)
     return Cause(
         "no answer",
         f"the callback does not come to an end{f', at {own}' if own else ''}",
-        (steps.waiting(steps.read(seen.trace), own.code, own.line) if own else steps.answering(steps.read(seen.trace)))
+        (steps.waiting(started(seen.trace), own.code, own.line) if own else steps.answering(started(seen.trace)))
         or "let the callback wait 3 s, fill in response.sum and return the response; let nothing wait without a limit",
     )
 
@@ -91,7 +91,7 @@ def _here(trace: Trace) -> list[Service]:
 def of_wrong_sum(answer: CallAnswer, trace: Trace) -> Cause:
     """What may be wrong with this answer."""
     assert answer.response is not None
-    source = steps.read(trace)
+    source = started(trace)
     if answer.took_s < SHORTEST_S and (early := steps.too_early(source)) is not None:
         return early
     step = steps.answering(source) or "response.sum = request.a + request.b"
@@ -111,7 +111,7 @@ def of_other_pace(alone: Quiet, likely: Series | None) -> Cause:
     """Why no timer of 10 Hz was heard, though nobody called."""
     if (broken := causes.of_process(alone.trace)) is not None:
         return broken
-    source = steps.read(alone.trace)
+    source = started(alone.trace)
     if likely is None:
         after = alone.ending.output if alone.ending else ()
         lines = Counter(shape(line.text) for line in (*alone.trace.output, *after))
@@ -146,7 +146,7 @@ def of_disturbed_timer(seen: Lone, heard: During) -> Cause:
     """Why the timer does not go on during a call as it does outside one."""
     if (broken := causes.of_process(seen.trace)) is not None:
         return broken
-    source = steps.read(seen.trace)
+    source = started(seen.trace)
     if heard.fault is Fault.FAST:
         return Cause(
             "ticks in a burst",
@@ -196,7 +196,7 @@ def of_lost_calls(trace: Trace, three: Three, answered: Sequence[CallAnswer]) ->
     """Why not every one of three calls at once got its own sum."""
     if (broken := causes.of_process(trace)) is not None:
         return broken
-    source = steps.read(trace)
+    source = started(trace)
     if len(answered) < len(three.answers):
         return Cause(
             "no answer",

@@ -35,6 +35,7 @@ from tutor.judge import causes, ending
 from tutor.judge.bench import MachineTooBusy
 from tutor.judge.following import InWords, follow
 from tutor.judge.rates import TOLERANCE
+from tutor.judge.rewriting.node import started
 from tutor.judge.trace import CallAnswer, Trace
 from tutor.judge.verdict import Cause, Status, Verdict, failed, passed, skipped
 
@@ -53,7 +54,7 @@ def _followed(verdict: Verdict, trace: Trace) -> Verdict:
     try:
         follow(verdict.hint, trace.sources)
     except InWords:
-        return replace(verdict, hint=steps.everything(steps.read(trace)) or verdict.hint)
+        return replace(verdict, hint=steps.everything(started(trace)) or verdict.hint)
     return verdict
 
 
@@ -92,7 +93,7 @@ def _judge_answer_alone(seen: Lone) -> Verdict:
         answer = call.answer
         if answer.response is not None and answer.response["sum"] != right_sum(answer):
             return failed(expected, _told(answer), why.of_wrong_sum(answer, seen.trace))
-    source = steps.read(seen.trace)
+    source = started(seen.trace)
     told, took = _told(best.answer), f"the work takes {best.answer.took_s:.1f} s"
     if best.answer.took_s < SHORTEST_S:
         if (early := steps.too_early(source)) is not None:
@@ -194,7 +195,7 @@ def judge_parallel(one: Lone, several: Trio) -> Verdict:
     cause = Cause(
         "one call at a time",
         "the calls wait for each other",
-        steps.apart(steps.read(several.trace))
+        steps.apart(started(several.trace))
         or "put the service into a ReentrantCallbackGroup, and give the executor threads enough: num_threads=8",
     )
     return failed(expected, observed, cause)

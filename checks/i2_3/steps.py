@@ -14,21 +14,15 @@ from checks.i2_3.rewriting import every, service, ticking, timer, working
 from checks.i2_3.ticks import HZ
 from tutor.judge.causes.printing import audible
 from tutor.judge.edits import Edit, becomes, in_place, instead, without
-from tutor.judge.rewriting.node import NodeFile, argument, started
+from tutor.judge.rewriting.node import NodeFile, argument
 from tutor.judge.rewriting.program import program
 from tutor.judge.source import calls_in, values_of
-from tutor.judge.trace import Trace
 from tutor.judge.verdict import Cause
 
 _GROUP = "callback_group"
 _MANY = "MultiThreadedExecutor"
 _THREADS = 8
 _LOGS = ("info", "warning", "warn", "error", "fatal")
-
-
-def read(trace: Trace) -> NodeFile:
-    """The learner's file that was started."""
-    return started(trace)
 
 
 def everything(file: NodeFile) -> str | None:

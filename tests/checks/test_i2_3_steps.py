@@ -11,7 +11,7 @@ from tests.checks.made import trace
 from tests.judging import find
 from tutor.content.submissions import Case
 from tutor.judge.following import follow
-from tutor.judge.rewriting.node import NodeFile
+from tutor.judge.rewriting.node import NodeFile, started
 
 NODE = """\
 import time
@@ -211,7 +211,7 @@ def test_what_cannot_be_read_leaves_the_plain_words() -> None:
 
 
 def test_a_step_names_its_file_where_there_are_others() -> None:
-    read = steps.read(trace(sources={"node.py": NODE.replace("time.sleep(3.0)", "time.sleep(9.0)"), "other.py": ""}))
+    read = started(trace(sources={"node.py": NODE.replace("time.sleep(3.0)", "time.sleep(9.0)"), "other.py": ""}))
 
     assert steps.working_for(read) == "in node.py, line 18 becomes: time.sleep(3.0)"
 
