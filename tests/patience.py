@@ -6,7 +6,7 @@ import asyncio
 import time
 from collections.abc import Callable
 
-from tutor.process.starvation import cpu_time_here
+from tutor.process.cpu_wait import own_cpu_time
 
 LOOK_EVERY_S = 0.02
 
@@ -16,10 +16,10 @@ async def seen_within(seen: Callable[[], bool], limit_s: float) -> bool:
 
     Whoever looks so often, and sleeps so little between, waits for the CPU as long as anybody on the machine.
     """
-    began, waited = time.monotonic(), cpu_time_here().waited_s
+    began, waited = time.monotonic(), own_cpu_time().waited_s
     while not seen():
         took = time.monotonic() - began
-        if took > limit_s and took - (cpu_time_here().waited_s - waited) > limit_s:
+        if took > limit_s and took - (own_cpu_time().waited_s - waited) > limit_s:
             return False
         await asyncio.sleep(LOOK_EVERY_S)
     return True

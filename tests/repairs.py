@@ -22,11 +22,11 @@ from pathlib import Path
 
 from tests.judging import check_folder, find
 from tutor.content.submissions import WRONG
-from tutor.judge.following import InWords, follow
 from tutor.judge.result import CriterionResult, ExerciseResult
+from tutor.judge.step_parsing import NotAnEdit, apply_step
 from tutor.judge.verdict import Status
 
-__all__ = ["InWords", "follow", "repair_all", "table"]
+__all__ = ["NotAnEdit", "apply_step", "repair_all", "table"]
 
 
 @dataclass
@@ -61,9 +61,9 @@ async def repair(name: str, exercise: str, folder: Path, most: int) -> Repair:
             told.steps.append(failed.verdict.hint)
             files = {file.name: file.read_text() for file in sorted(copy.glob("*.py"))}
             try:
-                for file, text in follow(failed.verdict.hint, files).items():
+                for file, text in apply_step(failed.verdict.hint, files).items():
                     (copy / file).write_text(text)
-            except InWords:
+            except NotAnEdit:
                 told.in_words = True
                 return told
     return told
@@ -127,8 +127,8 @@ def main() -> int:
     """Exit code 0, whatever was fixed; 2 where there is nothing to follow."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("wanted", nargs="*")
-    parser.add_argument("--jobs", type=int, default=2, help="so many at a time")
-    parser.add_argument("--steps", type=int, default=2, help="follow so many steps, one after another")
+    parser.add_argument("--jobs", type=int, default=2, help="this many at a time")
+    parser.add_argument("--steps", type=int, default=2, help="follow this many steps, one after another")
     parser.add_argument("--every", type=int, default=1, help="take each Nth submission only")
     arguments = parser.parse_args()
     folders = [Path(each) for each in arguments.wanted if Path(each).is_dir()]

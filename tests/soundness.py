@@ -67,7 +67,7 @@ async def judge_all(chosen: Sequence[Case], jobs: int) -> list[Outcome]:
 
 @contextmanager
 def busy_cores(count: int) -> Iterator[None]:
-    """Keep so many cores busy, at normal priority."""
+    """Keep this many cores busy, at normal priority."""
     command = [sys.executable, "-I", "-S", "-c", BUSY, str(os.getpid()), str(BUSY_LIMIT_S)]
     loops = [subprocess.Popen(command) for _ in range(count)]
     try:
@@ -136,8 +136,8 @@ def main() -> int:
     """Exit code 0 where every verdict is as expected, 1 where not, 2 where there is nothing to judge."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("wanted", nargs="*")
-    parser.add_argument("--times", type=int, default=1, help="judge each so often")
-    parser.add_argument("--jobs", type=int, default=3, help="so many at a time")
+    parser.add_argument("--times", type=int, default=1, help="judge each this many times")
+    parser.add_argument("--jobs", type=int, default=3, help="this many at a time")
     parser.add_argument("--changed", action="store_true", help="only what a difference from main may concern")
     parser.add_argument("--busy", action="store_true", help="with a busy loop beside it for each core")
     parser.add_argument("--json", action="store_true", help="print the wrong ones as JSON, too")

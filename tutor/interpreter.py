@@ -10,7 +10,7 @@ FLAGS = ("-I", "-B", "-X", "utf8")
 """Without PYTHON* variables, the current folder and the user's own packages; no bytecode beside a learner's files."""
 
 
-def of_ours(module: str, *arguments: str) -> tuple[str, ...]:
+def module_command(module: str, *arguments: str) -> tuple[str, ...]:
     """The command that runs a module of ours."""
     return (sys.executable, *FLAGS, "-m", module, *arguments)
 

@@ -20,7 +20,7 @@ _COMMAND_IN_TEXT = re.compile(r"(^|`|\$ )ros-tutor(?=\s|`|$)", re.MULTILINE)
 
 def program() -> str:
     """The word, or path, by which this program was started: `./ros-tutor` in a clone, `ros-tutor` where installed."""
-    return started_as(os.environ, sys.argv)
+    return detect_program_name(os.environ, sys.argv)
 
 
 def command(*words: str | Path) -> str:
@@ -28,18 +28,18 @@ def command(*words: str | Path) -> str:
     return " ".join([program(), *(shlex.quote(str(word)) for word in words)])
 
 
-def as_started(text: str) -> str:
+def with_program_name(text: str) -> str:
     """A text in which the commands of this program, written `ros-tutor ...`, are as they can be typed."""
     word = program()
     return text if word == PROGRAM else _COMMAND_IN_TEXT.sub(lambda found: found[1] + word, text)
 
 
-def tell_children() -> None:
+def export_program_name() -> None:
     """Let the processes that are started from this one (the engine, a served app) name its commands as it does."""
     os.environ[VARIABLE] = f"{os.getpid()} {program()}"
 
 
-def started_as(environ: Mapping[str, str], argv: Sequence[str]) -> str:
+def detect_program_name(environ: Mapping[str, str], argv: Sequence[str]) -> str:
     """What `program` says, from these facts."""
     process, _, word = environ.get(VARIABLE, "").partition(" ")
     if word and process in (str(os.getpid()), str(os.getppid())):

@@ -24,7 +24,7 @@ def harmless(text: str, *, colors: bool = False) -> str:
 
 
 def printable(text: str) -> str:
-    """`harmless` text with spaces for tabs; what is no valid Unicode becomes a replacement character."""
+    """`harmless` text with spaces for tabs; what is not valid Unicode becomes a replacement character."""
     return harmless(_SURROGATE.sub(_REPLACEMENT, text.replace("\r\n", "\n").expandtabs(4)))
 
 

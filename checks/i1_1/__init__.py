@@ -8,13 +8,15 @@ from tutor.judge.check import Check, Criterion
 CHECK = Check(
     "i1.1",
     (
-        Criterion("publishes", judges.judge_publishes, (scenarios.survey,)),
-        Criterion("range", judges.judge_range, (scenarios.values, scenarios.more_values), after=("publishes",)),
-        Criterion("random", judges.judge_random, (scenarios.values,), after=("publishes",)),
-        Criterion("echo", judges.judge_echo, (scenarios.survey,), after=("publishes",)),
-        Criterion("rate", judges.judge_rate, (scenarios.rates,), after=("publishes",)),
-        Criterion("sensor-name", judges.judge_name, (scenarios.names,)),
-        Criterion("shutdown", judges.judge_shutdown, (scenarios.survey,), bonus=True),
+        Criterion("publishes", judges.judge_publishes, (scenarios.plain_start,)),
+        Criterion(
+            "range", judges.judge_range, (scenarios.collect_values, scenarios.collect_more_values), after=("publishes",)
+        ),
+        Criterion("random", judges.judge_random, (scenarios.collect_values,), after=("publishes",)),
+        Criterion("echo", judges.judge_echo, (scenarios.plain_start,), after=("publishes",)),
+        Criterion("rate", judges.judge_rate, (scenarios.probe_rates,), after=("publishes",)),
+        Criterion("sensor-name", judges.judge_name, (scenarios.probe_names,)),
+        Criterion("shutdown", judges.judge_shutdown, (scenarios.plain_start,), bonus=True),
     ),
-    asks_s=6.0,  # rates: at 0.5 Hz, 2 s to the first message and 4 s for two periods
+    expected_s=6.0,  # rates: at 0.5 Hz, 2 s to the first message and 4 s for two periods
 )

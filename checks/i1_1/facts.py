@@ -40,7 +40,7 @@ SPARE_VALUES = {"Hz": (5.0, 1.0, 3.0, 10.0), "s": (1.0, 0.2, 0.4), "ms": (200.0,
 
 
 @dataclass(frozen=True)
-class Survey:
+class PlainStart:
     """A plain start. `echo` is None where nothing came to echo; `ending` where the process had ended by itself.
 
     `stuck`: where the node was, innermost frame first, when it did not publish and answered nothing.
@@ -54,7 +54,7 @@ class Survey:
 
 
 @dataclass(frozen=True)
-class Values:
+class CollectedValues:
     """The values of each of several starts without parameters; `trace` is one of them, for the words of a cause."""
 
     runs: tuple[tuple[float, ...], ...]
@@ -91,7 +91,7 @@ class RateProbe:
 
 
 @dataclass(frozen=True)
-class Rates:
+class RateProbes:
     """All starts that tried a rate. `declared` is None where the node answered no parameter call."""
 
     declared: tuple[Parameter, ...] | None
@@ -113,7 +113,7 @@ class NameProbe:
 
 
 @dataclass(frozen=True)
-class Names:
+class NameProbes:
     """All starts that tried a name. `declared` is None where the node answered no parameter call."""
 
     declared: tuple[Parameter, ...] | None
@@ -132,39 +132,39 @@ def units(name: str) -> tuple[str, ...]:
     return ("Hz", "s", "ms")
 
 
-def numeric_of(declared: Iterable[Parameter]) -> list[Parameter]:
+def numeric_parameters(declared: Iterable[Parameter]) -> list[Parameter]:
     """The numeric parameters that the learner declared; rclpy declares some of its own for QoS."""
     return [p for p in declared if p.type in ("integer", "double") and not p.name.startswith("qos_overrides")]
 
 
-def outside(values: Iterable[float]) -> list[float]:
+def out_of_range(values: Iterable[float]) -> list[float]:
     """Those that are out of range, nan included."""
     return [value for value in values if not LOWEST <= value <= HIGHEST]
 
 
-def key(probe: RateProbe) -> tuple[str, str]:
+def parameter_and_unit(probe: RateProbe) -> tuple[str, str]:
     """Which parameter this is about, and how it is read."""
     return probe.name, probe.unit
 
 
-def groups(probes: Iterable[RateProbe]) -> list[list[RateProbe]]:
+def group_probes(probes: Iterable[RateProbe]) -> list[list[RateProbe]]:
     """The probes of each parameter and unit."""
     groups: dict[tuple[str, str], list[RateProbe]] = {}
     for probe in probes:
-        groups.setdefault(key(probe), []).append(probe)
+        groups.setdefault(parameter_and_unit(probe), []).append(probe)
     return list(groups.values())
 
 
-def agreeing(probes: Iterable[RateProbe]) -> list[list[RateProbe]]:
+def agreeing_groups(probes: Iterable[RateProbe]) -> list[list[RateProbe]]:
     """The groups of which every probe agrees, two different rates at least: one may be right by chance."""
-    return [group for group in groups(probes) if len(group) > 1 and all(probe.agrees for probe in group)]
+    return [group for group in group_probes(probes) if len(group) > 1 and all(probe.agrees for probe in group)]
 
 
-def agree(group: Iterable[RateProbe]) -> int:
+def count_agreeing(group: Iterable[RateProbe]) -> int:
     """How many of the probes agree."""
     return sum(probe.agrees for probe in group)
 
 
-def swapped(group: Iterable[RateProbe]) -> list[RateProbe]:
+def inverted_probes(group: Iterable[RateProbe]) -> list[RateProbe]:
     """The probes that show the period where the rate was asked for, or the other way round."""
     return [probe for probe in group if probe.rate is not None and probe.rate.agrees(1 / probe.asked_hz)]

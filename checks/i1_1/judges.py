@@ -16,48 +16,50 @@ from checks.i1_1.facts import (
     SUGGESTED_RATE,
     TOPIC,
     TYPE,
-    Names,
+    CollectedValues,
+    NameProbes,
+    PlainStart,
     RateProbe,
-    Rates,
-    Survey,
-    Values,
-    agree,
-    agreeing,
-    groups,
-    outside,
-    swapped,
+    RateProbes,
+    agreeing_groups,
+    count_agreeing,
+    group_probes,
+    inverted_probes,
+    out_of_range,
 )
 from tutor.judge import causes, ending, randomness, tracebacks
 from tutor.judge.rates import TOLERANCE
-from tutor.judge.rewriting.whole import followable
+from tutor.judge.rewriting.whole import with_applicable_steps
 from tutor.judge.trace import Parameter, Trace
 from tutor.judge.verdict import Cause, Verdict, failed, passed
 
 
-def _of_exception(trace: Trace | None) -> Cause | None:
+def _diagnose_exception(trace: Trace | None) -> Cause | None:
     """The exception that ended the node, which tells more than what was missing then."""
-    return causes.of_process(trace) if trace is not None and tracebacks.last(trace) is not None else None
+    return (
+        causes.diagnose_process(trace) if trace is not None and tracebacks.last_traceback(trace) is not None else None
+    )
 
 
 def _stopping(trace: Trace | None) -> Cause:
-    step = steps.published(trace) or "publish from a timer's callback"
-    return _of_exception(trace) or Cause("no messages", "the node stops publishing, or hardly ever does", step)
+    step = steps.add_publisher(trace) or "publish from a timer's callback"
+    return _diagnose_exception(trace) or Cause("no messages", "the node stops publishing, or hardly ever does", step)
 
 
-def _runs(*facts: Survey | Values | Rates | Names) -> list[Trace]:
+def _runs(*facts: PlainStart | CollectedValues | RateProbes | NameProbes) -> list[Trace]:
     """The runs that facts are of: of probes, the first one."""
-    found = [each.probes[:1] if isinstance(each, Rates | Names) else (each,) for each in facts]
+    found = [each.probes[:1] if isinstance(each, RateProbes | NameProbes) else (each,) for each in facts]
     return [trace for each in found for one in each if (trace := one.trace) is not None]
 
 
 def _followable[**P](judge: Callable[P, Verdict]) -> Callable[P, Verdict]:
-    return followable(judge, _runs, steps.anything)
+    return with_applicable_steps(judge, _runs, steps.anything)
 
 
 @_followable
-def judge_publishes(seen: Survey) -> Verdict:
+def judge_publishes(seen: PlainStart) -> Verdict:
     expected = f"{TYPE} messages on {TOPIC}"
-    samples = seen.trace.on(TOPIC)
+    samples = seen.trace.samples_on(TOPIC)
     if samples:
         return passed(
             expected,
@@ -66,19 +68,19 @@ def judge_publishes(seen: Survey) -> Verdict:
             [f"data: {samples[0].message['data']}"],
         )
     answers = seen.parameters is not None
-    cause = causes.of_silence(
-        seen.trace, TOPIC, TYPE, answers=answers, stuck=seen.stuck, step=steps.published(seen.trace)
+    cause = causes.diagnose_silence(
+        seen.trace, TOPIC, TYPE, answers=answers, stuck=seen.stuck, step=steps.add_publisher(seen.trace)
     )
-    return failed(expected, "no such message", cause, causes.last_words(seen.trace))
+    return failed(expected, "no such message", cause, causes.output_tail(seen.trace))
 
 
 @_followable
-def judge_range(found: Values, more: Values) -> Verdict:
+def judge_range(found: CollectedValues, more: CollectedValues) -> Verdict:
     expected = f"every value in [{LOWEST}, {HIGHEST}] °C"
     if not found.all:
         return failed(expected, "no values at all", _stopping(found.trace))
     values = (*found.all, *more.all)
-    wrong = outside(values)
+    wrong = out_of_range(values)
     if not wrong:
         return passed(expected, f"{len(values)} values from {min(values):.2f} to {max(values):.2f} °C")
     return failed(
@@ -94,15 +96,15 @@ def _why_outside(wrong: Sequence[float], values: Sequence[float], trace: Trace |
         return Cause(
             "an int in a float field",
             "a Python int was put into Float64.data: its bits are sent as if they were a float",
-            steps.as_float(trace),
+            steps.make_float(trace),
         )
     if all(60 <= value <= 90 for value in values):
-        return Cause("out of range", "these look like degrees Fahrenheit", steps.drawn(trace))
-    return Cause("out of range", "values leave the range", steps.drawn(trace))
+        return Cause("out of range", "these look like degrees Fahrenheit", steps.draw_values(trace))
+    return Cause("out of range", "values leave the range", steps.draw_values(trace))
 
 
 @_followable
-def judge_random(found: Values) -> Verdict:
+def judge_random(found: CollectedValues) -> Verdict:
     expected = "values that vary at random: not constant, not a ramp, not a short cycle"
     told = [(run, pattern) for run in found.runs if (pattern := _pattern(run)) is not None]
     telling = sum(len(run) >= randomness.ENOUGH for run in found.runs)
@@ -114,7 +116,7 @@ def judge_random(found: Values) -> Verdict:
             Cause(
                 pattern.name,
                 pattern.text,
-                steps.drawn(found.trace),
+                steps.draw_values(found.trace),
             ),
             [f"data: {value:g}" for value in run[:8]],
         )
@@ -126,7 +128,7 @@ def judge_random(found: Values) -> Verdict:
 
 def _pattern(run: Sequence[float]) -> randomness.Pattern | None:
     """The regularity in these values; coming to rest goes before any other."""
-    found, stuck = randomness.pattern(run), _stuck(run)
+    found, stuck = randomness.find_pattern(run), _stuck(run)
     return replace(stuck, sure=found is not None and found.sure) if stuck else found
 
 
@@ -143,7 +145,7 @@ def _stuck(run: Sequence[float]) -> randomness.Pattern | None:
 
 
 @_followable
-def judge_echo(seen: Survey) -> Verdict:
+def judge_echo(seen: PlainStart) -> Verdict:
     expected = f"`ros2 topic echo {TOPIC}` shows the values"
     echo = seen.echo
     if echo is None:  # the first message came when nobody waited for it any more
@@ -158,29 +160,30 @@ def judge_echo(seen: Survey) -> Verdict:
         cause = Cause(
             "wrong type",
             f"{TOPIC} carries two types, {' and '.join(echo.types)}; echo cannot choose",
-            steps.of_one_type(seen.trace),
+            steps.use_one_type(seen.trace),
         )
     elif not echo.types:
-        cause = _of_exception(seen.trace) or Cause(
+        cause = _diagnose_exception(seen.trace) or Cause(
             "no publisher", "the publisher was gone when echo looked for it", "keep it for as long as the node lives"
         )
     else:
         cause = Cause(
             "no messages",
             f"a new subscriber got nothing in {echo.limit_s:g} s ({echo.reliability}, {echo.durability})",
-            steps.published(seen.trace) or "publish again and again from a timer, and set no short lifespan in the QoS",
+            steps.add_publisher(seen.trace)
+            or "publish again and again from a timer, and set no short lifespan in the QoS",
         )
     return failed(expected, f"nothing shown in {echo.limit_s:g} s", cause)
 
 
 @_followable
-def judge_rate(found: Rates) -> Verdict:
+def judge_rate(found: RateProbes) -> Verdict:
     expected = f"some numeric parameter, set at start-up, changes the rate as it says (±{TOLERANCE:.0%})"
-    for agreed in agreeing(found.probes):
+    for agreed in agreeing_groups(found.probes):
         return passed(expected, f"{agreed[0].name} is read in {agreed[0].unit}", [str(probe) for probe in agreed])
     if not found.probes:
         return failed(expected, "no numeric parameter is declared", _rate_not_declared(None))
-    nearest = max(groups(found.probes), key=lambda group: (agree(group), len(swapped(group))))
+    nearest = max(group_probes(found.probes), key=lambda group: (count_agreeing(group), len(inverted_probes(group))))
     wrong = next((probe for probe in nearest if not probe.agrees), None)
     if wrong is None:
         cause = Cause(
@@ -196,28 +199,28 @@ def _rate_not_declared(trace: Trace | None) -> Cause:
     return Cause(
         "parameter not declared",
         "the rate cannot be set from outside",
-        steps.pace_declared(trace, SUGGESTED_RATE),
+        steps.declare_rate(trace, SUGGESTED_RATE),
     )
 
 
 def _why_rate(group: Sequence[RateProbe], wrong: RateProbe, declared: tuple[Parameter, ...] | None) -> Cause:
-    if (cut := steps.whole_rate(wrong.trace, wrong.name)) is not None:
+    if (cut := steps.diagnose_whole_rate(wrong.trace, wrong.name)) is not None:
         return cut
-    broken = causes.of_process(wrong.trace)
+    broken = causes.diagnose_process(wrong.trace)
     if broken is not None:
         return broken
     if declared is not None and wrong.name not in {parameter.name for parameter in declared}:
         return _rate_not_declared(wrong.trace)
-    step = steps.paced(wrong.trace, wrong.name, wrong.unit)
+    step = steps.set_timer_period(wrong.trace, wrong.name, wrong.unit)
     if wrong.rate is not None and wrong.rate.in_bursts:
         return causes.in_bursts(step)
     measured = [(probe, probe.rate) for probe in group if probe.rate is not None]
-    if measured and len(swapped(group)) == len(measured):
+    if measured and len(inverted_probes(group)) == len(measured):
         if wrong.unit == "Hz":
             return causes.rate_as_period(wrong.name, step)
         return causes.period_as_rate(wrong.name, step)
     rates_seen = [rate.hz for _, rate in measured]
-    if (seen := causes.same_name(wrong.trace) or steps.why_rate(wrong.trace, wrong.name)) is not None:
+    if (seen := causes.same_name(wrong.trace) or steps.diagnose_rate(wrong.trace, wrong.name)) is not None:
         return seen
     if len(rates_seen) > 1 and max(rates_seen) <= min(rates_seen) * (1 + TOLERANCE):
         return Cause(
@@ -229,7 +232,7 @@ def _why_rate(group: Sequence[RateProbe], wrong: RateProbe, declared: tuple[Para
 
 
 @_followable
-def judge_name(found: Names) -> Verdict:
+def judge_name(found: NameProbes) -> Verdict:
     expected = "some string parameter, set at start-up, appears in the node's log messages"
     for probe in found.probes:
         if probe.found:
@@ -242,7 +245,7 @@ def judge_name(found: Names) -> Verdict:
             Cause(
                 "parameter not declared",
                 "the sensor's name cannot be set from outside",
-                steps.name_declared(probe.trace, SUGGESTED_NAME),
+                steps.declare_name(probe.trace, SUGGESTED_NAME),
             ),
         )
     evidence = [str(log) for log in probe.trace.logs[-5:]]
@@ -250,27 +253,29 @@ def judge_name(found: Names) -> Verdict:
     return failed(expected, observed, _why_name(found), evidence)
 
 
-def _why_name(found: Names) -> Cause:
+def _why_name(found: NameProbes) -> Cause:
     for probe in found.probes:
-        broken = causes.of_process(probe.trace) or causes.of_lifecycle(probe.trace)
+        broken = causes.diagnose_process(probe.trace) or causes.diagnose_lifecycle(probe.trace)
         if broken is not None:
             return broken
         says = re.compile(re.escape(probe.value)).search
-        printed = causes.of_printed(probe.trace, says, "the name", after=probe.at_end)
+        printed = causes.diagnose_printed(probe.trace, says, "the name", after=probe.at_end)
         if printed is not None:
             return printed
     if found.declared is None:
         return Cause(
             "parameter not declared",
             f"the node answers no parameter call, and {SUGGESTED_NAME} has no effect",
-            steps.name_declared(found.probes[0].trace, SUGGESTED_NAME),
+            steps.declare_name(found.probes[0].trace, SUGGESTED_NAME),
         )
-    silent = next((each.trace for each in found.probes if not each.trace.logs and not each.trace.on(TOPIC)), None)
+    silent = next(
+        (each.trace for each in found.probes if not each.trace.logs and not each.trace.samples_on(TOPIC)), None
+    )
     if silent is not None and any(each.topic == TOPIC for each in silent.graph.publishers):
-        return causes.of_silence(silent, TOPIC, TYPE, answers=True, step=steps.published(silent))
+        return causes.diagnose_silence(silent, TOPIC, TYPE, answers=True, step=steps.add_publisher(silent))
     own = [probe for probe in found.probes if probe.name in {parameter.name for parameter in found.declared}]
-    return steps.name_logged(found.probes[0].trace, (own or found.probes)[0].name)
+    return steps.diagnose_name(found.probes[0].trace, (own or found.probes)[0].name)
 
 
-def judge_shutdown(seen: Survey) -> Verdict:
-    return ending.judge(seen.trace, seen.ending)
+def judge_shutdown(seen: PlainStart) -> Verdict:
+    return ending.judge_ending(seen.trace, seen.ending)

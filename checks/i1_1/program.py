@@ -7,7 +7,7 @@ import ast
 from checks.i1_1.facts import HIGHEST, LOWEST, SUGGESTED_NAME, SUGGESTED_RATE, TOPIC
 from tutor.judge.edits import Edit
 from tutor.judge.rewriting.node import NodeFile, argument
-from tutor.judge.rewriting.whole import MAIN, names, rewritten
+from tutor.judge.rewriting.whole import MAIN, names_of, rewrite_file
 
 _PROGRAM = """\
 import random
@@ -34,12 +34,12 @@ class {node_class}(Node):
 """
 
 
-def program(file: NodeFile) -> list[Edit]:
+def whole_program(file: NodeFile) -> list[Edit]:
     """The node, its callback and main(), as a whole."""
     rate, _ = _parameter(file, ("rate", "freq", "hz"), float, SUGGESTED_RATE, 1.0)
     name, default = _parameter(file, ("name", "sensor"), str, SUGGESTED_NAME, "sensor")
     asked = {"rate": rate, "name": name, "default": default, "lowest": LOWEST, "highest": HIGHEST, "topic": TOPIC}
-    return rewritten(file, (_PROGRAM + MAIN).format(**vars(names(file, "temperature_publisher")), **asked))
+    return rewrite_file(file, (_PROGRAM + MAIN).format(**vars(names_of(file, "temperature_publisher")), **asked))
 
 
 def _parameter(file: NodeFile, words: tuple[str, ...], kind: type, name: str, default: object) -> tuple[str, object]:

@@ -19,44 +19,52 @@ from checks.i1_1.facts import (
     TYPE,
     UNITS,
     VALUES,
+    CollectedValues,
     NameProbe,
-    Names,
+    NameProbes,
+    PlainStart,
     RateProbe,
-    Rates,
-    Survey,
-    Values,
-    agreeing,
-    key,
-    numeric_of,
-    outside,
+    RateProbes,
+    agreeing_groups,
+    numeric_parameters,
+    out_of_range,
+    parameter_and_unit,
     units,
 )
 from tutor.judge import randomness
 from tutor.judge.bench import Bench, MachineTooBusy, Run
-from tutor.judge.ending import confirmed
+from tutor.judge.ending import repeat_if_doubtful
 from tutor.judge.rates import measure
 from tutor.judge.trace import Parameter, Trace
-from tutor.judge.waiting import START_S, TRIES, appears, excused, first_message, stuck, window_s
+from tutor.judge.waiting import (
+    START_S,
+    TRIES,
+    find_stuck_frames,
+    too_few_by_cpu_wait,
+    wait_for_message,
+    wait_until_seen,
+    window_s,
+)
 
 
-@confirmed
-async def survey(bench: Bench) -> Survey:
+@repeat_if_doubtful
+async def plain_start(bench: Bench) -> PlainStart:
     """Start it plainly: does it publish, does echo show it, does Ctrl+C end it cleanly?"""
-    async with bench.start(FILE, watch={TOPIC: TYPE}, asks_s=1.5) as run:
-        bench.doing(0.1, f"waiting for the first message on {TOPIC}")
+    async with bench.start(FILE, watch={TOPIC: TYPE}, expected_s=1.5) as run:
+        bench.report_progress(0.1, f"waiting for the first message on {TOPIC}")
         echo = None
-        if await first_message(run, TOPIC, TYPE):
-            bench.doing(0.5, "watching as `ros2 topic echo` does")
+        if await wait_for_message(run, TOPIC, TYPE):
+            bench.report_progress(0.5, "watching as `ros2 topic echo` does")
             echo = await run.echo(TOPIC, samples=1, limit_s=ECHO_S)
         parameters = await run.parameters(2.0)
         trace = run.trace()
-        bench.doing(0.8, "pressing Ctrl+C")
+        bench.report_progress(0.8, "pressing Ctrl+C")
         ended = await run.interrupt() if run.exit is None else None
-    silent = not trace.on(TOPIC) and parameters is None and trace.exit is None and bool(trace.graph.nodes)
-    return Survey(trace, parameters, echo, ended, await stuck(bench, FILE) if silent else ())
+    silent = not trace.samples_on(TOPIC) and parameters is None and trace.exit is None and bool(trace.graph.nodes)
+    return PlainStart(trace, parameters, echo, ended, await find_stuck_frames(bench, FILE) if silent else ())
 
 
-async def values(bench: Bench) -> Values:
+async def collect_values(bench: Bench) -> CollectedValues:
     """Collect values from two plain starts; more of them where they look suspicious."""
     seen: set[Run] = set()
 
@@ -64,62 +72,64 @@ async def values(bench: Bench) -> Values:
         seen.add(run)
         mine = _data(run)
         others = {value for other in seen if other is not run for value in _data(other)}
-        bench.doing(min(len(mine) / randomness.ENOUGH, 1), f"{len(mine)} temperatures so far")
+        bench.report_progress(min(len(mine) / randomness.ENOUGH, 1), f"{len(mine)} temperatures so far")
         # The same values in both starts may be a fixed list: only its second round would tell.
-        doubtful = randomness.suspicious(mine) or len(others.intersection(mine)) > len(mine) / 2
-        return len(mine) >= randomness.PLENTY or (not doubtful and run.now() >= run.on(TOPIC)[0].source_time + LEAST_S)
+        doubtful = randomness.needs_more_values(mine) or len(others.intersection(mine)) > len(mine) / 2
+        return len(mine) >= randomness.PLENTY or (
+            not doubtful and run.now() >= run.samples_on(TOPIC)[0].source_time + LEAST_S
+        )
 
     runs = await asyncio.gather(_collect(bench, enough), _collect(bench, enough))
-    return Values(tuple(values for values, _ in runs), runs[0][1])
+    return CollectedValues(tuple(values for values, _ in runs), runs[0][1])
 
 
-async def more_values(bench: Bench) -> Values:
+async def collect_more_values(bench: Bench) -> CollectedValues:
     """The values of the other plain start; plenty from two more if those of a start with a parameter are out of range.
 
     What is out of range with a parameter set may be so on purpose: it only says where to look again.
     """
-    plain = tuple(_data((await bench.facts(survey)).trace))
+    plain = tuple(_data((await bench.facts(plain_start)).trace))
     probed: list[float] = []
-    if not outside((*plain, *(await bench.facts(values)).all)):
+    if not out_of_range((*plain, *(await bench.facts(collect_values)).all)):
         with suppress(MachineTooBusy):
-            probed = [value for probe in (await bench.facts(rates)).probes for value in _data(probe.trace)]
-    if not outside(probed):
-        return Values((plain,))
-    bench.doing(0.6, "listening longer: a start with a parameter gave a temperature that is out of range")
+            probed = [value for probe in (await bench.facts(probe_rates)).probes for value in _data(probe.trace)]
+    if not out_of_range(probed):
+        return CollectedValues((plain,))
+    bench.report_progress(0.6, "listening longer: a start with a parameter gave a temperature that is out of range")
 
     def enough(run: Run) -> bool:
-        return len(_data(run)) >= randomness.PLENTY or bool(outside(_data(run)))
+        return len(_data(run)) >= randomness.PLENTY or bool(out_of_range(_data(run)))
 
     runs = await asyncio.gather(_collect(bench, enough), _collect(bench, enough))
-    return Values((plain, *(values for values, _ in runs)), runs[0][1])
+    return CollectedValues((plain, *(values for values, _ in runs)), runs[0][1])
 
 
 async def _collect(bench: Bench, enough: Callable[[Run], bool]) -> tuple[tuple[float, ...], Trace]:
     """The values of one plain start, and its trace."""
     async with bench.start(FILE, watch={TOPIC: TYPE}) as run:
-        if await first_message(run, TOPIC, TYPE):
+        if await wait_for_message(run, TOPIC, TYPE):
             await run.until(lambda: enough(run), LISTEN_S)
         return tuple(_data(run)), run.trace()
 
 
 def _data(seen: Run | Trace) -> list[float]:
-    return [sample.message["data"] for sample in seen.on(TOPIC)]
+    return [sample.message["data"] for sample in seen.samples_on(TOPIC)]
 
 
 async def parameters(bench: Bench) -> tuple[Parameter, ...] | None:
     """Which parameters does it declare? None where it never answers."""
-    async with bench.start(FILE, watch={TOPIC: TYPE}, asks_s=7.0) as run:  # the rates wait for it
-        bench.doing(0.1, "asking for its parameters")
+    async with bench.start(FILE, watch={TOPIC: TYPE}, expected_s=7.0) as run:  # the rates wait for it
+        bench.report_progress(0.1, "asking for its parameters")
         if not await run.until(lambda: any(s.name.endswith("/list_parameters") for s in run.graph.services), START_S):
             return None
         declared = await run.parameters(4.0)
-        if declared is not None and not numeric_of(declared):
-            await first_message(run, TOPIC, TYPE)  # it may declare them late
+        if declared is not None and not numeric_parameters(declared):
+            await wait_for_message(run, TOPIC, TYPE)  # it may declare them late
             declared = await run.parameters(4.0)
         return declared
 
 
-async def rates(bench: Bench) -> Rates:
+async def probe_rates(bench: Bench) -> RateProbes:
     """Start it once for each value of each parameter that may be the rate."""
     declared = await bench.facts(parameters)
     tried: list[RateProbe] = []
@@ -129,30 +139,32 @@ async def rates(bench: Bench) -> Rates:
         wanted = Counter((name, unit) for name, unit, _, _ in plan)
         pending = {asyncio.ensure_future(_probe_rate(bench, *each)) for each in plan}
         try:
-            while pending and not any(len(group) == wanted[key(group[0])] for group in agreeing(tried)):
+            while pending and not any(
+                len(group) == wanted[parameter_and_unit(group[0])] for group in agreeing_groups(tried)
+            ):
                 done, pending = await asyncio.wait(pending, return_when=asyncio.FIRST_COMPLETED)
                 tried.extend(task.result() for task in done)
         finally:
             for task in pending:
                 task.cancel()
             await asyncio.gather(*pending, return_exceptions=True)
-        return bool(agreeing(tried))
+        return bool(agreeing_groups(tried))
 
-    numeric = numeric_of(declared or ())
+    numeric = numeric_parameters(declared or ())
     telling = [parameter for parameter in numeric if len(units(parameter.name)) < len(UNITS)]
     for group in (telling, *([other] for other in numeric if other not in telling)):
         if await attempt(list(_plan(group))):
-            return Rates(declared, tuple(tried))
-    if not any(p.name == SUGGESTED_RATE for p in numeric) and (await bench.facts(survey)).trace.on(TOPIC):
+            return RateProbes(declared, tuple(tried))
+    if not any(p.name == SUGGESTED_RATE for p in numeric) and (await bench.facts(plain_start)).trace.samples_on(TOPIC):
         # It may answer nothing, or take parameters that it does not declare.
         suggested = [(SUGGESTED_RATE, "Hz", value, False) for value in VALUES["Hz"]]
         if not await attempt(suggested) and any(_refused_a_double(probe.trace) for probe in tried):
             tried = [probe for probe in tried if probe.name != SUGGESTED_RATE]
             await attempt([(SUGGESTED_RATE, "Hz", value, True) for value in VALUES["Hz"] if value >= 1])
-    return Rates(declared, tuple(tried))
+    return RateProbes(declared, tuple(tried))
 
 
-async def names(bench: Bench) -> Names:
+async def probe_names(bench: Bench) -> NameProbes:
     """Start it once for each string parameter, with a value that nothing else would log."""
     declared = await bench.facts(parameters)
     known = {p.name for p in declared or ()}
@@ -162,59 +174,60 @@ async def names(bench: Bench) -> Names:
 
     async def probe(number: int, name: str) -> NameProbe:
         value = f"probe_{number}_kx7"
-        async with bench.start(FILE, parameters={name: value}, watch={TOPIC: TYPE}, asks_s=0.5) as run:
-            bench.doing(0.3, f"{name}:={value}, reading its log")
+        async with bench.start(FILE, parameters={name: value}, watch={TOPIC: TYPE}, expected_s=0.5) as run:
+            bench.report_progress(0.3, f"{name}:={value}, reading its log")
 
             def bears(text: str) -> bool:
-                # Who logs the command line has no parameter yet; who has declared one may write it like that.
+                # A node that logs the command line has no parameter yet; one that has declared one may write it like
+                # that.
                 return value in (text if name in known else text.replace(f":={value}", ""))
 
             def logged() -> str:
                 return next((str(log) for log in run.logs if bears(str(log).casefold())), "")
 
-            await appears(run, lambda: bool(logged()), promised=lambda: True)
+            await wait_until_seen(run, lambda: bool(logged()), promised=lambda: True)
             found, trace = logged(), run.trace()
             at_end = (await run.interrupt()).output if not found and run.exit is None else ()
             return NameProbe(name, value, found, trace, at_end)
 
-    return Names(declared, tuple(await asyncio.gather(*(probe(i, name) for i, name in enumerate(wanted)))))
+    return NameProbes(declared, tuple(await asyncio.gather(*(probe(i, name) for i, name in enumerate(wanted)))))
 
 
 async def _probe_rate(bench: Bench, name: str, unit: str, value: float, whole: bool) -> RateProbe:
     asked_hz = UNITS[unit](value)
     window = window_s(asked_hz)
-    given, asks_s = {name: int(value) if whole else value}, 1 / asked_hz + window
-    async with bench.start(FILE, parameters=given, watch={TOPIC: TYPE}, asks_s=asks_s) as run:
-        bench.doing(0.2, f"{name}:={value:g}, measuring the rate")
+    given, expected_s = {name: int(value) if whole else value}, 1 / asked_hz + window
+    async with bench.start(FILE, parameters=given, watch={TOPIC: TYPE}, expected_s=expected_s) as run:
+        bench.report_progress(0.2, f"{name}:={value:g}, measuring the rate")
 
         def heard() -> RateProbe:
             # The first message may come at once and the second a period later, or the other way round.
-            samples = run.on(TOPIC)
+            samples = run.samples_on(TOPIC)
             whole_of_it, tail = measure(samples), measure(samples[1:])
             rate = tail if tail and tail.covers(window) and tail.agrees(asked_hz) else whole_of_it
             return RateProbe(name, unit, value, rate, len(samples), run.trace())
 
         def decided(least_s: float) -> bool:
-            rate = measure(run.on(TOPIC))
+            rate = measure(run.samples_on(TOPIC))
             return rate is not None and (rate.span_s >= 0.95 * least_s or (rate.samples > 50 and rate.hz > 20))
 
-        if not await first_message(run, TOPIC, TYPE):
+        if not await wait_for_message(run, TOPIC, TYPE):
             return heard()
-        starved_s, since = run.starved_s(), run.now()
+        cpu_wait_s, since = run.node_cpu_wait_s(), run.now()
         for stretch in range(1, TRIES + 2):
             await run.until(lambda least_s=stretch * window: decided(least_s), window + 1 / asked_hz + 1)  # type: ignore[misc]
             probe = heard()
-            lost_s, of_s = run.starved_s() - starved_s, run.now() - since
+            lost_s, of_s = run.node_cpu_wait_s() - cpu_wait_s, run.now() - since
             ended = run.exit is not None
             if (
                 probe.agrees
                 or ended
-                or (stretch > 1 and not excused(probe.messages, asked_hz, starved_s=lost_s, of_s=of_s))
+                or (stretch > 1 and not too_few_by_cpu_wait(probe.messages, asked_hz, cpu_wait_s=lost_s, of_s=of_s))
             ):
                 break
         else:
             raise MachineTooBusy("this machine is too busy to measure a rate")
-        bench.doing(1.0, f"{name}:={value:g} measured")
+        bench.report_progress(1.0, f"{name}:={value:g} measured")
         return probe
 
 

@@ -6,39 +6,39 @@ from collections.abc import Iterable, Sequence
 from itertools import accumulate
 
 from checks.i1_2 import gap_steps, steps
-from checks.i1_2.facts import EVERY, OURS, SOON_S, Feeding
+from checks.i1_2.facts import EVERY, OURS, SOON_S, Trial
 from checks.i1_2.judges import NO_SUMMARY, counts_truly, judge_slow_summary, true_total
 from checks.i1_2.reading import Line
-from checks.i1_2.reports import Report, find, milestone
+from checks.i1_2.reports import Report, find_reports, milestone
 from tutor.judge import causes
 from tutor.judge.causes import printing
 from tutor.judge.trace import Level
 from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped
 
 SETTLED = 2
-"""What is said of a jump is said before so many more messages have come."""
+"""What is said of a jump is said before this many more messages have come."""
 
 
-def judge_restart(restart: Feeding, steady: Feeding, jump: Feeding) -> Verdict:
+def judge_restart(restart: Trial, steady: Trial, jump: Trial) -> Verdict:
     """Judge `restart`."""
     expected = "the publisher goes away, a new one starts over at 0: the node lives on and keeps counting"
-    if not find(steady):
+    if not find_reports(steady):
         return skipped(NO_SUMMARY)
-    words = causes.last_words(restart.trace)
+    words = causes.output_tail(restart.trace)
     sent, before = len(restart.sent), restart.breaks
     if restart.trace.exit is not None:
         return failed(
-            expected, f"the node ended after {sent} of our messages", _of_end(restart, "another publisher"), words
+            expected, f"the node ended after {sent} of our messages", _diagnose_end(restart, "another publisher"), words
         )
     if not before or sent <= before:
         return failed(
             expected,
             f"the new publisher found no subscription on {OURS.topic}",
-            steps.alive(restart.trace, causes.of_deafness(restart.trace, OURS, answers=restart.spins)),
+            steps.keep_node_up(restart.trace, causes.diagnose_deafness(restart.trace, OURS, answers=restart.spins)),
             words,
         )
-    after = [report for report in find(restart) if report.messages > before]
-    evidence = [str(report) for report in find(restart)]
+    after = [report for report in find_reports(restart) if report.messages > before]
+    evidence = [str(report) for report in find_reports(restart)]
     observed = f"{before} messages from the first publisher, {sent - before} from the second"
     if not after:
         return failed(
@@ -47,33 +47,33 @@ def judge_restart(restart: Feeding, steady: Feeding, jump: Feeding) -> Verdict:
             Cause(
                 "stopped counting",
                 "the node is there, but sums up nothing that the new publisher sends",
-                steps.restart(restart.trace)
+                steps.go_on_after_restart(restart.trace)
                 or "do nothing special when N falls: count on, or set everything back and say so",
             ),
             evidence,
         )
     if not counts_truly(steady, jump):
         return skipped("not judged, because `count` did not pass")
-    told = [line.text for line in said(restart, since=restart.gone_at, usual=(steady, jump))]
+    told = [line.text for line in new_lines(restart, since=restart.first_publisher_left_at, usual=(steady, jump))]
     for report in after:
         if true_total(report, restart):
             continue
-        anew = true_total(report, restart, before=before)
-        if anew and told:
+        restarted = true_total(report, restart, before=before)
+        if restarted and told:
             continue
         cause = (
             Cause(
                 "starts over silently",
-                f"it says {anew} after {report.messages} messages, and no log message says that it started over",
-                steps.silent(restart.trace)
+                f"it says {restarted} after {report.messages} messages, and no log message says that it started over",
+                steps.announce_restart(restart.trace)
                 or "go on with the total, or log that the publisher was restarted and that you count from zero",
             )
-            if anew
+            if restarted
             else Cause(
                 "wrong count after a restart",
                 f"{report.messages} messages in all, {report.messages - before} of them from the new publisher: "
                 "it states neither",
-                steps.restart(restart.trace)
+                steps.go_on_after_restart(restart.trace)
                 or "do not compute the total from N; go on counting, or set everything back and say so",
             )
         )
@@ -83,7 +83,7 @@ def judge_restart(restart: Feeding, steady: Feeding, jump: Feeding) -> Verdict:
     return passed(expected, observed, [*evidence, *told[:2]])
 
 
-def _sums_up_otherwise(after: Sequence[Report], restart: Feeding) -> Cause | None:
+def _sums_up_otherwise(after: Sequence[Report], restart: Trial) -> Cause | None:
     """What is wrong with the summaries since the restart, wherever the node has begun to count: no more is judged."""
     before = restart.breaks
     new = len(restart.sent) - before
@@ -91,19 +91,20 @@ def _sums_up_otherwise(after: Sequence[Report], restart: Feeding) -> Cause | Non
         return Cause(
             "summary for every message",
             f"{len(after)} summaries for {new} messages of the new publisher",
-            steps.restart(restart.trace) or "once N has fallen, go on as before: a summary for every ten messages",
+            steps.go_on_after_restart(restart.trace)
+            or "once N has fallen, go on as before: a summary for every ten messages",
         )
     own = [report for report in after if report.messages > before + 1]  # not of what came before
     if own and not any(_quotes_new(report, restart) for report in own):
         return Cause(
             "last message missing",
             "no summary quotes what the new publisher has sent last",
-            steps.restart(restart.trace) or "self.last_message = msg.data for each message, whatever its N",
+            steps.go_on_after_restart(restart.trace) or "self.last_message = msg.data for each message, whatever its N",
         )
     return None
 
 
-def _quotes_new(report: Report, restart: Feeding) -> bool:
+def _quotes_new(report: Report, restart: Trial) -> bool:
     """Whether it quotes a recent message of the new publisher, besides a first one."""
     quoted = list(report.quoted)
     for first in {restart.sent[0].number, restart.sent[restart.breaks].number}.intersection(quoted):
@@ -112,23 +113,25 @@ def _quotes_new(report: Report, restart: Feeding) -> bool:
     return any(each.number in quoted for each in recent)
 
 
-def judge_gaps(jump: Feeding, steady: Feeding) -> Verdict:
+def judge_gaps(jump: Trial, steady: Trial) -> Verdict:
     """Judge `gaps`."""
     expected = "when N jumps, a log message or a gap count in the next summary says so; while N rises by one, none does"
-    if not jump.sent or (not find(steady) and not steady.lines):
+    if not jump.sent or (not find_reports(steady) and not steady.lines):
         return skipped("not judged, because the node logs nothing about the messages: see `summary`")
     if jump.trace.exit is not None:
-        words = causes.last_words(jump.trace)
-        return failed(expected, f"the node ended after {len(jump.sent)} messages", _of_end(jump, "a jump of N"), words)
-    told = said(jump, since=jump.sent[jump.breaks].at, usual=(steady,))
+        words = causes.output_tail(jump.trace)
+        return failed(
+            expected, f"the node ended after {len(jump.sent)} messages", _diagnose_end(jump, "a jump of N"), words
+        )
+    told = new_lines(jump, since=jump.sent[jump.breaks].at, usual=(steady,))
     jumped = [f"from {jump.sent[index - 1].number} to {jump.sent[index].number}" for index in jump.jumps]
     observed = f"N jumped {', and '.join(jumped)}"
     if told and (again := _goes_on(told, jump)):
         texts = [line.text for line in again]
-        cause = gap_steps.of_alarm(jump.trace, texts) or Cause(
+        cause = gap_steps.diagnose_alarm(jump.trace, texts) or Cause(
             "false alarm",
             f"it still says so when N rises by one again: {again[-1].text}",
-            steps.gaps(jump.trace, texts) or gap_steps.COMPARE,
+            steps.compare_numbers(jump.trace, texts) or gap_steps.COMPARE,
         )
         return failed(expected, observed, cause, texts[:6])
     if (rising := _goes_on_rising(jump, steady)) is not None:
@@ -138,26 +141,26 @@ def judge_gaps(jump: Feeding, steady: Feeding) -> Verdict:
         own = next((line for line in unused if _soon(line, index, jump)), None)
         if own is not None:
             unused.remove(own)
-        elif not any(_soon(line, index, jump) and _of_all(line, jump) for line in told):
+        elif not any(_soon(line, index, jump) and _is_of_all_jumps(line, jump) for line in told):
             since = [line.text for line in jump.lines if line.messages > index]
             why = _why_unsaid(index, jump, steady)
             return failed(expected, f"N jumped {how}; nothing new was logged", why, since[:6])
     return passed(expected, observed, [line.text for line in told[:3]])
 
 
-def _soon(line: Line, index: int, jump: Feeding) -> bool:
+def _soon(line: Line, index: int, jump: Trial) -> bool:
     """Whether it was logged after this jump and before the next one, or as late as this machine may have made it."""
     later = [jump.sent[after].at for after in jump.jumps if after > index]
-    return line.at >= jump.sent[index].at and all(line.at < at + jump.excused_s for at in later)
+    return line.at >= jump.sent[index].at and all(line.at < at + jump.allowance_s for at in later)
 
 
-def _of_all(line: Line, jump: Feeding) -> bool:
+def _is_of_all_jumps(line: Line, jump: Trial) -> bool:
     """Whether one message tells of every jump so far: how many there were, or how many numbers were left out."""
     missed = jump.missed(line.messages)
     return len(missed) > 1 and any(each.value in (len(missed), sum(missed)) for each in line.numbers)
 
 
-def _goes_on(told: Sequence[Line], jump: Feeding) -> list[Line]:
+def _goes_on(told: Sequence[Line], jump: Trial) -> list[Line]:
     """The alarms that come with most of the messages after the jump: warnings, or of ever more missing messages."""
     later = [line for line in told if line.messages > jump.breaks + SETTLED]
     expected = jump.sent[jump.breaks - 1].number + 1
@@ -172,7 +175,7 @@ def _goes_on(told: Sequence[Line], jump: Feeding) -> list[Line]:
     return []
 
 
-def _goes_on_rising(jump: Feeding, steady: Feeding) -> tuple[Cause, list[str]] | None:
+def _goes_on_rising(jump: Trial, steady: Trial) -> tuple[Cause, list[str]] | None:
     """Whether a number that tells of the first jump goes on rising with the messages after it, and the lines.
 
     It had been constant, and it does not fall back with the second jump, as what is counted since the last one does.
@@ -181,7 +184,9 @@ def _goes_on_rising(jump: Feeding, steady: Feeding) -> tuple[Cause, list[str]] |
     calm = range(jump.breaks + SETTLED, jump.again + 1)
     for kind in {line.kind for line in jump.lines if line.messages in calm}:
         lines = [line for line in jump.lines if line.kind == kind]
-        starts = [[line for line in fed.lines if line.kind == kind and _calm(line, fed)] for fed in (jump, steady)]
+        starts = [
+            [line for line in trial.lines if line.kind == kind and _calm(line, trial)] for trial in (jump, steady)
+        ]
         usual = [line for lines in starts for line in lines]
         amount = {len(line.numbers) for line in (*lines, *usual)}
         if max(map(len, starts)) < 2 or len(amount) > 1:  # of one line, nothing is known to be constant
@@ -195,92 +200,92 @@ def _goes_on_rising(jump: Feeding, steady: Feeding) -> tuple[Cause, list[str]] |
             whole = all(value.is_integer() for value in rose)
             if len(was) == 1 and whole and max(was) < rose[0] < rose[-1] <= min(ends, default=rose[-1]):
                 texts = [line.text for line in (since[0], since[-1], *later[-1:])]
-                return gap_steps.of_alarm(jump.trace, texts) or Cause(
+                return gap_steps.diagnose_alarm(jump.trace, texts) or Cause(
                     "false alarm",
                     f"what it says is lost goes on rising while N rises by one again: {since[0].numbers[place].text} "
                     f"after {since[0].messages} messages, {since[-1].numbers[place].text} after {since[-1].messages}",
-                    steps.gaps(jump.trace, texts) or gap_steps.COMPARE,
+                    steps.compare_numbers(jump.trace, texts) or gap_steps.COMPARE,
                 ), texts
     return None
 
 
-def _of_end(feeding: Feeding, what: str) -> Cause:
+def _diagnose_end(trial: Trial, what: str) -> Cause:
     ended = Cause("exit at once", f"the node does not survive {what}", "let it run")
-    return steps.alive(feeding.trace, causes.of_process(feeding.trace) or ended)
+    return steps.keep_node_up(trial.trace, causes.diagnose_process(trial.trace) or ended)
 
 
-def _why_unsaid(index: int, jump: Feeding, steady: Feeding) -> Cause:
+def _why_unsaid(index: int, jump: Trial, steady: Trial) -> Cause:
     """Why nothing is said of the jump to the message with this index.
 
     A kind of message that came with the jump, but not with every message, was a false alarm elsewhere.
     """
-    summaries = {line.kind for report in (*find(steady), *find(jump)) for line in report.lines}
+    summaries = {line.kind for report in (*find_reports(steady), *find_reports(jump)) for line in report.lines}
     with_it = range(index + 1, index + 3)
     since = {line.kind for line in jump.lines if line.messages in with_it} - summaries
-    calm = [line for fed in (steady, jump) for line in fed.lines if _calm(line, fed)]
+    calm = [line for trial in (steady, jump) for line in trial.lines if _calm(line, trial)]
     false = [line for line in calm if line.kind in since]
     if 0 < len(false) < 0.7 * (len(steady.sent) + jump.breaks - 2):
         texts = [line.text for line in false]
-        return gap_steps.of_alarm(jump.trace, texts) or Cause(
+        return gap_steps.diagnose_alarm(jump.trace, texts) or Cause(
             "false alarm",
             f"it also says so where N rises by one: {false[0].text}",
-            steps.gaps(jump.trace, texts)
+            steps.compare_numbers(jump.trace, texts)
             or "compare numbers, not texts: int(msg.data.split(':')[1]) must be the last number + 1",
         )
     words = ("gap", "miss", "lost", "skip", "lücke", "jump")
     after = [line for line in jump.trace.output if line.at >= jump.sent[index].at and line.stream == "stdout"]
     printed = next((line.text for line in after if any(word in line.text.casefold() for word in words)), None)
     if printed is not None:
-        call = printing.print_of(jump.trace, printed)
-        step = printing.logged(jump.trace, call) if call else steps.gaps(jump.trace)
+        call = printing.find_print(jump.trace, printed)
+        step = printing.log_instead_of_print(jump.trace, call) if call else steps.compare_numbers(jump.trace)
         return Cause("printed, not logged", f"it is only printed: {printed}", step or "self.get_logger().warning(...)")
     missed = jump.missed(index)[-1]
-    return gap_steps.of_silence(jump.trace) or Cause(
+    return gap_steps.diagnose_silence(jump.trace) or Cause(
         "gap not noticed",
         f"{missed} number{'s are' if missed > 1 else ' is'} missing, and nothing tells this from any other message",
-        steps.gaps(jump.trace)
+        steps.compare_numbers(jump.trace)
         or "keep the last N; where the next one is not that + 1, self.get_logger().warning(...) how many are missing",
     )
 
 
-def said(feeding: Feeding, *, since: float, usual: Sequence[Feeding]) -> list[Line]:
+def new_lines(trial: Trial, *, since: float, usual: Sequence[Trial]) -> list[Line]:
     """What the node says, from a time on, that it does not say while N rises by one.
 
     A message of another kind, or a number that had been constant. The `usual` are other starts, up to their own jump;
-    what comes with a first message is no alarm, and none of the usual kinds.
+    what comes with a first message is not an alarm, and none of the usual kinds.
     """
-    before = [line for line in feeding.lines if line.at < since and not _of_the_first(line, feeding)]
+    before = [line for line in trial.lines if line.at < since and not _is_of_first_jump(line, trial)]
     elsewhere = [[line for line in other.lines if _calm(line, other)] for other in usual]
     known = {line.kind for lines in (before, *elsewhere) for line in lines}
-    summaries = {line: report for report in find(feeding) for line in report.lines}
+    summaries = {line: report for report in find_reports(trial) for line in report.lines}
     told = []
-    for line in feeding.lines:
+    for line in trial.lines:
         if line.at < since:
             continue
         mine = [other for other in before if other.kind == line.kind]
         others = [[other for other in lines if other.kind == line.kind] for lines in elsewhere]
-        if line.kind not in known or _counts_up(line, summaries.get(line), mine, others, feeding):
+        if line.kind not in known or _counts_up(line, summaries.get(line), mine, others, trial):
             told.append(line)
     return told
 
 
-def _calm(line: Line, feeding: Feeding) -> bool:
-    return not _of_the_first(line, feeding) and not (feeding.breaks and line.messages > feeding.breaks)
+def _calm(line: Line, trial: Trial) -> bool:
+    return not _is_of_first_jump(line, trial) and not (trial.breaks and line.messages > trial.breaks)
 
 
-def _of_the_first(line: Line, feeding: Feeding) -> bool:
-    return line.at < feeding.sent[0].at + SOON_S
+def _is_of_first_jump(line: Line, trial: Trial) -> bool:
+    return line.at < trial.sent[0].at + SOON_S
 
 
 def _counts_up(
-    line: Line, report: Report | None, before: Sequence[Line], elsewhere: Sequence[Sequence[Line]], feeding: Feeding
+    line: Line, report: Report | None, before: Sequence[Line], elsewhere: Sequence[Sequence[Line]], trial: Trial
 ) -> bool:
     """Whether a number in the line tells of the jump: how many gaps, missed messages, or messages there should be.
 
     `report`: the summary that the line is of, if any.
     """
     others = [other for lines in (before, *elsewhere) for other in lines]
-    missed = feeding.missed(line.messages)
+    missed = trial.missed(line.messages)
     if not others or any(len(other.numbers) != len(line.numbers) for other in others):
         return False
     for place, number in enumerate(line.numbers):
@@ -297,8 +302,8 @@ def _counts_up(
             # In what is logged with every message, a number speaks for itself if it was 0 until then, and no warning.
             told = base == 0 and from_zero and line.level < Level.WARN and _counts(grown, missed)
         else:
-            told = from_zero and (_counts(grown, missed) or _is_share(grown, missed, feeding))
-            told = told or (all(each == {base} for each in usually) and _tells_of(grown, base, missed, feeding))
+            told = from_zero and (_counts(grown, missed) or _is_share(grown, missed, trial))
+            told = told or (all(each == {base} for each in usually) and _tells_of(grown, base, missed, trial))
         if told:
             return True
     return False
@@ -327,15 +332,15 @@ def _counts_missed(grown: float, missed: Sequence[int]) -> bool:
     return any(grown in (abs(amount), abs(amount) + 1, abs(amount) + len(missed)) for amount in _amounts(missed))
 
 
-def _tells_of(grown: float, base: float, missed: Sequence[int], feeding: Feeding) -> bool:
+def _tells_of(grown: float, base: float, missed: Sequence[int], trial: Trial) -> bool:
     """Whether what was not 0 has changed as it should: the number of a run, what was missed, or the share that came."""
     if grown == 1 and any(each < 0 for each in missed):
         return True
-    delivered = base in (1, 100) and _is_share(-grown, missed, feeding, scales=(base,))
+    delivered = base in (1, 100) and _is_share(-grown, missed, trial, scales=(base,))
     return _counts_missed(grown, missed) or delivered
 
 
-def _is_share(grown: float, missed: Sequence[int], feeding: Feeding, *, scales: Sequence[float] = (1, 100)) -> bool:
+def _is_share(grown: float, missed: Sequence[int], trial: Trial, *, scales: Sequence[float] = (1, 100)) -> bool:
     """Whether it is a share of lost messages, or of jumps, of 1 or in percent, to two digits at least."""
     if any(each < 0 for each in missed) or grown <= 0:
         return False
@@ -343,7 +348,7 @@ def _is_share(grown: float, missed: Sequence[int], feeding: Feeding, *, scales: 
     shares = {
         lost / (whole + more)
         for lost in (*jumps, *_amounts(missed))
-        for whole in range(feeding.breaks + 1, len(feeding.sent) + 1)
+        for whole in range(trial.breaks + 1, len(trial.sent) + 1)
         for more in (0, *_amounts(missed), *(-each for each in jumps))
     }
     return any(abs(grown - scale * share) <= 0.0051 * scale for share in shares for scale in scales)

@@ -28,7 +28,7 @@ STEADY_MESSAGES = 20
 QUIET_S = 1.0
 """A node is up for this long before the first message: a rate counted from its start is then too low to be true."""
 
-MEET_S = 0.4
+MATCH_S = 0.4
 """A best-effort subscription that we have met has met us this much later."""
 
 SOONER_HZ = 8.0
@@ -37,8 +37,8 @@ JUMP_AFTER, AGAIN_AFTER, JUMP_MESSAGES = 17, 37, 43
 """N jumps twice: far, and then by leaving out one number.
 
 After each jump there is a summary, and time for one that is late; between them, ten messages in a row are summed up of
-which none is missing. Who begins to count again with the first jump has counted ten more, in time to be seen. Four
-summaries are more than any other start asks for.
+which none is missing. A node that starts counting again at the first jump has counted ten more, in time to be seen.
+Four summaries are more than any other start asks for.
 """
 
 FAST_HZ, FAST_MESSAGES = 25.0, 60
@@ -47,23 +47,25 @@ FAST_ENOUGH_HZ = 20.0
 """A machine that does not let us send so fast, on the whole, is too busy."""
 
 RESTART_AFTER, RESTART_MESSAGES = 13, 25
-AWAY_S = 0.7
+ABSENT_S = 0.7
 """Nobody restarts a talker in less time."""
 
 LATE_S = 1.1
-"""A summary comes so soon after its message: it may wait for a timer of one second, as people choose."""
+"""A summary comes this soon after its message: it may wait for a timer of one second, as people choose."""
 
 SOON_S = 0.5
 """What is logged of a message at once is there within this time."""
 
-MOST_STARVED_S = 1.0
+MOST_CPU_WAIT_S = 1.0
 """However busy the machine: what comes later than this excuses belongs to no message."""
 
 ROUGH_S = 0.15
 """A node kept from running for longer may have lost messages, and one that was fed so unevenly measured no one rate."""
 
 STALL_S = 0.1
-"""Who was kept from running for so long between two messages may not have been back in time for the second."""
+"""A node that was kept from running for this long between two messages may not have been back in time for the
+second.
+"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,7 +74,7 @@ class Sent:
 
     number: int
     at: float
-    starved_s: float = 0.0
+    cpu_wait_s: float = 0.0
 
     @property
     def content(self) -> str:
@@ -81,20 +83,20 @@ class Sent:
 
 
 @dataclass(frozen=True)
-class Feeding:
+class Trial:
     """A start of the node, and what it was fed.
 
     `breaks`: how many messages were sent before N jumped or another publisher took over; 0 where neither happened.
     `again`: how many were sent before N jumped once more; 0 where it did not. `gone_at`: when the first publisher went
-    away. `starved_s`: what the machine kept the node, or us, from running until everything was heard. `spins`: whether
+    away. `cpu_wait_s`: what the machine kept the node, or us, from running until everything was heard. `spins`: whether
     the node answered a request; if not, `stuck` says where it was.
     """
 
     trace: Trace
     sent: tuple[Sent, ...] = ()
     breaks: int = 0
-    gone_at: float = 0.0
-    starved_s: float = 0.0
+    first_publisher_left_at: float = 0.0
+    cpu_wait_s: float = 0.0
     spins: bool = True
     stuck: tuple[Frame, ...] = ()
     ending: Ending | None = None
@@ -109,24 +111,24 @@ class Feeding:
         return tuple(read(log, messages) for log, messages in numbered if messages)
 
     @property
-    def excused_s(self) -> float:
+    def allowance_s(self) -> float:
         """How much later than usual anything may be logged on this machine."""
-        return min(max(self.starved_s, 0.0), MOST_STARVED_S)
+        return min(max(self.cpu_wait_s, 0.0), MOST_CPU_WAIT_S)
 
     @property
-    def late_s(self) -> float:
+    def summary_limit_s(self) -> float:
         """How long after its message a summary may come on this machine."""
-        return LATE_S + self.excused_s
+        return LATE_S + self.allowance_s
 
     @cached_property
-    def held_up_s(self) -> float:
+    def most_late_s(self) -> float:
         """How much later than due a message was sent, at worst: our fault, and the machine's."""
         spans = [b.at - a.at for index, (a, b) in enumerate(pairwise(self.sent), start=1) if index != self.breaks]
         return max(spans) - median(spans) if spans else 0.0
 
     def delay_s(self, index: int) -> float:
         """How late the machine may have let the node take in this message: what it was kept from running thereafter."""
-        owed = [each.starved_s for each in self.sent[index:]] + [self.sent[0].starved_s + self.starved_s]
+        owed = [each.cpu_wait_s for each in self.sent[index:]] + [self.sent[0].cpu_wait_s + self.cpu_wait_s]
         late = 0.0
         for before, after in pairwise(owed):
             late += max(after - before, 0.0)
@@ -140,6 +142,6 @@ class Feeding:
         return tuple(before for before in (self.breaks, self.again) if 0 < before < len(self.sent))
 
     def missed(self, messages: int) -> tuple[int, ...]:
-        """How many numbers each jump left out, of those jumps that were due when so many messages had been sent."""
+        """How many numbers each jump left out, of those jumps that were due when this many messages had been sent."""
         due = [before for before in self.jumps if before <= messages]
         return tuple(self.sent[before].number - self.sent[before - 1].number - 1 for before in due)

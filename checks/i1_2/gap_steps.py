@@ -7,9 +7,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from checks.i1_2 import steps
-from checks.i1_2.listener import find
-from checks.i1_2.parsing import misread
-from checks.i1_2.rewriting import first_value
+from checks.i1_2.listener import find_listener
+from checks.i1_2.parsing import find_misread
+from checks.i1_2.rewriting import set_first_value
 from tutor.judge import edits, source
 from tutor.judge.source import Function, where
 from tutor.judge.trace import Trace
@@ -18,14 +18,14 @@ from tutor.judge.verdict import Cause
 COMPARE = "compare each N with the one right before it, whether there was a gap or not"
 
 
-def of_alarm(trace: Trace, false: Sequence[str] = ()) -> Cause | None:
+def diagnose_alarm(trace: Trace, false: Sequence[str] = ()) -> Cause | None:
     """Why it tells of gaps where there are none; `false`: log messages that do."""
     functions = source.callbacks(trace, "create_subscription")
     found = _misread(trace, functions) or _from_the_count(trace, functions) or _not_followed(trace, functions)
-    return _with_step(found, steps.gaps(trace, false))
+    return _with_step(found, steps.compare_numbers(trace, false))
 
 
-def of_silence(trace: Trace) -> Cause | None:
+def diagnose_silence(trace: Trace) -> Cause | None:
     """Why it tells nothing of a gap."""
     functions = source.callbacks(trace, "create_subscription")
     found = (
@@ -34,7 +34,7 @@ def of_silence(trace: Trace) -> Cause | None:
         or _too_early(functions)
         or _only_backwards(functions)
     )
-    return _with_step(found, steps.gaps(trace))
+    return _with_step(found, steps.compare_numbers(trace))
 
 
 def _with_step(found: Cause | None, step: str | None) -> Cause | None:
@@ -42,16 +42,18 @@ def _with_step(found: Cause | None, step: str | None) -> Cause | None:
 
 
 def _misread(trace: Trace, functions: Sequence[Function]) -> Cause | None:
-    found = misread(functions)
+    found = find_misread(functions)
     if found is None:
         return None
-    step = _told(trace, found.node, [edits.instead(source.holding(trace, found.node).text, found.node, found.right)])
+    step = _told(
+        trace, found.node, [edits.replace_node(source.file_holding(trace, found.node).text, found.node, found.right)]
+    )
     return Cause("number misread", found.text, step)
 
 
 def _told(trace: Trace, node: ast.AST, change: Sequence[edits.Edit]) -> str:
     """The step that changes the file in which this node is; empty where none is sure."""
-    return edits.told_of(source.holding(trace, node), change) or ""
+    return edits.describe_edits_of(source.file_holding(trace, node), change) or ""
 
 
 def _from_the_count(trace: Trace, functions: Sequence[Function]) -> Cause | None:
@@ -74,14 +76,14 @@ def _from_the_count(trace: Trace, functions: Sequence[Function]) -> Cause | None
 
 def _with_the_last(trace: Trace, function: Function, node: ast.expr, number: str) -> str:
     """The step that compares a number with the one before it, in place of this comparison."""
-    listener = find(trace)
+    listener = find_listener(trace)
     if listener is None or not isinstance(node, ast.Compare):
         return ""
     last = listener.new("last_number", "number_before")
     test = f"{last} is not None and {number} > {last} + 1"
-    before = first_value(listener, [f"{last} = None"])
-    instead = edits.instead(source.holding(trace, node).text, node, test)
-    return _told(trace, node, [before, instead, edits.at_end(function, f"{last} = {number}")])
+    before = set_first_value(listener, [f"{last} = None"])
+    instead = edits.replace_node(source.file_holding(trace, node).text, node, test)
+    return _told(trace, node, [before, instead, edits.append_to_function(function, f"{last} = {number}")])
 
 
 def _not_followed(trace: Trace, functions: Sequence[Function]) -> Cause | None:
@@ -98,11 +100,11 @@ def _not_followed(trace: Trace, functions: Sequence[Function]) -> Cause | None:
 def _left_behind(function: Function, last: str, right: str) -> tuple[str, list[edits.Edit]] | None:
     """Why `last` is not set with each message, and the edit that sets it: to what `right` says."""
     inside = list(ast.walk(function))
-    at_end = [edits.at_end(function, right)]
+    at_end = [edits.append_to_function(function, right)]
     counted = next((each for each in inside if isinstance(each, ast.AugAssign) and _sets(each, last)), None)
     if counted is not None:
         text = f"{where(counted)} goes on counting from before the gap, and never follows it"
-        return text, [edits.becomes(counted.lineno, right)] if counted in function.body else at_end
+        return text, [edits.replace_lines(counted.lineno, right)] if counted in function.body else at_end
     kept = [each for each in inside if isinstance(each, ast.Assign) and _sets(each, last)]
     if not kept:
         return f"{last} is never set to the number of the message that came last", at_end
@@ -116,7 +118,7 @@ def _left_behind(function: Function, last: str, right: str) -> tuple[str, list[e
     if end is None:
         return None
     text = f"line {end.lineno}: return leaves {function.name} before {where(always[-1])}"
-    return text, [edits.above(end.lineno, ast.unparse(always[-1]))]
+    return text, [edits.insert_above(end.lineno, ast.unparse(always[-1]))]
 
 
 def _too_early(functions: Sequence[Function]) -> Cause | None:
@@ -158,7 +160,7 @@ def _counters(trace: Trace) -> set[str]:
     """What is counted up by one for each message, and set to a plain number elsewhere: never to a message's."""
     set_to: dict[str, list[ast.expr]] = {}
     up: set[str] = set()
-    for node in source.nodes(trace):
+    for node in source.all_nodes(trace):
         if isinstance(node, ast.AugAssign):
             one = isinstance(node.op, ast.Add) and isinstance(node.value, ast.Constant) and node.value.value == 1
             up |= {ast.unparse(node.target)} if one else set()

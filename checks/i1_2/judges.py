@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from checks.i1_2 import backlog, rates, slowness, steps
-from checks.i1_2.facts import EVERY, FAST_HZ, OURS, Feeding
+from checks.i1_2.facts import EVERY, FAST_HZ, OURS, Trial
 from checks.i1_2.reading import labelled, read
-from checks.i1_2.reports import Report, find, in_time, milestone, totals
+from checks.i1_2.reports import Report, find_reports, in_time, milestone, totals
 from tutor.judge import causes, ending
 from tutor.judge.bench import MachineTooBusy
 from tutor.judge.trace import LogRecord
@@ -21,12 +21,12 @@ EXPECTED_COUNT = "each summary states how many messages have come"
 NO_SUMMARY = "not judged, because there is no summary to read: see `summary`"
 
 
-def judge_count(steady: Feeding, jump: Feeding, fast: Feeding) -> Verdict:
+def judge_count(steady: Trial, jump: Trial, fast: Trial) -> Verdict:
     """Judge `count`."""
     verdict = judge_slow_count(steady, jump)
     if not verdict.passed:
         return verdict
-    lost = backlog.lost(fast, steady)
+    lost = backlog.find_lost(fast, steady)
     if lost.excused if lost else not backlog.fast_enough(fast):
         raise MachineTooBusy("this machine is too busy to send messages fast")
     if lost is None:
@@ -34,96 +34,96 @@ def judge_count(steady: Feeding, jump: Feeding, fast: Feeding) -> Verdict:
     return failed(
         f"{EXPECTED_COUNT}, at {FAST_HZ:g} a second, too",
         f"{lost.counted} messages up to the last that it quotes; {lost.report}",
-        slowness.of_lost(fast.trace, lost),
-        [str(report) for report in find(fast)[:6]],
+        slowness.diagnose_lost(fast.trace, lost),
+        [str(report) for report in find_reports(fast)[:6]],
     )
 
 
-def judge_slow_count(steady: Feeding, jump: Feeding) -> Verdict:
+def judge_slow_count(steady: Trial, jump: Trial) -> Verdict:
     """Judge what `count` asks for where the messages come slowly."""
     expected = EXPECTED_COUNT
-    if not find(steady):
+    if not find_reports(steady):
         return skipped(NO_SUMMARY)
-    seen = [(feeding, report) for feeding in (steady, jump) for report in find(feeding)]
-    wrong = [(feeding, report) for feeding, report in seen if not true_total(report, feeding)]
+    seen = [(trial, report) for trial in (steady, jump) for report in find_reports(trial)]
+    wrong = [(trial, report) for trial, report in seen if not true_total(report, trial)]
     if wrong:
-        feeding, report = wrong[-1]  # after the jump, N and the count are far apart: there the cause shows best
+        trial, report = wrong[-1]  # after the jump, N and the count are far apart: there the cause shows best
         return failed(
-            f"{expected}: {' or '.join(map(str, totals(report, feeding)))}",
+            f"{expected}: {' or '.join(map(str, totals(report, trial)))}",
             f"the summary that came after {report.messages} messages does not say so",
-            _why_miscounted(report, feeding),
+            _why_miscounted(report, trial),
             [str(other) for _, other in seen],
         )
-    stated = ", ".join(str(true_total(report, feeding)) for feeding, report in seen)
+    stated = ", ".join(str(true_total(report, trial)) for trial, report in seen)
     return passed(expected, f"{len(seen)} summaries state {stated}", [str(report) for _, report in seen])
 
 
-def counts_truly(*feedings: Feeding) -> bool:
+def counts_truly(*trials: Trial) -> bool:
     """Whether every summary states the true total."""
-    return all(true_total(report, feeding) for feeding in feedings for report in find(feeding))
+    return all(true_total(report, trial) for trial in trials for report in find_reports(trial))
 
 
-def true_total(report: Report, feeding: Feeding, *, before: int = 0) -> int:
+def true_total(report: Report, trial: Trial, *, before: int = 0) -> int:
     """The true total that a summary states, when the first `before` messages do not count; 0 where it states none.
 
     One that comes later than its message must quote no newer one: which of the older ones it quotes as the last is no
     matter of the count. One that also quotes the message that it has counted last may be as late as it likes.
     """
-    true = totals(report, feeding, before=before)
+    true = totals(report, trial, before=before)
     for total in true:
         late = report.messages > before + total
-        if report.states(total) and (not late or _may_be_of(before + total, report, feeding, before=before)):
+        if report.states(total) and (not late or _may_be_of(before + total, report, trial, before=before)):
             return total
     before_that = {*range(EVERY, true.start, EVERY), *range(max(1, true.start - EVERY), true.start)}
     held_back = [total for total in sorted(before_that) if report.states(total)]
-    return next((t for t in held_back if _is_of(before + t, report, feeding, before=before)), 0)
+    return next((t for t in held_back if _is_of(before + t, report, trial, before=before)), 0)
 
 
-def _may_be_of(messages: int, report: Report, feeding: Feeding, *, before: int) -> bool:
-    """Whether nothing that it quotes tells against its being made when so many messages had come."""
-    newer = {each.number for each in feeding.sent[messages : report.until]}
-    later = newer.intersection(_quoted_but_first(report, feeding, before=before))
-    return not later or _is_of(messages, report, feeding, before=before)
+def _may_be_of(messages: int, report: Report, trial: Trial, *, before: int) -> bool:
+    """Whether nothing that it quotes tells against its being made when this many messages had come."""
+    newer = {each.number for each in trial.sent[messages : report.until]}
+    later = newer.intersection(_quoted_but_first(report, trial, before=before))
+    return not later or _is_of(messages, report, trial, before=before)
 
 
-def _is_of(messages: int, report: Report, feeding: Feeding, *, before: int) -> bool:
-    """Whether it quotes the last of so many messages, and what it quotes had come by then.
+def _is_of(messages: int, report: Report, trial: Trial, *, before: int) -> bool:
+    """Whether it quotes the last of this many messages, and what it quotes had come by then.
 
     A new publisher sends some numbers once more: what was there before is none of the newer ones.
     """
-    sent, quoted = feeding.sent, _quoted_but_first(report, feeding, before=before)
+    sent, quoted = trial.sent, _quoted_but_first(report, trial, before=before)
     newer = {each.number for each in sent[messages : report.until]} - {each.number for each in sent[:messages]}
     return sent[messages - 1].number in quoted and not newer.intersection(quoted)
 
 
-def _quoted_but_first(report: Report, feeding: Feeding, *, before: int) -> list[int]:
+def _quoted_but_first(report: Report, trial: Trial, *, before: int) -> list[int]:
     """What it quotes, without a first message."""
     quoted = list(report.quoted)
-    for first in {feeding.sent[0].number, feeding.sent[before].number}.intersection(quoted):
+    for first in {trial.sent[0].number, trial.sent[before].number}.intersection(quoted):
         quoted.remove(first)
     return quoted
 
 
-def _why_miscounted(report: Report, feeding: Feeding) -> Cause:
-    name, text, words = _miscounted(report, feeding)
-    return Cause(name, text, steps.count(feeding.trace) or words)
+def _why_miscounted(report: Report, trial: Trial) -> Cause:
+    name, text, words = _miscounted(report, trial)
+    return Cause(name, text, steps.count_messages(trial.trace) or words)
 
 
-def _miscounted(report: Report, feeding: Feeding) -> tuple[str, str, str]:
+def _miscounted(report: Report, trial: Trial) -> tuple[str, str, str]:
     """The name of the cause, what it says, and a step in words."""
-    sent, last = report.messages, feeding.sent[report.messages - 1].number
-    missed = sum(feeding.missed(sent - 1))
+    sent, last = report.messages, trial.sent[report.messages - 1].number
+    missed = sum(trial.missed(sent - 1))
     if missed and report.states(sent + missed):
         return (
             "missed messages counted",
             f"it says {sent + missed}, but {missed} of these were never sent",
             "count each call of the callback, and nothing else: self.total_count += 1",
         )
-    if feeding.breaks and (report.states(last) or report.states(last + 1)):
+    if trial.breaks and (report.states(last) or report.states(last + 1)):
         return (
             "number taken for the count",
             f"it states the N of “Hello World: {last}”, not how many messages came",
-            "whoever starts late hears the N of others: count yourself, self.total_count += 1 in the callback",
+            "anyone who starts late hears the N of others: count yourself, self.total_count += 1 in the callback",
         )
     near = next((sent + by for by in (1, -1) if report.states(sent + by)), None)
     if near is not None:
@@ -141,8 +141,8 @@ def _miscounted(report: Report, feeding: Feeding) -> tuple[str, str, str]:
     )
 
 
-def judge_rate(steady: Feeding, jump: Feeding) -> Verdict:
-    reports = [report for report in find(steady) if report.messages > 1]  # one message has no rate yet
+def judge_rate(steady: Trial, jump: Trial) -> Verdict:
+    reports = [report for report in find_reports(steady) if report.messages > 1]  # one message has no rate yet
     if not reports:
         return skipped(NO_SUMMARY)
     allowed = [rates.true_rates(report, steady) for report in reports]
@@ -163,54 +163,55 @@ def judge_rate(steady: Feeding, jump: Feeding) -> Verdict:
     return passed(expected, f"{', '.join(number.text for number in stated)} messages per second", evidence)
 
 
-def judge_summary(steady: Feeding, jump: Feeding, fast: Feeding) -> Verdict:
+def judge_summary(steady: Trial, jump: Trial, fast: Trial) -> Verdict:
     verdict = judge_slow_summary(steady, jump)
-    if not verdict.passed or backlog.lost(fast, steady) is not None:  # `count` tells of what is lost
+    if not verdict.passed or backlog.find_lost(fast, steady) is not None:  # `count` tells of what is lost
         return verdict
     if not backlog.missing_summary(fast, steady):
         return verdict
-    if not backlog.fast_enough(fast) or fast.excused_s > BUSY_S:
+    if not backlog.fast_enough(fast) or fast.allowance_s > BUSY_S:
         raise MachineTooBusy("this machine is too busy to send messages fast")
     return failed(
         f"{EXPECTED_SUMMARY}, at {FAST_HZ:g} a second, too",
-        f"of {len(fast.sent)} messages, none since message {backlog.summed_up(fast, steady)}",
+        f"of {len(fast.sent)} messages, none since message {backlog.count_summarised(fast, steady)}",
         _why_fewer(fast),
-        [str(report) for report in find(fast)[:6]],
+        [str(report) for report in find_reports(fast)[:6]],
     )
 
 
-def _why_fewer(fast: Feeding) -> Cause:
+def _why_fewer(fast: Trial) -> Cause:
     """Why there are fewer summaries when messages come fast."""
-    throttled = steps.unthrottled(fast.trace)
+    throttled = steps.remove_throttle(fast.trace)
     text = "most of them are left out when messages come fast"
     if throttled is not None:
-        return Cause("log throttled", f"{text}: throttle_duration_sec lets one through in so many seconds", throttled)
+        return Cause("log throttled", f"{text}: throttle_duration_sec lets one through in that many seconds", throttled)
     return Cause(
         "missing summary",
         text,
-        steps.summary(fast.trace) or "write the summary in the callback, whenever the count is a multiple of ten",
+        steps.summarise_every_ten(fast.trace)
+        or "write the summary in the callback, whenever the count is a multiple of ten",
     )
 
 
-def judge_slow_summary(steady: Feeding, jump: Feeding) -> Verdict:
+def judge_slow_summary(steady: Trial, jump: Trial) -> Verdict:
     """Judge what `summary` asks for where the messages come slowly."""
     expected = EXPECTED_SUMMARY
-    if not find(steady):
+    if not find_reports(steady):
         return failed(expected, f"none, after {len(steady.sent)} messages", why_silent(steady), _logged(steady))
-    # Who ends with the jump, or miscounts from then on, breaks other criteria.
+    # A node that ends with the jump, or miscounts from then on, breaks other criteria.
     all_along = jump.trace.exit is None and counts_truly(jump)
-    for feeding, messages in ((steady, len(steady.sent)), (jump, len(jump.sent) if all_along else jump.breaks)):
-        reports = [report for report in find(feeding) if report.messages <= messages]
+    for trial, messages in ((steady, len(steady.sent)), (jump, len(jump.sent) if all_along else jump.breaks)):
+        reports = [report for report in find_reports(trial) if report.messages <= messages]
         evidence = [str(report) for report in reports[:8]]
-        if (cause := _why_not_every_ten(reports, feeding, messages)) is not None:
-            if _counts_wrongly(reports, feeding):
+        if (cause := _why_not_every_ten(reports, trial, messages)) is not None:
+            if _counts_wrongly(reports, trial):
                 return skipped("not judged, because `count` did not pass: it sums up by a count that is not true")
             observed = f"summaries after {', '.join(str(report.messages) for report in reports[:12]) or 'no'} messages"
             return failed(expected, f"{observed}, of {messages}", cause, evidence)
         for report in reports:
-            if (cause := _why_incomplete(report, feeding)) is not None:
+            if (cause := _why_incomplete(report, trial)) is not None:
                 return failed(expected, f"it is incomplete {report}", cause, evidence)
-    complete = find(steady)
+    complete = find_reports(steady)
     return passed(
         expected,
         f"{len(complete)} for {len(steady.sent)} messages, with both contents",
@@ -218,67 +219,69 @@ def judge_slow_summary(steady: Feeding, jump: Feeding) -> Verdict:
     )
 
 
-def _why_not_every_ten(reports: Sequence[Report], feeding: Feeding, messages: int) -> Cause | None:
+def _why_not_every_ten(reports: Sequence[Report], trial: Trial, messages: int) -> Cause | None:
     due = range(EVERY, messages + 1, EVERY)
     when = [report.messages for report in reports]
     if len(reports) > 3 and len(reports) >= 0.7 * messages:
         return Cause(
-            "summary for every message", f"{len(reports)} summaries for {messages} messages", _every_ten(feeding)
+            "summary for every message", f"{len(reports)} summaries for {messages} messages", _every_ten(trial)
         )
     if len(reports) > len(due) or any(report.times > 1 for report in reports):
         return Cause(
             "too many summaries",
             f"{sum(report.times for report in reports)} summaries for {messages} messages",
-            _every_ten(feeding),
+            _every_ten(trial),
         )
     for number in due:
         of_it = [each for each in reports if milestone(each.messages) == number]
-        if not any(in_time(each, feeding) for each in of_it):
+        if not any(in_time(each, trial) for each in of_it):
             early = [each for each in when if number - EVERY < each < number]
             late = [each for each in when if number < each < number + EVERY]
             said = f"it comes after {(early or late)[-1]}" if early or late else "and none comes later"
-            return Cause("missing summary", f"there is none after {number} messages, {said}", _every_ten(feeding))
+            return Cause("missing summary", f"there is none after {number} messages, {said}", _every_ten(trial))
     return None
 
 
-def _every_ten(feeding: Feeding) -> str:
+def _every_ten(trial: Trial) -> str:
     """The step to one summary for every ten messages."""
-    return steps.summary(feeding.trace) or (
+    return steps.summarise_every_ten(trial.trace) or (
         f"if self.total_count % {EVERY} == 0: write the summary, in the callback, after counting"
     )
 
 
-def _counts_wrongly(reports: Sequence[Report], feeding: Feeding) -> bool:
+def _counts_wrongly(reports: Sequence[Report], trial: Trial) -> bool:
     """Whether each summary comes when its own count says so, and that count is not true.
 
-    By chance one may be true: of who counts one too many, the summary after 9 messages may come late, after the 10th.
+    By chance one may be true: in a node that counts one too many, the summary after 9 messages may come late, after the
+    10th.
     """
     by_its_count = all(report.states(EVERY * number) for number, report in enumerate(reports, start=1))
-    return by_its_count and any(not true_total(report, feeding) for report in reports)
+    return by_its_count and any(not true_total(report, trial) for report in reports)
 
 
-def _why_incomplete(report: Report, feeding: Feeding) -> Cause | None:
-    first = feeding.sent[0]
-    recent = feeding.sent[milestone(report.messages) - 1 : report.until]
+def _why_incomplete(report: Report, trial: Trial) -> Cause | None:
+    first = trial.sent[0]
+    recent = trial.sent[milestone(report.messages) - 1 : report.until]
     if first.number not in report.quoted:
         others = [number for number in report.quoted if number not in {each.number for each in recent}]
         if others:
             return Cause(
                 "first message overwritten",
                 f"“{first.content}” was the first one, but it quotes “Hello World: {others[0]}”",
-                steps.first_kept(feeding.trace) or "set self.first_message only while it is None, and never again",
+                steps.keep_first_message(trial.trace)
+                or "set self.first_message only while it is None, and never again",
             )
         return Cause(
             "first message missing",
             f"“{first.content}” is not in it",
-            steps.summary(feeding.trace)
+            steps.summarise_every_ten(trial.trace)
             or "keep the first message's data in self.first_message, and put it into the summary",
         )
     if not any(each.number in report.quoted for each in recent):
         return Cause(
             "last message missing",
             f"“{recent[0].content}” is not in it",
-            steps.summary(feeding.trace)
+            steps.summarise_every_ten(trial.trace)
             or "self.last_message = msg.data for each message, before you write the summary",
         )
     called = {(name, number) for line in report.lines for name, number in labelled(line.text)}
@@ -287,29 +290,29 @@ def _why_incomplete(report: Report, feeding: Feeding) -> Cause | None:
         return Cause(
             "first and last swapped",
             f"it calls “{first.content}” the last one, and the last one the first",
-            steps.summary(feeding.trace)
+            steps.summarise_every_ten(trial.trace)
             or "put self.first_message after “first”, and the message that has just come after “last”",
         )
     return None
 
 
-def why_silent(feeding: Feeding) -> Cause:
+def why_silent(trial: Trial) -> Cause:
     """Why the node logs no summary."""
-    trace = feeding.trace
-    if trace.exit is not None or not feeding.sent or not (feeding.lines or feeding.spins):
-        return steps.alive(trace, causes.of_deafness(trace, OURS, answers=feeding.spins, stuck=feeding.stuck))
-    printed = causes.of_printed(
+    trace = trial.trace
+    if trace.exit is not None or not trial.sent or not (trial.lines or trial.spins):
+        return steps.keep_node_up(trace, causes.diagnose_deafness(trace, OURS, answers=trial.spins, stuck=trial.stuck))
+    printed = causes.diagnose_printed(
         trace,
         lambda text: bool(read(_as_log(text), 1).quoted),
         "what the node has to say",
-        after=feeding.ending.output if feeding.ending else (),
+        after=trial.ending.output if trial.ending else (),
     )
     if printed is not None:
         return printed
     return Cause(
         "no summary",
-        "none of its log messages sums up the messages" if feeding.lines else "no log message follows from a message",
-        steps.summary(trace)
+        "none of its log messages sums up the messages" if trial.lines else "no log message follows from a message",
+        steps.summarise_every_ten(trace)
         or f"count in the callback; if self.total_count % {EVERY} == 0: self.get_logger().info(...) with the count, "
         "the rate, the first and the last message",
     )
@@ -319,9 +322,9 @@ def _as_log(text: str) -> LogRecord:
     return LogRecord(20, "", text, 0.0, 0.0)
 
 
-def _logged(feeding: Feeding) -> list[str]:
-    return [str(log) for log in feeding.trace.logs[-6:]] or list(causes.last_words(feeding.trace))
+def _logged(trial: Trial) -> list[str]:
+    return [str(log) for log in trial.trace.logs[-6:]] or list(causes.output_tail(trial.trace))
 
 
-def judge_shutdown(steady: Feeding) -> Verdict:
-    return ending.judge(steady.trace, steady.ending)
+def judge_shutdown(steady: Trial) -> Verdict:
+    return ending.judge_ending(steady.trace, steady.ending)

@@ -79,14 +79,14 @@ class Listener:
         return f"{'self.' if self.owner else ''}{(free or names[-1:])[0]}"
 
 
-def find(trace: Trace) -> Listener | None:
-    """The callback of the node's subscription; None where there is none, or the file is none that can be read."""
+def find_listener(trace: Trace) -> Listener | None:
+    """The callback of the node's subscription; None where there is none, or the file cannot be read."""
     for file in source.files(trace):
         for call in file.calls("create_subscription"):
             for function in _given(call, file):
-                parent = next(file.outwards(function), None)
+                parent = next(file.ancestors(function), None)
                 owner = parent if isinstance(parent, ast.ClassDef) else None
-                outer = file.within(function) if owner is None else None
+                outer = file.function_around(function) if owner is None else None
                 led = tuple(file.reached(function))
                 return Listener(file, call, function, led, owner, outer, dict(_names(function, led, owner, file)))
     return None
@@ -110,7 +110,7 @@ def _names(
     What another class keeps is out of the callback's reach; what is also set elsewhere may be for something else.
     """
     called = [node.value for node in function.body if isinstance(node, ast.Expr)]
-    always = {source.called(each) for each in called if isinstance(each, ast.Call)} if owner else set()
+    always = {source.called_name(each) for each in called if isinstance(each, ast.Call)} if owner else set()
     mine = [each for each in reached if each is function or (each.name in always and owner and each in owner.body)]
     outside = [each for each in file.functions if each not in mine and each.name != "__init__"]
     others = {name for each in outside for name, _, _ in _kept(each)}
@@ -164,10 +164,10 @@ def _role(value: ast.expr, function: Function, always: bool) -> str:
         case ast.Attribute(attr="data", value=ast.Name(id=name)) if name in given:
             return LAST if always else FIRST
     local = value_of(value, function)
-    called = {source.called(each) for each in ast.walk(local) if isinstance(each, ast.Call)}
+    called = {source.called_name(each) for each in ast.walk(local) if isinstance(each, ast.Call)}
     if isinstance(local, ast.Call) and called.intersection(_CLOCKS):
         return START
-    return NUMBER if isinstance(local, ast.Call) and source.called(local) == "int" and always else ""
+    return NUMBER if isinstance(local, ast.Call) and source.called_name(local) == "int" and always else ""
 
 
 def value_of(value: ast.expr, function: Function) -> ast.expr:

@@ -83,7 +83,7 @@ class Misread:
     right: str
 
 
-def misread(functions: Sequence[Function]) -> Misread | None:
+def find_misread(functions: Sequence[Function]) -> Misread | None:
     """Whether the number is taken from the wrong place of the text."""
     for function in functions:
         for node in ast.walk(function):

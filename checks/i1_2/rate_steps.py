@@ -7,9 +7,9 @@ import re
 from collections.abc import Sequence
 
 from checks.i1_2 import rewriting
-from checks.i1_2.listener import COUNT, START, Listener, find, value_of
+from checks.i1_2.listener import COUNT, START, Listener, find_listener, value_of
 from checks.i1_2.templates import Logged, logged
-from tutor.judge.edits import Edit, above, at_start, instead, on_top, told_of
+from tutor.judge.edits import Edit, add_import, describe_edits_of, insert_above, prepend_to_function, replace_node
 from tutor.judge.trace import Trace
 
 _CALLED_RATE = re.compile(
@@ -20,7 +20,7 @@ _CLOCKS = re.compile(r"(time\.)?(time|monotonic|perf_counter)\(\)")
 
 def step(trace: Trace, texts: Sequence[str], numbers: Sequence[str]) -> str | None:
     """Computes the rate where the summary takes it from. `texts`: its log messages; `numbers`: what may be the rate."""
-    listener = find(trace)
+    listener = find_listener(trace)
     places = [place for text in texts if (place := logged(trace, text)) is not None]
     found = [(place, each) for place in places for each, value in place.values if value.strip() in numbers]
     named = [(place, each) for place, each in found if _CALLED_RATE.search(ast.unparse(each))]
@@ -32,7 +32,7 @@ def step(trace: Trace, texts: Sequence[str], numbers: Sequence[str]) -> str | No
         return None
     edits, clock, start = _started(listener)
     new = f"({listener.names[COUNT]} - 1) / ({clock} - {start})"
-    return told_of(listener.file, [*edits, _written(place, value, new, clock, start)])
+    return describe_edits_of(listener.file, [*edits, _written(place, value, new, clock, start)])
 
 
 def _written(place: Logged, value: ast.expr, new: str, clock: str, start: str) -> Edit:
@@ -47,24 +47,24 @@ def _written(place: Logged, value: ast.expr, new: str, clock: str, start: str) -
         tests = [each for each in ast.walk(place.function or place.statement) if isinstance(each, ast.If)]
         seldom = any(given[0] in ast.walk(each) and "%" in ast.unparse(each.test) for each in tests)
         safe = new if seldom else new.replace(f"({clock} - {start})", f"max({clock} - {start}, 0.001)")
-        return instead(place.text, given[0].value, safe)
+        return replace_node(place.text, given[0].value, safe)
     if isinstance(value, ast.Name | ast.Attribute) and given:
-        return above(place.statement.lineno, f"{name} = {new}")
-    return instead(place.text, value, new)
+        return insert_above(place.statement.lineno, f"{name} = {new}")
+    return replace_node(place.text, value, new)
 
 
 def _started(listener: Listener) -> tuple[list[Edit], str, str]:
     """What it takes to know when the first message came: edits, the clock, and the variable."""
     if (own := _own_start(listener)) is not None:
         return [], own, listener.names[START]
-    wanted, clock = rewriting.clock(listener.text)
+    wanted, clock = rewriting.monotonic_clock(listener.text)
     start = listener.new("start_time", "first_time")
     code = f"if {start} is None:\n    {start} = {clock}"
     edits = [
-        rewriting.first_value(listener, [f"{start} = None"]),
-        at_start(listener.function, rewriting.declared(listener, [start], code)),
+        rewriting.set_first_value(listener, [f"{start} = None"]),
+        prepend_to_function(listener.function, rewriting.declare_variables(listener, [start], code)),
     ]
-    return [*on_top(listener.text, wanted), *edits], clock, start
+    return [*add_import(listener.text, wanted), *edits], clock, start
 
 
 def _own_start(listener: Listener) -> str | None:

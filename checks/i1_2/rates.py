@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from math import inf
 
 from checks.i1_2 import steps
-from checks.i1_2.facts import EVERY, STALL_S, Feeding
+from checks.i1_2.facts import EVERY, STALL_S, Trial
 from checks.i1_2.reading import Number
-from checks.i1_2.reports import Report, find, milestone, slots, totals
+from checks.i1_2.reports import Report, find_reports, milestone, slots, totals
 from tutor.judge.rates import TOLERANCE
 from tutor.judge.verdict import Cause
 
@@ -24,7 +24,7 @@ FEW = 5
 """The shortest window, in messages, over which a rate is taken."""
 
 CUT_S = 0.01
-"""A rate is one by whole seconds if it makes them whole by so much: it is often written with two digits."""
+"""A rate is one by whole seconds if it makes them whole by this much: it is often written with two digits."""
 
 SAME_S = 0.2
 """Two times that are measured from here are the same if they differ by less."""
@@ -49,12 +49,12 @@ class Range:
         return any(map(self.holds, report.numbers))
 
 
-def sent_hz(feeding: Feeding) -> float:
+def sent_hz(trial: Trial) -> float:
     """The rate at which the messages were sent."""
-    return (len(feeding.sent) - 1) / (feeding.sent[-1].at - feeding.sent[0].at)
+    return (len(trial.sent) - 1) / (trial.sent[-1].at - trial.sent[0].at)
 
 
-def true_rates(report: Report, feeding: Feeding, *, excused_s: float = inf) -> Range:
+def true_rates(report: Report, trial: Trial, *, excused_s: float = inf) -> Range:
     """What may be stated: N or N-1 messages by the time since the first of them, or since a recent one.
 
     Where the machine let the node take in that first one late, the time seemed shorter to it by as much, or by
@@ -62,11 +62,11 @@ def true_rates(report: Report, feeding: Feeding, *, excused_s: float = inf) -> R
     """
     least, most = [], []
     for until in range(report.messages, report.until + 1):
-        last_at = feeding.sent[until - 1].at
+        last_at = trial.sent[until - 1].at
         for first in range(max(1, until - FEW + 1)):
-            count, since = until - first, feeding.sent[first].at
+            count, since = until - first, trial.sent[first].at
             span = max(last_at - since, DELAY_S)
-            delay = min(DELAY_S + min(feeding.delay_s(first), excused_s), 0.7 * span)
+            delay = min(DELAY_S + min(trial.delay_s(first), excused_s), 0.7 * span)
             if count >= EVERY or first == 0:  # since the first of them, until it is logged
                 least.append((count - 1) / (max(report.at - since, span) + DELAY_S))
                 most.append(count / (span - delay))
@@ -75,13 +75,13 @@ def true_rates(report: Report, feeding: Feeding, *, excused_s: float = inf) -> R
     return Range((1 - TOLERANCE) * min(least), (1 + TOLERANCE) * max(most))
 
 
-def stated(reports: Sequence[Report], allowed: Sequence[Range], jump: Feeding) -> list[Number] | None:
+def stated(reports: Sequence[Report], allowed: Sequence[Range], jump: Trial) -> list[Number] | None:
     """The true rate as each report states it, in the same place of each; None where one of them does not.
 
-    `jump` was fed at another rate: a number that is the same there each time, and not true there, is no rate. Once is
-    not enough: a rate that was taken a while ago, when the first messages had just come, may happen to be the same.
+    `jump` was fed at another rate: a number that is the same there each time, and not true there, is not a rate. Once
+    is not enough: a rate that was taken a while ago, when the first messages had just come, may happen to be the same.
     """
-    elsewhere = find(jump)
+    elsewhere = find_reports(jump)
     untrue = [{n.text for n in each.numbers if not true_rates(each, jump).holds(n)} for each in elsewhere]
     constant = set.intersection(*untrue) if untrue else set()
     if (places := slots(reports)) is not None:
@@ -100,53 +100,53 @@ def stated(reports: Sequence[Report], allowed: Sequence[Range], jump: Feeding) -
     return found
 
 
-def doubtful(numbers: Sequence[Number], reports: Sequence[Report], feeding: Feeding) -> bool:
+def doubtful(numbers: Sequence[Number], reports: Sequence[Report], trial: Trial) -> bool:
     """Whether these may only seem to be the rate, because a busy machine did not let us send at the pace planned.
 
     At that pace, what is not the rate is far from it: the elapsed seconds, the messages by whole seconds, or by the
     seconds since the node was started.
     """
-    sure = [true_rates(report, feeding, excused_s=STALL_S) for report in reports]
+    sure = [true_rates(report, trial, excused_s=STALL_S) for report in reports]
     true = all(one.holds(number) for one, number in zip(sure, numbers, strict=True))
-    if true and _elapsed(reports[0], feeding) <= SLOWEST_S and feeding.delay_s(0) <= STALL_S:
+    if true and _elapsed(reports[0], trial) <= SLOWEST_S and trial.delay_s(0) <= STALL_S:
         return False
-    elapsed = [_elapsed(report, feeding) for report in reports]
+    elapsed = [_elapsed(report, trial) for report in reports]
     whole = [report.messages / max(int(span), 1) for report, span in zip(reports, elapsed, strict=True)]
     seeming = any(
         all(abs(number.value - other) < 0.01 + DELAY_S * other for number, other in zip(numbers, others, strict=True))
         for others in (elapsed, whole)
     )
     return seeming or not all(
-        any(close.holds(number) for close in _close(report, feeding))
+        any(close.holds(number) for close in _close(report, trial))
         for number, report in zip(numbers, reports, strict=True)
     )
 
 
-def _elapsed(report: Report, feeding: Feeding) -> float:
+def _elapsed(report: Report, trial: Trial) -> float:
     """Seconds from the first message to the one that the report is due for."""
     count = milestone(report.messages) or report.messages
-    return max(feeding.sent[count - 1].at - feeding.sent[0].at, DELAY_S)
+    return max(trial.sent[count - 1].at - trial.sent[0].at, DELAY_S)
 
 
-def _close(report: Report, feeding: Feeding) -> Iterator[Range]:
+def _close(report: Report, trial: Trial) -> Iterator[Range]:
     """What a node that measures well comes to: since the first message, or since the last but nine."""
     for first in {0, max(0, (milestone(report.messages) or report.messages) - EVERY)}:
-        since = feeding.sent[first].at
-        soonest = feeding.sent[max(first, (milestone(report.messages) or report.messages) - 1)].at - since
-        delay = min(feeding.delay_s(first), 0.7 * soonest)
+        since = trial.sent[first].at
+        soonest = trial.sent[max(first, (milestone(report.messages) or report.messages) - 1)].at - since
+        delay = min(trial.delay_s(first), 0.7 * soonest)
         low = (report.messages - first - 1) / max(report.at - since, DELAY_S)
         high = (report.messages - first) / max(soonest - delay, DELAY_S)
         yield Range((1 - CLOSE) * low, (1 + CLOSE) * high)
 
 
-def why_wrong(report: Report, reports: Sequence[Report], feeding: Feeding) -> Cause:
+def why_wrong(report: Report, reports: Sequence[Report], trial: Trial) -> Cause:
     """What kind of mistake leads to the numbers in this one of the reports, which states no true rate."""
-    found = _but_the_count(report, feeding)
+    found = _but_the_count(report, trial)
     texts, numbers = [line.text for line in report.lines], [number.text for number in found]
-    hint = steps.rate(feeding.trace, texts, numbers) or (
+    hint = steps.measure_rate(trial.trace, texts, numbers) or (
         "self.total_count / (time.time() - self.start_time), where start_time is when the first message came"
     )
-    true = true_rates(report, feeding)
+    true = true_rates(report, trial)
     for number in found:
         if number.value > 0 and 1 / number.value in true:
             return Cause(
@@ -159,19 +159,19 @@ def why_wrong(report: Report, reports: Sequence[Report], feeding: Feeding) -> Ca
             return Cause("rate per minute", f"{number.text} is messages per minute", hint)
         if any(number.value * by in true for by in (1e-3, 1e3, 1e6, 1e9)):
             return Cause("rate in another unit", f"{number.text} is off by a factor of a thousand, or of several", hint)
-    waited = [_waited(each, feeding) for each in reports]
-    for number, span in _waited(report, feeding):
+    waited = [_waited(each, trial) for each in reports]
+    for number, span in _waited(report, trial):
         if span.high > 0.7 and all(any(span.meets(same) for _, same in each) for each in waited):
             return Cause(
                 "counted from the node's start",
                 f"{number.text} is right if the clock starts {span.high:.1f} s before the first message",
                 hint,
             )
-    if all(_cut(each, feeding) for each in reports):
-        number, whole_s = _cut(report, feeding)[0]
+    if all(_cut(each, trial) for each in reports):
+        number, whole_s = _cut(report, trial)[0]
         return Cause(
             "seconds cut off",
-            f"{number.text} is {_count(report, feeding)} messages in {whole_s} s, but it took longer",
+            f"{number.text} is {_count(report, trial)} messages in {whole_s} s, but it took longer",
             hint,
         )
     if not found:
@@ -179,11 +179,11 @@ def why_wrong(report: Report, reports: Sequence[Report], feeding: Feeding) -> Ca
     return Cause("wrong rate", f"none of {', '.join(number.text for number in found)} is the rate", hint)
 
 
-def _cut(report: Report, feeding: Feeding) -> list[tuple[Number, int]]:
+def _cut(report: Report, trial: Trial) -> list[tuple[Number, int]]:
     """The numbers that are its messages by whole seconds, and how many these are."""
-    count, since = _count(report, feeding), feeding.sent[0].at
-    spans = {max(int(at - since), 1) for at in (feeding.sent[count - 1].at, report.at)}
-    positive = [number for number in _but_the_count(report, feeding) if number.value > 0]
+    count, since = _count(report, trial), trial.sent[0].at
+    spans = {max(int(at - since), 1) for at in (trial.sent[count - 1].at, report.at)}
+    positive = [number for number in _but_the_count(report, trial) if number.value > 0]
     return [(number, span) for number in positive for span in spans if abs(count / number.value - span) < CUT_S]
 
 
@@ -199,24 +199,24 @@ class _Span:
         return self.low - other.high < SAME_S and other.low - self.high < SAME_S
 
 
-def _waited(report: Report, feeding: Feeding) -> list[tuple[Number, _Span]]:
+def _waited(report: Report, trial: Trial) -> list[tuple[Number, _Span]]:
     """For each number, if it were a rate: how long before the first message the clock was started.
 
     The node stopped it when the last message that it counts came, or when it wrote the summary, or in between.
     """
-    count, since = _count(report, feeding), feeding.sent[0].at
-    soonest, latest = feeding.sent[count - 1].at - since, report.at - since
-    spans = ((number, count / number.value) for number in _but_the_count(report, feeding) if number.value > 0)
+    count, since = _count(report, trial), trial.sent[0].at
+    soonest, latest = trial.sent[count - 1].at - since, report.at - since
+    spans = ((number, count / number.value) for number in _but_the_count(report, trial) if number.value > 0)
     return [(number, _Span(span - latest, span - soonest)) for number, span in spans]
 
 
-def _count(report: Report, feeding: Feeding) -> int:
+def _count(report: Report, trial: Trial) -> int:
     """How many messages it is made of: the true total that it states, or all that had come."""
-    return next((total for total in totals(report, feeding) if report.states(total)), report.messages)
+    return next((total for total in totals(report, trial) if report.states(total)), report.messages)
 
 
-def _but_the_count(report: Report, feeding: Feeding) -> list[Number]:
+def _but_the_count(report: Report, trial: Trial) -> list[Number]:
     """The numbers in the report, without the one that is its count."""
-    made_of = _count(report, feeding)
+    made_of = _count(report, trial)
     count = next((number for number in report.numbers if number.value == made_of), None)
     return [number for number in report.numbers if number is not count]

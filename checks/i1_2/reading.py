@@ -70,7 +70,7 @@ class Line:
 
 
 def read(log: LogRecord, messages: int) -> Line:
-    """Read one log message, logged after so many `messages` had been sent."""
+    """Read one log message, logged after this many `messages` had been sent."""
     text = unicodedata.normalize("NFKC", _COLOUR.sub("", log.text))
     quoted = tuple(int(found[1]) for found in _CONTENT.finditer(text))
     plain = _CLOCK.sub("@", _CONTENT.sub("“”", text))

@@ -7,17 +7,17 @@ from collections.abc import Container, Iterable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
-from checks.i1_2.facts import EVERY, SOON_S, Feeding
+from checks.i1_2.facts import EVERY, SOON_S, Trial
 from checks.i1_2.reading import Line, Number
 
 AT_ONCE_S = 0.05
 """Lines that are logged within this time belong together."""
 
 ORDINARY = 0.5
-"""A kind of line that comes with this share of all messages is no summary's, unless the summaries come as often."""
+"""A kind of line that comes with this share of all messages is not a summary's, unless the summaries come as often."""
 
 STALE = 4
-"""A summary's last message is at most so many messages old, or the one that it is due for."""
+"""A summary's last message is at most this many messages old, or the one that it is due for."""
 
 
 @dataclass(frozen=True)
@@ -76,45 +76,45 @@ def milestone(messages: int) -> int:
     return messages - messages % EVERY
 
 
-def in_time(report: Report, feeding: Feeding) -> bool:
+def in_time(report: Report, trial: Trial) -> bool:
     """Whether the summary belongs to the tenth, twentieth, ... message: it comes with it, or soon after."""
     due = milestone(report.messages)
-    return due > 0 and report.at - feeding.sent[due - 1].at <= feeding.late_s
+    return due > 0 and report.at - trial.sent[due - 1].at <= trial.summary_limit_s
 
 
-def totals(report: Report, feeding: Feeding, *, before: int = 0) -> range:
+def totals(report: Report, trial: Trial, *, before: int = 0) -> range:
     """The totals that are true in it, when the first `before` messages do not count.
 
     It may have been made a moment before it was logged, and it may be logged in several parts.
     """
     counted = report.messages - before
     earliest = counted
-    if milestone(counted) > 0 and (report.at - feeding.sent[before + milestone(counted) - 1].at <= feeding.late_s):
+    if milestone(counted) > 0 and (report.at - trial.sent[before + milestone(counted) - 1].at <= trial.summary_limit_s):
         earliest = milestone(counted)
-    elif report.at - feeding.sent[report.messages - 1].at <= AT_ONCE_S + feeding.excused_s:
+    elif report.at - trial.sent[report.messages - 1].at <= AT_ONCE_S + trial.allowance_s:
         earliest = counted - 1
     return range(max(earliest, 1), report.until - before + 1)
 
 
-def find(feeding: Feeding) -> tuple[Report, ...]:
+def find_reports(trial: Trial) -> tuple[Report, ...]:
     """The summaries among what was logged, complete or not, oldest first."""
-    times = Counter(line.kind for line in feeding.lines)
-    usual = {kind for kind, count in times.items() if count >= max(3, ORDINARY * len(feeding.sent))}
-    special = together([line for line in feeding.lines if line.kind not in usual], feeding)
-    if complete := _but_of_the_break([report for report in special if _complete(report, feeding)], feeding):
-        return _alone(_like(complete, special), special, feeding)
-    everything = together(feeding.lines, feeding)
-    complete = [report for report in everything if report.messages > 1 and _complete(report, feeding)]
-    if len(complete) > len(feeding.sent) / 4:
-        return _alone(_like(complete, everything), everything, feeding)
-    return _alone(_likeliest(special, feeding), special, feeding)
+    times = Counter(line.kind for line in trial.lines)
+    usual = {kind for kind, count in times.items() if count >= max(3, ORDINARY * len(trial.sent))}
+    special = group_lines([line for line in trial.lines if line.kind not in usual], trial)
+    if complete := _but_of_the_break([report for report in special if _complete(report, trial)], trial):
+        return _alone(_like(complete, special), special, trial)
+    everything = group_lines(trial.lines, trial)
+    complete = [report for report in everything if report.messages > 1 and _complete(report, trial)]
+    if len(complete) > len(trial.sent) / 4:
+        return _alone(_like(complete, everything), everything, trial)
+    return _alone(_likeliest(special, trial), special, trial)
 
 
-def _complete(report: Report, feeding: Feeding) -> bool:
+def _complete(report: Report, trial: Trial) -> bool:
     """Whether it quotes a first message and a recent one."""
-    firsts = {feeding.sent[index].number for index in (0, *feeding.jumps)}
+    firsts = {trial.sent[index].number for index in (0, *trial.jumps)}
     oldest = min(report.messages - STALE, milestone(report.messages)) - 1
-    recent = {each.number for each in feeding.sent[max(oldest, 0) : report.until]}
+    recent = {each.number for each in trial.sent[max(oldest, 0) : report.until]}
     quoted = list(report.quoted)
     return any(
         first in quoted and any(last in quoted and (last != first or quoted.count(first) > 1) for last in recent)
@@ -122,7 +122,7 @@ def _complete(report: Report, feeding: Feeding) -> bool:
     )
 
 
-def _but_of_the_break(complete: Sequence[Report], feeding: Feeding) -> list[Report]:
+def _but_of_the_break(complete: Sequence[Report], trial: Trial) -> list[Report]:
     """Without what is said of a jump or a restart: that may quote a first and a recent message, too.
 
     It is told from a summary by its wording, if there are summaries elsewhere.
@@ -130,21 +130,21 @@ def _but_of_the_break(complete: Sequence[Report], feeding: Feeding) -> list[Repo
     summaries = {
         kind
         for report in complete
-        if in_time(report, feeding) and not _at_the_break(report, feeding)
+        if in_time(report, trial) and not _at_the_break(report, trial)
         for kind in report.kinds
     }
     return [
-        report for report in complete if not summaries or report.kinds & summaries or not _at_the_break(report, feeding)
+        report for report in complete if not summaries or report.kinds & summaries or not _at_the_break(report, trial)
     ]
 
 
-def _at_the_break(report: Report, feeding: Feeding) -> bool:
+def _at_the_break(report: Report, trial: Trial) -> bool:
     """Whether it came right after a break, and quotes nothing newer than the message after that."""
-    quoted = [index for index, each in enumerate(feeding.sent[: report.until]) if each.number in report.quoted]
+    quoted = [index for index, each in enumerate(trial.sent[: report.until]) if each.number in report.quoted]
     newest = max(quoted, default=0)
     return any(
-        newest in (index - 1, index) and 0 <= report.at - feeding.sent[index].at <= feeding.late_s
-        for index in feeding.jumps
+        newest in (index - 1, index) and 0 <= report.at - trial.sent[index].at <= trial.summary_limit_s
+        for index in trial.jumps
     )
 
 
@@ -157,28 +157,28 @@ def _like(complete: Sequence[Report], candidates: Iterable[Report]) -> tuple[Rep
     )
 
 
-def _alone(reports: Sequence[Report], candidates: Iterable[Report], feeding: Feeding) -> tuple[Report, ...]:
+def _alone(reports: Sequence[Report], candidates: Iterable[Report], trial: Trial) -> tuple[Report, ...]:
     """The summaries without what only happened to be logged together with one.
 
     That is what comes by itself, too, and not when a summary is due: then it may be the rest of a torn one.
     """
     apart = [each for each in candidates if each not in reports and each.messages % EVERY > STALE]
     elsewhere = {line.kind for each in apart for line in each.lines}
-    return tuple(_without(report, elsewhere, feeding) for report in reports)
+    return tuple(_without(report, elsewhere, trial) for report in reports)
 
 
-def _without(report: Report, kinds: Container[tuple[int, str]], feeding: Feeding) -> Report:
+def _without(report: Report, kinds: Container[tuple[int, str]], trial: Trial) -> Report:
     """The summary without lines of these kinds, where it says as much without them."""
     rest = Report(tuple(line for line in report.lines if line.kind not in kinds))
-    return rest if rest.lines and _complete(rest, feeding) >= _complete(report, feeding) else report
+    return rest if rest.lines and _complete(rest, trial) >= _complete(report, trial) else report
 
 
-def _likeliest(candidates: Sequence[Report], feeding: Feeding) -> tuple[Report, ...]:
+def _likeliest(candidates: Sequence[Report], trial: Trial) -> tuple[Report, ...]:
     """No candidate is complete: those of a family that most often state a total, or quote a message, when it is due."""
 
     def worth(family: Sequence[Report]) -> tuple[int, int]:
-        due = [each for each in family if in_time(each, feeding)]
-        telling = [each for each in due if each.quoted or any(map(each.states, totals(each, feeding)))]
+        due = [each for each in family if in_time(each, trial)]
+        telling = [each for each in due if each.quoted or any(map(each.states, totals(each, trial)))]
         return len({milestone(each.messages) for each in telling}), -len(family)
 
     families = [_like([each], candidates) for each in candidates if each.kinds]
@@ -186,7 +186,7 @@ def _likeliest(candidates: Sequence[Report], feeding: Feeding) -> tuple[Report, 
     return best if best and worth(best)[0] else ()
 
 
-def together(lines: Sequence[Line], feeding: Feeding) -> tuple[Report, ...]:
+def group_lines(lines: Sequence[Line], trial: Trial) -> tuple[Report, ...]:
     """Lines that were logged at once, or between the same two messages; and groups that only together are complete.
 
     What was said just before a summary was due is none of it.
@@ -201,19 +201,19 @@ def together(lines: Sequence[Line], feeding: Feeding) -> tuple[Report, ...]:
             groups.append(Report((line,)))
     joined: list[Report] = []
     for group in groups:
-        if joined and (whole := _joined(joined[-1], group, feeding)):
+        if joined and (whole := _joined(joined[-1], group, trial)):
             joined[-1] = whole
         else:
             joined.append(group)
     return tuple(joined)
 
 
-def _joined(one: Report, other: Report, feeding: Feeding) -> Report | None:
+def _joined(one: Report, other: Report, trial: Trial) -> Report | None:
     """One summary that was interrupted by a message; None where these are none."""
     whole = Report(one.lines + other.lines)
     soon = other.at - one.at <= SOON_S and milestone(other.messages) == milestone(one.messages) > 0
-    apart = not _complete(one, feeding) and not _complete(other, feeding) and not one.kinds & other.kinds
-    return whole if soon and apart and _complete(whole, feeding) else None
+    apart = not _complete(one, trial) and not _complete(other, trial) and not one.kinds & other.kinds
+    return whole if soon and apart and _complete(whole, trial) else None
 
 
 def slots(reports: Sequence[Report]) -> list[tuple[Number, ...]] | None:

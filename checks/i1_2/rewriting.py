@@ -8,9 +8,20 @@ import textwrap
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from checks.i1_2.facts import EVERY
-from checks.i1_2.listener import COUNT, FIRST, LAST, NUMBER, START, Listener, find
+from checks.i1_2.listener import COUNT, FIRST, LAST, NUMBER, START, Listener, find_listener
 from tutor.judge import source
-from tutor.judge.edits import Edit, above, after, apply, at_start, becomes, instead, on_top, told_of, without
+from tutor.judge.edits import (
+    Edit,
+    add_import,
+    apply,
+    describe_edits_of,
+    insert_above,
+    insert_after,
+    prepend_to_function,
+    remove_statement,
+    replace_lines,
+    replace_node,
+)
 from tutor.judge.rewriting.node import first_line
 from tutor.judge.source import last_name
 from tutor.judge.trace import Trace
@@ -32,19 +43,19 @@ if {total_count} % {every} == 0:
     {logger}.info(f'first: {{{first_message}}}, last: {{{last_message}}}')"""
 
 
-def whole(trace: Trace) -> str | None:
-    """The step that writes the callback anew; None where there is none that can be written so."""
-    listener = find(trace)
+def rewrite_callback(trace: Trace) -> str | None:
+    """The step that rewrites the callback; None where it cannot be written so."""
+    listener = find_listener(trace)
     if listener is not None and listener.message and listener.logger:
         names = {role: listener.name(role) for role in _AT_FIRST}
-        wanted, now = clock(listener.text)
+        wanted, now = monotonic_clock(listener.text)
         code = _CODE.format(content=listener.content, clock=now, logger=listener.logger, every=EVERY, **names)
-        written = body(listener, declared(listener, names.values(), code))
+        written = replace_body(listener, declare_variables(listener, names.values(), code))
         timers = list(_without_timers(listener))
         if apply(listener.text, [written, *timers]).split() == listener.text.split():
             return None
-        edits = [*on_top(listener.text, wanted), *started(listener, _AT_FIRST), written, *timers]
-        if found := told_of(listener.file, edits):
+        edits = [*add_import(listener.text, wanted), *initialise_variables(listener, _AT_FIRST), written, *timers]
+        if found := describe_edits_of(listener.file, edits):
             return found
     return _another(trace)
 
@@ -52,26 +63,26 @@ def whole(trace: Trace) -> str | None:
 def _another(trace: Trace) -> str | None:
     """The step that gives the subscription another callback, with all that lasts in the node."""
     for call in source.calls(trace, "create_subscription"):
-        file = source.holding(trace, call)
+        file = source.file_holding(trace, call)
         given = [*call.args[2:3], *(each.value for each in call.keywords if each.arg == "callback")]
-        text, function, made = file.text, file.within(call), file.statement(call)
+        text, function, made = file.text, file.function_around(call), file.statement(call)
         if not given or not isinstance(call.func, ast.Attribute) or function is None:
             continue
         node, name = ast.unparse(call.func.value), "on_message" if "on_message" not in text else "on_chatter"
         names = {role: f"{node}.{role}" for role in _AT_FIRST}
-        wanted, now = clock(text)
+        wanted, now = monotonic_clock(text)
         code = _CODE.format(content="message.data", clock=now, logger=f"{node}.get_logger()", every=EVERY, **names)
         method = f"def {name}({'self, ' if node == 'self' else ''}message):\n{textwrap.indent(code, '    ')}"
         starts = "\n".join(f"{names[role]} = {value}" for role, value in _AT_FIRST.items())
         if node == "self":
-            edits = [above(made.lineno, starts), after(function, f"\n{method}")]
+            edits = [insert_above(made.lineno, starts), insert_after(function, f"\n{method}")]
         else:
-            edits = [above(made.lineno, f"{starts}\n\n{method}\n")]
+            edits = [insert_above(made.lineno, f"{starts}\n\n{method}\n")]
         others = [each for each in file.calls("create_subscription") if each is not call]
-        edits += [without(text, file.statement(each)) for each in others]
+        edits += [remove_statement(text, file.statement(each)) for each in others]
         callback = f"self.{name}" if node == "self" else name
-        edits += [*on_top(text, wanted), instead(text, given[0], callback)]
-        if name not in text and (found := told_of(file, edits)):
+        edits += [*add_import(text, wanted), replace_node(text, given[0], callback)]
+        if name not in text and (found := describe_edits_of(file, edits)):
             return found
     return None
 
@@ -85,43 +96,43 @@ def _without_timers(listener: Listener) -> Iterator[Edit]:
         if not name or functions[name] in listener.reached:
             continue
         inside = [node for each in listener.file.reached(functions[name]) for node in ast.walk(each)]
-        if any(isinstance(each, ast.Call) and source.called(each) == "get_logger" for each in inside):
-            yield without(listener.text, listener.file.statement(call))
+        if any(isinstance(each, ast.Call) and source.called_name(each) == "get_logger" for each in inside):
+            yield remove_statement(listener.text, listener.file.statement(call))
             if len(re.findall(rf"\b{name}\b", listener.text)) == 2:
-                yield without(listener.text, functions[name])
+                yield remove_statement(listener.text, functions[name])
 
 
-def clock(text: str) -> tuple[str, str]:
+def monotonic_clock(text: str) -> tuple[str, str]:
     """The import of a clock that never goes back, and its call, as they go with the imports that the file has."""
     if re.search(r"^from time import", text, re.MULTILINE):
         return "from time import monotonic", "monotonic()"
     return "import time", "time.monotonic()"
 
 
-def declared(listener: Listener, names: Iterable[str], code: str) -> str:
+def declare_variables(listener: Listener, names: Iterable[str], code: str) -> str:
     """The code, after a line that says of which function these variables are, where they are none of an object."""
     if listener.owner is not None:
         return code
     return f"{'nonlocal' if listener.outer else 'global'} {', '.join(names)}\n{code}"
 
 
-def on_entry(listener: Listener, names: Iterable[str], code: str) -> Edit:
+def prepend_to_callback(listener: Listener, names: Iterable[str], code: str) -> Edit:
     """What the callback does before all else with each message; `names`: the variables that last."""
-    return at_start(listener.function, declared(listener, names, code))
+    return prepend_to_function(listener.function, declare_variables(listener, names, code))
 
 
-def body(listener: Listener, code: str) -> Edit:
+def replace_body(listener: Listener, code: str) -> Edit:
     """All that the callback does, but for what documents it, becomes this code."""
     function = listener.function
     text = function.body[0]
     documented = isinstance(text, ast.Expr) and isinstance(text.value, ast.Constant)
     rest = function.body[documented:]
     if not rest:
-        return after(text, code)
-    return becomes(rest[0].lineno, code, rest[-1].end_lineno or 0)
+        return insert_after(text, code)
+    return replace_lines(rest[0].lineno, code, rest[-1].end_lineno or 0)
 
 
-def started(listener: Listener, roles: Mapping[str, str]) -> Iterator[Edit]:
+def initialise_variables(listener: Listener, roles: Mapping[str, str]) -> Iterator[Edit]:
     """What these variables are before the first message, as far as the file does not say so already."""
     missing = []
     for role, value in roles.items():
@@ -131,21 +142,21 @@ def started(listener: Listener, roles: Mapping[str, str]) -> Iterator[Edit]:
             missing.append(f"{name} = {value}")
         for each in places if role in (COUNT, NUMBER) else ():
             if isinstance(each.value, ast.Constant | ast.UnaryOp) and ast.unparse(each.value) != value:
-                yield instead(listener.text, each.value, value)
+                yield replace_node(listener.text, each.value, value)
     if missing:
-        yield first_value(listener, missing)
+        yield set_first_value(listener, missing)
 
 
-def first_value(listener: Listener, lines: Sequence[str]) -> Edit:
+def set_first_value(listener: Listener, lines: Sequence[str]) -> Edit:
     """Where variables that last are given their first value."""
     if listener.owner is None:
-        return above(first_line(listener.function), "\n".join(lines))
+        return insert_above(first_line(listener.function), "\n".join(lines))
     for node in listener.owner.body:
         if isinstance(node, ast.FunctionDef) and node.name == "__init__":
             made = next((each for each in node.body if listener.created in ast.walk(each)), node.body[-1])
-            return above(made.lineno, "\n".join(lines))
+            return insert_above(made.lineno, "\n".join(lines))
     first = listener.owner.body[0]
-    return above(first.lineno, "\n".join(line.removeprefix("self.") for line in lines))
+    return insert_above(first.lineno, "\n".join(line.removeprefix("self.") for line in lines))
 
 
 def _settings(listener: Listener) -> Iterator[ast.Assign | ast.AnnAssign]:

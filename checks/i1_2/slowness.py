@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 
-from checks.i1_2.backlog import Lost
+from checks.i1_2.backlog import LostMessages
 from tutor.judge import edits, source
 from tutor.judge.trace import Trace
 from tutor.judge.verdict import Cause
@@ -12,10 +12,10 @@ from tutor.judge.verdict import Cause
 SPINS_ONCE = ("spin_once", "spin_some")
 
 
-def of_lost(trace: Trace, lost: Lost) -> Cause:
+def diagnose_lost(trace: Trace, lost: LostMessages) -> Cause:
     """Why messages that come fast are lost."""
     text = f"up to the last message that it quotes there were {lost.counted}: the others never reached its callback"
-    if (waits := of_waits(trace, text)) is not None:
+    if (waits := diagnose_waits(trace, text)) is not None:
         return waits
     if (short := _short_queue(trace)) is not None:
         return Cause(
@@ -30,9 +30,9 @@ def of_lost(trace: Trace, lost: Lost) -> Cause:
     )
 
 
-def of_waits(trace: Trace, text: str) -> Cause | None:
+def diagnose_waits(trace: Trace, text: str) -> Cause | None:
     """Where its source makes it wait while messages come; `text` says what follows from it."""
-    loops = [loop for loop in source.nodes(trace) if isinstance(loop, ast.While | ast.For)]
+    loops = [loop for loop in source.all_nodes(trace) if isinstance(loop, ast.While | ast.For)]
     for loop in loops:
         if source.calls_in(loop, *SPINS_ONCE):
             for nap in source.calls_in(loop, "sleep"):
@@ -41,7 +41,7 @@ def of_waits(trace: Trace, text: str) -> Cause | None:
                     f"{text}, since the loop sleeps between one message and the next: line {nap.lineno}: "
                     f"{ast.unparse(nap)}",
                     _spinning(trace, loop)
-                    or without(trace, nap)
+                    or remove_call(trace, nap)
                     or f"take {ast.unparse(nap)} in line {nap.lineno} out: spin_once() waits by itself for the next "
                     "message. Or write rclpy.spin(node) instead of the loop",
                 )
@@ -54,18 +54,18 @@ def of_waits(trace: Trace, text: str) -> Cause | None:
             return Cause(
                 "slow callback",
                 f"{text}, since its callback sleeps: line {nap.lineno}: {ast.unparse(nap)}",
-                without(trace, nap)
+                remove_call(trace, nap)
                 or f"take {ast.unparse(nap)} in line {nap.lineno} out: while a callback runs, no other message comes",
             )
     return None
 
 
-def without(trace: Trace, call: ast.Call) -> str | None:
+def remove_call(trace: Trace, call: ast.Call) -> str | None:
     """The step that takes out the statement of this call; None where it is part of more."""
-    file = source.holding(trace, call)
+    file = source.file_holding(trace, call)
     made = file.statement(call)
     whole = isinstance(made, ast.Expr | ast.Assign) and made.value is call
-    return edits.told_of(file, edits.without(file.text, made)) if whole else None
+    return edits.describe_edits_of(file, edits.remove_statement(file.text, made)) if whole else None
 
 
 def _spinning(trace: Trace, loop: ast.While | ast.For) -> str | None:
@@ -75,7 +75,7 @@ def _spinning(trace: Trace, loop: ast.While | ast.For) -> str | None:
     if not plain or len(loop.body) > 2 or len(spins) != 1 or not isinstance(spins[0].func, ast.Attribute):
         return None
     code = f"{ast.unparse(spins[0].func.value)}.spin({', '.join(map(ast.unparse, spins[0].args[:1]))})"
-    return edits.told_of(source.holding(trace, loop), edits.in_place(loop, code))
+    return edits.describe_edits_of(source.file_holding(trace, loop), edits.replace_statement(loop, code))
 
 
 def _short_queue(trace: Trace) -> ast.Call | None:

@@ -31,8 +31,8 @@ class Logged:
 def logged(trace: Trace, message: str) -> Logged | None:
     """The call that logged this message; None where this is not known."""
     for file in source.files(trace):
-        for call in (each for each in file.nodes if isinstance(each, ast.Call) and source.called(each) in _LEVELS):
-            function = file.within(call)
+        for call in (each for each in file.nodes if isinstance(each, ast.Call) and source.called_name(each) in _LEVELS):
+            function = file.function_around(call)
             if call.args and (values := read(call.args[0], message, function)) is not None:
                 return Logged(file.text, call, file.statement(call), function, tuple(values))
     return None

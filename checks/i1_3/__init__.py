@@ -8,11 +8,11 @@ from tutor.judge.check import Check, Criterion
 CHECK = Check(
     "i1.3",
     (
-        Criterion("services", judges.judge_services, (scenarios.survey,)),
-        Criterion("operations", judges.judge_operations, (scenarios.calculation,)),
-        Criterion("divide-by-zero", judges.judge_division, (scenarios.division,), after=("services",)),
-        Criterion("client", client.judge_client, (scenarios.demonstration,)),
-        Criterion("shutdown", judges.judge_shutdown, (scenarios.survey,), bonus=True),
+        Criterion("services", judges.judge_services, (scenarios.call_each_service,)),
+        Criterion("operations", judges.judge_operations, (scenarios.call_with_random_operands,)),
+        Criterion("divide-by-zero", judges.judge_division, (scenarios.divide_by_zero,), after=("services",)),
+        Criterion("client", client.judge_client, (scenarios.run_client,)),
+        Criterion("shutdown", judges.judge_shutdown, (scenarios.call_each_service,), bonus=True),
     ),
-    asks_s=1.1,  # division: 0.6 s until the log has been quiet, 0.5 s for a node that gives up afterwards
+    expected_s=1.1,  # division: 0.6 s until the log has been quiet, 0.5 s for a node that gives up afterwards
 )

@@ -9,10 +9,10 @@ from dataclasses import replace
 from functools import partial
 
 from checks.i1_3 import names, offers, programs, requests, whole
-from checks.i1_3.code import Code, files, stepped
-from checks.i1_3.facts import CLIENT, CLIENT_S, LATER_S, SERVER, SIGNS, Demonstration
+from checks.i1_3.code import Code, learner_files, with_applicable_step
+from checks.i1_3.facts import CLIENT, CLIENT_S, LATER_S, SERVER, SIGNS, ClientRun
 from tutor.judge import causes, edits, source, tracebacks
-from tutor.judge.rewriting.program import main_called, step
+from tutor.judge.rewriting.program import first_sound_step, main_called
 from tutor.judge.trace import Trace
 from tutor.judge.verdict import Cause, Verdict, failed, passed
 
@@ -20,7 +20,7 @@ WAITS = ("wait_for_service", "service_is_ready", "server_is_ready", "get_service
 """Names by which a client asks whether a service is there."""
 
 
-def judge_client(seen: Demonstration) -> Verdict:
+def judge_client(seen: ClientRun) -> Verdict:
     """Judge `client`."""
     expected = (
         f"{CLIENT}, run without arguments, waits for the four services, which come up a little later, calls each of "
@@ -35,7 +35,7 @@ def judge_client(seen: Demonstration) -> Verdict:
     called = {served.service for served in seen.served}
     missing = _missing(seen)
     calls_made = [f"{s.service} {s.request['a']} {s.request['b']} -> {s.response['sum']}" for s in seen.served[:12]]
-    words = (*calls_made, *causes.last_words(seen.trace, 4))
+    words = (*calls_made, *causes.output_tail(seen.trace, 4))
     if seen.exit is None:
         observed = f"still running after {CLIENT_S:g} s; called {_listed(called)}"
         return failed(expected, observed, _stepped(_why_hanging(seen, missing), seen), words)
@@ -49,68 +49,68 @@ def judge_client(seen: Demonstration) -> Verdict:
     return passed(expected, f"{len(seen.served)} calls, {ended}", calls_made)
 
 
-_Step = Callable[[Code, Cause, Demonstration], str | None]
+_Step = Callable[[Code, Cause, ClientRun], str | None]
 
 
-def _without(code: Code, _cause: Cause, _seen: Demonstration, names: Sequence[str] = ("_exit",)) -> str | None:
-    return programs.without(code, *names)
+def _without(code: Code, _cause: Cause, _seen: ClientRun, names: Sequence[str] = ("_exit",)) -> str | None:
+    return programs.remove_calls(code, *names)
 
 
 _STEPS: Mapping[str, Sequence[_Step]] = {
-    "service not waited for": [lambda code, *_: requests.waiting(code)],
-    "waits too short a time": [_without, lambda code, *_: requests.lengthened(code)],
-    "non-zero exit": [lambda code, *_: programs.ending(code)],
-    "coroutine not awaited": [lambda code, cause, _: requests.plain(code, cause.text.partition(" ")[0])],
-    "incompatible QoS": [lambda code, *_: offers.reliable(code)],
-    "thread still running": [lambda code, *_: programs.joined(code)],
-    "not called": [_without, lambda code, _, seen: programs.listed(code, _missing(seen))],
+    "service not waited for": [lambda code, *_: requests.wait_for_services(code)],
+    "waits too short a time": [_without, lambda code, *_: requests.lengthen_waits(code)],
+    "non-zero exit": [lambda code, *_: programs.end_with_zero(code)],
+    "coroutine not awaited": [lambda code, cause, _: requests.make_synchronous(code, cause.text.partition(" ")[0])],
+    "incompatible QoS": [lambda code, *_: offers.use_default_qos(code)],
+    "thread still running": [lambda code, *_: programs.join_thread(code)],
+    "not called": [_without, lambda code, _, seen: programs.add_to_list(code, _missing(seen))],
 }
 """The smallest steps for a cause."""
 
 
-def _stepped(cause: Cause, seen: Demonstration) -> Cause:
+def _stepped(cause: Cause, seen: ClientRun) -> Cause:
     """The cause with a step that can be followed word for word: one for it, or what waits for each answer, or all."""
     assert seen.trace is not None
-    trace, own = seen.trace, tracebacks.own(seen.stuck, seen.trace.folder)
-    found = tracebacks.last(trace)
+    trace, own = seen.trace, tracebacks.own_frame(seen.stuck, seen.trace.folder)
+    found = tracebacks.last_traceback(trace)
     raised = own_frame.code if found is not None and (own_frame := found.own(trace.folder)) is not None else ""
     if cause.name == "did not end" and own is not None and "sleep(" in own.code:
         steps: Sequence[_Step] = [partial(_without, names=("sleep",))]
     elif cause.name == "did not end" and not _missing(seen) and source.calls(trace, "Thread"):
-        steps = [lambda code, *_: programs.shut_down(code)]
+        steps = [lambda code, *_: programs.shut_down_rclpy(code)]
     else:
         steps = _STEPS.get(cause.name, [])
-    first = bool(steps) or _of_no_answer(found)
+    first = bool(steps) or _is_due_to_no_answer(found)
     if "input(" in raised or (own is not None and "input(" in own.code):
-        steps, first = [lambda code, *_: programs.unasked(code)], True
-    each_file = [partial(step, code, cause, seen) for step in steps for code in files(trace)]
+        steps, first = [lambda code, *_: programs.remove_input(code)], True
+    each_file = [partial(step, code, cause, seen) for step in steps for code in learner_files(trace)]
     unmet = cause.name in ("wrong service name", "wrong type", "not called")
     unmet = unmet or cause.name == "waits too short a time"
-    waits = [] if unmet else [partial(requests.answered, code, trace) for code in files(trace)]
-    file = next(iter(files(trace)), Code(""))
-    last = [partial(whole.client, file)] if file.file else []
+    waits = [] if unmet else [partial(requests.wait_for_answers, code, trace) for code in learner_files(trace)]
+    file = next(iter(learner_files(trace)), Code(""))
+    last = [partial(whole.rewrite_client, file)] if file.file else []
     if first and (told := next((told for step in (*each_file, *waits) if (told := step()) is not None), None)):
         return replace(cause, hint=told)
-    return stepped(cause, trace, *each_file, *waits, *last)
+    return with_applicable_step(cause, trace, *each_file, *waits, *last)
 
 
-def _of_no_answer(found: tracebacks.Traceback | None) -> bool:
+def _is_due_to_no_answer(found: tracebacks.Traceback | None) -> bool:
     """Whether an exception comes from an answer that had not come yet."""
     return found is not None and any(word in found.message for word in ("'NoneType'", "'Future'"))
 
 
-def _missing(seen: Demonstration) -> list[str]:
+def _missing(seen: ClientRun) -> list[str]:
     called = {served.service for served in seen.served}
     return [name for name in SIGNS if name not in called]
 
 
-def _why_not_zero(seen: Demonstration, missing: Sequence[str], ended: str) -> Cause:
+def _why_not_zero(seen: ClientRun, missing: Sequence[str], ended: str) -> Cause:
     assert seen.trace is not None
-    if (strange := names.of_client(seen, missing)) is not None and _follows_from_silence(seen.trace):
+    if (strange := names.diagnose_client(seen, missing)) is not None and _follows_from_silence(seen.trace):
         return strange
-    if (unmet := _unmet(seen, missing)) is not None and _follows_from_silence(seen.trace):
+    if (unmet := _diagnose_missing_calls(seen, missing)) is not None and _follows_from_silence(seen.trace):
         return unmet
-    cause = causes.of_process(seen.trace)
+    cause = causes.diagnose_process(seen.trace)
     if cause is None or cause.name == "exit at once":
         return Cause("non-zero exit", f"the client {ended}", "end with return or sys.exit(0) when all went well")
     return cause
@@ -118,7 +118,7 @@ def _why_not_zero(seen: Demonstration, missing: Sequence[str], ended: str) -> Ca
 
 def _follows_from_silence(trace: Trace) -> bool:
     """Whether the program ended because there was no answer: by itself, or since it took None for one."""
-    found = tracebacks.last(trace)
+    found = tracebacks.last_traceback(trace)
     if found is None:
         return True
     own = found.own(trace.folder)
@@ -126,20 +126,20 @@ def _follows_from_silence(trace: Trace) -> bool:
     return raised or found.type.endswith("TimeoutError") or "'NoneType'" in found.message
 
 
-def _why_not_called(seen: Demonstration, missing: Sequence[str]) -> Cause:
+def _why_not_called(seen: ClientRun, missing: Sequence[str]) -> Cause:
     assert seen.trace is not None
     if seen.trace.uncalled_main and not seen.served:
         return Cause(
             "no main call",
             "main() is defined, but nothing calls it",
-            step(seen.trace, main_called) or 'end the file with: if __name__ == "__main__": main()',
+            first_sound_step(seen.trace, main_called) or 'end the file with: if __name__ == "__main__": main()',
         )
     return (
         causes.incompatible_service(seen.clients)
-        or names.of_client(seen, missing)
+        or names.diagnose_client(seen, missing)
         or _never_awaited(seen.trace)
         or _returns_early(seen)
-        or _unmet(seen, missing)
+        or _diagnose_missing_calls(seen, missing)
         or Cause(
             "not called",
             f"{', '.join(missing)} got no request",
@@ -148,22 +148,22 @@ def _why_not_called(seen: Demonstration, missing: Sequence[str]) -> Cause:
     )
 
 
-def _why_hanging(seen: Demonstration, missing: Sequence[str]) -> Cause:
+def _why_hanging(seen: ClientRun, missing: Sequence[str]) -> Cause:
     assert seen.trace is not None
     if (mismatched := causes.incompatible_service(seen.clients)) is not None:
         return mismatched
-    if (strange := names.of_client(seen, missing)) is not None:
+    if (strange := names.diagnose_client(seen, missing)) is not None:
         return strange
-    own = tracebacks.own(seen.stuck, seen.trace.folder)
+    own = tracebacks.own_frame(seen.stuck, seen.trace.folder)
     where = f" at {own}" if own else ""
     spins = any(frame.function.startswith("spin") for frame in seen.stuck)
-    if causes.in_call(seen.stuck) and not spins:
+    if causes.is_in_blocking_call(seen.stuck) and not spins:
         return Cause(
             "deadlock by call()",
-            f"the client waits for ever{where}: call() blocks the thread that would have to take in the answer",
+            f"the client waits forever{where}: call() blocks the thread that would have to take in the answer",
             "use call_async() and rclpy.spin_until_future_complete(node, future), outside of callbacks",
         )
-    if (unmet := _unmet(seen, missing)) is not None:
+    if (unmet := _diagnose_missing_calls(seen, missing)) is not None:
         return unmet
     if own is not None and not missing and re.search(r"\bspin\(", own.code):
         return Cause(
@@ -180,11 +180,11 @@ def _why_hanging(seen: Demonstration, missing: Sequence[str]) -> Cause:
 
 def _instead_of_spinning(trace: Trace, own: tracebacks.Frame) -> str:
     """What stands in place of a spin() that never ends: the wait for each answer, where it is what brings them."""
-    code = next((each for each in files(trace) if each.file == own.name), None)
+    code = next((each for each in learner_files(trace) if each.file == own.name), None)
     if code is None:
         return "end the program when the last answer has come"
     if not source.calls(trace, "add_done_callback", "create_timer"):
-        return code.told(edits.removed(code.text, own.line)) or ""
+        return code.as_step(edits.remove_lines(code.text, own.line)) or ""
     asked = [made for made in source.assigned(trace, "call_async") if made[0].isidentifier()]
     spins = re.fullmatch(r"(?P<rclpy>\w+)\.spin\((?P<node>\w+)\)", own.code)
     if not asked or spins is None or source.calls(trace, "create_timer"):
@@ -195,8 +195,8 @@ def _instead_of_spinning(trace: Trace, own: tracebacks.Frame) -> str:
         f"    {spins['rclpy']}.spin_until_future_complete({spins['node']}, {future})",
         f"{spins['rclpy']}.spin_once({spins['node']}, timeout_sec=0.5)",
     )
-    kept = edits.below(line, f"self.futures = [*getattr(self, 'futures', []), {future}]")
-    return code.told(kept, edits.becomes(own.line, "\n".join(lines))) or ""
+    kept = edits.insert_below(line, f"self.futures = [*getattr(self, 'futures', []), {future}]")
+    return code.as_step(kept, edits.replace_lines(own.line, "\n".join(lines))) or ""
 
 
 def _never_awaited(trace: Trace) -> Cause | None:
@@ -213,13 +213,13 @@ def _never_awaited(trace: Trace) -> Cause | None:
     )
 
 
-def _returns_early(seen: Demonstration) -> Cause | None:
+def _returns_early(seen: ClientRun) -> Cause | None:
     """Whether it made the first call only, and a return stands in the loop over its calls."""
     assert seen.trace is not None
     if len(seen.served) != 1:
         return None
-    for code in files(seen.trace):
-        if (found := programs.returned_later(code)) is not None:
+    for code in learner_files(seen.trace):
+        if (found := programs.move_return(code)) is not None:
             loop, returns, step = found
             return Cause(
                 "return in the loop",
@@ -230,7 +230,7 @@ def _returns_early(seen: Demonstration) -> Cause | None:
     return None
 
 
-def _unmet(seen: Demonstration, missing: Sequence[str]) -> Cause | None:
+def _diagnose_missing_calls(seen: ClientRun, missing: Sequence[str]) -> Cause | None:
     """Whether it did not call the missing services since it never met them: why not."""
     assert seen.trace is not None
     if not missing or not source.calls(seen.trace, "call_async", "call"):
@@ -242,7 +242,7 @@ def _unmet(seen: Demonstration, missing: Sequence[str]) -> Cause | None:
             f"{LATER_S:g} s after the client",
             "before the first request, call wait_for_service(timeout_sec=10.0) of each service client",
         )
-    if gave_up(seen):
+    if gave_up_early(seen):
         assert seen.exit is not None
         return Cause(
             "waits too short a time",
@@ -253,7 +253,7 @@ def _unmet(seen: Demonstration, missing: Sequence[str]) -> Cause | None:
     return None
 
 
-def gave_up(seen: Demonstration) -> bool:
+def gave_up_early(seen: ClientRun) -> bool:
     """Whether it asks for our servers, and ended by itself before it had found one."""
     if seen.trace is None or seen.exit is None or seen.served or not source.mentions(seen.trace, *WAITS):
         return False

@@ -19,7 +19,7 @@ AFTER_ZERO = ((18, 3), (-9, 0), (0, 0), (35, 5))
 ANSWER_S = 5.0
 CLIENT_S = 15.0
 LATER_S = 0.7
-"""Our servers come up so long after its first service client, about a second after the program's start.
+"""Our servers come up this long after its first service client, about a second after the program's start.
 
 Anyone who does not wait for them has called by then; anyone who waits for a second at a time finds them.
 """
@@ -69,7 +69,7 @@ SAYS_ERROR = re.compile(
 
 
 @dataclass(frozen=True)
-class Calls:
+class ServiceCalls:
     """What the server answered: one list of answers, in the order in which they were asked for.
 
     `spins`: whether the node answered a parameter call before; `stuck`: where it was when a call was not answered.
@@ -102,7 +102,7 @@ class Division:
 
 
 @dataclass(frozen=True)
-class Demonstration:
+class ClientRun:
     """A run of the client against servers of ours. None of it where the submission has no client.
 
     `up_s`: how long after its start our servers came up; None where it had ended by then. `stuck`: where it was when it
@@ -122,13 +122,13 @@ def right_result(service: str, a: int, b: int) -> int:
     return {"/add": a + b, "/subtract": a - b, "/multiply": a * b, "/divide": a // b if b else 0}[service]
 
 
-def missing_of(services: Sequence[Service]) -> list[str]:
+def missing_services(services: Sequence[Service]) -> list[str]:
     """The required services that are not there with the required type."""
     there = {service.name for service in services if service.type == TYPE}
     return [name for name in SIGNS if name not in there]
 
 
-def complaints_in(ordinary: Sequence[LogRecord], said: Sequence[LogRecord]) -> list[LogRecord]:
+def find_complaints(ordinary: Sequence[LogRecord], said: Sequence[LogRecord]) -> list[LogRecord]:
     """The messages that say that something is wrong. One of a kind that a good call brings too does not."""
     usual = {(log.level, shape(log.text)) for log in ordinary}
     return [

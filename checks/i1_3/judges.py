@@ -7,19 +7,19 @@ from dataclasses import replace
 from typing import Any
 
 from checks.i1_3 import mixed, offers, programs, services, zero
-from checks.i1_3.code import Code, files, stepped
+from checks.i1_3.code import Code, learner_files, with_applicable_step
 from checks.i1_3.facts import (
     ANSWER_S,
     SAYS_ERROR,
     SIGNS,
     TYPE,
-    Calls,
     Division,
-    complaints_in,
-    missing_of,
+    ServiceCalls,
+    find_complaints,
+    missing_services,
     right_result,
 )
-from checks.i1_3.whole import followable
+from checks.i1_3.whole import with_applicable_steps
 from tutor.judge import causes, ending, tracebacks
 from tutor.judge.causes import names
 from tutor.judge.trace import CallAnswer, Service, Trace
@@ -27,34 +27,36 @@ from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped
 
 
-@followable
-def judge_services(seen: Calls) -> Verdict:
+@with_applicable_steps
+def judge_services(seen: ServiceCalls) -> Verdict:
     expected = f"/add, /subtract, /multiply and /divide with type {TYPE}, answering a call"
     unanswered = next((answer for answer in seen.answers if answer.response is None), None)
-    missing = missing_of(seen.trace.graph.services) or ([] if unanswered else _never_called(seen))
+    missing = missing_services(seen.trace.graph.services) or ([] if unanswered else _never_called(seen))
     if missing:
         cause = _why_missing(seen.trace, missing)
-        return failed(expected, f"missing: {', '.join(missing)}", cause, causes.last_words(seen.trace))
+        return failed(expected, f"missing: {', '.join(missing)}", cause, causes.output_tail(seen.trace))
     if unanswered is not None:
-        observed = f"{unanswered.service}: {causes.unanswered(seen.trace, ANSWER_S)}"
+        observed = f"{unanswered.service}: {causes.describe_no_answer(seen.trace, ANSWER_S)}"
         silent = [service for service in seen.trace.graph.services if service.name == unanswered.service]
-        cause = causes.incompatible_service(silent) or causes.of_no_answer(seen.trace, seen.stuck, spins=seen.spins)
+        cause = causes.incompatible_service(silent) or causes.diagnose_no_answer(
+            seen.trace, seen.stuck, spins=seen.spins
+        )
         cause = _unanswered(cause, seen.trace, unanswered.service, seen.stuck)
-        return failed(expected, observed, cause, causes.last_words(seen.trace))
+        return failed(expected, observed, cause, causes.output_tail(seen.trace))
     return passed(expected, "all four answer", [f"{name} = {result}" for name, result in _answered(seen.answers)])
 
 
-def _never_called(seen: Calls) -> list[str]:
+def _never_called(seen: ServiceCalls) -> list[str]:
     """The services that were not there yet when it was their turn, though they may be in the graph by now."""
     return [name for name in SIGNS if not seen.of(name)]
 
 
 def _why_missing(trace: Trace, missing: Sequence[str]) -> Cause:
-    broken = causes.of_process(trace)
+    broken = causes.diagnose_process(trace)
     if broken is not None:
         asks = broken.name == names.UNHANDLED_EXCEPTION and "EOFError" in broken.text
-        return stepped(broken, trace, lambda: _first(trace, programs.unasked) if asks else None)
-    offered = [s for s in trace.graph.services if not _of_every_node(s)]
+        return with_applicable_step(broken, trace, lambda: _first(trace, programs.remove_input) if asks else None)
+    offered = [s for s in trace.graph.services if not _is_standard_service(s)]
     typed = [service for service in offered if service.name in missing and service.type != TYPE]
     if typed:
         cause = Cause(
@@ -62,7 +64,7 @@ def _why_missing(trace: Trace, missing: Sequence[str]) -> Cause:
             f"{typed[0].name} has the type {typed[0].type}, not {TYPE}",
             f"create it with AddTwoInts: self.create_service(AddTwoInts, '{typed[0].name[1:]}', ...)",
         )
-        return stepped(cause, trace, lambda: offers.typed(trace, [each.name for each in typed]))
+        return with_applicable_step(cause, trace, lambda: offers.set_types(trace, [each.name for each in typed]))
     strange = [(s.name, name) for name in missing for s in offered if s.name not in SIGNS and _like(s.name, name)]
     if strange:
         cause = Cause(
@@ -70,13 +72,13 @@ def _why_missing(trace: Trace, missing: Sequence[str]) -> Cause:
             f"there is {strange[0][0]} instead of {strange[0][1]}",
             f"name it {strange[0][1][1:]!r}, without a namespace or ~ in front",
         )
-        return stepped(cause, trace, lambda: offers.renamed(trace, strange))
+        return with_applicable_step(cause, trace, lambda: offers.rename_services(trace, strange))
     cause = Cause(
         "service missing",
         f"{', '.join(missing)} {'is' if len(missing) == 1 else 'are'} not there",
         f"self.create_service(AddTwoInts, '{missing[0][1:]}', self.{missing[0][1:]}_callback)",
     )
-    return stepped(cause, trace, lambda: offers.added(trace, missing))
+    return with_applicable_step(cause, trace, lambda: offers.add_services(trace, missing))
 
 
 def _like(offered: str, missing: str) -> bool:
@@ -85,33 +87,33 @@ def _like(offered: str, missing: str) -> bool:
 
 def _first(trace: Trace, step: Callable[[Code], str | None]) -> str | None:
     """The step for the first of the files that there is one for."""
-    return next((told for code in files(trace) if (told := step(code)) is not None), None)
+    return next((told for code in learner_files(trace) if (told := step(code)) is not None), None)
 
 
 def _unanswered(cause: Cause, trace: Trace, service: str, stuck: Sequence[Frame] = ()) -> Cause:
     """The cause with the step that lets a service answer."""
-    found, at = tracebacks.last(trace), tracebacks.own(stuck, trace.folder)
+    found, at = tracebacks.last_traceback(trace), tracebacks.own_frame(stuck, trace.folder)
     if found is not None and found.frames[-1].function == "send_response":
-        return replace(cause, hint=offers.returning(trace, service) or cause.hint)
+        return replace(cause, hint=offers.return_response(trace, service) or cause.hint)
     if cause.name == names.NO_SPIN:
-        return stepped(cause, trace)
+        return with_applicable_step(cause, trace)
     if at is not None and "sleep(" in at.code:
-        return replace(cause, hint=_first(trace, lambda code: programs.without(code, "sleep")) or cause.hint)
+        return replace(cause, hint=_first(trace, lambda code: programs.remove_calls(code, "sleep")) or cause.hint)
     if any("was never awaited" in line.text for line in trace.output):
-        return replace(cause, hint=services.computing(trace, [service], whole=True) or cause.hint)
+        return replace(cause, hint=services.compute_results(trace, [service], whole=True) or cause.hint)
     if cause.name == names.INCOMPATIBLE_QOS:
-        return stepped(cause, trace, lambda: _first(trace, offers.reliable))
-    return stepped(cause, trace, lambda: services.computing(trace, [service], whole=True))
+        return with_applicable_step(cause, trace, lambda: _first(trace, offers.use_default_qos))
+    return with_applicable_step(cause, trace, lambda: services.compute_results(trace, [service], whole=True))
 
 
-def _of_every_node(service: Service) -> bool:
+def _is_standard_service(service: Service) -> bool:
     return service.type.startswith(("rcl_interfaces/", "type_description_interfaces/"))
 
 
-@followable
-def judge_operations(seen: Calls) -> Verdict:
+@with_applicable_steps
+def judge_operations(seen: ServiceCalls) -> Verdict:
     expected = "right results, negative operands included"
-    if missing_of(seen.trace.graph.services):
+    if missing_services(seen.trace.graph.services):
         return skipped("not judged, because `services` did not pass")
     for answer in seen.answers:
         a, b = answer.request["a"], answer.request["b"]
@@ -120,25 +122,25 @@ def judge_operations(seen: Calls) -> Verdict:
         if answer.response is None:
             return failed(
                 f"{question} = {right}",
-                causes.unanswered(seen.trace, ANSWER_S),
+                causes.describe_no_answer(seen.trace, ANSWER_S),
                 _unanswered(
-                    causes.of_process(seen.trace)
+                    causes.diagnose_process(seen.trace)
                     or Cause(
                         "no answer",
                         "the service does not answer this call",
-                        f"let the callback of {answer.service} come to its end, and return its response; `services` "
+                        f"let the callback of {answer.service} finish, and return its response; `services` "
                         "tells where it is held up, if it fails as well",
                     ),
                     seen.trace,
                     answer.service,
                 ),
-                causes.last_words(seen.trace),
+                causes.output_tail(seen.trace),
             )
         if answer.response["sum"] != right:
             return failed(
                 f"{question} = {right}",
                 f"{answer.response['sum']}",
-                mixed.of_loop(seen.trace, seen.answers)
+                mixed.diagnose_loop(seen.trace, seen.answers)
                 or _computing(_negatives_refused(answer, seen.answers) or _why_wrong(answer, right), seen),
                 [f"{name} answered {result}" for name, result in _answered(seen.of(answer.service))],
             )
@@ -176,11 +178,11 @@ def _negatives_refused(answer: CallAnswer, answers: Sequence[CallAnswer]) -> Cau
     )
 
 
-def _computing(cause: Cause, seen: Calls) -> Cause:
+def _computing(cause: Cause, seen: ServiceCalls) -> Cause:
     """The cause with the step that lets every service that has answered wrongly compute its own."""
     answers = [(each, right_result(each.service, each.request["a"], each.request["b"])) for each in seen.answers]
     wrong = list(dict.fromkeys(a.service for a, right in answers if a.response and a.response["sum"] != right))
-    return replace(cause, hint=services.computing(seen.trace, wrong) or cause.hint)
+    return replace(cause, hint=services.compute_results(seen.trace, wrong) or cause.hint)
 
 
 def _why_wrong(answer: CallAnswer, right: int) -> Cause:
@@ -212,13 +214,13 @@ def _why_wrong(answer: CallAnswer, right: int) -> Cause:
 
 def _guarded(cause: Cause, trace: Trace) -> Cause:
     """The cause with the step that lets /divide answer, and say that it is an error, where b is 0."""
-    found = tracebacks.last(trace)
+    found = tracebacks.last_traceback(trace)
     if found is not None and found.frames[-1].function == "send_response":
-        return replace(cause, hint=offers.returning(trace, "/divide") or cause.hint)
-    return replace(cause, hint=services.guarded(trace) or cause.hint)
+        return replace(cause, hint=offers.return_response(trace, "/divide") or cause.hint)
+    return replace(cause, hint=services.guard_division(trace) or cause.hint)
 
 
-@followable
+@with_applicable_steps
 def judge_division(seen: Division) -> Verdict:
     expected = "dividing by zero gets an answer, the node says that it is an error, and the next calls go well"
     if seen.before is None or seen.before.response is None or seen.by_zero is None:
@@ -226,21 +228,25 @@ def judge_division(seen: Division) -> Verdict:
             expected,
             "/divide does not answer even 84 ÷ 7",
             _unanswered(
-                causes.of_process(seen.trace) or Cause("no answer", "the service does not answer", "see `services`"),
+                causes.diagnose_process(seen.trace)
+                or Cause("no answer", "the service does not answer", "see `services`"),
                 seen.trace,
                 "/divide",
             ),
-            causes.last_words(seen.trace),
+            causes.output_tail(seen.trace),
         )
     if seen.by_zero.response is None:
-        cause = causes.of_process(seen.trace) or Cause(
+        cause = causes.diagnose_process(seen.trace) or Cause(
             "no answer", "the callback does not answer when b is 0", "return the response in that case too"
         )
         cause = _guarded(cause, seen.trace)
         return failed(
-            expected, f"10 ÷ 0: {causes.unanswered(seen.trace, ANSWER_S)}", cause, causes.last_words(seen.trace)
+            expected,
+            f"10 ÷ 0: {causes.describe_no_answer(seen.trace, ANSWER_S)}",
+            cause,
+            causes.output_tail(seen.trace),
         )
-    complaints = complaints_in(seen.ordinary, seen.said)
+    complaints = find_complaints(seen.ordinary, seen.said)
     # What a node says as it ends may be lost on its way to us: then its end is what is told of.
     gone = seen.trace.exit is not None and any(answer.response is None for answer in seen.after)
     if not complaints and not gone:
@@ -249,18 +255,20 @@ def judge_division(seen: Division) -> Verdict:
                 "no error message",
                 "nothing is said of an error, since /divide does not divide: 84 ÷ 7 is answered "
                 f"{seen.before.response['sum']}",
-                services.computing(seen.trace, ["/divide"]) or "let /divide divide first: see `operations`",
+                services.compute_results(seen.trace, ["/divide"]) or "let /divide divide first: see `operations`",
             )
             observed = f"answered {seen.by_zero.response['sum']}, without a word about an error"
             return failed(expected, observed, cause, [str(log) for log in seen.said])
-        printed = causes.of_printed(seen.trace, SAYS_ERROR.search, "the error", after=seen.at_end)
+        printed = causes.diagnose_printed(seen.trace, SAYS_ERROR.search, "the error", after=seen.at_end)
         cause = printed or Cause(
             "no error message",
             "nothing that the node logs says that this is an error",
             "in the callback of /divide, where b is 0, log an error before you return the response",
         )
         trace = seen.trace
-        cause = stepped(cause, trace, lambda: zero.where_to_log(trace), lambda: services.guarded(trace))
+        cause = with_applicable_step(
+            cause, trace, lambda: zero.log_division_by_zero(trace), lambda: services.guard_division(trace)
+        )
         return failed(
             expected,
             f"answered {seen.by_zero.response['sum']}, without a word about an error",
@@ -271,13 +279,13 @@ def judge_division(seen: Division) -> Verdict:
     for answer in seen.after:
         a, b = answer.request["a"], answer.request["b"]
         if answer.response is None:
-            cause = causes.of_process(seen.trace) or Cause(
+            cause = causes.diagnose_process(seen.trace) or Cause(
                 "no answer",
                 "the node no longer answers after a division by zero",
                 "let the node go on: only log, and answer, whatever a is",
             )
             cause = _guarded(cause, seen.trace)
-            return failed(expected, f"after it, {a} ÷ {b} got no answer", cause, causes.last_words(seen.trace))
+            return failed(expected, f"after it, {a} ÷ {b} got no answer", cause, causes.output_tail(seen.trace))
         if b and divides and answer.response["sum"] != right_result("/divide", a, b):
             cause = Cause(
                 "wrong result",
@@ -293,5 +301,5 @@ def judge_division(seen: Division) -> Verdict:
     )
 
 
-def judge_shutdown(seen: Calls) -> Verdict:
-    return ending.judge(seen.trace, seen.ending)
+def judge_shutdown(seen: ServiceCalls) -> Verdict:
+    return ending.judge_ending(seen.trace, seen.ending)

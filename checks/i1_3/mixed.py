@@ -13,7 +13,7 @@ from tutor.judge.verdict import Cause
 _Closure = ast.Lambda | ast.FunctionDef | ast.AsyncFunctionDef
 
 
-def of_loop(trace: Trace, answers: Sequence[CallAnswer]) -> Cause | None:
+def diagnose_loop(trace: Trace, answers: Sequence[CallAnswer]) -> Cause | None:
     """Whether all services compute the same, and functions made in a loop read the loop's variables when called."""
     told = [each for each in answers if each.response is not None and each.request["a"] and each.request["b"]]
     if len({each.service for each in told}) < 2:
@@ -41,7 +41,7 @@ def _of(service: str, answer: CallAnswer) -> int:
 def _late(trace: Trace) -> Iterator[tuple[str, _Closure, list[str]]]:
     """Functions made in a loop, with the variables of the loop that they read: the file, the function, the names."""
     for file, text in trace.sources.items():
-        for loop in source.tree(text):
+        for loop in source.syntax_nodes(text):
             if isinstance(loop, ast.For):
                 own, inside = {*_stored(loop)}, [each for part in loop.body for each in ast.walk(part)]
             elif isinstance(loop, ast.ListComp | ast.SetComp | ast.DictComp | ast.GeneratorExp):

@@ -8,14 +8,14 @@ from collections.abc import Sequence
 from functools import partial
 
 from checks.i1_3 import offers
-from checks.i1_3.code import Code, files, stepped
-from checks.i1_3.facts import SIGNS, TYPE, Demonstration
+from checks.i1_3.code import Code, learner_files, with_applicable_step
+from checks.i1_3.facts import SIGNS, TYPE, ClientRun
 from checks.i1_3.services import Changes
 from tutor.judge.trace import Service, Trace
 from tutor.judge.verdict import Cause
 
 
-def of_client(seen: Demonstration, missing: Sequence[str]) -> Cause | None:
+def diagnose_client(seen: ClientRun, missing: Sequence[str]) -> Cause | None:
     """Whether a service client asks for a name, or a type, that no service of ours has; some are `missing` calls."""
     if seen.trace is None or not missing:
         return None
@@ -29,12 +29,12 @@ def of_client(seen: Demonstration, missing: Sequence[str]) -> Cause | None:
             _step(seen.trace, strange, missing),
         )
     typed = next((each for each in asked if each.name in missing and each.type != TYPE), None)
-    return _of_type(seen.trace, typed) if typed else None
+    return _diagnose_type(seen.trace, typed) if typed else None
 
 
 def _step(trace: Trace, strange: Sequence[str], missing: Sequence[str]) -> str:
     """The step that makes the client ask for the missing services, and for none where it has them all."""
-    texts = {each.value for code in files(trace) for each in code.nodes if isinstance(each, ast.Constant)}
+    texts = {each.value for code in learner_files(trace) for each in code.nodes if isinstance(each, ast.Constant)}
     free = [each for each in missing if each[1:] not in texts or any(name.endswith(each) for name in strange)]
     wanted = []
     for name in strange:
@@ -43,10 +43,12 @@ def _step(trace: Trace, strange: Sequence[str], missing: Sequence[str]) -> str:
         if nearest:
             wanted.append((name, nearest))
             free.remove(nearest)
-    return offers.renamed(trace, wanted, "create_client") or f"write {missing[0][1:]!r} in place of {strange[0]!r}"
+    return (
+        offers.rename_services(trace, wanted, "create_client") or f"write {missing[0][1:]!r} in place of {strange[0]!r}"
+    )
 
 
-def _of_type(trace: Trace, client: Service) -> Cause:
+def _diagnose_type(trace: Trace, client: Service) -> Cause:
     wrong = client.type.rpartition("/")[2]
     cause = Cause(
         "wrong type",
@@ -54,7 +56,7 @@ def _of_type(trace: Trace, client: Service) -> Cause:
         f"write AddTwoInts in place of {wrong}, with from example_interfaces.srv import AddTwoInts at the top; a "
         "request is AddTwoInts.Request(a=8, b=2)",
     )
-    return stepped(cause, trace, *(partial(_typed, code, wrong) for code in files(trace)))
+    return with_applicable_step(cause, trace, *(partial(_typed, code, wrong) for code in learner_files(trace)))
 
 
 def _typed(code: Code, wrong: str) -> str | None:
@@ -66,4 +68,4 @@ def _typed(code: Code, wrong: str) -> str | None:
     inside = {id(each) for call in requests for each in ast.walk(call)}
     names = [each for each in code.nodes if isinstance(each, ast.Name) and each.id == local and id(each) not in inside]
     change.swaps += [(each, "AddTwoInts") for each in names]
-    return change.told() if change.swaps else None
+    return change.as_step() if change.swaps else None

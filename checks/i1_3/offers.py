@@ -6,9 +6,9 @@ import ast
 import re
 from collections.abc import Iterator, Sequence
 
-from checks.i1_3.code import Code, files
+from checks.i1_3.code import Code, learner_files
 from checks.i1_3.facts import SIGNS
-from checks.i1_3.services import Changes, arguments, callback, computing, new_callback, offer
+from checks.i1_3.services import Changes, argument_names, compute_results, find_callback, find_offer, new_callback
 from tutor.judge import edits, source
 from tutor.judge.edits import Edit
 from tutor.judge.rewriting.node import argument
@@ -16,9 +16,9 @@ from tutor.judge.source import Function
 from tutor.judge.trace import Trace
 
 
-def added(trace: Trace, missing: Sequence[str]) -> str | None:
+def add_services(trace: Trace, missing: Sequence[str]) -> str | None:
     """The step that offers the services that are missing, below the others, or where the node is made."""
-    for code in files(trace):
+    for code in learner_files(trace):
         place = _place(code)
         if place is None:
             continue
@@ -30,17 +30,17 @@ def added(trace: Trace, missing: Sequence[str]) -> str | None:
         lines, defined = [], []
         for service in missing:
             has = [each for each in code.functions if each.name in (service[1:], f"{service[1:]}_callback")]
-            if len(has) == 1 and len(arguments(code, has[0])) == 2 and code.me(at):
-                name = f"{code.me(at)}.{has[0].name}"
+            if len(has) == 1 and len(argument_names(code, has[0])) == 2 and code.self_name(at):
+                name = f"{code.self_name(at)}.{has[0].name}"
             else:
                 name, edit = new_callback(code, at, service)
                 defined.append(edit.code.rstrip() + "\n\n")
             lines.append(f"{node}.create_service({kind}, '{service[1:]}', {name})")
-        above = [edits.above(_top(code, at), "".join(defined))] if defined and code.me(at) else []
-        written = "".join([*([] if code.me(at) else defined), "\n".join(lines)])
-        below = edits.after(at, written)
+        above = [edits.insert_above(_top(code, at), "".join(defined))] if defined and code.self_name(at) else []
+        written = "".join([*([] if code.self_name(at) else defined), "\n".join(lines)])
+        below = edits.insert_after(at, written)
         imports = code.importing("AddTwoInts") if kind == "AddTwoInts" else []
-        if (step := code.told(imports, above, below)) is not None:
+        if (step := code.as_step(imports, above, below)) is not None:
             return step
     return None
 
@@ -51,21 +51,21 @@ def _place(code: Code) -> tuple[ast.stmt, str] | None:
         return code.outermost(made[-1]), code.node(made[-1])
     for call in code.calls("__init__", "create_node", "Node", *code.node_classes):
         statement = code.outermost(call)
-        if source.called(call) == "__init__" and code.me(call):
-            return statement, code.me(call)
-        if source.called(call) != "__init__" and isinstance(statement, ast.Assign):
+        if source.called_name(call) == "__init__" and code.self_name(call):
+            return statement, code.self_name(call)
+        if source.called_name(call) != "__init__" and isinstance(statement, ast.Assign):
             return statement, ast.unparse(statement.targets[0])
     return None
 
 
 def _top(code: Code, at: ast.stmt) -> int:
-    function = [each for each in code.outwards(at) if isinstance(each, Function)][-1]
+    function = [each for each in code.ancestors(at) if isinstance(each, Function)][-1]
     return min([function.lineno, *(each.lineno for each in function.decorator_list)])
 
 
-def renamed(trace: Trace, wanted: Sequence[tuple[str, str]], create: str = "create_service") -> str | None:
+def rename_services(trace: Trace, wanted: Sequence[tuple[str, str]], create: str = "create_service") -> str | None:
     """The step by which each of these (name as it is in the graph, name as it must be) gets its name."""
-    for code in files(trace) if wanted else ():
+    for code in learner_files(trace) if wanted else ():
         change = Changes(code)
         for call in code.calls(create):
             name = argument(call, 1, "srv_name")
@@ -86,19 +86,19 @@ def renamed(trace: Trace, wanted: Sequence[tuple[str, str]], create: str = "crea
                     joined = len(parts) > 1 and "".join(parts) == each.value  # as Python does without a comma
                     right = must if str(each.value) == must[1:] else must[1:]
                     change.swaps.append((each, ", ".join(map(repr, parts if joined else [right]))))
-        if change.swaps and (step := change.told()) is not None:
+        if change.swaps and (step := change.as_step()) is not None:
             return step
     return None
 
 
 def _spoken(code: Code, text: ast.Constant) -> bool:
     """Whether a text is an f-string's, or said to a human."""
-    return isinstance(next(code.outwards(text), None), ast.JoinedStr | ast.Expr)
+    return isinstance(next(code.ancestors(text), None), ast.JoinedStr | ast.Expr)
 
 
-def typed(trace: Trace, wrong: Sequence[str]) -> str | None:
+def set_types(trace: Trace, wrong: Sequence[str]) -> str | None:
     """The step that gives services the type AddTwoInts, and callbacks that fill in a sum."""
-    there = offer(trace, wrong[0])
+    there = find_offer(trace, wrong[0])
     if there is None:
         return None
     code, kind = there.code, there.code.imported("AddTwoInts")
@@ -107,36 +107,37 @@ def typed(trace: Trace, wrong: Sequence[str]) -> str | None:
         given_one = argument(call, 0, "srv_type")
         if given_one is not None and ast.unparse(given_one) != kind:
             change.swaps.append((given_one, kind))
-    return computing(trace, wrong, whole=True, change=change)
+    return compute_results(trace, wrong, whole=True, change=change)
 
 
-def reliable(code: Code) -> str | None:
+def use_default_qos(code: Code) -> str | None:
     """The step that leaves the QoS profile of services, and of their clients, at its default."""
     change = Changes(code)
     for call in code.calls("create_service", "create_client"):
         kept = [each for each in call.keywords if each.arg != "qos_profile"]
         if len(kept) < len(call.keywords):
             change.swaps.append((call, ast.unparse(ast.Call(call.func, call.args, kept))))
-    return change.told() if change.swaps else None
+    return change.as_step() if change.swaps else None
 
 
-def returning(trace: Trace, service: str) -> str | None:
+def return_response(trace: Trace, service: str) -> str | None:
     """The step that lets a callback return its response on every path: its own, or that of what is around it."""
-    found = callback(trace, service)
+    found = find_callback(trace, service)
     if found is None:
-        return computing(trace, [service], whole=True)
+        return compute_results(trace, [service], whole=True)
     code, function = found
     for each in (function, *_wrappers(code, function), *_helpers(code, function)):
-        changes = list(_returns(code, each, arguments(code, function)[1]))
-        if changes and (step := code.told(changes)) is not None:
+        changes = list(_returns(code, each, argument_names(code, function)[1]))
+        if changes and (step := code.as_step(changes)) is not None:
             return step
-    return computing(trace, [service], whole=True)
+    return compute_results(trace, [service], whole=True)
 
 
 def _wrappers(code: Code, function: Function) -> Iterator[Function]:
     """The functions that decorators put around this one."""
     names = {
-        source.called(each) if isinstance(each, ast.Call) else ast.unparse(each) for each in function.decorator_list
+        source.called_name(each) if isinstance(each, ast.Call) else ast.unparse(each)
+        for each in function.decorator_list
     }
     for outer in (each for name in sorted(names) for each in code.named(name)):
         inner = [each for each in ast.walk(outer) if isinstance(each, Function) and each is not outer]
@@ -147,11 +148,11 @@ def _helpers(code: Code, function: Function) -> Iterator[Function]:
     """The functions whose result this one returns."""
     for each in ast.walk(function):
         if isinstance(each, ast.Return) and isinstance(each.value, ast.Call):
-            yield from code.named(source.called(each.value))
+            yield from code.named(source.called_name(each.value))
 
 
 def _returns(code: Code, function: Function, usual: str) -> Iterator[Edit]:
-    names = arguments(code, function)
+    names = argument_names(code, function)
     response = usual if usual in names or not names else names[-1]
     for each in ast.walk(function):
         if (
@@ -162,13 +163,13 @@ def _returns(code: Code, function: Function, usual: str) -> Iterator[Edit]:
             response = ast.unparse(each.targets[0].value)
     if function.args.vararg is not None and not names:
         call = next((e for e in function.body if isinstance(e, ast.Expr) and isinstance(e.value, ast.Call)), None)
-        if call is not None and (missing := edits.returned(function, "result")):
-            yield edits.instead(code.text, call.value, f"result = {ast.unparse(call.value)}")
+        if call is not None and (missing := edits.return_on_every_path(function, "result")):
+            yield edits.replace_node(code.text, call.value, f"result = {ast.unparse(call.value)}")
             yield from missing
         return
-    yield from edits.returned(function, response)
+    yield from edits.return_on_every_path(function, response)
     for each in ast.walk(function):
-        if isinstance(each, ast.Return) and code.within(each) is function:
+        if isinstance(each, ast.Return) and code.function_around(each) is function:
             value = each.value
             none = value is None or ast.unparse(value) == "None"
             if (
@@ -178,7 +179,7 @@ def _returns(code: Code, function: Function, usual: str) -> Iterator[Edit]:
                 and not _given(function, value, response)
             ):
                 sums = [] if f"{response}.sum" == ast.unparse(value) else [f"{response}.sum = {ast.unparse(value)}"]
-                yield edits.in_place(each, "\n".join([*sums, f"return {response}"]))
+                yield edits.replace_statement(each, "\n".join([*sums, f"return {response}"]))
 
 
 def _given(function: Function, value: ast.expr, response: str) -> bool:

@@ -18,7 +18,7 @@ _READY = "service_is_ready", "server_is_ready"
 _SPINS = "spin_until_future_complete", "spin_once_until_future_complete"
 
 
-def sites(code: Code, *names: str) -> list[tuple[ast.Call, str]]:
+def find_requests(code: Code, *names: str) -> list[tuple[ast.Call, str]]:
     """The calls by which requests are sent, with the service client that they are sent by."""
     found = []
     for call in code.calls(*(names or ("call_async", "call"))):
@@ -29,23 +29,23 @@ def sites(code: Code, *names: str) -> list[tuple[ast.Call, str]]:
     return found
 
 
-def waiting(code: Code) -> str | None:
+def wait_for_services(code: Code) -> str | None:
     """The step that waits for each service: right above its requests, else where its client is made."""
     above = []
-    for call, client in sites(code):
+    for call, client in find_requests(code):
         statement = code.statement(call)
-        if "(" not in client and not any(isinstance(each, ast.Lambda) for each in code.outwards(call)):
-            above.append(edits.above(statement.lineno, f"{client}.{LONG}"))
+        if "(" not in client and not any(isinstance(each, ast.Lambda) for each in code.ancestors(call)):
+            above.append(edits.insert_above(statement.lineno, f"{client}.{LONG}"))
     above = list(dict.fromkeys(above))
-    whole = len({code.statement(call).lineno for call, _ in sites(code)}) == len(above)
-    if above and whole and not _stands(code, above) and (step := code.told(above)) is not None:
+    whole = len({code.statement(call).lineno for call, _ in find_requests(code)}) == len(above)
+    if above and whole and not _stands(code, above) and (step := code.as_step(above)) is not None:
         return step
     made = code.calls("create_client")
     if not made or code.named("waited"):
         return None
     lines = ["def waited(client):", f"    client.{LONG}", "    return client", ""]
     swaps: list[tuple[ast.expr, str]] = [(each, f"waited({ast.unparse(each)})") for each in made]
-    return Changes(code, swaps, [edits.above(code.first.lineno, "\n".join(lines))]).told()
+    return Changes(code, swaps, [edits.insert_above(code.first.lineno, "\n".join(lines))]).as_step()
 
 
 def _stands(code: Code, above: Sequence[Edit]) -> bool:
@@ -54,7 +54,7 @@ def _stands(code: Code, above: Sequence[Edit]) -> bool:
     return all(lines[each.first - 2].strip() == each.code for each in above)
 
 
-def lengthened(code: Code) -> str | None:
+def lengthen_waits(code: Code) -> str | None:
     """The step by which each wait for a service takes long enough."""
     swaps: list[tuple[ast.expr, str]] = []
     for call in code.calls("wait_for_service", *_READY):
@@ -63,24 +63,24 @@ def lengthened(code: Code) -> str | None:
             if new != ast.unparse(call):
                 swaps.append((call, new))
     if swaps:
-        return Changes(code, swaps).told()
-    return None if code.calls("wait_for_service") else waiting(code)
+        return Changes(code, swaps).as_step()
+    return None if code.calls("wait_for_service") else wait_for_services(code)
 
 
-def answered(code: Code, trace: Trace) -> str | None:
+def wait_for_answers(code: Code, trace: Trace) -> str | None:
     """The step that waits for the answer to each request, where nothing does."""
     held = [name for each in ("create_timer", "create_subscription") for name in source.callbacks(trace, each)]
     callbacks = {each.name for each in held}
-    if any((function := code.within(call)) and function.name in callbacks for call, _ in sites(code)):
+    if any((function := code.function_around(call)) and function.name in callbacks for call, _ in find_requests(code)):
         return _awaited(code, callbacks)
     change = Changes(code, more=code.importing("rclpy"))
-    for call, client in sites(code):
+    for call, client in find_requests(code):
         _answer(code, call, client, change)
-    return change.told() if change.swaps or len(change.more) > len(code.importing("rclpy")) else None
+    return change.as_step() if change.swaps or len(change.more) > len(code.importing("rclpy")) else None
 
 
 def _answer(code: Code, call: ast.Call, client: str, change: Changes) -> None:
-    statement, parent = code.statement(call), next(code.outwards(call))
+    statement, parent = code.statement(call), next(code.ancestors(call))
     assert isinstance(call.func, ast.Attribute)
     if isinstance(statement, ast.Assign) and statement.value is call and call.func.attr == "call_async":
         _answer_to(code, statement, ast.unparse(statement.targets[0]), change)
@@ -95,17 +95,17 @@ def _answer(code: Code, call: ast.Call, client: str, change: Changes) -> None:
         return
     asked = f"future = {client}.call_async({ast.unparse(call.args[0])})"
     wait = f"{_spin(code)}({code.node(call)}, future)"
-    change.more.append(edits.above(statement.lineno, f"{asked}\n{wait}"))
+    change.more.append(edits.insert_above(statement.lineno, f"{asked}\n{wait}"))
     whole: ast.expr = call
     if call.func.attr == "call_async" and isinstance(parent, ast.Attribute) and parent.attr == "result":
-        outer = next(code.outwards(parent))
+        outer = next(code.ancestors(parent))
         whole = outer if isinstance(outer, ast.Call) else call
     change.swaps.append((whole, "future.result()"))
 
 
 def _answer_to(code: Code, asked: ast.Assign, future: str, change: Changes) -> None:
     """A wait for one future, right below its request, or in place of what does not wait."""
-    function = code.within(asked)
+    function = code.function_around(asked)
     inside = list(ast.walk(function)) if function is not None else code.nodes
     own = future.rpartition(".")[2]
     uses = [ast.unparse(each) for call in code.calls(*_SPINS, "gather", "add_done_callback") for each in _of(call)]
@@ -116,15 +116,15 @@ def _answer_to(code: Code, asked: ast.Assign, future: str, change: Changes) -> N
     wait = f"{_spin(code)}({code.node(asked)}, {future})"
     for each in inside:
         if isinstance(each, ast.While) and f"{future}.done()" in ast.unparse(each.test):
-            if any(isinstance(part, ast.Call) and "spin" in source.called(part) for part in ast.walk(each)):
+            if any(isinstance(part, ast.Call) and "spin" in source.called_name(part) for part in ast.walk(each)):
                 return
-            change.more.append(edits.in_place(each, wait))
+            change.more.append(edits.replace_statement(each, wait))
             return
-    once = [each for each in code.calls("spin_once") if code.within(each) is function]
+    once = [each for each in code.calls("spin_once") if code.function_around(each) is function]
     if once and code.statement(once[0]).lineno == once[0].lineno and not code.loop(once[0], asked):
         change.swaps.append((once[0], wait))
     elif not code.calls(*_SPINS) or f"{future}.result()" in ast.unparse(function or ast.Module(list(code.top), [])):
-        change.more.append(edits.after(asked, wait))
+        change.more.append(edits.insert_after(asked, wait))
         returned = [each for each in inside if isinstance(each, ast.Return) and each.value is not None]
         for each in returned:
             if each.value is not None and ast.unparse(each.value) == future and ".result(" not in code.text:
@@ -144,7 +144,11 @@ def _spin(code: Code) -> str:
 
 def _awaited(code: Code, callbacks: set[str]) -> str | None:
     """The step for requests of a callback: it awaits them, and the answers come in beside it."""
-    asking = {id(f): f for call, _ in sites(code) if (f := code.within(call)) is not None and f.name in callbacks}
+    asking = {
+        id(f): f
+        for call, _ in find_requests(code)
+        if (f := code.function_around(call)) is not None and f.name in callbacks
+    }
     names = {each.name for each in asking.values()}
     while more := [f for f in _callers(code, names) if f.name in callbacks and id(f) not in asking]:
         asking |= {id(each): each for each in more}
@@ -153,44 +157,44 @@ def _awaited(code: Code, callbacks: set[str]) -> str | None:
     for function in asking.values():
         if isinstance(function, ast.FunctionDef):
             line = code.text.splitlines()[function.lineno - 1].strip()
-            change.more.append(edits.becomes(function.lineno, f"async {line}"))
-    for call, client in sites(code):
-        if id(code.within(call)) not in asking or isinstance(next(code.outwards(call)), ast.Await):
+            change.more.append(edits.replace_lines(function.lineno, f"async {line}"))
+    for call, client in find_requests(code):
+        if id(code.function_around(call)) not in asking or isinstance(next(code.ancestors(call)), ast.Await):
             continue
         assert isinstance(call.func, ast.Attribute)
         if call.func.attr == "call":
             change.swaps.append((call, f"(await {client}.call_async({ast.unparse(call.args[0])}))"))
     for call in code.calls(*_SPINS):
-        if id(code.within(call)) in asking and (future := argument(call, 1, "future")) is not None:
+        if id(code.function_around(call)) in asking and (future := argument(call, 1, "future")) is not None:
             change.swaps.append((call, f"await {ast.unparse(future)}"))
     for call in code.calls(*names):
-        if id(code.within(call)) in asking and not isinstance(next(code.outwards(call)), ast.Await):
+        if id(code.function_around(call)) in asking and not isinstance(next(code.ancestors(call)), ast.Await):
             change.swaps.append((call, f"(await {ast.unparse(call)})"))
     for call in code.calls("create_client"):
         if not any(each.arg == "callback_group" for each in call.keywords):
             whole = ast.unparse(call)
             change.swaps.append((call, f"{whole[:-1]}, callback_group=ReentrantCallbackGroup())"))
-    return change.told()
+    return change.as_step()
 
 
 def _callers(code: Code, names: set[str]) -> Iterator[Function]:
     for call in code.calls(*names):
-        if (function := code.within(call)) is not None:
+        if (function := code.function_around(call)) is not None:
             yield function
 
 
-def plain(code: Code, name: str) -> str | None:
+def make_synchronous(code: Code, name: str) -> str | None:
     """The step by which a coroutine that nobody runs becomes an ordinary function."""
     change = Changes(code)
     for function in code.named(name):
         line = code.text.splitlines()[function.lineno - 1].strip()
-        change.more.append(edits.becomes(function.lineno, line.removeprefix("async ")))
+        change.more.append(edits.replace_lines(function.lineno, line.removeprefix("async ")))
         for each in ast.walk(function):
             if isinstance(each, ast.Await):
                 asked = ast.unparse(each.value)
                 future = asked if asked.isidentifier() else "future"
                 first = [] if future == asked else [f"future = {asked}"]
                 wait = f"{_spin(code)}({code.node(each)}, {future})"
-                change.more.append(edits.above(code.statement(each).lineno, "\n".join([*first, wait])))
+                change.more.append(edits.insert_above(code.statement(each).lineno, "\n".join([*first, wait])))
                 change.swaps.append((each, f"{future}.result()"))
-    return change.told()
+    return change.as_step()

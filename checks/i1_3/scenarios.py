@@ -23,22 +23,22 @@ from checks.i1_3.facts import (
     SIGNS,
     STUCK_S,
     TYPE,
-    Calls,
-    Demonstration,
+    ClientRun,
     Division,
-    complaints_in,
-    missing_of,
+    ServiceCalls,
+    find_complaints,
+    missing_services,
     right_result,
 )
 from tutor.judge.bench import Bench, Run
-from tutor.judge.ending import confirmed
+from tutor.judge.ending import repeat_if_doubtful
 from tutor.judge.trace import CallAnswer, Graph, Service, Trace
 from tutor.judge.tracebacks import Frame
-from tutor.judge.waiting import appears, heard_out
+from tutor.judge.waiting import wait_until_log_quiet, wait_until_seen
 
 TRIES = 3
 ROUGH_S = 0.15
-"""Where the machine takes so much from a client, it is tried again before it is said to have given up too soon."""
+"""Where the machine takes this much from a client, it is tried again before it is said to have given up too soon."""
 
 DYING_S = 10.0
 """A process whose node is going ends within this time."""
@@ -47,26 +47,26 @@ SAID_S = 0.3
 """What a node has to say of a call is logged within this time, each line after the other."""
 
 MOST_SAID_S = 2.0
-"""A node that goes on logging for ever is not heard out longer than this."""
+"""A node that goes on logging forever is not waited for longer than this."""
 
 
-@confirmed
-async def survey(bench: Bench) -> Calls:
+@repeat_if_doubtful
+async def call_each_service(bench: Bench) -> ServiceCalls:
     """Call every service once as `ros2 service call` does, then press Ctrl+C."""
     async with bench.start(SERVER) as run:
-        bench.doing(0.1, "waiting for the four services")
+        bench.report_progress(0.1, "waiting for the four services")
         known = await _services(run)
         spins = await run.parameters(2.0) is not None
         met = run.graph
-        there = [name for name in SIGNS if name not in missing_of(met.services)]
-        bench.doing(0.4, "calling each service")
+        there = [name for name in SIGNS if name not in missing_services(met.services)]
+        bench.report_progress(0.4, "calling each service")
         answers = await _ask(run, [(name, *EASY) for name in there])
         unanswered = next((answer for answer in answers if answer.response is None), None)
         trace = await _as_met(run, met, known)
-        bench.doing(0.8, "pressing Ctrl+C")
+        bench.report_progress(0.8, "pressing Ctrl+C")
         ended = await run.interrupt() if run.exit is None else None
     stuck = await _stuck(bench, unanswered) if unanswered and trace.exit is None else ()
-    return Calls(trace, answers, spins, stuck, ended)
+    return ServiceCalls(trace, answers, spins, stuck, ended)
 
 
 async def _services(run: Run) -> bool:
@@ -76,9 +76,9 @@ async def _services(run: Run) -> bool:
     def all_there() -> bool:
         nonlocal known
         known = known or bool(run.graph.nodes)
-        return not missing_of(run.graph.services)
+        return not missing_services(run.graph.services)
 
-    await appears(run, all_there)
+    await wait_until_seen(run, all_there)
     return known
 
 
@@ -88,34 +88,34 @@ async def _as_met(run: Run, met: Graph, known: bool) -> Trace:
     A node that goes takes its services along, one by one. `known`: there was one, even if it was gone when we looked.
     """
     trace = run.trace()
-    gone = set(missing_of(trace.graph.services)) - set(missing_of(met.services))
+    gone = set(missing_services(trace.graph.services)) - set(missing_services(met.services))
     if trace.exit is None and not gone and (trace.graph.nodes or not (known or met.nodes)):
         return trace
-    await run.ends(DYING_S)
+    await run.wait_for_exit(DYING_S)
     return replace(run.trace(), graph=met)
 
 
 async def _stuck(bench: Bench, unanswered: CallAnswer) -> tuple[Frame, ...]:
     """Ask the same once more, only to see where the node is while it does not answer."""
     async with bench.start(SERVER) as run:
-        bench.doing(0.9, "looking where the node is stuck")
-        await appears(run, lambda: any(service.name == unanswered.service for service in run.graph.services))
+        bench.report_progress(0.9, "looking where the node is stuck")
+        await wait_until_seen(run, lambda: any(service.name == unanswered.service for service in run.graph.services))
         await run.call(unanswered.service, TYPE, unanswered.request, limit_s=STUCK_S)
-        return await run.stuck_at()
+        return await run.dump_stacks()
 
 
-async def calculation(bench: Bench) -> Calls:
+async def call_with_random_operands(bench: Bench) -> ServiceCalls:
     """Calculate with operands by chance."""
     async with bench.start(SERVER) as run:
         known = await _services(run)
         met = run.graph
-        there = [name for name in SIGNS if name not in missing_of(met.services)]
-        bench.doing(0.3, "calculating with positive and negative numbers")
+        there = [name for name in SIGNS if name not in missing_services(met.services)]
+        bench.report_progress(0.3, "calculating with positive and negative numbers")
         chosen = operands()
         a, b = chosen[0]  # in the other order, too, which makes no whole quotient
         swapped = [(name, b, a) for name in there if name != "/divide"]
         answers = await _ask(run, [*((name, a, b) for name in there for a, b in chosen), *swapped])
-        return Calls(await _as_met(run, met, known), answers)
+        return ServiceCalls(await _as_met(run, met, known), answers)
 
 
 async def _ask(run: Run, questions: Sequence[tuple[str, int, int]]) -> tuple[CallAnswer, ...]:
@@ -128,47 +128,47 @@ async def _ask(run: Run, questions: Sequence[tuple[str, int, int]]) -> tuple[Cal
     return tuple(answers)
 
 
-async def division(bench: Bench) -> Division:
+async def divide_by_zero(bench: Bench) -> Division:
     """Divide by zero, listen to what the node says, and go on calling."""
     async with bench.start(SERVER) as run:
-        bench.doing(0.1, "waiting for /divide")
-        if not await appears(run, lambda: "/divide" not in missing_of(run.graph.services)):
+        bench.report_progress(0.1, "waiting for /divide")
+        if not await wait_until_seen(run, lambda: "/divide" not in missing_services(run.graph.services)):
             return Division(run.trace())
 
         async def divide(a: int, b: int) -> CallAnswer:
             return await run.call("/divide", TYPE, {"a": a, "b": b}, limit_s=ANSWER_S)
 
         before = await divide(84, 7)
-        await heard_out(run, quiet_s=SAID_S, most_s=MOST_SAID_S)
+        await wait_until_log_quiet(run, quiet_s=SAID_S, most_s=MOST_SAID_S)
         ordinary = tuple(run.logs)
-        bench.doing(0.4, "calling /divide: 10 ÷ 0")
+        bench.report_progress(0.4, "calling /divide: 10 ÷ 0")
         by_zero = await divide(10, 0)
-        await run.until(lambda: bool(complaints_in(ordinary, run.logs[len(ordinary) :])), LOG_S)
+        await run.until(lambda: bool(find_complaints(ordinary, run.logs[len(ordinary) :])), LOG_S)
         said = tuple(run.logs[len(ordinary) :])
         await run.until(lambda: run.exit is not None, AFTERWARDS_S)
-        bench.doing(0.8, "calling /divide again")
+        bench.report_progress(0.8, "calling /divide again")
         after = await _ask(run, [("/divide", a, b) for a, b in AFTER_ZERO])
-        trace, silent = run.trace(), run.exit is None and not complaints_in(ordinary, said)
+        trace, silent = run.trace(), run.exit is None and not find_complaints(ordinary, said)
         at_end = (await run.interrupt()).output if silent else ()
         return Division(trace, before, by_zero, after, ordinary, said, at_end)
 
 
-async def demonstration(bench: Bench) -> Demonstration:
+async def run_client(bench: Bench) -> ClientRun:
     """Run the client, and bring up four servers of ours when it has been there for a while."""
-    if not bench.has(CLIENT):
-        return Demonstration(None)
+    if not bench.has_file(CLIENT):
+        return ClientRun(None)
     for _ in range(TRIES):
         seen, lost_s = await _demonstrated(bench)
         # Where the machine made it look for our servers later than it would, or us bring them up later: once more.
-        if lost_s < ROUGH_S or not client.gave_up(seen):
+        if lost_s < ROUGH_S or not client.gave_up_early(seen):
             break
     return seen
 
 
-async def _demonstrated(bench: Bench) -> tuple[Demonstration, float]:
+async def _demonstrated(bench: Bench) -> tuple[ClientRun, float]:
     """One run of the client; and how long the machine kept it, or us, from running until our servers were up."""
     async with bench.start(CLIENT) as run:
-        bench.doing(0.2, "running the client, before there is a server")
+        bench.report_progress(0.2, "running the client, before there is a server")
         clients: set[Service] = set()  # what it had while it ran: afterwards, the graph no longer knows
         due_at = inf
         up_at: float | None = None
@@ -180,24 +180,25 @@ async def _demonstrated(bench: Bench) -> tuple[Demonstration, float]:
                 return
             clients.update(run.graph.clients)
             if up_at is None:
-                lost_s = run.starved_s() + run.late_s() - late_s
+                lost_s = run.node_cpu_wait_s() + run.our_cpu_wait_s() - our_wait_s
             if run.graph.nodes and due_at == inf:
                 due_at = run.now() + NO_CLIENT_S + LATER_S
             if clients:
                 due_at = min(due_at, run.now() + LATER_S)
             if up_at is None and run.now() >= due_at:
-                bench.doing(0.4, "bringing up our servers")
-                # /add comes last, for it is asked for first: who waits for that one alone finds the others, too.
+                bench.report_progress(0.4, "bringing up our servers")
+                # /add comes last, for it is asked for first: a client that waits for that one alone finds the others,
+                # too.
                 for name in reversed(SIGNS):
                     run.serve(name, TYPE, _server(name))
                 up_at = run.now()
 
-        late_s = run.late_s()
-        await run.ends(CLIENT_S, meanwhile=look)
+        our_wait_s = run.our_cpu_wait_s()
+        await run.wait_for_exit(CLIENT_S, meanwhile=look)
         trace, served, ended = run.trace(), tuple(run.served), run.exit
-        stuck = await run.stuck_at() if ended is None else ()
+        stuck = await run.dump_stacks() if ended is None else ()
         up_s = None if up_at is None else up_at - run.started_at
-        return Demonstration(trace, served, ended, stuck, tuple(clients), up_s), lost_s
+        return ClientRun(trace, served, ended, stuck, tuple(clients), up_s), lost_s
 
 
 def operands() -> list[tuple[int, int]]:

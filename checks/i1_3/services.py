@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
-from checks.i1_3.code import Code, files
+from checks.i1_3.code import Code, learner_files
 from checks.i1_3.facts import SIGNS
 from tutor.judge import edits, source
 from tutor.judge.edits import Edit
@@ -38,14 +38,14 @@ class Changes:
     swaps: list[tuple[ast.expr, str]] = field(default_factory=list)
     more: list[Edit] = field(default_factory=list)
 
-    def told(self) -> str | None:
-        swapped = edits.swapped(self.code.text, *dict.fromkeys(self.swaps))
-        return self.code.told(list(dict.fromkeys(self.more)), swapped)
+    def as_step(self) -> str | None:
+        swapped = edits.replace_nodes(self.code.text, *dict.fromkeys(self.swaps))
+        return self.code.as_step(list(dict.fromkeys(self.more)), swapped)
 
 
-def offer(trace: Trace, service: str) -> Offer | None:
+def find_offer(trace: Trace, service: str) -> Offer | None:
     """Where the service is offered."""
-    made = [(code, call) for code in files(trace) for call in code.calls("create_service")]
+    made = [(code, call) for code in learner_files(trace) for call in code.calls("create_service")]
     for code, call in made:
         if _means_service(argument(call, 1, "srv_name"), service):
             return Offer(code, call, True)
@@ -53,64 +53,68 @@ def offer(trace: Trace, service: str) -> Offer | None:
     return Offer(*loose[0], False) if loose else None
 
 
-def callback(trace: Trace, service: str) -> tuple[Code, Function] | None:
+def find_callback(trace: Trace, service: str) -> tuple[Code, Function] | None:
     """The function that answers this service and no other one."""
-    there = offer(trace, service)
+    there = find_offer(trace, service)
     if there is None or there.callback is None:
         return None
     code, expression = there.code, there.callback
-    if isinstance(expression, ast.Call) and source.called(expression) == "getattr":
+    if isinstance(expression, ast.Call) and source.called_name(expression) == "getattr":
         found = code.named(service[1:])
     elif there.alone:
         name = last_name(expression)
         uses = [call for call in code.calls("create_service") if last_name(argument(call, 2, "callback")) == name]
-        found = code.named(name) if len(uses) == 1 or means(name, service) else []
+        found = code.named(name) if len(uses) == 1 or is_named_after(name, service) else []
     else:
-        found = [each for each in code.functions if means(each.name, service) and any(_sums(each))]
-    found = [each for each in found if len(arguments(code, each)) >= 2]
+        found = [each for each in code.functions if is_named_after(each.name, service) and any(_sums(each))]
+    found = [each for each in found if len(argument_names(code, each)) >= 2]
     return (code, found[0]) if len(found) == 1 else None
 
 
-def computing(trace: Trace, wrong: Sequence[str], *, whole: bool = False, change: Changes | None = None) -> str | None:
+def compute_results(
+    trace: Trace, wrong: Sequence[str], *, whole: bool = False, change: Changes | None = None
+) -> str | None:
     """The step that makes services compute their own; `whole`: not only the line with the result.
 
     `change`: what else is to be changed.
     """
     changes = {change.code.file: change} if change is not None else {}
     for service in wrong:
-        there = offer(trace, service)
+        there = find_offer(trace, service)
         if there is None:
             return None
         change = changes.setdefault(there.code.file, Changes(there.code))
         if not whole and (other := _other(trace, there, service)) is not None:
             change.swaps.append(other)
-        elif (found := callback(trace, service)) is not None:
+        elif (found := find_callback(trace, service)) is not None:
             line = None if whole else _line(*found, service)
             change.more.append(line or with_body(found[1], "\n".join(lines_of(*found, service))))
         else:
             _anew(change, there, service)
-    steps = [change.told() for change in changes.values()]
+    steps = [change.as_step() for change in changes.values()]
     return "\n".join(step for step in steps if step) or None
 
 
-def guarded(trace: Trace) -> str | None:
+def guard_division(trace: Trace) -> str | None:
     """The step that lets /divide answer, and log an error, before it does anything else."""
-    found = callback(trace, "/divide")
+    found = find_callback(trace, "/divide")
     if found is None:
-        return computing(trace, ["/divide"], whole=True)
+        return compute_results(trace, ["/divide"], whole=True)
     code, function = found
     guard = lines_of(code, function, "/divide")[:4]
     first = function.body[1:] if ast.get_docstring(function) is not None and function.body[1:] else function.body
     has = isinstance(first[0], ast.If) and f"if {ast.unparse(first[0].test)}:" == guard[0]
     if has or isinstance(function, ast.AsyncFunctionDef) or function.decorator_list:
-        return computing(trace, ["/divide"], whole=True)
-    return code.told(edits.above(first[0].lineno, "\n".join(guard))) or computing(trace, ["/divide"], whole=True)
+        return compute_results(trace, ["/divide"], whole=True)
+    return code.as_step(edits.insert_above(first[0].lineno, "\n".join(guard))) or compute_results(
+        trace, ["/divide"], whole=True
+    )
 
 
 def lines_of(code: Code, function: Function, service: str) -> list[str]:
     """What the callback of a service does, in the words of this one."""
-    request, response = arguments(code, function)[:2]
-    return lines_for(request, response, service, logger(code, function.body[0]))
+    request, response = argument_names(code, function)[:2]
+    return lines_for(request, response, service, logger_of(code, function.body[0]))
 
 
 def lines_for(request: str, response: str, service: str, log: str) -> list[str]:
@@ -128,7 +132,7 @@ def lines_for(request: str, response: str, service: str, log: str) -> list[str]:
     ]
 
 
-def logger(code: Code, at: ast.AST) -> str:
+def logger_of(code: Code, at: ast.AST) -> str:
     """How code at this place gets at the node's logger."""
     return f"{code.node(at)}.get_logger()"
 
@@ -136,7 +140,7 @@ def logger(code: Code, at: ast.AST) -> str:
 def new_callback(code: Code, at: ast.AST, service: str) -> tuple[str, Edit]:
     """A new callback for a service that is offered at this place: what to call it there, and the edit that adds it."""
     name = next(each for each in (f"{service[1:]}_callback", f"answer_{service[1:]}", "") if not code.named(each))
-    me = code.me(at)
+    me = code.self_name(at)
     head = f"def {name}({f'{me}, ' if me else ''}request, response):"
     log = f"{code.node(at)}.get_logger()"
     return _added(code, at, [head, *(f"    {each}" for each in lines_for("request", "response", service, log))])
@@ -144,12 +148,12 @@ def new_callback(code: Code, at: ast.AST, service: str) -> tuple[str, Edit]:
 
 def _added(code: Code, at: ast.AST, lines: Sequence[str]) -> tuple[str, Edit]:
     """A new function, a method where this place is in one: what it is called from here, and the edit."""
-    me, name = code.me(at), lines[0][4:].partition("(")[0]
+    me, name = code.self_name(at), lines[0][4:].partition("(")[0]
     above: ast.stmt = code.outermost(at)
     if me:
-        above = [each for each in code.outwards(at) if isinstance(each, Function)][-1]
+        above = [each for each in code.ancestors(at) if isinstance(each, Function)][-1]
     top = min([above.lineno, *(each.lineno for each in getattr(above, "decorator_list", []))])
-    return (f"{me}.{name}" if me else name), edits.above(top, "\n".join([*lines, "", ""]))
+    return (f"{me}.{name}" if me else name), edits.insert_above(top, "\n".join([*lines, "", ""]))
 
 
 def _anew(change: Changes, there: Offer, service: str) -> None:
@@ -162,12 +166,12 @@ def _anew(change: Changes, there: Offer, service: str) -> None:
     else:
         offered = argument(call, 1, "srv_name")
         assert offered is not None
-        me = code.me(call)
+        me = code.self_name(call)
         lines = _for_all(me)
         if any(ast.unparse(each) == ast.unparse(ast.parse("\n".join(lines))) for each in code.named("calculate")):
             return  # it is there already, and is not what the fault is about
         name, edit = _added(code, call, lines)
-        more = "" if me else f", {logger(code, call)}"
+        more = "" if me else f", {logger_of(code, call)}"
         to_bind = f"name={ast.unparse(offered)}"
         change.swaps.append(
             (there.callback, f"lambda request, response, {to_bind}: {name}(name, request, response{more})")
@@ -193,9 +197,13 @@ def _for_all(me: str) -> list[str]:
 def _other(trace: Trace, there: Offer, service: str) -> tuple[ast.expr, str] | None:
     """The callback that is named after this service, where it was given another one."""
     given_one = there.callback
-    if not there.alone or not isinstance(given_one, ast.Attribute | ast.Name) or means(last_name(given_one), service):
+    if (
+        not there.alone
+        or not isinstance(given_one, ast.Attribute | ast.Name)
+        or is_named_after(last_name(given_one), service)
+    ):
         return None
-    found = [each for each in there.code.functions if means(each.name, service) and any(_sums(each))]
+    found = [each for each in there.code.functions if is_named_after(each.name, service) and any(_sums(each))]
     if len(found) != 1 or not there.code.named(last_name(given_one)):
         return None
     name = found[0].name
@@ -207,16 +215,16 @@ def _line(code: Code, function: Function, service: str) -> Edit | None:
     found = [each for each in _sums(function) if not isinstance(getattr(each, "value", None), ast.Constant)]
     if len(found) != 1 or not isinstance(found[0], ast.Assign) or len(found[0].targets) != 1:
         return None
-    request = arguments(code, function)[0]
+    request = argument_names(code, function)[0]
     read = {ast.unparse(each) for each in ast.walk(found[0].value) if isinstance(each, ast.Attribute | ast.Name)}
     a, b = (next((each for each in (f"{request}.{x}", x) if each in read), "") for x in "ab")
     if not (a and b) or any(isinstance(each, ast.IfExp) for each in ast.walk(found[0].value)):
         return None
     new = f"{ast.unparse(found[0].targets[0])} = {a} {PYTHON[service]} {b}"
-    return None if new == ast.unparse(found[0]) else edits.in_place(found[0], new)
+    return None if new == ast.unparse(found[0]) else edits.replace_statement(found[0], new)
 
 
-def means(function: str, service: str) -> bool:
+def is_named_after(function: str, service: str) -> bool:
     """Whether a function is named after this service, and not after another as well."""
     called = [each for each in SIGNS if each[1:4] in function.casefold()]
     return called == [service]
@@ -232,10 +240,10 @@ def _sums(function: Function) -> Iterator[ast.stmt]:
             yield each
 
 
-def arguments(code: Code, function: Function) -> list[str]:
+def argument_names(code: Code, function: Function) -> list[str]:
     """The names of a callback's arguments, without self."""
     names = [each.arg for each in (*function.args.posonlyargs, *function.args.args)]
-    return names[1:] if isinstance(next(code.outwards(function), None), ast.ClassDef) else names
+    return names[1:] if isinstance(next(code.ancestors(function), None), ast.ClassDef) else names
 
 
 def _means_service(name: ast.expr | None, service: str) -> bool:

@@ -8,13 +8,13 @@ from collections.abc import Callable
 from dataclasses import replace
 from functools import wraps
 
-from checks.i1_3.code import Code, stepped
-from checks.i1_3.facts import SIGNS, Calls, Division
+from checks.i1_3.code import Code, with_applicable_step
+from checks.i1_3.facts import SIGNS, Division, ServiceCalls
 from checks.i1_3.requests import LONG
-from checks.i1_3.services import arguments, callback, lines_for, means
+from checks.i1_3.services import argument_names, find_callback, is_named_after, lines_for
 from tutor.judge import edits
 from tutor.judge.rewriting.node import argument
-from tutor.judge.rewriting.whole import MAIN, rewritten
+from tutor.judge.rewriting.whole import MAIN, rewrite_file
 from tutor.judge.trace import Trace
 from tutor.judge.verdict import Cause, Status, Verdict
 
@@ -51,7 +51,7 @@ if __name__ == '__main__':
     main()"""
 
 
-def followable[Seen: Calls | Division](judge: Callable[[Seen], Verdict]) -> Callable[[Seen], Verdict]:
+def with_applicable_steps[Seen: ServiceCalls | Division](judge: Callable[[Seen], Verdict]) -> Callable[[Seen], Verdict]:
     """The judge of a server, whose steps can be followed word for word wherever there is a file to edit."""
 
     @wraps(judge)
@@ -59,13 +59,15 @@ def followable[Seen: Calls | Division](judge: Callable[[Seen], Verdict]) -> Call
         verdict = judge(seen)
         if verdict.status is not Status.FAILED or verdict.hint.startswith("rename"):
             return verdict
-        told = stepped(Cause("", verdict.cause, verdict.hint), seen.trace, lambda: server(seen.trace))
+        told = with_applicable_step(
+            Cause("", verdict.cause, verdict.hint), seen.trace, lambda: rewrite_server(seen.trace)
+        )
         return replace(verdict, hint=told.hint)
 
     return judged
 
 
-def server(trace: Trace) -> str | None:
+def rewrite_server(trace: Trace) -> str | None:
     """The step that writes a server which offers all four services, and ends with Ctrl+C."""
     if trace.file not in trace.sources:
         return None
@@ -87,24 +89,24 @@ def _method(service: str, name: str, request: str, response: str) -> str:
     return f"\n    def {name}(self, {request}, {response}):\n{textwrap.indent(body, ' ' * 8)}"
 
 
-def client(code: Code) -> str | None:
+def rewrite_client(code: Code) -> str | None:
     """The step that writes a client which waits for each service, calls it, and ends."""
     return _written(code, _CLIENT.format(node=_node_name(code, "calculator_client"), wait=LONG))
 
 
 def _written(file: Code, code: str) -> str | None:
     """The code in place of the file's; what is said above it stays."""
-    return file.told(rewritten(file, code) or edits.Edit(1, len(file.text.splitlines()), code))
+    return file.as_step(rewrite_file(file, code) or edits.Edit(1, len(file.text.splitlines()), code))
 
 
 def _callback(trace: Trace, service: str) -> tuple[str, str, str]:
     """What the callback of a service, its request and its response are called."""
-    found = callback(trace, service)
+    found = find_callback(trace, service)
     if found is None:
         return f"{service[1:]}_callback", "request", "response"
     code, function = found
-    request, response = arguments(code, function)[:2]
-    return function.name if means(function.name, service) else f"{service[1:]}_callback", request, response
+    request, response = argument_names(code, function)[:2]
+    return function.name if is_named_after(function.name, service) else f"{service[1:]}_callback", request, response
 
 
 def _node_name(code: Code, usual: str) -> str:

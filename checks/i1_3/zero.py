@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from checks.i1_3.code import Code, files
+from checks.i1_3.code import Code, learner_files
 from tutor.judge import edits, source
 from tutor.judge.edits import Edit
 from tutor.judge.source import Function
@@ -25,37 +25,37 @@ class _Place:
 
     @property
     def around(self) -> list[tuple[ast.AST, ast.AST]]:
-        outer = list(self.code.outwards(self.node))
+        outer = list(self.code.ancestors(self.node))
         return list(zip(outer, [self.node, *outer], strict=False))
 
     @property
     def function(self) -> Function | None:
-        return self.code.within(self.node)
+        return self.code.function_around(self.node)
 
 
-def where_to_log(trace: Trace) -> str | None:
+def log_division_by_zero(trace: Trace) -> str | None:
     """The step for a server that answers a division by zero, and logs no error: one more line where it knows of it."""
     places = [each for each in _divisions(trace) if f".{_SAYS}" not in each.code.text]
     for find in (_in_handler, _in_test, _plain):
         for place in places:
             edit = find(place, f"{place.code.node(place.node)}.get_logger()")
-            if edit is not None and (step := place.code.told(edit)) is not None:
+            if edit is not None and (step := place.code.as_step(edit)) is not None:
                 return step
-    for code in files(trace):
+    for code in learner_files(trace):
         for handler in (each for each in code.nodes if isinstance(each, ast.ExceptHandler)):
             if handler.type is not None and "ZeroDivision" in ast.unparse(handler.type):
-                step = code.told(_above(handler.body[0], f"{code.node(handler)}.get_logger().{_SAYS}"))
+                step = code.as_step(_above(handler.body[0], f"{code.node(handler)}.get_logger().{_SAYS}"))
                 if step is not None:
                     return step
     return None
 
 
 def _divisions(trace: Trace) -> Iterator[_Place]:
-    for code in files(trace):
+    for code in learner_files(trace):
         for node in code.nodes:
             divides = isinstance(node, ast.BinOp) and isinstance(node.op, ast.FloorDiv | ast.Div)
             if isinstance(node, ast.expr) and (
-                divides or (isinstance(node, ast.Call) and source.called(node) in _DIVIDING)
+                divides or (isinstance(node, ast.Call) and source.called_name(node) in _DIVIDING)
             ):
                 yield _Place(code, node)
 
@@ -72,14 +72,14 @@ def _in_handler(place: _Place, log: str) -> Edit | None:
             rest = [ast.unparse(each) for each in handler.body if not isinstance(each, ast.Pass)]
             head = ast.unparse(ast.ExceptHandler(handler.type, handler.name, [ast.Pass()])).partition(":\n")[0]
             code = "\n    ".join([f"{head}:", f"{log}.{_SAYS}", *rest])
-            return edits.in_place(handler, code)
+            return edits.replace_statement(handler, code)
     return None
 
 
 def _above(first: ast.stmt, code: str) -> Edit:
     if isinstance(first, ast.Pass):
-        return edits.becomes(first.lineno, code)
-    return edits.above(first.lineno, code)
+        return edits.replace_lines(first.lineno, code)
+    return edits.insert_above(first.lineno, code)
 
 
 def _in_test(place: _Place, log: str) -> Edit | None:
@@ -94,7 +94,7 @@ def _in_test(place: _Place, log: str) -> Edit | None:
         branch = test.body if asked else test.orelse
         if not branch:
             code = f"else:\n    {log}.{_SAYS}"
-            return edits.after(test, code)
+            return edits.insert_after(test, code)
         if branch[0].lineno != test.lineno:
             return _above(branch[0], f"{log}.{_SAYS}")
         return None
@@ -125,4 +125,4 @@ def _plain(place: _Place, log: str) -> Edit | None:
         by = place.node.right if isinstance(place.node.right, ast.Name | ast.Attribute) else None
     if by is None:
         return None
-    return edits.above(statement.lineno, f"if {ast.unparse(by)} == 0:\n    {log}.{_SAYS}")
+    return edits.insert_above(statement.lineno, f"if {ast.unparse(by)} == 0:\n    {log}.{_SAYS}")

@@ -8,15 +8,17 @@ from tutor.judge.check import Check, Criterion
 CHECK = Check(
     "i2.1",
     (
-        Criterion("defaults", judges.judge_defaults, (scenarios.survey,)),
-        Criterion("launch-params", judges.judge_launch, (scenarios.launched,)),
-        Criterion("runtime-params", judges.judge_runtime, (scenarios.switched, scenarios.retimed)),
-        Criterion("validation", judges.judge_validation, (scenarios.validated, scenarios.switched)),
-        Criterion("timer", judges.judge_timer, (scenarios.retimed,)),
-        Criterion("atomic", judges.judge_atomic, (scenarios.atomic, scenarios.switched), bonus=True),
-        Criterion("launch-validation", judges.judge_bad_launch, (scenarios.survey, scenarios.bad_launches), bonus=True),
-        Criterion("shutdown", judges.judge_shutdown, (scenarios.survey,), bonus=True),
+        Criterion("defaults", judges.judge_defaults, (scenarios.plain_start,)),
+        Criterion("launch-params", judges.judge_launch, (scenarios.start_with_parameters,)),
+        Criterion("runtime-params", judges.judge_runtime, (scenarios.switch_at_runtime, scenarios.change_rate)),
+        Criterion("validation", judges.judge_validation, (scenarios.ask_for_bad_rates, scenarios.switch_at_runtime)),
+        Criterion("timer", judges.judge_timer, (scenarios.change_rate,)),
+        Criterion("atomic", judges.judge_atomic, (scenarios.set_atomically, scenarios.switch_at_runtime), bonus=True),
+        Criterion(
+            "launch-validation", judges.judge_bad_launch, (scenarios.plain_start, scenarios.bad_launches), bonus=True
+        ),
+        Criterion("shutdown", judges.judge_shutdown, (scenarios.plain_start,), bonus=True),
     ),
     # switched, at 1 Hz: 1 s to the first message, 1 s to the next, 2.6 s of silence, 1.1 s to resume, 2.2 s to go on
-    asks_s=7.9,
+    expected_s=7.9,
 )

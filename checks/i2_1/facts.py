@@ -35,14 +35,14 @@ ANSWER_S = 5.0
 """A parameter call is answered within this time, else it is not answered."""
 
 BURST = 3
-"""So many messages in half a period were held back until then: a node sends two at most, if it sends one at once."""
+"""This many messages in half a period were held back until then: a node sends two at most, if it sends one at once."""
 
 RARE_S = 3.0
 """At 1 Hz or more, a publisher that exists sends something within this time, late as it may be."""
 
 
 @dataclass(frozen=True)
-class Survey:
+class PlainStart:
     """A plain start. `parameters` is None where no node answered; `ending` where the process had ended by itself.
 
     Here and below, `stuck` is where the node was, innermost frame first, when it answered nothing; `answering`: it
@@ -55,11 +55,11 @@ class Survey:
     stuck: tuple[Frame, ...] = ()
 
     def value_of(self, name: str) -> Parameter | None:
-        return find(self.parameters or (), name)
+        return find_parameter(self.parameters or (), name)
 
 
 @dataclass(frozen=True)
-class Launched:
+class ParameterStarts:
     """Starts with parameters: one with a prefix and a rate, one with a slower rate, one with enabled false.
 
     `woken`: the first message after the last one has had enabled set to true, where it had no publisher to begin with.
@@ -79,7 +79,7 @@ class Launched:
 
 
 @dataclass(frozen=True)
-class Switched:
+class RuntimeChanges:
     """A plain start on which message_prefix and enabled are set: to another prefix, off, to `later`, and on again.
 
     `before`: the rate until it was off; `again`: what came more than a period after it was on, `rate` the rate of it.
@@ -105,7 +105,7 @@ class Switched:
 
 
 @dataclass(frozen=True)
-class Validated:
+class BadRates:
     """A plain start on which bad rates are asked for. `rejected` pairs each answer with the value held afterwards."""
 
     trace: Trace
@@ -119,7 +119,7 @@ class Validated:
 
 
 @dataclass(frozen=True)
-class Retimed:
+class RateChanges:
     """A plain start on which publish_rate is set to a faster and then to a slower rate."""
 
     trace: Trace
@@ -129,7 +129,7 @@ class Retimed:
 
 
 @dataclass(frozen=True)
-class Atomic:
+class AtomicRequests:
     """A plain start with two atomic requests: the values before and after each, and a message that shows a change."""
 
     trace: Trace
@@ -144,17 +144,17 @@ class Atomic:
     answering: bool = False
 
 
-def find(parameters: Sequence[Parameter], name: str) -> Parameter | None:
+def find_parameter(parameters: Sequence[Parameter], name: str) -> Parameter | None:
     """The parameter of this name, or None."""
     return next((parameter for parameter in parameters if parameter.name == name), None)
 
 
-def text(sample: Sample) -> str:
+def text_of(sample: Sample) -> str:
     """What a message says."""
     return str(sample.message["data"])
 
 
-def naming(trace: Trace) -> list[str]:
+def messages_naming_rate(trace: Trace) -> list[str]:
     """The messages, logged or printed, that name publish_rate; the source lines in a traceback do not count."""
-    lines = [*(log.text for log in trace.logs), *tracebacks.without(trace.output)]
+    lines = [*(log.text for log in trace.logs), *tracebacks.lines_without_tracebacks(trace.output)]
     return [line for line in lines if RATE in line]

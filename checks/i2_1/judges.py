@@ -24,20 +24,20 @@ from checks.i2_1.facts import (
     TOPIC,
     TYPE,
     UP_HZ,
-    Atomic,
-    Launched,
-    Retimed,
-    Survey,
-    Switched,
-    Validated,
-    naming,
-    text,
+    AtomicRequests,
+    BadRates,
+    ParameterStarts,
+    PlainStart,
+    RateChanges,
+    RuntimeChanges,
+    messages_naming_rate,
+    text_of,
 )
 from tutor.judge import causes, ending, tracebacks
 from tutor.judge.causes import names, parameter_slips, period_slips, slips
 from tutor.judge.rates import TOLERANCE, Rate, describe
-from tutor.judge.rewriting.node import started
-from tutor.judge.rewriting.whole import followable
+from tutor.judge.rewriting.node import started_node
+from tutor.judge.rewriting.whole import with_applicable_steps
 from tutor.judge.trace import Level, Parameter, SetAnswer, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Cause, Verdict, failed, passed
@@ -49,20 +49,20 @@ def _runs(*facts: object) -> list[Trace]:
 
 
 def _followable[**P](judge: Callable[P, Verdict]) -> Callable[P, Verdict]:
-    return followable(judge, _runs, steps.anything)
+    return with_applicable_steps(judge, _runs, steps.whole_program_step)
 
 
 @_followable
-def judge_defaults(seen: Survey) -> Verdict:
+def judge_defaults(seen: PlainStart) -> Verdict:
     expected = ", ".join(f"{name} = {_show(value)} ({kind})" for name, (kind, value) in DEFAULTS.items())
     if seen.parameters is None:
         cause = _no_answer(seen.trace, seen.stuck)
-        return failed(expected, "the node answers no parameter call", cause, causes.last_words(seen.trace))
+        return failed(expected, "the node answers no parameter call", cause, causes.output_tail(seen.trace))
     found = {name: seen.value_of(name) for name in DEFAULTS}
     observed = ", ".join(f"{n} = {_show(p.value)} ({p.type})" if p else f"no {n}" for n, p in found.items())
     wrong = [name for name, (kind, value) in DEFAULTS.items() if not _is(found[name], kind, value)]
     if wrong:
-        cause = _why_default(wrong[0], found[wrong[0]], steps.declared(seen.trace, wrong))
+        cause = _why_default(wrong[0], found[wrong[0]], steps.declare_parameters(seen.trace, wrong))
         return failed(expected, observed, cause)
     return passed(expected, observed)
 
@@ -83,17 +83,17 @@ def _why_default(name: str, parameter: Parameter | None, step: str) -> Cause:
 
 
 @_followable
-def judge_launch(seen: Launched) -> Verdict:
+def judge_launch(seen: ParameterStarts) -> Verdict:
     expected = f"--ros-args -p sets {PREFIX}, {RATE} and {ENABLED}, and each takes effect"
-    samples = seen.trace.on(TOPIC)
+    samples = seen.trace.samples_on(TOPIC)
     given = f"{PREFIX}:={seen.prefix} {RATE}:={LAUNCH_HZ}"
     if not samples:
-        cause = causes.of_silence(seen.trace, TOPIC, TYPE, answers=True, step=steps.published(seen.trace))
-        return failed(expected, f"with {given}: no message on {TOPIC}", cause, causes.last_words(seen.trace))
-    without = [text(sample) for sample in samples[-2:] if seen.prefix not in text(sample)]
+        cause = causes.diagnose_silence(seen.trace, TOPIC, TYPE, answers=True, step=steps.add_publisher(seen.trace))
+        return failed(expected, f"with {given}: no message on {TOPIC}", cause, causes.output_tail(seen.trace))
+    without = [text_of(sample) for sample in samples[-2:] if seen.prefix not in text_of(sample)]
     if without:
         return failed(
-            expected, f'with {given}: "{without[-1]}"', _ignored(PREFIX, seen.trace), [text(s) for s in samples[:6]]
+            expected, f'with {given}: "{without[-1]}"', _ignored(PREFIX, seen.trace), [text_of(s) for s in samples[:6]]
         )
     if seen.rate is None or not seen.rate.agrees(LAUNCH_HZ):
         observed = f"with {given}: {describe(seen.rate, seen.messages)}, not {LAUNCH_HZ} Hz ±{TOLERANCE:.0%}"
@@ -101,18 +101,18 @@ def judge_launch(seen: Launched) -> Verdict:
     if seen.slow_rate is None or not seen.slow_rate.agrees(SLOW_LAUNCH_HZ):
         slow = f"{RATE}:={SLOW_LAUNCH_HZ}: {describe(seen.slow_rate, seen.slow_messages)}"
         cause = (
-            causes.of_process(seen.slow)
-            or _made_whole(seen.slow_rate, SLOW_LAUNCH_HZ, steps.heeded(seen.slow, RATE))
+            causes.diagnose_process(seen.slow)
+            or _made_whole(seen.slow_rate, SLOW_LAUNCH_HZ, steps.use_parameter(seen.slow, RATE))
             or _other_rate(seen.slow)
         )
         return failed(expected, f"with {slow}, not {SLOW_LAUNCH_HZ} Hz ±{TOLERANCE:.0%}", cause)
     off = f"with {ENABLED}:=false {RATE}:={LAUNCH_HZ}"
-    loud = seen.disabled.on(TOPIC)
+    loud = seen.disabled.samples_on(TOPIC)
     if loud:
         return failed(
-            expected, f"{off}: {len(loud)} messages", _ignored(ENABLED, seen.disabled), [text(s) for s in loud[:3]]
+            expected, f"{off}: {len(loud)} messages", _ignored(ENABLED, seen.disabled), [text_of(s) for s in loud[:3]]
         )
-    broken = causes.of_process(seen.disabled)
+    broken = causes.diagnose_process(seen.disabled)
     held = seen.disabled_answer.value if seen.disabled_answer else None
     offered = any(p.topic == TOPIC for p in seen.disabled.graph.publishers)
     # A node that answers no parameter call shows its purpose by its publisher, one that has none by being woken.
@@ -122,23 +122,24 @@ def judge_launch(seen: Launched) -> Verdict:
             expected,
             f"{off}: silence, but not because {ENABLED} is false",
             broken or _ignored(ENABLED, seen.disabled),
-            causes.last_words(seen.disabled),
+            causes.output_tail(seen.disabled),
         )
     return passed(
-        expected, f'with {given}: "{text(samples[-1])}" at {seen.rate}; {off}: silence for {seen.disabled_for_s:.1f} s'
+        expected,
+        f'with {given}: "{text_of(samples[-1])}" at {seen.rate}; {off}: silence for {seen.disabled_for_s:.1f} s',
     )
 
 
-def _why_launch_rate(seen: Launched) -> Cause:
+def _why_launch_rate(seen: ParameterStarts) -> Cause:
     rate, trace = seen.rate, seen.trace
-    if (whole := period_slips.whole_division(started(trace))) is not None:
+    if (whole := period_slips.whole_division(started_node(trace))) is not None:
         return whole
     if rate is not None and rate.in_bursts:
-        return causes.in_bursts(steps.steady(trace))
+        return causes.in_bursts(steps.send_once_per_tick(trace))
     if rate is not None and (rate.agrees(DEFAULT_HZ) or _are_alike(rate, seen.slow_rate)):
         return _ignored(RATE, trace)
     if rate is None or rate.agrees(1 / LAUNCH_HZ):
-        return causes.rate_as_period(RATE, steps.heeded(trace, RATE))
+        return causes.rate_as_period(RATE, steps.use_parameter(trace, RATE))
     return _other_rate(trace)
 
 
@@ -148,8 +149,8 @@ def _are_alike(rate: Rate, other: Rate | None) -> bool:
 
 
 def _other_rate(trace: Trace) -> Cause:
-    return period_slips.whole_division(started(trace)) or Cause(
-        "wrong rate", f"{RATE} has an effect, but not this one", steps.heeded(trace, RATE)
+    return period_slips.whole_division(started_node(trace)) or Cause(
+        "wrong rate", f"{RATE} has an effect, but not this one", steps.use_parameter(trace, RATE)
     )
 
 
@@ -162,13 +163,13 @@ def _made_whole(rate: Rate | None, asked: float, step: str) -> Cause | None:
 
 
 def _ignored(name: str, trace: Trace) -> Cause:
-    return parameter_slips.overridden(started(trace), name) or Cause(
-        "parameter ignored", f"{name} given at start-up has no effect", steps.heeded(trace, name)
+    return parameter_slips.overridden(started_node(trace), name) or Cause(
+        "parameter ignored", f"{name} given at start-up has no effect", steps.use_parameter(trace, name)
     )
 
 
 @_followable
-def judge_runtime(seen: Switched, retimed: Retimed) -> Verdict:
+def judge_runtime(seen: RuntimeChanges, retimed: RateChanges) -> Verdict:
     expected = f"setting {PREFIX} and {ENABLED} on the running node takes effect within one period"
     for answer in (seen.set_prefix, seen.set_off, seen.set_later, seen.set_on):
         if answer is None:
@@ -187,10 +188,10 @@ def judge_runtime(seen: Switched, retimed: Retimed) -> Verdict:
             expected,
             f"{ENABLED} set to false, but {len(seen.sent_while_off)} messages more than a period later",
             _ignored_later(ENABLED, seen.trace),
-            [text(s) for s in seen.sent_while_off[:3]],
+            [text_of(s) for s in seen.sent_while_off[:3]],
         )
     if seen.resumed is None:
-        cause = causes.of_process(seen.trace) if seen.trace.exit else None
+        cause = causes.diagnose_process(seen.trace) if seen.trace.exit else None
         return failed(
             expected,
             f"{ENABLED} set to false and to true again: no message since",
@@ -198,28 +199,28 @@ def judge_runtime(seen: Switched, retimed: Retimed) -> Verdict:
             or Cause(
                 "does not resume",
                 f"{ENABLED} true does not bring the messages back",
-                slips.truth_as_text(seen.trace) or steps.resumed(seen.trace),
+                slips.boolean_compared_with_text(seen.trace) or steps.keep_timer_running(seen.trace),
             ),
         )
     # A timer that is left behind, whatever is set, is what `timer` tells of.
     return _why_not_as_before(seen, expected, any_rate=not judge_timer(retimed).passed) or passed(
         expected,
-        f'"{text(seen.after_prefix)}"; silence while false; resumed '
+        f'"{text_of(seen.after_prefix)}"; silence while false; resumed '
         f"{seen.resumed.source_time - seen.set_on.asked_at:.2f} s after true",
     )
 
 
-def _why_not_as_before(seen: Switched, expected: str, *, any_rate: bool) -> Verdict | None:
+def _why_not_as_before(seen: RuntimeChanges, expected: str, *, any_rate: bool) -> Verdict | None:
     """What is wrong once it sends messages again: with the prefix that was set meanwhile, or with the rate."""
     off = f"{PREFIX} set to {seen.later} while {ENABLED} was false, then {ENABLED} to true"
-    said = [text(sample) for sample in seen.again]
+    said = [text_of(sample) for sample in seen.again]
     other = next((each for each in said if seen.later not in each), None)
     if other is not None:
         return failed(expected, f'{off}: "{other}"', _ignored_later(PREFIX, seen.trace), said)
     both = next((each for each in said if seen.prefix in each), None)
     if both is not None:
         cause = Cause(
-            "old prefix kept", "the new prefix does not replace the old one", steps.heeded(seen.trace, PREFIX)
+            "old prefix kept", "the new prefix does not replace the old one", steps.use_parameter(seen.trace, PREFIX)
         )
         return failed(expected, f'{off}: "{both}"', cause, said)
     if said and any_rate:
@@ -229,7 +230,7 @@ def _why_not_as_before(seen: Switched, expected: str, *, any_rate: bool) -> Verd
         cause = Cause(
             "messages held back",
             f"what was due while {ENABLED} was false is kept, and sent when it is true again",
-            steps.steady(seen.trace),
+            steps.send_once_per_tick(seen.trace),
         )
         return failed(expected, f"{off}: {len(burst)} messages at once", cause, burst)
     if _goes_on(seen.rate, seen.base_hz, seen):
@@ -238,84 +239,86 @@ def _why_not_as_before(seen: Switched, expected: str, *, any_rate: bool) -> Verd
     return failed(
         expected,
         observed,
-        (causes.of_process(seen.trace) if seen.trace.exit else None)
+        (causes.diagnose_process(seen.trace) if seen.trace.exit else None)
         or Cause(
             "rate changed",
             f"the rate is another one after setting {PREFIX} and {ENABLED}, though {RATE} was not touched",
-            steps.resumed(seen.trace),
+            steps.keep_timer_running(seen.trace),
         ),
     )
 
 
-def _held_back(seen: Switched) -> list[str]:
+def _held_back(seen: RuntimeChanges) -> list[str]:
     """What came with the first message after `enabled` had been set to true again."""
     assert seen.resumed is not None
     begin = seen.resumed.source_time
     hz = max(seen.base_hz, seen.before.hz if seen.before else 0.0)
-    return [text(s) for s in seen.trace.on(TOPIC) if begin <= s.source_time < begin + 0.5 / hz]
+    return [text_of(s) for s in seen.trace.samples_on(TOPIC) if begin <= s.source_time < begin + 0.5 / hz]
 
 
 def _ignored_later(name: str, trace: Trace) -> Cause:
-    compared = slips.truth_as_text(trace) if name == ENABLED else None
+    compared = slips.boolean_compared_with_text(trace) if name == ENABLED else None
     if compared is not None:
         return Cause("parameter ignored", f"{name} is accepted, but compared with a text", compared)
-    read = started(trace)
+    read = started_node(trace)
     old = parameter_slips.old_value_read(read, name)
     if (cause := parameter_slips.overridden(read, name) or parameter_slips.not_called(read)) is not None:
         return cause
     if old is not None:
-        return replace(old, hint=old.hint or steps.heeded_later(trace, name))
+        return replace(old, hint=old.hint or steps.use_parameter_later(trace, name))
     text = f"{name} is accepted, but what the node sends does not follow it"
-    return Cause("parameter ignored", text, steps.heeded_later(trace, name))
+    return Cause("parameter ignored", text, steps.use_parameter_later(trace, name))
 
 
 def _last(trace: Trace) -> str:
-    samples = trace.on(TOPIC)
-    return text(samples[-1]) if samples else "nothing"
+    samples = trace.samples_on(TOPIC)
+    return text_of(samples[-1]) if samples else "nothing"
 
 
-def _not_running(seen: Switched | Validated | Retimed | Atomic, expected: str) -> Verdict:
+def _not_running(seen: RuntimeChanges | BadRates | RateChanges | AtomicRequests, expected: str) -> Verdict:
     trace, stuck = seen.trace, seen.stuck
-    if trace.on(TOPIC):
+    if trace.samples_on(TOPIC):
         return failed(
             expected,
             "the node answers no parameter call",
             _no_answer(trace, stuck),
-            causes.last_words(trace),
+            causes.output_tail(trace),
         )
-    cause = causes.of_silence(trace, TOPIC, TYPE, answers=seen.answering, stuck=stuck, step=steps.published(trace))
-    return failed(expected, f"no message on {TOPIC} to start with", cause, causes.last_words(trace))
+    cause = causes.diagnose_silence(
+        trace, TOPIC, TYPE, answers=seen.answering, stuck=stuck, step=steps.add_publisher(trace)
+    )
+    return failed(expected, f"no message on {TOPIC} to start with", cause, causes.output_tail(trace))
 
 
 def _no_answer(trace: Trace, stuck: Sequence[Frame], *, spins: bool = False) -> Cause:
     """Why the node answers nothing; what keeps it waiting is left out of its callbacks."""
-    cause = causes.of_no_answer(trace, stuck, spins=spins)
-    blocked = causes.of_blocked(trace, stuck, spins=spins)
-    return replace(cause, hint=steps.freed(trace, stuck)) if cause == blocked else cause
+    cause = causes.diagnose_no_answer(trace, stuck, spins=spins)
+    blocked = causes.diagnose_blocked(trace, stuck, spins=spins)
+    return replace(cause, hint=steps.remove_waits(trace, stuck)) if cause == blocked else cause
 
 
 def _not_set(expected: str, answer: SetAnswer, trace: Trace, stuck: Sequence[Frame]) -> Verdict:
     what = ", ".join(f"{name} to {_show(value)}" for name, value in answer.values.items())
     if not answer.answered:
         cause = _no_answer(trace, stuck, spins=True)
-        observed = f"setting {what}: {causes.unanswered(trace, ANSWER_S)}"
-        return failed(expected, observed, cause, causes.last_words(trace))
-    cause = causes.of_refusal(answer.reason, steps.taken(trace, answer))
+        observed = f"setting {what}: {causes.describe_no_answer(trace, ANSWER_S)}"
+        return failed(expected, observed, cause, causes.output_tail(trace))
+    cause = causes.diagnose_refusal(answer.reason, steps.accept_value(trace, answer))
     return failed(expected, f'setting {what}: rejected, "{answer.reason}"', cause)
 
 
 def _ended_by(bad: float, expected: str, trace: Trace) -> Verdict | None:
     """Whether the node has ended because it made a timer of a bad rate: nothing had refused it."""
-    found = tracebacks.last(trace)
+    found = tracebacks.last_traceback(trace)
     told = found.raised if found is not None and trace.exit is not None else ""
     if not told.startswith("ZeroDivisionError") and "timer period must be non-negative" not in told:
         return None
     cause = _not_refused(trace, bad)
-    return failed(expected, f"{RATE} set to {bad} ends the node: {told}", cause, causes.last_words(trace))
+    return failed(expected, f"{RATE} set to {bad} ends the node: {told}", cause, causes.output_tail(trace))
 
 
 @_followable
-def judge_validation(seen: Validated, switched: Switched) -> Verdict:
+def judge_validation(seen: BadRates, switched: RuntimeChanges) -> Verdict:
     expected = f"{RATE} 0.0 and -1.0 are rejected with a reason; the value and the rate stay at {seen.base_hz} Hz"
     if not seen.rejected:
         return _not_running(seen, expected)
@@ -333,7 +336,7 @@ def judge_validation(seen: Validated, switched: Switched) -> Verdict:
             return failed(
                 expected,
                 f"{bad} was rejected without a reason",
-                Cause("no reason given", "the reason is empty", steps.refused(seen.trace)),
+                Cause("no reason given", "the reason is empty", steps.refuse_bad_rates(seen.trace)),
             )
         if causes.RCLPYS_OWN.match(answer.reason):
             return _not_set(expected, answer, seen.trace, seen.stuck)
@@ -344,21 +347,21 @@ def judge_validation(seen: Validated, switched: Switched) -> Verdict:
                 Cause(
                     "value changed all the same",
                     "the value is not what it was",
-                    steps.refused(seen.trace),
+                    steps.refuse_bad_rates(seen.trace),
                 ),
             )
     if not _goes_on(seen.rate, seen.base_hz, switched):
-        cause = (causes.of_process(seen.trace) if seen.trace.exit else None) or Cause(
+        cause = (causes.diagnose_process(seen.trace) if seen.trace.exit else None) or Cause(
             "value changed all the same",
             "the rate changes although the value was rejected",
-            steps.refused(seen.trace),
+            steps.refuse_bad_rates(seen.trace),
         )
         return failed(expected, f"after the rejection: {describe(seen.rate, seen.messages)}", cause)
     return passed(expected, f'rejected: "{seen.rejected[0][0].reason}"; still {seen.rate}')
 
 
 @_followable
-def judge_timer(seen: Retimed) -> Verdict:
+def judge_timer(seen: RateChanges) -> Verdict:
     expected = f"setting {RATE} changes the measured rate: {UP_HZ} Hz, then {DOWN_HZ} Hz, ±{TOLERANCE:.0%}"
     if not seen.steps:
         return _not_running(seen, expected)
@@ -375,13 +378,13 @@ def judge_timer(seen: Retimed) -> Verdict:
     return passed(expected, ", then ".join(str(rate) for _, rate, _ in seen.steps))
 
 
-def _why_timer(seen: Retimed, asked: float, rate: Rate | None) -> Cause:
-    if seen.trace.exit and (cause := causes.of_process(seen.trace)):
+def _why_timer(seen: RateChanges, asked: float, rate: Rate | None) -> Cause:
+    if seen.trace.exit and (cause := causes.diagnose_process(seen.trace)):
         return cause
-    read, trace = started(seen.trace), seen.trace
+    read, trace = started_node(seen.trace), seen.trace
     whole_division = period_slips.whole_division(read)
     if rate is not None and rate.in_bursts:
-        return whole_division or causes.in_bursts(steps.steady(trace))
+        return whole_division or causes.in_bursts(steps.send_once_per_tick(trace))
     before = DEFAULT_HZ if asked == UP_HZ else UP_HZ
     faster = seen.steps[0][1]
     left_behind = asked == DOWN_HZ and faster is not None and faster.hz > UP_HZ + DEFAULT_HZ / 2
@@ -389,35 +392,35 @@ def _why_timer(seen: Retimed, asked: float, rate: Rate | None) -> Cause:
         return _not_replaced(trace)
     if rate is not None and rate.hz < UP_HZ and all(_are_alike(rate, other) for _, other, _ in seen.steps):
         return _not_replaced(trace)
-    if (whole := _made_whole(rate, asked, steps.followed(trace))) is not None:
+    if (whole := _made_whole(rate, asked, steps.follow_changes(trace))) is not None:
         return whole
     if rate is not None and rate.hz > asked:
-        return whole_division or causes.old_timer_kept(rate.hz, asked, steps.cancelled(trace))
+        return whole_division or causes.old_timer_kept(rate.hz, asked, steps.cancel_old_timer(trace))
     if rate is None or rate.agrees(1 / asked):
-        return whole_division or causes.rate_as_period(RATE, steps.followed(trace))
-    return Cause("wrong rate", f"{rate.hz:.1f} Hz instead of {asked:g} Hz", steps.followed(trace))
+        return whole_division or causes.rate_as_period(RATE, steps.follow_changes(trace))
+    return Cause("wrong rate", f"{rate.hz:.1f} Hz instead of {asked:g} Hz", steps.follow_changes(trace))
 
 
 def _not_replaced(trace: Trace) -> Cause:
     """The parameter has a new value, the timer its old period."""
-    read = started(trace)
+    read = started_node(trace)
     if (cause := parameter_slips.overridden(read, RATE)) is not None:
         return cause
     if (old := parameter_slips.old_value_read(read, RATE)) is not None:
-        return replace(old, hint=old.hint or steps.followed(trace))
+        return replace(old, hint=old.hint or steps.follow_changes(trace))
     text = "the parameter changes, but the timer keeps its old period"
-    return parameter_slips.not_called(read) or Cause(names.TIMER_NOT_REPLACED, text, steps.followed(trace))
+    return parameter_slips.not_called(read) or Cause(names.TIMER_NOT_REPLACED, text, steps.follow_changes(trace))
 
 
 def _not_refused(trace: Trace, bad: float) -> Cause:
     """A bad number is taken."""
-    read = started(trace)
+    read = started_node(trace)
     return parameter_slips.not_called(read) or Cause(
-        "no validation", parameter_slips.why_accepted(read, bad), steps.refused(trace)
+        "no validation", parameter_slips.why_accepted(read, bad), steps.refuse_bad_rates(trace)
     )
 
 
-def _goes_on(rate: Rate | None, hz: float, switched: Switched) -> bool:
+def _goes_on(rate: Rate | None, hz: float, switched: RuntimeChanges) -> bool:
     """Whether the rate stays what it was: this one, or what the node sends at from the start, whatever it declares."""
     if rate is None or rate.agrees(hz):
         return rate is not None
@@ -426,7 +429,7 @@ def _goes_on(rate: Rate | None, hz: float, switched: Switched) -> bool:
 
 
 @_followable
-def judge_atomic(seen: Atomic, switched: Switched) -> Verdict:
+def judge_atomic(seen: AtomicRequests, switched: RuntimeChanges) -> Verdict:
     expected = f"an atomic set of a good {PREFIX} and a bad {RATE}, in either order, changes nothing at all"
     if not seen.answers:
         return _not_running(seen, expected)
@@ -442,9 +445,9 @@ def judge_atomic(seen: Atomic, switched: Switched) -> Verdict:
     if "declared" in seen.answers[0].reason:
         return _not_set(expected, seen.answers[0], seen.trace, seen.stuck)
     changed = next((held for held in seen.values if held != seen.before), None)
-    partial = steps.separate(seen.trace)
+    partial = steps.check_all_first(seen.trace)
     if changed is not None or seen.shown is not None:
-        now = f'a message reads "{text(seen.shown)}"' if seen.shown else f"{PREFIX}, {RATE} are {changed}"
+        now = f'a message reads "{text_of(seen.shown)}"' if seen.shown else f"{PREFIX}, {RATE} are {changed}"
         return failed(
             expected,
             f"rejected, but {now}",
@@ -460,13 +463,13 @@ def judge_atomic(seen: Atomic, switched: Switched) -> Verdict:
 
 
 @_followable
-def judge_bad_launch(plain: Survey, seen: Sequence[Trace]) -> Verdict:
+def judge_bad_launch(plain: PlainStart, seen: Sequence[Trace]) -> Verdict:
     expected = f"a start with {RATE}:=0.0 or {RATE}:=-1.0 gives a message that names {RATE}"
-    ordinary = {_wording(line) for line in naming(plain.trace)}
+    ordinary = {_wording(line) for line in messages_naming_rate(plain.trace)}
     for trace in seen:
-        if not any(_wording(line) not in ordinary for line in naming(trace)):
+        if not any(_wording(line) not in ordinary for line in messages_naming_rate(trace)):
             given = f"{RATE}:={trace.parameters[RATE]}"
-            found = tracebacks.last(trace)
+            found = tracebacks.last_traceback(trace)
             said = next((str(log) for log in reversed(trace.logs) if log.level >= Level.WARN), "")
             if said and not found:
                 cause = Cause(
@@ -483,17 +486,17 @@ def judge_bad_launch(plain: Survey, seen: Sequence[Trace]) -> Verdict:
                 else "the node takes the bad value silently",
                 steps.checked_at_start(trace),
             )
-            return failed(expected, observed, cause, causes.last_words(trace))
-    return passed(expected, "it does", [naming(trace)[-1] for trace in seen])
+            return failed(expected, observed, cause, causes.output_tail(trace))
+    return passed(expected, "it does", [messages_naming_rate(trace)[-1] for trace in seen])
 
 
 def _wording(line: str) -> str:
-    """A line without numbers and log prefix: what an ordinary start says, too, is no complaint."""
+    """A line without numbers and log prefix: what an ordinary start says, too, is not a complaint."""
     return shape(line.rsplit("]: ", 1)[-1])
 
 
-def judge_shutdown(seen: Survey) -> Verdict:
-    return ending.judge(seen.trace, seen.ending)
+def judge_shutdown(seen: PlainStart) -> Verdict:
+    return ending.judge_ending(seen.trace, seen.ending)
 
 
 def _show(value: Any) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from checks.i2_1.facts import DEFAULTS, ENABLED, PREFIX, RATE, TOPIC
 from tutor.judge.edits import Edit
 from tutor.judge.rewriting.node import NodeFile
-from tutor.judge.rewriting.whole import MAIN, names, rewritten
+from tutor.judge.rewriting.whole import MAIN, names_of, rewrite_file
 
 _PROGRAM = """\
 import rclpy
@@ -52,9 +52,9 @@ class {node_class}(Node):
 """
 
 
-def program(file: NodeFile) -> list[Edit]:
+def whole_program(file: NodeFile) -> list[Edit]:
     """The node, its callbacks and main(), as a whole."""
-    own = vars(names(file, "parameterized_publisher"))
+    own = vars(names_of(file, "parameterized_publisher"))
     defaults = [value for _, value in DEFAULTS.values()]
     asked = {"prefix": PREFIX, "rate": RATE, "enabled": ENABLED, "topic": TOPIC.lstrip("/"), "defaults": defaults}
-    return rewritten(file, (_PROGRAM + MAIN).format(**own, **asked))
+    return rewrite_file(file, (_PROGRAM + MAIN).format(**own, **asked))

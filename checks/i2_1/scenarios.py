@@ -24,51 +24,51 @@ from checks.i2_1.facts import (
     TOPIC,
     TYPE,
     UP_HZ,
-    Atomic,
-    Launched,
-    Retimed,
-    Survey,
-    Switched,
-    Validated,
-    find,
-    naming,
-    text,
+    AtomicRequests,
+    BadRates,
+    ParameterStarts,
+    PlainStart,
+    RateChanges,
+    RuntimeChanges,
+    find_parameter,
+    messages_naming_rate,
+    text_of,
 )
 from tutor.judge.bench import Bench, Run
-from tutor.judge.ending import confirmed
+from tutor.judge.ending import repeat_if_doubtful
 from tutor.judge.rates import Rate, measure
 from tutor.judge.trace import Parameter, Sample, SetAnswer, Trace
 from tutor.judge.tracebacks import Frame
-from tutor.judge.waiting import START_S, appears, first_message, steady_rate, stuck
+from tutor.judge.waiting import START_S, find_stuck_frames, measure_steady_rate, wait_for_message, wait_until_seen
 
 
-@confirmed
-async def survey(bench: Bench) -> Survey:
+@repeat_if_doubtful
+async def plain_start(bench: Bench) -> PlainStart:
     """A plain start: which parameters has it, and does Ctrl+C end it cleanly?"""
-    async with bench.start(FILE, watch={TOPIC: TYPE}, asks_s=1.5) as run:
-        bench.doing(0.2, "asking for its parameters")
+    async with bench.start(FILE, watch={TOPIC: TYPE}, expected_s=1.5) as run:
+        bench.report_progress(0.2, "asking for its parameters")
         node = await _node(run)
         declared = await run.parameters(ANSWER_S) if node else None
-        bench.doing(0.5, "waiting for a message, then pressing Ctrl+C")
+        bench.report_progress(0.5, "waiting for a message, then pressing Ctrl+C")
         if node:
-            await first_message(run, TOPIC, TYPE, rare_s=RARE_S)
+            await wait_for_message(run, TOPIC, TYPE, rare_s=RARE_S)
         trace = run.trace()
         ended = await run.interrupt() if run.exit is None else None
-    return Survey(trace, declared, ended, () if declared is not None else await _stuck(bench, trace))
+    return PlainStart(trace, declared, ended, () if declared is not None else await _stuck(bench, trace))
 
 
-async def launched(bench: Bench) -> Launched:
+async def start_with_parameters(bench: Bench) -> ParameterStarts:
     """Start it with each parameter given on the command line."""
     prefix = "Ahoy7"
 
     async def loud(hz: float, more: Mapping[str, Any]) -> tuple[Trace, Rate | None, int]:
         parameters = {**more, RATE: hz}
-        async with bench.start(FILE, parameters=parameters, watch={TOPIC: TYPE}, asks_s=5 / hz) as run:
-            bench.doing(0.2, " ".join(f"{name}:={value}" for name, value in parameters.items()))
+        async with bench.start(FILE, parameters=parameters, watch={TOPIC: TYPE}, expected_s=5 / hz) as run:
+            bench.report_progress(0.2, " ".join(f"{name}:={value}" for name, value in parameters.items()))
             # Longer than the period that LAUNCH_HZ would be, were it taken for one.
-            if not await first_message(run, TOPIC, TYPE, rare_s=LAUNCH_HZ + 1):
+            if not await wait_for_message(run, TOPIC, TYPE, rare_s=LAUNCH_HZ + 1):
                 return run.trace(), None, 0
-            rate, messages = await steady_rate(run, TOPIC, hz, since=run.on(TOPIC)[0].source_time)
+            rate, messages = await measure_steady_rate(run, TOPIC, hz, since=run.samples_on(TOPIC)[0].source_time)
             return run.trace(), rate, messages
 
     def offered(run: Run) -> bool:
@@ -76,81 +76,85 @@ async def launched(bench: Bench) -> Launched:
 
     async def silent() -> tuple[Trace, Parameter | None, float, Sample | None]:
         parameters = {ENABLED: False, RATE: LAUNCH_HZ}
-        async with bench.start(FILE, parameters=parameters, watch={TOPIC: TYPE}, asks_s=2.5) as run:
-            bench.doing(0.3, f"{ENABLED}:=false, listening for silence")
+        async with bench.start(FILE, parameters=parameters, watch={TOPIC: TYPE}, expected_s=2.5) as run:
+            bench.report_progress(0.3, f"{ENABLED}:=false, listening for silence")
             node = await _node(run)
             declared = await run.parameters(ANSWER_S) if node else None
-            await appears(run, lambda: offered(run))
+            await wait_until_seen(run, lambda: offered(run))
             since = run.now()
-            # Two periods of the default rate, in case the rate that was given here is not heeded.
-            await run.until(lambda: bool(run.on(TOPIC)) or run.now() - since >= 2.2 / DEFAULT_HZ, 4.0)
+            # Two periods of the default rate, in case the rate that was given here has no effect.
+            await run.until(lambda: bool(run.samples_on(TOPIC)) or run.now() - since >= 2.2 / DEFAULT_HZ, 4.0)
             trace, quiet_s, woken = run.trace(), run.now() - since, None
-            if node and not trace.on(TOPIC) and not offered(run):
+            if node and not trace.samples_on(TOPIC) and not offered(run):
                 # It may make its publisher only when it is enabled.
-                bench.doing(0.7, f"setting {ENABLED} to true")
+                bench.report_progress(0.7, f"setting {ENABLED} to true")
                 await run.set_parameters(node, {ENABLED: True}, limit_s=ANSWER_S)
-                await first_message(run, TOPIC, TYPE, rare_s=RARE_S)
-                woken = next(iter(run.on(TOPIC)), None)
-            return trace, find(declared or (), ENABLED), quiet_s, woken
+                await wait_for_message(run, TOPIC, TYPE, rare_s=RARE_S)
+                woken = next(iter(run.samples_on(TOPIC)), None)
+            return trace, find_parameter(declared or (), ENABLED), quiet_s, woken
 
     (
         (trace, rate, messages),
         (slow, slow_rate, slow_messages),
         (disabled, answer, quiet_s, woken),
     ) = await asyncio.gather(loud(LAUNCH_HZ, {PREFIX: prefix}), loud(SLOW_LAUNCH_HZ, {}), silent())
-    return Launched(prefix, trace, rate, messages, slow, slow_rate, slow_messages, disabled, answer, quiet_s, woken)
+    return ParameterStarts(
+        prefix, trace, rate, messages, slow, slow_rate, slow_messages, disabled, answer, quiet_s, woken
+    )
 
 
-async def switched(bench: Bench) -> Switched:
+async def switch_at_runtime(bench: Bench) -> RuntimeChanges:
     """Set message_prefix and enabled while it runs. A change may take one period of the rate to show."""
     prefix, later = "Servus7", "Gruezi9"
     async with bench.start(FILE, watch={TOPIC: TYPE}) as run:
-        bench.doing(0.05, "waiting for it to publish")
+        bench.report_progress(0.05, "waiting for it to publish")
         node, answering = await _publishing(run)
         if node is None:
-            return Switched(
+            return RuntimeChanges(
                 trace := run.trace(), prefix, later, stuck=await _stuck(bench, trace, answering), answering=answering
             )
         base_hz = await _base_hz(run)
         period = 1 / base_hz
-        bench.doing(0.2, f"setting {PREFIX} to {prefix}")
+        bench.report_progress(0.2, f"setting {PREFIX} to {prefix}")
         set_prefix = await run.set_parameters(node, {PREFIX: prefix}, limit_s=ANSWER_S)
         if not set_prefix.answered:
-            return Switched(run.trace(), prefix, later, base_hz, set_prefix, stuck=await run.stuck_at())
+            return RuntimeChanges(run.trace(), prefix, later, base_hz, set_prefix, stuck=await run.dump_stacks())
         due = set_prefix.answered_at + period + 0.1
 
         def shown() -> Sample | None:
-            return next((s for s in run.on(TOPIC) if s.source_time > set_prefix.asked_at and prefix in text(s)), None)
+            return next(
+                (s for s in run.samples_on(TOPIC) if s.source_time > set_prefix.asked_at and prefix in text_of(s)), None
+            )
 
         def old() -> Sample | None:
-            return next((s for s in run.on(TOPIC) if s.source_time > due and prefix not in text(s)), None)
+            return next((s for s in run.samples_on(TOPIC) if s.source_time > due and prefix not in text_of(s)), None)
 
         await run.until(lambda: shown() is not None or old() is not None, 2 * period + 2)
-        changed, before = shown(), measure(run.on(TOPIC))
-        bench.doing(0.4, f"setting {ENABLED} to false, listening for silence")
+        changed, before = shown(), measure(run.samples_on(TOPIC))
+        bench.report_progress(0.4, f"setting {ENABLED} to false, listening for silence")
         set_off = await run.set_parameters(node, {ENABLED: False}, limit_s=ANSWER_S)
         if not set_off.answered:
-            stuck_at = await run.stuck_at()
-            return Switched(run.trace(), prefix, later, base_hz, set_prefix, changed, set_off, stuck=stuck_at)
+            dump_stacks = await run.dump_stacks()
+            return RuntimeChanges(run.trace(), prefix, later, base_hz, set_prefix, changed, set_off, stuck=dump_stacks)
         quiet_from = set_off.answered_at + period + 0.1
 
         def noise() -> list[Sample]:
-            return [s for s in run.on(TOPIC) if s.source_time > quiet_from]
+            return [s for s in run.samples_on(TOPIC) if s.source_time > quiet_from]
 
         await run.until(lambda: bool(noise()) or run.now() >= quiet_from + 1.5 * period, 3 * period + 2)
         sent, off_for_s = tuple(noise()), run.now() - set_off.answered_at
-        bench.doing(0.6, f"setting {PREFIX} to {later}, then {ENABLED} to true")
-        seen = Switched(run.trace(), prefix, later, base_hz, set_prefix, changed, set_off, sent, off_for_s)
+        bench.report_progress(0.6, f"setting {PREFIX} to {later}, then {ENABLED} to true")
+        seen = RuntimeChanges(run.trace(), prefix, later, base_hz, set_prefix, changed, set_off, sent, off_for_s)
         set_later = await run.set_parameters(node, {PREFIX: later}, limit_s=ANSWER_S)
         if not set_later.answered:
-            return replace(seen, trace=run.trace(), set_later=set_later, stuck=await run.stuck_at())
+            return replace(seen, trace=run.trace(), set_later=set_later, stuck=await run.dump_stacks())
         set_on = await run.set_parameters(node, {ENABLED: True}, limit_s=ANSWER_S)
 
         def resumed() -> Sample | None:
-            return next((s for s in run.on(TOPIC) if s.source_time > set_on.asked_at), None)
+            return next((s for s in run.samples_on(TOPIC) if s.source_time > set_on.asked_at), None)
 
         await run.until(lambda: resumed() is not None, 2 * period + 2)
-        bench.doing(0.8, "listening whether it goes on as before")
+        bench.report_progress(0.8, "listening whether it goes on as before")
         since = set_on.answered_at + period + 0.1
         again, rate = await _as_before(run, base_hz, since=since) if (first := resumed()) is not None else ((), None)
         seen = replace(seen, trace=run.trace(), set_later=set_later, set_on=set_on, resumed=first)
@@ -161,26 +165,26 @@ async def _as_before(run: Run, hz: float, *, since: float) -> tuple[tuple[Sample
     """The messages from `since` on, and their rate: by little more than two periods of `hz`, if these show it."""
 
     def heard() -> tuple[Sample, ...]:
-        return tuple(sample for sample in run.on(TOPIC) if sample.source_time >= since)
+        return tuple(sample for sample in run.samples_on(TOPIC) if sample.source_time >= since)
 
     await run.until(lambda: run.now() >= since + 2.2 / hz, 3.5 / hz + 2)
     rate = measure(heard())
     if rate is None or not rate.agrees(hz):
-        rate, _ = await steady_rate(run, TOPIC, hz, since=run.now())
+        rate, _ = await measure_steady_rate(run, TOPIC, hz, since=run.now())
     return heard(), rate
 
 
-async def validated(bench: Bench) -> Validated:
+async def ask_for_bad_rates(bench: Bench) -> BadRates:
     """Ask for bad rates, which must change nothing: at another rate than the default one, if that can be had."""
     return await _validated(bench, REFUSING_HZ)
 
 
-async def _validated(bench: Bench, from_hz: float | None) -> Validated:
-    async with bench.start(FILE, watch={TOPIC: TYPE}, asks_s=5.0) as run:
-        bench.doing(0.05, "waiting for it to publish")
+async def _validated(bench: Bench, from_hz: float | None) -> BadRates:
+    async with bench.start(FILE, watch={TOPIC: TYPE}, expected_s=5.0) as run:
+        bench.report_progress(0.05, "waiting for it to publish")
         node, answering = await _publishing(run)
         if node is None:
-            return Validated(trace := run.trace(), stuck=await _stuck(bench, trace, answering), answering=answering)
+            return BadRates(trace := run.trace(), stuck=await _stuck(bench, trace, answering), answering=answering)
         base_hz = await _base_hz(run)
         if from_hz is None or await _takes(run, node, from_hz, base_hz):
             return await _refusing(bench, run, node, from_hz or base_hz)
@@ -197,77 +201,79 @@ async def _takes(run: Run, node: str, new_hz: float, old_hz: float) -> bool:
     return rate is not None and rate.agrees(new_hz)
 
 
-async def _refusing(bench: Bench, run: Run, node: str, base_hz: float) -> Validated:
+async def _refusing(bench: Bench, run: Run, node: str, base_hz: float) -> BadRates:
     """Ask this node, which publishes at `base_hz`, for bad rates."""
     (before,) = await _held(run, (RATE,))
     rejected: list[tuple[SetAnswer, Any]] = []
     for bad in BAD_RATES:
-        bench.doing(0.4, f"setting {RATE} to {bad}")
+        bench.report_progress(0.4, f"setting {RATE} to {bad}")
         answer = await run.set_parameters(node, {RATE: bad}, limit_s=ANSWER_S)
         if not answer.answered:
             rejected.append((answer, None))
-            return Validated(run.trace(), base_hz, before, tuple(rejected), stuck=await run.stuck_at())
+            return BadRates(run.trace(), base_hz, before, tuple(rejected), stuck=await run.dump_stacks())
         rejected.append((answer, (await _held(run, (RATE,)))[0]))
-    bench.doing(0.7, "measuring the rate after it")
-    rate, messages = await steady_rate(run, TOPIC, base_hz, since=rejected[-1][0].answered_at)
-    return Validated(run.trace(), base_hz, before, tuple(rejected), rate, messages)
+    bench.report_progress(0.7, "measuring the rate after it")
+    rate, messages = await measure_steady_rate(run, TOPIC, base_hz, since=rejected[-1][0].answered_at)
+    return BadRates(run.trace(), base_hz, before, tuple(rejected), rate, messages)
 
 
-async def retimed(bench: Bench) -> Retimed:
+async def change_rate(bench: Bench) -> RateChanges:
     """Ask for a faster and then for a slower rate; each may take effect after one period of the old one."""
     async with bench.start(FILE, watch={TOPIC: TYPE}) as run:
-        bench.doing(0.05, "waiting for it to publish")
+        bench.report_progress(0.05, "waiting for it to publish")
         node, answering = await _publishing(run)
         if node is None:
-            return Retimed(trace := run.trace(), stuck=await _stuck(bench, trace, answering), answering=answering)
+            return RateChanges(trace := run.trace(), stuck=await _stuck(bench, trace, answering), answering=answering)
         steps: list[tuple[SetAnswer, Rate | None, int]] = []
         old_hz = await _base_hz(run)
         for done, new_hz in ((0.3, UP_HZ), (0.6, DOWN_HZ)):
-            bench.doing(done, f"setting {RATE} to {new_hz}")
+            bench.report_progress(done, f"setting {RATE} to {new_hz}")
             answer = await run.set_parameters(node, {RATE: new_hz}, limit_s=ANSWER_S)
             if not answer.answered:
-                return Retimed(run.trace(), (*steps, (answer, None, 0)), await run.stuck_at())
+                return RateChanges(run.trace(), (*steps, (answer, None, 0)), await run.dump_stacks())
             steps.append((answer, *await _changed_rate(run, answer, new_hz, old_hz)))
             old_hz = new_hz
-        return Retimed(run.trace(), tuple(steps))
+        return RateChanges(run.trace(), tuple(steps))
 
 
 async def _changed_rate(run: Run, answer: SetAnswer, new_hz: float, old_hz: float) -> tuple[Rate | None, int]:
     """The rate, and how many messages it is taken from, one period of the old rate after it was set to a new one."""
     settled = answer.answered_at + 1 / old_hz + 0.05
     await run.until(lambda: run.now() >= settled, 1 / old_hz + 1)
-    return await steady_rate(run, TOPIC, new_hz, since=settled)
+    return await measure_steady_rate(run, TOPIC, new_hz, since=settled)
 
 
-async def atomic(bench: Bench) -> Atomic:
+async def set_atomically(bench: Bench) -> AtomicRequests:
     """Set a good prefix and a bad rate in one atomic request, in either order."""
-    async with bench.start(FILE, watch={TOPIC: TYPE}, asks_s=5.0) as run:
+    async with bench.start(FILE, watch={TOPIC: TYPE}, expected_s=5.0) as run:
         node, answering = await _publishing(run)
         if node is None:
-            return Atomic(trace := run.trace(), stuck=await _stuck(bench, trace, answering), answering=answering)
+            return AtomicRequests(
+                trace := run.trace(), stuck=await _stuck(bench, trace, answering), answering=answering
+            )
         base_hz = await _base_hz(run)
         before = await _held(run, (PREFIX, RATE))
         tokens = ("Partial1", "Partial2")
         answers: list[SetAnswer] = []
         values: list[tuple[Any, ...]] = []
         for request in ({PREFIX: tokens[0], RATE: BAD_RATES[1]}, {RATE: BAD_RATES[1], PREFIX: tokens[1]}):
-            bench.doing(0.4, f"setting {' and '.join(request)} atomically")
+            bench.report_progress(0.4, f"setting {' and '.join(request)} atomically")
             answers.append(await run.set_parameters(node, request, atomic=True, limit_s=ANSWER_S))
             if not answers[-1].answered:
-                return Atomic(run.trace(), base_hz, tuple(answers), before, stuck=await run.stuck_at())
+                return AtomicRequests(run.trace(), base_hz, tuple(answers), before, stuck=await run.dump_stacks())
             values.append(await _held(run, (PREFIX, RATE)))
-        rate, messages = await steady_rate(run, TOPIC, base_hz, since=answers[-1].answered_at)
-        shown = next((s for s in run.on(TOPIC) if any(token in text(s) for token in tokens)), None)
-        return Atomic(run.trace(), base_hz, tuple(answers), before, tuple(values), shown, rate, messages)
+        rate, messages = await measure_steady_rate(run, TOPIC, base_hz, since=answers[-1].answered_at)
+        shown = next((s for s in run.samples_on(TOPIC) if any(token in text_of(s) for token in tokens)), None)
+        return AtomicRequests(run.trace(), base_hz, tuple(answers), before, tuple(values), shown, rate, messages)
 
 
 async def bad_launches(bench: Bench) -> tuple[Trace, ...]:
     """Start it with a bad rate: does it say which parameter is wrong?"""
 
     async def one(bad: float) -> Trace:
-        async with bench.start(FILE, parameters={RATE: bad}, watch={TOPIC: TYPE}, asks_s=0.5) as run:
-            bench.doing(0.3, f"starting with {RATE}:={bad}")
-            await appears(run, lambda: run.exit is not None or bool(naming(run.trace())))
+        async with bench.start(FILE, parameters={RATE: bad}, watch={TOPIC: TYPE}, expected_s=0.5) as run:
+            bench.report_progress(0.3, f"starting with {RATE}:={bad}")
+            await wait_until_seen(run, lambda: run.exit is not None or bool(messages_naming_rate(run.trace())))
             await run.until(lambda: run.exit is not None, 1.0)  # what it says may come in more than one message
             return run.trace()
 
@@ -276,7 +282,7 @@ async def bad_launches(bench: Bench) -> tuple[Trace, ...]:
 
 async def silent(bench: Bench) -> tuple[Frame, ...]:
     """Where the node is while it answers nothing."""
-    return await stuck(bench, FILE)
+    return await find_stuck_frames(bench, FILE)
 
 
 async def _stuck(bench: Bench, trace: Trace, answering: bool = False) -> tuple[Frame, ...]:
@@ -304,14 +310,14 @@ async def _node(run: Run) -> str | None:
 async def _publishing(run: Run) -> tuple[str | None, bool]:
     """The node to talk to, once it publishes, or None where it does not; and whether it answers."""
     node = await _node(run)
-    publishes = node is not None and await first_message(run, TOPIC, TYPE, rare_s=RARE_S)
+    publishes = node is not None and await wait_for_message(run, TOPIC, TYPE, rare_s=RARE_S)
     return (node if publishes else None), node is not None
 
 
 async def _held(run: Run, names: Sequence[str]) -> tuple[Any, ...]:
     """The values that the node says these parameters have; None for one that it does not have."""
     declared = await run.parameters(ANSWER_S) or ()
-    found = [find(declared, name) for name in names]
+    found = [find_parameter(declared, name) for name in names]
     return tuple(parameter.value if parameter else None for parameter in found)
 
 

@@ -25,5 +25,5 @@ CHECK = Check(
         Criterion("communicates", judges.judge_communicates, (scenarios.plain,), after=("starts",)),
         Criterion("shutdown", judges.judge_shutdown, (scenarios.plain,), after=("starts",), bonus=True),
     ),
-    asks_s=0.5,  # the first message of our solution's publisher; a talker of the demo nodes takes 1.0 s
+    expected_s=0.5,  # the first message of our solution's publisher; a talker of the demo nodes takes 1.0 s
 )

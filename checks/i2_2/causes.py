@@ -8,8 +8,18 @@ from collections.abc import Callable, Sequence
 from typing import cast
 
 from checks.i2_2 import steps
-from checks.i2_2.facts import ARGUMENTS, FILE, NAMESPACE, Launched, is_twice, publishers, shared, subscriptions, used
-from checks.i2_2.processes import Gone, by_stream, gone, writers, written_by
+from checks.i2_2.facts import (
+    ARGUMENTS,
+    FILE,
+    NAMESPACE,
+    LaunchRun,
+    is_namespace_doubled,
+    publishers,
+    shared_topics,
+    subscriptions,
+    topics_in_use,
+)
+from checks.i2_2.processes import EndedProcess, by_stream, ended_processes, writers, written_by
 from checks.i2_2.rewriting import PACKAGES, PROGRAMS, Launch, launch, nearest
 from tutor.judge import causes, tracebacks
 from tutor.judge.bench import OnlyWithRos
@@ -34,31 +44,33 @@ _ERROR = re.compile(r"^\[ERROR\] \[launch\]: |Caught exception in launch[^:]*: "
 _REMAP = re.compile(r"(?:-r|--remap) (?P<source>[^\s:=]+):=(?P<target>\S+)")
 
 
-def _in_own_names[**P, R: Cause | None](diagnose: Callable[P, R]) -> Callable[P, R]:
+def _uses_own_names[**P, R: Cause | None](diagnose: Callable[P, R]) -> Callable[P, R]:
     """What is said of a launch, with the names by which its file calls what it has imported."""
 
     @functools.wraps(diagnose)
     def said(*args: P.args, **named: P.kwargs) -> R:
         cause = diagnose(*args, **named)
         trace = next(
-            each if isinstance(each, Trace) else each.trace for each in args[::-1] if isinstance(each, Trace | Launched)
+            each if isinstance(each, Trace) else each.trace
+            for each in args[::-1]
+            if isinstance(each, Trace | LaunchRun)
         )
         if cause is None:
             return cause
         there = launch(trace)
-        return cast("R", steps.followed(there, steps.in_own_names(there.source, cause)))
+        return cast("R", steps.with_applicable_step(there, steps.with_own_names(there.source, cause)))
 
     return said
 
 
-def of_program(seen: Launched, cause: Cause) -> Cause:
+def diagnose_program(seen: LaunchRun, cause: Cause) -> Cause:
     """What is wrong with a program that the launch starts; where no line of it is known, the demos' are started."""
     there = launch(seen.trace)
-    return steps.followed(there, cause, there.demo)
+    return steps.with_applicable_step(there, cause, there.demo)
 
 
-@_in_own_names
-def of_launch(trace: Trace) -> Cause | None:
+@_uses_own_names
+def diagnose_launch(trace: Trace) -> Cause | None:
     """Why the launch did not do what it should: its file is broken, or what it starts ends or cannot be found.
 
     Raises OnlyWithRos where it asks for what our substitute for `launch` does not have.
@@ -69,14 +81,14 @@ def of_launch(trace: Trace) -> Cause | None:
     if found := _NOT_HERE.search(text):
         raise OnlyWithRos(_line_of(text, found.start()))
     if found := _NO_VALUE.search(text):
-        return steps.undeclared(there, found["name"])
+        return steps.declare_argument(there, found["name"])
     if found := _NO_DEFAULT.search(text):
-        return steps.without_default(there, found["name"])
+        return steps.add_default(there, found["name"])
     if found := _NOT_PAIRS.search(text):
         return Cause(
             "remappings not a list of pairs",
             _line_of(text, found.start()),
-            steps.remapped(there, "chatter")
+            steps.remap_nodes(there, "chatter")
             or f"remappings takes a list of pairs, each in round brackets: {steps.remapping(there.source, 'chatter')}",
         )
     if any(_UNRESOLVED.search(line.text) for line in trace.output):
@@ -84,59 +96,61 @@ def of_launch(trace: Trace) -> Cause | None:
             "substitution made text too early",
             "an f-string, str() or + has turned a substitution, such as LaunchConfiguration, into text like "
             "<launch.substitutions... object at 0x...>: its value is known only when the launch runs",
-            steps.text_too_early(there, "chatter")
+            steps.step_for_early_text(there, "chatter")
             or "give a list instead, whose parts are joined then: [LaunchConfiguration('namespace'), '/', 'name']",
         )
-    if (found := _NO_TEXT.search(text)) and (hint := steps.text_too_early(there, "chatter")):
+    if (found := _NO_TEXT.search(text)) and (hint := steps.step_for_early_text(there, "chatter")):
         return Cause("substitution is no text", _line_of(text, found.start()), hint)
     if found := _NO_PACKAGE.search(text):
         return Cause(
             "package not found",
             _line_of(text, found.start()),
-            steps.no_program(there, "package", found["name"], nearest(found["name"], PACKAGES))
+            steps.step_for_other_program(there, "package", found["name"], nearest(found["name"], PACKAGES))
             or "check the spelling of package=; demo_nodes_py, demo_nodes_cpp and my_package are there",
         )
     if found := _NO_PROGRAM.search(text):
         return Cause(
             "executable not found",
             _line_of(text, found.start()),
-            steps.no_program(there, "executable", found["name"], nearest(found["name"], PROGRAMS))
+            steps.step_for_other_program(there, "executable", found["name"], nearest(found["name"], PROGRAMS))
             or "check executable=: talker and listener in the demo packages, minimal_publisher and "
             "minimal_subscriber in my_package",
         )
-    raised = tracebacks.find(by_stream(own))
+    raised = tracebacks.find_tracebacks(by_stream(own))
     if raised:
-        return causes.of_traceback(raised[-1], trace)
+        return causes.diagnose_traceback(raised[-1], trace)
     if _NO_FUNCTION.search(text):
         return Cause(
             "no generate_launch_description",
             f"{trace.file} has no function of this name, which launch calls",
-            steps.other_function(there) or "def generate_launch_description(): ... return LaunchDescription([...])",
+            steps.step_for_other_function(there)
+            or "def generate_launch_description(): ... return LaunchDescription([...])",
         )
     if "NoneType" in text or re.search(r"return(?:s|ed)? (?:None|nothing)", text):
         return Cause(
             "nothing returned",
             "generate_launch_description() returns None",
-            steps.not_returned(there) or "end it with: return LaunchDescription([...])",
+            steps.step_for_missing_return(there) or "end it with: return LaunchDescription([...])",
         )
     if error := next((line.text for line in own if _ERROR.search(line.text)), None):
         return Cause(
             "error in the launch",
             _ERROR.sub("", error),
-            f"mend this in {FILE}, then launch it yourself",
+            f"fix this in {FILE}, then launch it yourself",
         )
-    if dead := gone(trace.output):
-        return _of_dead(dead[0], trace)
+    if dead := ended_processes(trace.output):
+        return _diagnose_dead(dead[0], trace)
     for process in writers(trace.output):
-        if left := tracebacks.find(by_stream(written_by(trace.output, process))):
-            return causes.of_traceback(left[-1], trace)
-    if (piece := steps.one_word(there)) is not None:
+        if left := tracebacks.find_tracebacks(by_stream(written_by(trace.output, process))):
+            return causes.diagnose_traceback(left[-1], trace)
+    if (piece := steps.split_command(there)) is not None:
         return piece
     if trace.exit is not None:
         return Cause(
             "nothing to launch",
             f"the launch ended by itself after {trace.exit.after_s:.1f} s with {trace.exit}, and had started nothing",
-            steps.nothing_listed(there) or "put both nodes into the list: LaunchDescription([publisher, subscriber])",
+            steps.step_for_empty_description(there)
+            or "put both nodes into the list: LaunchDescription([publisher, subscriber])",
         )
     return None
 
@@ -146,9 +160,9 @@ def _line_of(text: str, at: int) -> str:
     return _ERROR.sub("", _ERROR.sub("", line)).strip().removeprefix("- ")[:400]
 
 
-def _of_dead(dead: Gone, trace: Trace) -> Cause:
+def _diagnose_dead(dead: EndedProcess, trace: Trace) -> Cause:
     if dead.traceback is not None:
-        named = causes.of_traceback(dead.traceback, trace)
+        named = causes.diagnose_traceback(dead.traceback, trace)
         return Cause("a node that ends", f"{dead.process} has ended: {named}", named.hint)
     words = [line.text for line in dead.output if line.text.strip()][-1:]
     if words and (elsewhere := _ELSEWHERE.search(words[0])):
@@ -160,11 +174,11 @@ def _of_dead(dead: Gone, trace: Trace) -> Cause:
     )
 
 
-@_in_own_names
-def of_missing(seen: Launched) -> Cause:
+@_uses_own_names
+def diagnose_missing(seen: LaunchRun) -> Cause:
     """Why there are not two nodes of which one publishes and one subscribes."""
     trace = seen.trace
-    if (cause := of_launch(trace)) is not None:
+    if (cause := diagnose_launch(trace)) is not None:
         return cause
     sending, taking = publishers(trace.graph), subscriptions(trace.graph)
     if not trace.graph.nodes:
@@ -177,7 +191,7 @@ def of_missing(seen: Launched) -> Cause:
         missing, present = ("subscriber", sending) if sending else ("publisher", taking)
         verb = "subscribes" if sending else "publishes"
         there = launch(trace)
-        if (cause := steps.missing(there, missing)) is not None:
+        if (cause := steps.diagnose_missing_node(there, missing)) is not None:
             return cause
         return Cause(
             f"no {missing}",
@@ -193,24 +207,24 @@ def of_missing(seen: Launched) -> Cause:
     )
 
 
-@_in_own_names
-def of_topic(usual: Launched, seen: Launched, wanted: str) -> Cause:
+@_uses_own_names
+def diagnose_topic(usual: LaunchRun, seen: LaunchRun, wanted: str) -> Cause:
     """Why, with another topic given, not both nodes use `wanted`, or the default topic is still used."""
-    if (cause := _of_broken(seen)) is not None:
+    if (cause := _diagnose_broken(seen)) is not None:
         return cause
     graph, name, there = seen.trace.graph, _own_name(usual), launch(seen.trace)
     sends = [each for each in publishers(graph) if each.topic == wanted]
     takes = [each for each in subscriptions(graph) if each.topic == wanted]
     if not sends and not takes:
         return (
-            _of_added(there, graph, wanted)
-            or _of_ignored(seen, "topic", wanted, usual)
-            or _of_remaps(seen, wanted)
-            or steps.topic(there, name)
+            _diagnose_added(there, graph, wanted)
+            or _diagnose_ignored(seen, "topic", wanted, usual)
+            or _diagnose_remaps(seen, wanted)
+            or steps.diagnose_topic_argument(there, name)
             or Cause(
                 "topic hard-coded",
                 f"neither node uses {wanted}: the remappings do not depend on the argument",
-                steps.remapped(there, name) or f"give both nodes {steps.remapping(there.source, name)}",
+                steps.remap_nodes(there, name) or f"give both nodes {steps.remapping(there.source, name)}",
             )
         )
     if not sends or not takes:
@@ -219,19 +233,19 @@ def of_topic(usual: Launched, seen: Launched, wanted: str) -> Cause:
         )
         stray = [each for each in others if each.node not in {one.node for one in present}] or others
         where = ", ".join(sorted({f"{each.node} {verb} {each.topic}" for each in stray})) or "the other is not there"
-        return _of_remaps(seen, wanted) or Cause(
+        return _diagnose_remaps(seen, wanted) or Cause(
             "remapping missing on one node",
             f"only {present[0].node} uses {wanted}; {where}",
-            steps.remapped(there, name)
+            steps.remap_nodes(there, name)
             or "give the other node the same remappings=[...], from the name that its own code uses",
         )
-    still = sorted(shared(usual.trace.graph) & used(graph))
+    still = sorted(shared_topics(usual.trace.graph) & topics_in_use(graph))
     if still:
         who = sorted({each.node for each in (*publishers(graph), *subscriptions(graph)) if each.topic in still})
         return Cause(
             "default topic still used",
             f"{', '.join(who)} still {'uses' if len(who) == 1 else 'use'} {', '.join(still)}",
-            steps.remapped(there, name) or "give every node that uses the topic the same remappings=[...]",
+            steps.remap_nodes(there, name) or "give every node that uses the topic the same remappings=[...]",
         )
     return Cause(
         "no messages",
@@ -240,15 +254,15 @@ def of_topic(usual: Launched, seen: Launched, wanted: str) -> Cause:
     )
 
 
-@_in_own_names
-def of_namespace(usual: Launched, seen: Launched) -> Cause:
+@_uses_own_names
+def diagnose_namespace(usual: LaunchRun, seen: LaunchRun) -> Cause:
     """Why, with a namespace given, not both nodes and their topic are under it."""
-    if (cause := _of_broken(seen)) is not None:
+    if (cause := _diagnose_broken(seen)) is not None:
         return cause
     space, there = seen.arguments.get("namespace", NAMESPACE), launch(seen.trace)
     graph, under = seen.trace.graph, f"/{space}/"
     ends = [*publishers(graph), *subscriptions(graph)]
-    twice = next((name for each in ends for name in (each.node, each.topic) if is_twice(name, space)), None)
+    twice = next((name for each in ends for name in (each.node, each.topic) if is_namespace_doubled(name, space)), None)
     if twice is not None:
         return Cause(
             "namespace applied twice",
@@ -259,20 +273,21 @@ def of_namespace(usual: Launched, seen: Launched) -> Cause:
     outside = [each for each in ends if not each.node.startswith(under)]
     if not within:
         return (
-            _of_ignored(seen, "namespace", space)
-            or steps.namespace(there)
+            _diagnose_ignored(seen, "namespace", space)
+            or steps.diagnose_namespace_argument(there)
             or Cause(
                 "namespace not used",
                 f"{_nodes(outside)}: no node is under {under[:-1]}",
-                steps.spaced(there)
+                steps.put_into_namespace(there)
                 or "give both nodes namespace=LaunchConfiguration('namespace'), or put them behind a PushRosNamespace",
             )
         )
     if outside and not _both(within):
-        return steps.namespace(there) or Cause(
+        return steps.diagnose_namespace_argument(there) or Cause(
             "namespace missing on one node",
             f"{_nodes(within)} is under {under[:-1]}, {_nodes(outside)} is not",
-            steps.spaced(there) or "give the other node the same namespace=LaunchConfiguration('namespace')",
+            steps.put_into_namespace(there)
+            or "give the other node the same namespace=LaunchConfiguration('namespace')",
         )
     absolute = [each for each in within if not each.topic.startswith(under)]
     if absolute:
@@ -281,11 +296,11 @@ def of_namespace(usual: Launched, seen: Launched) -> Cause:
         return Cause(
             "absolute topic",
             f"the nodes are under {under[:-1]}, but {absolute[0].node} uses {absolute[0].topic}: {because}",
-            steps.remapped(there, _own_name(usual)) or "a name that begins with / takes no namespace",
+            steps.remap_nodes(there, _own_name(usual)) or "a name that begins with / takes no namespace",
         )
     topic = seen.arguments.get("topic")
     if topic is not None:
-        return of_topic(usual, seen, f"{under}{topic}")
+        return diagnose_topic(usual, seen, f"{under}{topic}")
     return Cause(
         "nodes apart",
         f"{_uses(ends)}: no node subscribes to what another one publishes",
@@ -293,14 +308,14 @@ def of_namespace(usual: Launched, seen: Launched) -> Cause:
     )
 
 
-def _of_broken(seen: Launched) -> Cause | None:
+def _diagnose_broken(seen: LaunchRun) -> Cause | None:
     """Where something ended, or the launch is broken, with these arguments only."""
-    if seen.trace.exit is not None or gone(seen.trace.output) or not seen.trace.graph.nodes:
-        return of_launch(seen.trace)
+    if seen.trace.exit is not None or ended_processes(seen.trace.output) or not seen.trace.graph.nodes:
+        return diagnose_launch(seen.trace)
     return None
 
 
-def _of_added(there: Launch, graph: Graph, wanted: str) -> Cause | None:
+def _diagnose_added(there: Launch, graph: Graph, wanted: str) -> Cause | None:
     """Whether a topic has the value that was given as a part of its last name."""
     word = wanted.rsplit("/", 1)[-1]
     for each in (*publishers(graph), *subscriptions(graph)):
@@ -314,7 +329,7 @@ def _of_added(there: Launch, graph: Graph, wanted: str) -> Cause | None:
     return None
 
 
-def _of_ignored(seen: Launched, argument: str, value: str, usual: Launched | None = None) -> Cause | None:
+def _diagnose_ignored(seen: LaunchRun, argument: str, value: str, usual: LaunchRun | None = None) -> Cause | None:
     """Whether the value that was given reaches no node at all."""
     there = launch(seen.trace)
     word = value.rsplit("/", 1)[-1]
@@ -330,7 +345,7 @@ def _of_ignored(seen: Launched, argument: str, value: str, usual: Launched | Non
         return Cause(
             "wrong argument name",
             f"{argument}:={word} changes nothing; the arguments are called {', '.join(declared)}",
-            steps.other_name(there, argument, others)
+            steps.step_for_other_name(there, argument, others)
             or f"name it exactly '{argument}', in DeclareLaunchArgument and in LaunchConfiguration",
         )
     if argument not in declared:
@@ -341,28 +356,28 @@ def _of_ignored(seen: Launched, argument: str, value: str, usual: Launched | Non
             f"Node(...) {right}",
         )
     if argument == "namespace":
-        return steps.namespace(there) or Cause(
+        return steps.diagnose_namespace_argument(there) or Cause(
             "namespace not used",
             f"the argument {argument} is declared, but its value reaches no node",
-            steps.spaced(there) or f"give every Node(...) {right}",
+            steps.put_into_namespace(there) or f"give every Node(...) {right}",
         )
-    return steps.topic(there, name) or Cause(
+    return steps.diagnose_topic_argument(there, name) or Cause(
         "topic hard-coded",
         f"the argument {argument} is declared, but its value reaches no node",
-        steps.remapped(there, name) or f"give every Node(...) {right}",
+        steps.remap_nodes(there, name) or f"give every Node(...) {right}",
     )
 
 
-def _own_name(usual: Launched) -> str:
+def _own_name(usual: LaunchRun) -> str:
     """The name that the nodes' own code uses for their topic: what is remapped without arguments, or else its name."""
-    topics = shared(usual.trace.graph) or used(usual.trace.graph)
+    topics = shared_topics(usual.trace.graph) or topics_in_use(usual.trace.graph)
     for source, target in _remaps(usual):
         if any(topic.rsplit("/", 1)[-1] == target.rsplit("/", 1)[-1] for topic in topics):
             return source.rsplit("/", 1)[-1]
     return min(topics, default="/chatter").rsplit("/", 1)[-1]
 
 
-def _of_remaps(seen: Launched, wanted: str) -> Cause | None:
+def _diagnose_remaps(seen: LaunchRun, wanted: str) -> Cause | None:
     """Whether a remapping to the topic starts from a name that its node does not use."""
     word = wanted.rsplit("/", 1)[-1]
     turned = [(source, target) for source, target in _remaps(seen) if source.rsplit("/", 1)[-1] == word]
@@ -371,7 +386,7 @@ def _of_remaps(seen: Launched, wanted: str) -> Cause | None:
         return Cause(
             "remapping the wrong way round",
             f"{source} is remapped to {target}, so that {target} stays what it is",
-            steps.remapped(launch(seen.trace), target) or "first the name in the node's code, then the new one",
+            steps.remap_nodes(launch(seen.trace), target) or "first the name in the node's code, then the new one",
         )
     for source, target in _remaps(seen):
         if target.rsplit("/", 1)[-1] != word or source.startswith("__"):
@@ -385,26 +400,26 @@ def _of_remaps(seen: Launched, wanted: str) -> Cause | None:
             return Cause(
                 "absolute remapping",
                 f"the remapping from {source} means this one name only; in the namespace, the topic is {names[0]}",
-                steps.remapped(launch(seen.trace), source[1:])
+                steps.remap_nodes(launch(seen.trace), source[1:])
                 or "without the slash, the name is taken within the namespace",
             )
         if not any(name.rsplit("/", 1)[-1] == source.rsplit("/", 1)[-1] for name in names):
             return Cause(
                 "remapping from an unused name",
                 f"{source} is remapped to {target}, but the node uses {', '.join(names)}",
-                steps.remapped(launch(seen.trace), names[0].rsplit("/", 1)[-1])
+                steps.remap_nodes(launch(seen.trace), names[0].rsplit("/", 1)[-1])
                 or f"remap {names[0].rsplit('/', 1)[-1]} instead",
             )
     return None
 
 
-def _remaps(seen: Launched) -> list[tuple[str, str]]:
+def _remaps(seen: LaunchRun) -> list[tuple[str, str]]:
     """The remappings on the nodes' command lines, from and to."""
     return [(m["source"], m["target"]) for command in seen.commands for m in _REMAP.finditer(command)]
 
 
-@_in_own_names
-def of_pair(seen: Launched) -> Cause:
+@_uses_own_names
+def diagnose_pair(seen: LaunchRun) -> Cause:
     """Why a publisher and a subscription of two nodes do not come together on one topic."""
     graph = seen.trace.graph
     sends, takes = publishers(graph), subscriptions(graph)

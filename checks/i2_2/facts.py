@@ -17,7 +17,7 @@ ANOTHER = "robot2"
 ARGUMENTS = ("topic", "namespace")
 
 _TELLING = 4
-"""A text of so many letters does not stand in a log message by chance."""
+"""A text of this many letters does not stand in a log message by chance."""
 
 _NUMBER = re.compile(r"[-+\d.,e]+")
 
@@ -26,7 +26,7 @@ Pair = tuple[Endpoint, Endpoint]
 
 
 @dataclass(frozen=True)
-class Launched:
+class LaunchRun:
     """One launch. `commands` are the command lines of its processes, itself included.
 
     `hidden` are topics whose type this ROS does not have, so that their messages cannot be seen. `answering` are the
@@ -62,13 +62,13 @@ def _plumbing(topic: str) -> bool:
     return topic in ("/rosout", "/parameter_events", "/clock") or any(part.startswith("_") for part in topic.split("/"))
 
 
-def two_nodes(graph: Graph) -> Pair | None:
+def find_pair(graph: Graph) -> Pair | None:
     """A publisher and a subscription, on whatever topics, of two nodes; on one topic, if there is such a pair."""
     apart = (
         (one, other)
         for one in publishers(graph)
         for other in subscriptions(graph)
-        if _of_two_nodes(graph, one.node, other.node)
+        if _are_of_two_nodes(graph, one.node, other.node)
     )
     return next(iter(pairs(graph)), None) or next(apart, None)
 
@@ -79,42 +79,42 @@ def pairs(graph: Graph) -> list[Pair]:
         (one, other)
         for one in publishers(graph)
         for other in subscriptions(graph)
-        if one.topic == other.topic and _of_two_nodes(graph, one.node, other.node)
+        if one.topic == other.topic and _are_of_two_nodes(graph, one.node, other.node)
     ]
 
 
-def _of_two_nodes(graph: Graph, one: str, other: str) -> bool:
+def _are_of_two_nodes(graph: Graph, one: str, other: str) -> bool:
     return one != other or graph.nodes.count(one) > 1
 
 
-def used(graph: Graph) -> set[str]:
+def topics_in_use(graph: Graph) -> set[str]:
     """The topics that something publishes on or subscribes to."""
     return {each.topic for each in (*publishers(graph), *subscriptions(graph))}
 
 
-def shared(graph: Graph) -> set[str]:
+def shared_topics(graph: Graph) -> set[str]:
     """The topics on which a node publishes to which another one subscribes."""
     return {one.topic for one, _ in pairs(graph)}
 
 
-def homes(graph: Graph) -> set[str]:
+def shared_namespaces(graph: Graph) -> set[str]:
     """The namespaces that both nodes of a pair are in, and their topic with them, such as "/demo"; "" is none."""
     spaces = {(one.topic, each.node.rpartition("/")[0]) for one, other in pairs(graph) for each in (one, other)}
     return {space for topic, space in spaces if topic.startswith(f"{space}/")}
 
 
-def on_topic(graph: Graph, name: str, within: Iterable[str] = ()) -> list[Pair]:
+def pairs_on_topic(graph: Graph, name: str, within: Iterable[str] = ()) -> list[Pair]:
     """The pairs on /name, or on this name in one of the namespaces."""
     wanted = {f"{space}/{name}" for space in ("", *within)}
     return [pair for pair in pairs(graph) if pair[0].topic in wanted]
 
 
-def called(graph: Graph, name: str) -> list[Pair]:
+def pairs_on_topic_named(graph: Graph, name: str) -> list[Pair]:
     """The pairs on a topic of this name, in whatever namespace."""
     return [pair for pair in pairs(graph) if pair[0].topic.endswith(f"/{name}")]
 
 
-def in_namespace(graph: Graph, name: str | None = None, *, space: str = NAMESPACE) -> list[Pair]:
+def pairs_in_namespace(graph: Graph, name: str | None = None, *, space: str = NAMESPACE) -> list[Pair]:
     """The pairs of which both nodes and the topic (called `name`, if given) are under the namespace."""
     return [
         (one, other)
@@ -124,10 +124,10 @@ def in_namespace(graph: Graph, name: str | None = None, *, space: str = NAMESPAC
     ]
 
 
-def two_in_namespace(graph: Graph) -> bool:
+def has_pair_in_namespace(graph: Graph) -> bool:
     """Whether a publisher and a subscription of two nodes are under the namespace, on whatever topics there."""
     return any(
-        _of_two_nodes(graph, one.node, other.node)
+        _are_of_two_nodes(graph, one.node, other.node)
         for one in publishers(graph)
         for other in subscriptions(graph)
         if all(_is_under(name, NAMESPACE) for each in (one, other) for name in (each.node, each.topic))
@@ -135,20 +135,20 @@ def two_in_namespace(graph: Graph) -> bool:
 
 
 def _is_under(name: str, space: str) -> bool:
-    return name.startswith(f"/{space}/") and not is_twice(name, space)
+    return name.startswith(f"/{space}/") and not is_namespace_doubled(name, space)
 
 
-def is_twice(name: str, space: str) -> bool:
+def is_namespace_doubled(name: str, space: str) -> bool:
     """Whether the namespace was put before this name twice, as in /robot1/robot1/talker."""
     return name.startswith(f"/{space}/{space}/")
 
 
-def size(graph: Graph) -> tuple[int, int, int]:
+def count_entities(graph: Graph) -> tuple[int, int, int]:
     """How many nodes, publishers and subscriptions there are."""
     return len(graph.nodes), len(publishers(graph)), len(subscriptions(graph))
 
 
-def heard(pair: Pair, logs: Sequence[LogRecord], samples: Sequence[Sample]) -> list[LogRecord]:
+def logs_of_messages(pair: Pair, logs: Sequence[LogRecord], samples: Sequence[Sample]) -> list[LogRecord]:
     """What the subscriber logged that has the content of a message in it.
 
     A number or a few letters may stand in any log message: they count where they follow two messages that differ.

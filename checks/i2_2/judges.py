@@ -4,102 +4,111 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from checks.i2_2.causes import of_launch, of_missing, of_namespace, of_pair, of_program, of_topic
+from checks.i2_2.causes import (
+    diagnose_launch,
+    diagnose_missing,
+    diagnose_namespace,
+    diagnose_pair,
+    diagnose_program,
+    diagnose_topic,
+)
 from checks.i2_2.facts import (
     ANOTHER,
     NAMESPACE,
-    Launched,
+    LaunchRun,
     Pair,
-    heard,
-    homes,
-    in_namespace,
-    on_topic,
+    find_pair,
+    has_pair_in_namespace,
+    logs_of_messages,
     pairs,
+    pairs_in_namespace,
+    pairs_on_topic,
     publishers,
-    shared,
+    shared_namespaces,
+    shared_topics,
     subscriptions,
-    two_in_namespace,
-    two_nodes,
-    used,
+    topics_in_use,
 )
-from checks.i2_2.processes import by_stream, gone, writers, written_by
+from checks.i2_2.processes import by_stream, ended_processes, writers, written_by
 from tutor.judge import causes, ending
 from tutor.judge.trace import OutputLine
 from tutor.judge.verdict import Cause, Verdict, failed, passed
 
 
-def judge_starts(seen: Launched) -> Verdict:
+def judge_starts(seen: LaunchRun) -> Verdict:
     expected = "one command, without arguments, starts two nodes: one that publishes and one that subscribes"
-    found = two_nodes(seen.trace.graph)
+    found = find_pair(seen.trace.graph)
     nodes = seen.trace.graph.nodes
     observed = f"{len(nodes)} node{'s' if len(nodes) != 1 else ''}" + (f": {', '.join(nodes)}" if nodes else "")
     if found is None:
-        return failed(expected, observed, of_missing(seen), causes.last_words(seen.trace))
+        return failed(expected, observed, diagnose_missing(seen), causes.output_tail(seen.trace))
     return passed(expected, observed, _who(found))
 
 
-def judge_topic(usual: Launched, seen: Launched) -> Verdict:
+def judge_topic(usual: LaunchRun, seen: LaunchRun) -> Verdict:
     name = seen.arguments["topic"]
     expected = f"with topic:={name}, both nodes use /{name}, and the default topic is unused"
-    spaces = homes(usual.trace.graph)
-    found = on_topic(seen.trace.graph, name, spaces)
+    spaces = shared_namespaces(usual.trace.graph)
+    found = pairs_on_topic(seen.trace.graph, name, spaces)
     if _moved(usual, seen, found) and _sent(usual, seen, found):
         return passed(expected, _observed(seen), _who(found[0]))
-    wanted = next((f"{space}/{name}" for space in spaces if f"{space}/{name}" in used(seen.trace.graph)), f"/{name}")
-    return failed(expected, _observed(seen), of_topic(usual, seen, wanted), causes.last_words(seen.trace))
+    wanted = next(
+        (f"{space}/{name}" for space in spaces if f"{space}/{name}" in topics_in_use(seen.trace.graph)), f"/{name}"
+    )
+    return failed(expected, _observed(seen), diagnose_topic(usual, seen, wanted), causes.output_tail(seen.trace))
 
 
 def judge_namespace(
-    usual: Launched, elsewhere: Launched, alone: Launched, both: Launched, another: Launched | None = None
+    usual: LaunchRun, elsewhere: LaunchRun, alone: LaunchRun, both: LaunchRun, another: LaunchRun | None = None
 ) -> Verdict:
     """Judge `namespace`. `another`: a launch in another one, where all is in this one by default."""
     expected = f"with {alone.typed}, both nodes and the topic are under /{NAMESPACE}"
-    within = in_namespace(alone.trace.graph)
+    within = pairs_in_namespace(alone.trace.graph)
     # Nodes that share no topic without a namespace either, or do not follow the argument topic, break other criteria.
-    right = two_in_namespace(alone.trace.graph)
+    right = has_pair_in_namespace(alone.trace.graph)
     if another is not None:
         right = bool(within)
-        if not (right and _moved(usual, another, in_namespace(another.trace.graph, space=ANOTHER))):
+        if not (right and _moved(usual, another, pairs_in_namespace(another.trace.graph, space=ANOTHER))):
             expected = f"with {another.typed}, both nodes and the topic are under /{ANOTHER}"
-            cause = of_namespace(usual, another)
-            return failed(expected, _observed(another), cause, causes.last_words(another.trace))
-    elif shared(usual.trace.graph):
+            cause = diagnose_namespace(usual, another)
+            return failed(expected, _observed(another), cause, causes.output_tail(another.trace))
+    elif shared_topics(usual.trace.graph):
         right = _moved(usual, alone, within) and _sent(usual, alone, within)
     if not right:
-        return failed(expected, _observed(alone), of_namespace(usual, alone), causes.last_words(alone.trace))
+        return failed(expected, _observed(alone), diagnose_namespace(usual, alone), causes.output_tail(alone.trace))
     topic = both.arguments["topic"]
     expected = f"with {both.typed}, both nodes and /{NAMESPACE}/{topic} are under /{NAMESPACE}"
-    if on_topic(elsewhere.trace.graph, elsewhere.arguments["topic"], homes(usual.trace.graph)):
-        found = in_namespace(both.trace.graph, topic)
+    if pairs_on_topic(elsewhere.trace.graph, elsewhere.arguments["topic"], shared_namespaces(usual.trace.graph)):
+        found = pairs_in_namespace(both.trace.graph, topic)
         right = _moved(usual, both, found) and _sent(usual, both, found)
     else:
-        right = two_in_namespace(both.trace.graph)
+        right = has_pair_in_namespace(both.trace.graph)
     if not right:
-        return failed(expected, _observed(both), of_namespace(usual, both), causes.last_words(both.trace))
+        return failed(expected, _observed(both), diagnose_namespace(usual, both), causes.output_tail(both.trace))
     expected = f"with namespace:={NAMESPACE}, alone and with a topic, both nodes and the topic are under /{NAMESPACE}"
     return passed(expected, _observed(both), [*_who(within[0])] if within else ())
 
 
-def judge_communicates(seen: Launched) -> Verdict:
+def judge_communicates(seen: LaunchRun) -> Verdict:
     expected = "without arguments, the subscriber gets what the publisher sends"
     found = pairs(seen.trace.graph)
     if not found:
-        return failed(expected, _observed(seen), of_pair(seen), causes.last_words(seen.trace))
+        return failed(expected, _observed(seen), diagnose_pair(seen), causes.output_tail(seen.trace))
     reasons: list[tuple[Pair, Cause]] = []
     for pair in found:
         reason = _why_not(seen, pair)
         if reason is None:
             topic = pair[0].topic
-            count = len(seen.trace.on(topic))
-            logs = heard(pair, seen.trace.logs, seen.trace.on(topic))
+            count = len(seen.trace.samples_on(topic))
+            logs = logs_of_messages(pair, seen.trace.logs, seen.trace.samples_on(topic))
             observed = f"{count} message{'s' if count != 1 else ''} on {topic}" if count else f"connected on {topic}"
             return passed(expected, observed, [*_who(pair), *(str(log) for log in logs[:2])])
-        reasons.append((pair, of_program(seen, reason)))
+        reasons.append((pair, diagnose_program(seen, reason)))
     pair, reason = reasons[0]
-    return failed(expected, _observed(seen), reason, causes.last_words(seen.trace))
+    return failed(expected, _observed(seen), reason, causes.output_tail(seen.trace))
 
 
-def _why_not(seen: Launched, pair: Pair) -> Cause | None:
+def _why_not(seen: LaunchRun, pair: Pair) -> Cause | None:
     """Why what `pair` sends does not arrive; None where it does."""
     one, other = pair
     if one.type != other.type:
@@ -110,37 +119,37 @@ def _why_not(seen: Launched, pair: Pair) -> Cause | None:
         )
     if (cause := causes.incompatible_qos(one, other)) is not None:
         return cause
-    if not seen.trace.on(one.topic) and one.topic not in seen.hidden:
-        return of_launch(seen.trace) or Cause(
+    if not seen.trace.samples_on(one.topic) and one.topic not in seen.hidden:
+        return diagnose_launch(seen.trace) or Cause(
             "no messages", f"{one.node} publishes nothing on {one.topic}", "start it alone, and see what it says"
         )
     alive = other.node in seen.answering
     mute = not any(
         service.node == other.node and service.type.endswith("/ListParameters") for service in seen.trace.graph.services
     )
-    logged = heard(pair, seen.trace.logs, seen.trace.on(one.topic))
+    logged = logs_of_messages(pair, seen.trace.logs, seen.trace.samples_on(one.topic))
     if seen.parted:
-        return of_launch(seen.trace) or Cause(
+        return diagnose_launch(seen.trace) or Cause(
             "a node that ends",
             f"{one.node} and {other.node} had met, and one is gone",
             "see the last lines of its output",
         )
-    if alive or (mute and seen.trace.exit is None) or (logged and not gone(seen.trace.output)):
+    if alive or (mute and seen.trace.exit is None) or (logged and not ended_processes(seen.trace.output)):
         return None
-    return of_launch(seen.trace) or Cause(
+    return diagnose_launch(seen.trace) or Cause(
         "no spin",
         f"{other.node} has a subscription, but answers no request: its callbacks are never run",
         "let the program call rclpy.spin(node), and no callback block",
     )
 
 
-def judge_shutdown(seen: Launched) -> Verdict:
+def judge_shutdown(seen: LaunchRun) -> Verdict:
     expected = "one Ctrl+C ends the whole launch within 5 s, and no process is left"
     ended = seen.ending
     if ended is not None:
         # The launch passes on what its nodes write, with a prefix.
         ended = replace(ended, output=_of_all(ended.output))
-    verdict = ending.judge(seen.trace, ended)
+    verdict = ending.judge_ending(seen.trace, ended)
     if not verdict.passed or ended is None:
         return replace(verdict, expected=expected)
     if ended.left:
@@ -161,20 +170,20 @@ def _of_all(output: tuple[OutputLine, ...]) -> tuple[OutputLine, ...]:
     return tuple(line for process in (None, *writers(output)) for line in by_stream(written_by(output, process)))
 
 
-def _moved(usual: Launched, seen: Launched, found: list[Pair]) -> bool:
+def _moved(usual: LaunchRun, seen: LaunchRun, found: list[Pair]) -> bool:
     """Whether there is a pair where one is wanted, and a topic that the nodes share without arguments is unused."""
-    before = shared(usual.trace.graph)
-    return bool(found) and (not before or bool(before - used(seen.trace.graph)))
+    before = shared_topics(usual.trace.graph)
+    return bool(found) and (not before or bool(before - topics_in_use(seen.trace.graph)))
 
 
-def _sent(usual: Launched, seen: Launched, found: list[Pair]) -> bool:
+def _sent(usual: LaunchRun, seen: LaunchRun, found: list[Pair]) -> bool:
     """Whether messages come where the pairs are; a publisher that sends nothing without arguments either need not."""
     if not any(usual.trace.samples.values()):
         return True
-    return any(one.topic in seen.hidden or bool(seen.trace.on(one.topic)) for one, _ in found)
+    return any(one.topic in seen.hidden or bool(seen.trace.samples_on(one.topic)) for one, _ in found)
 
 
-def _observed(seen: Launched) -> str:
+def _observed(seen: LaunchRun) -> str:
     graph = seen.trace.graph
     if not graph.nodes:
         return "no node" + (f"; the launch ended with {seen.trace.exit}" if seen.trace.exit else "")

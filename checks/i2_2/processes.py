@@ -17,7 +17,7 @@ _FINISHED = re.compile(r"\[(?P<process>[^\[\]\s]+-\d+)\]: process has finished c
 
 
 @dataclass(frozen=True)
-class Gone:
+class EndedProcess:
     """A process that ended while the launch went on. `process` is its name in the launch, such as "talker-1"."""
 
     process: str
@@ -27,19 +27,19 @@ class Gone:
     @property
     def traceback(self) -> Traceback | None:
         """The traceback that it ended with, if any."""
-        found = tracebacks.find(by_stream(self.output))
+        found = tracebacks.find_tracebacks(by_stream(self.output))
         return found[-1] if found else None
 
 
-def gone(output: Sequence[OutputLine]) -> list[Gone]:
+def ended_processes(output: Sequence[OutputLine]) -> list[EndedProcess]:
     """The processes that had ended, as the launch told, in that order."""
     found = []
     for line in output:
         text = _COLOUR.sub("", line.text)
         if died := _DIED.search(text):
-            found.append(Gone(died["process"], int(died["code"]), written_by(output, died["process"])))
+            found.append(EndedProcess(died["process"], int(died["code"]), written_by(output, died["process"])))
         elif finished := _FINISHED.search(text):
-            found.append(Gone(finished["process"], 0, written_by(output, finished["process"])))
+            found.append(EndedProcess(finished["process"], 0, written_by(output, finished["process"])))
     return found
 
 

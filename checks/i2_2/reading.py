@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
-from tutor.judge.source import SourceFile, called
+from tutor.judge.source import SourceFile, called_name
 
 
 @dataclass(frozen=True, slots=True)
@@ -157,15 +157,15 @@ def _call(node: ast.Call, file: SourceFile) -> Call:
             named[each.arg] = each.value
         elif isinstance(each.value, ast.Name):
             named |= _dicts(file.tree).get(each.value.id, {})
-    function = file.within(node)
+    function = file.function_around(node)
     return Call(
-        name=called(node),
+        name=called_name(node),
         line=node.lineno,
         code=ast.unparse(node),
         given=tuple(map(ast.unparse, node.args)),
         named={name: ast.unparse(value) for name, value in named.items()},
         within=function.name if function is not None else "",
-        kept=file.kept(node),
+        kept=file.assigned_to(node),
     )
 
 
@@ -177,7 +177,7 @@ def _parts(node: ast.AST, file: SourceFile) -> tuple[str, ...]:
                 ast.unparse(each.value) if isinstance(each, ast.FormattedValue) else ast.unparse(each)
                 for each in node.values
             )
-        case ast.BinOp(op=ast.Add()) if not isinstance(next(file.outwards(node), None), ast.BinOp):
+        case ast.BinOp(op=ast.Add()) if not isinstance(next(file.ancestors(node), None), ast.BinOp):
             return tuple(_added(node))
         case ast.Call(
             func=ast.Attribute(value=ast.Constant(value=str() as between), attr="join"), args=[ast.List(elts=parts)]

@@ -12,9 +12,17 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from checks.i2_2.reading import Source
-from tutor.judge.edits import Edit, at_end, becomes, below, imported_instead, instead, without
+from tutor.judge.edits import (
+    Edit,
+    append_to_function,
+    insert_below,
+    remove_statement,
+    replace_imports,
+    replace_lines,
+    replace_node,
+)
 from tutor.judge.rewriting.node import NodeFile, argument, node_file
-from tutor.judge.source import Function, called, values_of
+from tutor.judge.source import Function, called_name, values_of
 from tutor.judge.trace import Trace
 
 LAUNCHED = "generate_launch_description"
@@ -96,7 +104,9 @@ class Launch:
     def function(self) -> Function | None:
         """The function that launch calls, or the one that is meant for it."""
         named = [each for each in self.file.functions if each.name == LAUNCHED]
-        made = [found for each in self.calls("LaunchDescription") if (found := self.file.within(each)) is not None]
+        made = [
+            found for each in self.calls("LaunchDescription") if (found := self.file.function_around(each)) is not None
+        ]
         return next(iter([*named[-1:], *made]), None)
 
     def value(self, of: str) -> str:
@@ -161,7 +171,7 @@ def launch(trace: Trace) -> Launch:
     return Launch(node_file(trace.sources.get(trace.file, "")), others, trace.file)
 
 
-def whole(there: Launch, programs: Sequence[Program] = ()) -> list[Edit]:
+def rewrite_description(there: Launch, programs: Sequence[Program] = ()) -> list[Edit]:
     """The function as a whole: both arguments declared first, then each node in the namespace and on the topic."""
     function = there.function
     names = ("Node", "LaunchConfiguration", "DeclareLaunchArgument", "LaunchDescription")
@@ -184,7 +194,7 @@ def whole(there: Launch, programs: Sequence[Program] = ()) -> list[Edit]:
         last = there.file.tree.body[-1]
         body = "".join(f"\n    {line}" for line in code.splitlines())
         like = next((each.lineno for each in there.file.tree.body), 1)
-        return [*imports, below(last.end_lineno or last.lineno, f"\n\ndef {LAUNCHED}():{body}", like=like)]
+        return [*imports, insert_below(last.end_lineno or last.lineno, f"\n\ndef {LAUNCHED}():{body}", like=like)]
     first, last_ = function.body[0], function.body[-1]
     if ast.get_docstring(function) is not None and len(function.body) > 1:
         first = function.body[1]
@@ -201,14 +211,14 @@ def _node(there: Launch, program: Program) -> Iterator[str]:
     yield "),"
 
 
-def misplaced(there: Launch) -> list[Edit]:
+def fix_imports(there: Launch) -> list[Edit]:
     """The imports of classes from where they are not, with the module that has them."""
     edits = []
     for each in there.file.tree.body:
         if isinstance(each, ast.ImportFrom) and not each.level:
             found = [(alias, _place(alias.name)) for alias in each.names]
             moved = [(alias, f"from {at} import {alias.name}") for alias, at in found if at not in ("", each.module)]
-            edits += [imported_instead(each, moved)] if moved else []
+            edits += [replace_imports(each, moved)] if moved else []
     return edits
 
 
@@ -216,7 +226,7 @@ def _place(name: str) -> str:
     return next((module for module, names in _PLACES.items() if name in names), "")
 
 
-def given(there: Launch, keyword: str, value: str, *without: str) -> list[Edit]:
+def add_node_argument(there: Launch, keyword: str, value: str, *without: str) -> list[Edit]:
     """Every node with this argument, and without others; none where a node has arguments in a dict, `**common`."""
     edits = []
     if any(each.arg is None for call in there.calls("Node") for each in call.keywords):
@@ -225,16 +235,16 @@ def given(there: Launch, keyword: str, value: str, *without: str) -> list[Edit]:
         kept = [each for each in call.keywords if each.arg not in without]
         had = next((each.value for each in kept if each.arg == keyword), None)
         if had is not None and len(kept) == len(call.keywords):
-            edits.append(instead(there.file.text, had, value))
+            edits.append(replace_node(there.file.text, had, value))
             continue
         words = [f"{each.arg}={value if each.arg == keyword else ast.unparse(each.value)}" for each in kept if each.arg]
         added = [] if had is not None else [f"{keyword}={value}"]
         parts = [*map(ast.unparse, call.args), *words, *added]
-        edits.append(instead(there.file.text, call, f"{ast.unparse(call.func)}({', '.join(parts)})"))
+        edits.append(replace_node(there.file.text, call, f"{ast.unparse(call.func)}({', '.join(parts)})"))
     return [*there.imports("LaunchConfiguration"), *edits]
 
 
-def listed_first(there: Launch, *wanted: str) -> list[Edit]:
+def prepend_to_list(there: Launch, *wanted: str) -> list[Edit]:
     """What the list of the launch description begins with."""
     made = next(iter(there.calls("LaunchDescription")), None)
     given_ = argument(made, 0, "initial_entities") if made is not None else None
@@ -247,10 +257,10 @@ def listed_first(there: Launch, *wanted: str) -> list[Edit]:
     if "\n" in code:
         alone = there.file.text.splitlines()[first.lineno - 1][: first.col_offset].strip() == ""
         return [Edit(first.lineno, first.lineno - 1, ",\n".join(wanted) + ",", like=first.lineno)] if alone else []
-    return [instead(there.file.text, first, f"{', '.join(wanted)}, {code}")]
+    return [replace_node(there.file.text, first, f"{', '.join(wanted)}, {code}")]
 
 
-def renamed(there: Launch, other: str, right: str) -> list[Edit]:
+def rename_argument(there: Launch, other: str, right: str) -> list[Edit]:
     """An argument of another name, wherever it is named."""
     found = [
         name
@@ -260,27 +270,27 @@ def renamed(there: Launch, other: str, right: str) -> list[Edit]:
     lines = [each.lineno for each in found]
     if len(lines) != len(set(lines)):
         return []
-    return [instead(there.file.text, each, repr(right)) for each in found]
+    return [replace_node(there.file.text, each, repr(right)) for each in found]
 
 
-def replaced(there: Launch, keyword: str, wrong: str, right: str) -> list[Edit]:
+def replace_keyword(there: Launch, keyword: str, wrong: str, right: str) -> list[Edit]:
     """A package or an executable of another name."""
     found = [each.value for call in there.calls("Node") for each in call.keywords if each.arg == keyword]
-    return [instead(there.file.text, each, repr(right)) for each in found if _text(each) == wrong] if right else []
+    return [replace_node(there.file.text, each, repr(right)) for each in found if _text(each) == wrong] if right else []
 
 
-def returned(there: Launch) -> list[Edit]:
+def return_description(there: Launch) -> list[Edit]:
     """The launch description, returned."""
     made, function = next(iter(there.calls("LaunchDescription")), None), there.function
-    if made is None or function is None or there.file.within(made) is not function:
+    if made is None or function is None or there.file.function_around(made) is not function:
         return []
-    if kept := there.file.kept(made):
-        return [at_end(function, f"return {kept}")]
+    if kept := there.file.assigned_to(made):
+        return [append_to_function(function, f"return {kept}")]
     line = there.file.text.splitlines()[made.lineno - 1].strip()
-    return [becomes(made.lineno, f"return {line}")]
+    return [replace_lines(made.lineno, f"return {line}")]
 
 
-def opaque_returned(there: Launch) -> list[Edit]:
+def return_opaque_actions(there: Launch) -> list[Edit]:
     """What the function of an OpaqueFunction makes, returned where it ends."""
     for call in there.file.calls("OpaqueFunction"):
         function = there.file.function(argument(call, 0, "function"))
@@ -290,32 +300,34 @@ def opaque_returned(there: Launch) -> list[Edit]:
         lists = [each for each in made if isinstance(each.value, ast.List)]
         nodes = [each for each in made if isinstance(each.value, ast.Call) and each.value in there.calls("Node")]
         if lists and not nodes:
-            return [at_end(function, f"return {ast.unparse(lists[-1].targets[0])}")]
+            return [append_to_function(function, f"return {ast.unparse(lists[-1].targets[0])}")]
         last = function.body[-1]
         if isinstance(last, ast.Expr) and isinstance(last.value, ast.List):
-            return [becomes(last.lineno, f"return {there.file.text.splitlines()[last.lineno - 1].strip()}")]
+            return [replace_lines(last.lineno, f"return {there.file.text.splitlines()[last.lineno - 1].strip()}")]
         if nodes:
-            return [at_end(function, f"return [{', '.join(ast.unparse(each.targets[0]) for each in nodes)}]")]
+            return [
+                append_to_function(function, f"return [{', '.join(ast.unparse(each.targets[0]) for each in nodes)}]")
+            ]
     return []
 
 
-def unended(there: Launch) -> list[Edit]:
+def remove_exits(there: Launch) -> list[Edit]:
     """The file without what ends Python while it is loaded."""
     ends = ("exit", "_exit", "quit", "abort", "kill")
     return [
-        without(there.file.text, each)
+        remove_statement(there.file.text, each)
         for each in there.file.tree.body
-        if isinstance(each, ast.Expr) and isinstance(each.value, ast.Call) and called(each.value) in ends
+        if isinstance(each, ast.Expr) and isinstance(each.value, ast.Call) and called_name(each.value) in ends
     ]
 
 
-def called_so(there: Launch) -> list[Edit]:
+def rename_function(there: Launch) -> list[Edit]:
     """The function that describes the launch, with the name that launch calls."""
     function = there.function
     if function is None or function.args.args or function.name == LAUNCHED:
         return []
     line = there.file.text.splitlines()[function.lineno - 1].strip()
-    return [becomes(function.lineno, line.replace(f"def {function.name}(", f"def {LAUNCHED}(", 1))]
+    return [replace_lines(function.lineno, line.replace(f"def {function.name}(", f"def {LAUNCHED}(", 1))]
 
 
 def nearest(wrong: str, known: Sequence[str]) -> str:

@@ -11,17 +11,17 @@ from checks.i2_2.facts import (
     ANOTHER,
     FILE,
     NAMESPACE,
-    Launched,
+    LaunchRun,
     Pair,
-    called,
-    heard,
-    in_namespace,
+    count_entities,
+    find_pair,
+    logs_of_messages,
     pairs,
-    shared,
-    size,
-    two_nodes,
+    pairs_in_namespace,
+    pairs_on_topic_named,
+    shared_topics,
 )
-from checks.i2_2.processes import gone
+from checks.i2_2.processes import ended_processes
 from tutor.judge.bench import Bench, Run
 from tutor.judge.trace import Graph, Trace
 from tutor.judge.waiting import RARE_S, START_S
@@ -48,72 +48,74 @@ SILENT_S = 1.0
 """A subscriber that logs what it gets does so within this time."""
 
 
-async def plain(bench: Bench) -> Launched:
+async def plain(bench: Bench) -> LaunchRun:
     """Launch without arguments, see the nodes and whether they talk, then press Ctrl+C."""
     async with bench.launch(FILE) as run:
-        bench.doing(0.1, "launching without arguments")
+        bench.report_progress(0.1, "launching without arguments")
         if await run.until(lambda: bool(run.graph.nodes), START_S) and await run.until(
-            lambda: two_nodes(run.graph) is not None, DELAYED_S
+            lambda: find_pair(run.graph) is not None, DELAYED_S
         ):
             await run.until(lambda: bool(pairs(run.graph)), MORE_S)
-        bench.doing(0.4, "listening to the nodes")
+        bench.report_progress(0.4, "listening to the nodes")
         met = run.graph
-        hidden = _listen(run, shared(met))
-        await run.until(lambda: _heard_out(run, hidden), RARE_S)
+        hidden = _listen(run, shared_topics(met))
+        await run.until(lambda: _wait_until_quiet(run, hidden), RARE_S)
         answering = await _answering(run)
         if pairs(met):  # a node that has gone is told of a little later
-            await run.until(lambda: bool(pairs(run.graph)) or bool(gone(run.output)), GONE_S)
+            await run.until(lambda: bool(pairs(run.graph)) or bool(ended_processes(run.output)), GONE_S)
         trace, commands = run.trace(), await run.commands()
         parted = bool(pairs(met)) and not pairs(trace.graph)
-        bench.doing(0.8, "pressing Ctrl+C")
+        bench.report_progress(0.8, "pressing Ctrl+C")
         ending = await run.interrupt() if run.exit is None else None
-        return Launched(_with(trace, met, pairs), {}, commands, hidden, answering, ending, parted)
+        return LaunchRun(_with(trace, met, pairs), {}, commands, hidden, answering, ending, parted)
 
 
-async def other_topic(bench: Bench) -> Launched:
+async def other_topic(bench: Bench) -> LaunchRun:
     """Launch with another topic."""
     name = _name()
-    return await _varied(bench, {"topic": name}, lambda graph: called(graph, name))
+    return await _varied(bench, {"topic": name}, lambda graph: pairs_on_topic_named(graph, name))
 
 
-async def other_namespace(bench: Bench) -> Launched:
+async def other_namespace(bench: Bench) -> LaunchRun:
     """Launch in a namespace."""
-    return await _varied(bench, {"namespace": NAMESPACE}, in_namespace)
+    return await _varied(bench, {"namespace": NAMESPACE}, pairs_in_namespace)
 
 
-async def another_namespace(bench: Bench) -> Launched | None:
+async def another_namespace(bench: Bench) -> LaunchRun | None:
     """Launch in yet another namespace; nothing, where what is there without arguments is not in the first one."""
-    if not in_namespace((await bench.facts(plain)).trace.graph):
+    if not pairs_in_namespace((await bench.facts(plain)).trace.graph):
         return None
-    return await _varied(bench, {"namespace": ANOTHER}, lambda graph: in_namespace(graph, space=ANOTHER))
+    return await _varied(bench, {"namespace": ANOTHER}, lambda graph: pairs_in_namespace(graph, space=ANOTHER))
 
 
-async def both(bench: Bench) -> Launched:
+async def both(bench: Bench) -> LaunchRun:
     """Launch with another topic, in a namespace."""
     name = _name()
-    return await _varied(bench, {"topic": name, "namespace": NAMESPACE}, lambda graph: in_namespace(graph, name))
+    return await _varied(bench, {"topic": name, "namespace": NAMESPACE}, lambda graph: pairs_in_namespace(graph, name))
 
 
-async def _varied(bench: Bench, arguments: Mapping[str, str], wanted: Callable[[Graph], list[Pair]]) -> Launched:
+async def _varied(bench: Bench, arguments: Mapping[str, str], wanted: Callable[[Graph], list[Pair]]) -> LaunchRun:
     """Launch with arguments, until the nodes use what is wanted, or as much is there as without arguments."""
     usual = asyncio.ensure_future(bench.facts(plain))
     try:
         async with bench.launch(FILE, arguments=arguments) as run:
-            bench.doing(0.1, "launching with " + " ".join(f"{name}:={value}" for name, value in arguments.items()))
+            bench.report_progress(
+                0.1, "launching with " + " ".join(f"{name}:={value}" for name, value in arguments.items())
+            )
             await run.until(lambda: bool(wanted(run.graph)) or usual.done(), START_S + DELAYED_S + RARE_S)
             if not wanted(run.graph):
-                expected = size((await usual).trace.graph)
-                await run.until(lambda: bool(wanted(run.graph)) or _at_least(run.graph, expected), DELAYED_S)
+                expected = count_entities((await usual).trace.graph)
+                await run.until(lambda: bool(wanted(run.graph)) or _wait_at_least(run.graph, expected), DELAYED_S)
                 await run.until(lambda: bool(wanted(run.graph)), ENDPOINTS_S)
             met = run.graph
             topics = _topics(wanted(met))
             hidden = _listen(run, topics)
             if topics and not hidden:
-                await run.until(lambda: any(run.on(topic) for topic in topics), RARE_S)
+                await run.until(lambda: any(run.samples_on(topic) for topic in topics), RARE_S)
             # Whatever else there is without arguments must have had its time, too: it may be where it should not.
-            expected = size((await usual).trace.graph)
-            await run.until(lambda: _at_least(run.graph, expected), ENDPOINTS_S)
-            return Launched(_with(run.trace(), met, wanted), arguments, await run.commands(), hidden)
+            expected = count_entities((await usual).trace.graph)
+            await run.until(lambda: _wait_at_least(run.graph, expected), ENDPOINTS_S)
+            return LaunchRun(_with(run.trace(), met, wanted), arguments, await run.commands(), hidden)
     finally:
         usual.cancel()
 
@@ -139,12 +141,12 @@ def _listen(run: Run, topics: Iterable[str]) -> frozenset[str]:
     return frozenset(topic for topic in topics if not run.watch(topic, types[topic]))
 
 
-def _heard_out(run: Run, hidden: frozenset[str]) -> bool:
-    """Whether there is a message on each shared topic, and who subscribes to it has logged it, or will not."""
+def _wait_until_quiet(run: Run, hidden: frozenset[str]) -> bool:
+    """Whether there is a message on each shared topic, and whether its subscribers have logged it, or will not."""
     found = pairs(run.graph)
-    if any(heard(pair, run.logs, run.on(pair[0].topic)) for pair in found):
+    if any(logs_of_messages(pair, run.logs, run.samples_on(pair[0].topic)) for pair in found):
         return True
-    samples = [sample for pair in found if pair[0].topic not in hidden for sample in run.on(pair[0].topic)]
+    samples = [sample for pair in found if pair[0].topic not in hidden for sample in run.samples_on(pair[0].topic)]
     return not found or any(run.now() - sample.received_at > SILENT_S for sample in samples)
 
 
@@ -152,8 +154,8 @@ def _topics(found: Iterable[Pair]) -> set[str]:
     return {one.topic for one, _ in found}
 
 
-def _at_least(graph: Graph, expected: tuple[int, int, int]) -> bool:
-    return all(here >= wanted for here, wanted in zip(size(graph), expected, strict=True))
+def _wait_at_least(graph: Graph, expected: tuple[int, int, int]) -> bool:
+    return all(here >= wanted for here, wanted in zip(count_entities(graph), expected, strict=True))
 
 
 def _name() -> str:

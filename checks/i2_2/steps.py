@@ -15,20 +15,20 @@ from checks.i2_2.rewriting import (
     DEFAULTS,
     Launch,
     Program,
-    called_so,
-    given,
-    listed_first,
-    misplaced,
-    opaque_returned,
-    renamed,
-    replaced,
-    returned,
-    unended,
-    whole,
+    add_node_argument,
+    fix_imports,
+    prepend_to_list,
+    remove_exits,
+    rename_argument,
+    rename_function,
+    replace_keyword,
+    return_description,
+    return_opaque_actions,
+    rewrite_description,
 )
-from tutor.judge.edits import instead
-from tutor.judge.following import InWords, follow
+from tutor.judge.edits import replace_node
 from tutor.judge.rewriting.node import argument as argument_of
+from tutor.judge.step_parsing import NotAnEdit, apply_step
 from tutor.judge.verdict import Cause
 
 _NO_IMPORT = re.compile(r"\b(?:ImportError|ModuleNotFoundError)\b")
@@ -40,18 +40,18 @@ def nodes(source: Source) -> list[Call]:
     return source.calls("Node", "LifecycleNode")
 
 
-def anew(there: Launch) -> str | None:
-    """The step that writes the launch description anew, with the file's own programs, or with those of the demos."""
-    return there.step(whole(there), whole(there, there.demo))
+def rewrite_launch_file(there: Launch) -> str | None:
+    """The step that rewrites the launch description, with the file's own programs, or with those of the demos."""
+    return there.step(rewrite_description(there), rewrite_description(there, there.demo))
 
 
-def followed(there: Launch, cause: Cause, programs: Sequence[Program] = ()) -> Cause:
-    """The cause with a step that can be followed: where it is in words, the launch description is written anew."""
+def with_applicable_step(there: Launch, cause: Cause, programs: Sequence[Program] = ()) -> Cause:
+    """The cause with a step that can be followed: where it is in words, the launch description is rewritten."""
     try:
-        follow(cause.hint, {there.path: there.file.text, **there.others})
-    except InWords:
-        step = there.step(misplaced(there)) if _NO_IMPORT.search(cause.text) else None
-        step = step or (there.step(whole(there, programs)) if programs else anew(there))
+        apply_step(cause.hint, {there.path: there.file.text, **there.others})
+    except NotAnEdit:
+        step = there.step(fix_imports(there)) if _NO_IMPORT.search(cause.text) else None
+        step = step or (there.step(rewrite_description(there, programs)) if programs else rewrite_launch_file(there))
         return replace(cause, hint=step or cause.hint)
     return cause
 
@@ -70,7 +70,7 @@ def declaration(argument: str) -> str:
     return f"DeclareLaunchArgument('{argument}', default_value='{DEFAULTS.get(argument, '')}')"
 
 
-def undeclared(there: Launch, argument: str) -> Cause:
+def declare_argument(there: Launch, argument: str) -> Cause:
     """A launch configuration is read that is not there, or not yet."""
     source = there.source
     name = "launch argument not declared"
@@ -80,7 +80,8 @@ def undeclared(there: Launch, argument: str) -> Cause:
         return Cause(
             "value read too early",
             f"{early.where} asks for the value while the launch is only being described: there is none yet",
-            anew(there) or f"line {early.line}: {kept}{early.code.rpartition('.perform')[0]}, without .perform(...)",
+            rewrite_launch_file(there)
+            or f"line {early.line}: {kept}{early.code.rpartition('.perform')[0]}, without .perform(...)",
         )
     declared = _declared(source, argument)
     listed = next(iter(source.calls("LaunchDescription")), None)
@@ -96,7 +97,7 @@ def undeclared(there: Launch, argument: str) -> Cause:
         return Cause(
             name,
             text,
-            there.step(listed_first(there, *map(there.declaration, every)))
+            there.step(prepend_to_list(there, *map(there.declaration, every)))
             or f"begin the list in LaunchDescription([...]){where} with: {', '.join(map(declaration, every))}",
         )
     made = declared[0]
@@ -107,7 +108,7 @@ def undeclared(there: Launch, argument: str) -> Cause:
         return Cause(
             name,
             f"line {made.line} makes the argument '{argument}', but it is not in the launch description",
-            there.step(listed_first(there, *left_out))
+            there.step(prepend_to_list(there, *left_out))
             or f"begin the list in LaunchDescription([...]){where} with: {', '.join(left_out)}",
         )
     return Cause(
@@ -117,12 +118,12 @@ def undeclared(there: Launch, argument: str) -> Cause:
     )
 
 
-def without_default(there: Launch, argument: str) -> Cause:
+def add_default(there: Launch, argument: str) -> Cause:
     """A declared argument has no default, and none was given."""
     bare = [call for call in there.calls("DeclareLaunchArgument") if argument_of(call, 1, "default_value") is None]
     names = [argument_of(call, 0, "name") for call in bare]
     edits = [
-        instead(there.file.text, call, there.declaration(str(name.value)))
+        replace_node(there.file.text, call, there.declaration(str(name.value)))
         for call, name in zip(bare, names, strict=True)
         if isinstance(name, ast.Constant)
     ]
@@ -143,62 +144,64 @@ def _read_bare(source: Source) -> list[str]:
     return [call.argument(0, "variable_name").strip("'\"") for call in reads]
 
 
-def no_program(there: Launch, keyword: str, wrong: str, right: str) -> str | None:
+def step_for_other_program(there: Launch, keyword: str, wrong: str, right: str) -> str | None:
     """The step where a package or an executable is not called so, and `right` is."""
-    return there.step(replaced(there, keyword, wrong, right))
+    return there.step(replace_keyword(there, keyword, wrong, right))
 
 
-def nothing_listed(there: Launch) -> str | None:
+def step_for_empty_description(there: Launch) -> str | None:
     """The step where a launch description has nothing to start in it."""
     made = [node.kept for node in nodes(there.source) if node.kept and not there.source.uses(node.kept)]
-    return there.step(unended(there), opaque_returned(there), listed_first(there, *made) if made else None)
+    return there.step(
+        remove_exits(there), return_opaque_actions(there), prepend_to_list(there, *made) if made else None
+    )
 
 
-def not_returned(there: Launch) -> str | None:
+def step_for_missing_return(there: Launch) -> str | None:
     """The step where generate_launch_description() returns nothing."""
-    return there.step(returned(there))
+    return there.step(return_description(there))
 
 
-def other_function(there: Launch) -> str | None:
+def step_for_other_function(there: Launch) -> str | None:
     """The step where no function is called generate_launch_description."""
-    return there.step(called_so(there))
+    return there.step(rename_function(there))
 
 
-def other_name(there: Launch, argument: str, others: Sequence[str]) -> str | None:
+def step_for_other_name(there: Launch, argument: str, others: Sequence[str]) -> str | None:
     """The step where an argument is called otherwise."""
     near = [other for other in others if len(others) == 1 or argument[:2] in other]
     return next((step for each in near if (step := _renamed(there, each, argument))), None)
 
 
 def _renamed(there: Launch, other: str, right: str) -> str | None:
-    return there.step(renamed(there, other, right))
+    return there.step(rename_argument(there, other, right))
 
 
-def remapped(there: Launch, name: str, *without: str) -> str | None:
+def remap_nodes(there: Launch, name: str, *without: str) -> str | None:
     """The step that gives every node the remapping, and leaves out other arguments."""
     same = _declares(there, "topic") and len({each.topic for each in there.programs()}) < 2
     values = (value(there.source, "topic"), there.value("topic")) if same else ()
-    return there.step(*(given(there, "remappings", f"[('{name}', {each})]", *without) for each in values))
+    return there.step(*(add_node_argument(there, "remappings", f"[('{name}', {each})]", *without) for each in values))
 
 
-def spaced(there: Launch, *without: str) -> str | None:
+def put_into_namespace(there: Launch, *without: str) -> str | None:
     """The step that puts every node into the namespace, and leaves out other arguments."""
     values = (value(there.source, "namespace"), there.value("namespace")) if _declares(there, "namespace") else ()
-    return there.step(*(given(there, "namespace", each, *without) for each in values))
+    return there.step(*(add_node_argument(there, "namespace", each, *without) for each in values))
 
 
 def _declares(there: Launch, argument: str) -> bool:
     return bool(there.declared(argument)) and not there.file.calls("PushRosNamespace", "PushROSNamespace", "SetRemap")
 
 
-def text_too_early(there: Launch, name: str) -> str | None:
+def step_for_early_text(there: Launch, name: str) -> str | None:
     """The step where a substitution was made part of a text."""
     source = there.source
     known = {target for target, set_to in source.assignments() if "LaunchConfiguration(" in set_to}
     for parts in source.texts():
         names = [part for part in parts if part in known or "LaunchConfiguration(" in part]
         if names:
-            return remapped(there, name)
+            return remap_nodes(there, name)
     return None
 
 
@@ -207,7 +210,7 @@ def remapping(source: Source, name: str) -> str:
     return f"remappings=[('{name}', {value(source, 'topic')})]"
 
 
-def in_own_names(source: Source, cause: Cause) -> Cause:
+def with_own_names(source: Source, cause: Cause) -> Cause:
     """The cause with what the file calls these classes, and with the import of what it does not have yet."""
     missing = []
 
@@ -232,7 +235,7 @@ def commands(source: Source) -> list[Call]:
     return [] if used else source.calls("ExecuteProcess")
 
 
-def one_word(there: Launch) -> Cause | None:
+def split_command(there: Launch) -> Cause | None:
     """Whether a command is given as one text, which is taken for the name of a program."""
     source = there.source
     for call in source.calls("ExecuteProcess"):
@@ -245,7 +248,7 @@ def one_word(there: Launch) -> Cause | None:
                 "command in one piece",
                 f"line {call.line}: cmd={call.named['cmd']} asks for a program that is called '{words[0]}', blanks "
                 "included",
-                anew(there)
+                rewrite_launch_file(there)
                 or "\n".join(
                     f"line {each.line}: cmd={each.named['cmd'][2:-2].split()!r}"
                     for each in source.calls("ExecuteProcess")
@@ -266,7 +269,7 @@ def _in_command(there: Launch, cause: str, rule: str) -> Cause | None:
     )
 
 
-def topic(there: Launch, name: str) -> Cause | None:
+def diagnose_topic_argument(there: Launch, name: str) -> Cause | None:
     """What the file does with the topic, where nothing of it reaches a node as a remapping from `name`."""
     source = there.source
     if (cause := _in_command(there, "topic hard-coded", f"['{name}:=', {value(source, 'topic')}]")) is not None:
@@ -281,7 +284,7 @@ def topic(there: Launch, name: str) -> Cause | None:
                     f"topic given as {what}",
                     f"the Node in line {node.line} gets {keyword}={node.named[keyword]}: the program knows no such "
                     f"{what.split()[-1]}, and goes on using '{name}'; a topic gets another name by a remapping",
-                    remapped(there, name, keyword) or right,
+                    remap_nodes(there, name, keyword) or right,
                 )
     for node in nodes(source):
         for keyword in ("arguments", "ros_arguments"):
@@ -290,13 +293,13 @@ def topic(there: Launch, name: str) -> Cause | None:
                     "topic hard-coded",
                     f"the Node in line {node.line} has {keyword}={node.named[keyword]}: a fixed text, not the "
                     "argument's value",
-                    remapped(there, name, keyword) or right,
+                    remap_nodes(there, name, keyword) or right,
                 )
     for call in source.calls("SetRemap"):
         return Cause(
             "remapping without effect",
             f"{call.where}: {_OWN_GROUP}, and a node that is not there keeps its topic",
-            remapped(there, name) or right,
+            remap_nodes(there, name) or right,
         )
     for node in nodes(source):
         if "'topic'" in node.named.get("remappings", "") and not used.search(node.named["remappings"]):
@@ -304,12 +307,12 @@ def topic(there: Launch, name: str) -> Cause | None:
                 "topic hard-coded",
                 f"the Node in line {node.line} has remappings={node.named['remappings']}: 'topic' in quotation marks "
                 "is the text topic, not the argument's value",
-                remapped(there, name) or right,
+                remap_nodes(there, name) or right,
             )
     return None
 
 
-def namespace(there: Launch) -> Cause | None:
+def diagnose_namespace_argument(there: Launch) -> Cause | None:
     """What the file does with the namespace, where not every node is in it."""
     source = there.source
     wanted = value(source, "namespace")
@@ -321,7 +324,7 @@ def namespace(there: Launch) -> Cause | None:
         return Cause(
             "namespace not used",
             f"{pushed.where}: {_OWN_GROUP}",
-            spaced(there) or right,
+            put_into_namespace(there) or right,
         )
     used = re.compile(rf"(?<!['\w]){re.escape(wanted)}(?!['\w])|LaunchConfiguration\('namespace'")
     for node in nodes(source):
@@ -330,7 +333,7 @@ def namespace(there: Launch) -> Cause | None:
             return Cause(
                 "namespace not used",
                 f"the Node in line {node.line} has namespace={fixed}, which is a fixed text",
-                spaced(there) or right,
+                put_into_namespace(there) or right,
             )
         for keyword in ("parameters", "arguments", "ros_arguments", "name", "remappings"):
             if not fixed and used.search(node.named.get(keyword, "")):
@@ -338,12 +341,12 @@ def namespace(there: Launch) -> Cause | None:
                     "namespace not used",
                     f"the Node in line {node.line} has the namespace in {keyword}={node.named[keyword]}: that puts no "
                     "node into it",
-                    spaced(there, keyword) or right,
+                    put_into_namespace(there, keyword) or right,
                 )
     return None
 
 
-def missing(there: Launch, wanted: str) -> Cause | None:
+def diagnose_missing_node(there: Launch, wanted: str) -> Cause | None:
     """Why one of the nodes that the file describes, the `wanted` one, is not started."""
     source = there.source
     for node in nodes(source):
@@ -358,7 +361,7 @@ def missing(there: Launch, wanted: str) -> Cause | None:
             return Cause(
                 f"no {wanted}",
                 f"{node.kept} (line {node.line}) is described, but is not in the list that LaunchDescription is given",
-                there.step(listed_first(there, node.kept))
+                there.step(prepend_to_list(there, node.kept))
                 or f"put {node.kept} into the list in LaunchDescription([...]), line {listed.line}",
             )
     for call in source.calls("OnProcessExit", "TimerAction", "OnExecutionComplete", "OnShutdown"):

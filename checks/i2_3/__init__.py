@@ -8,18 +8,23 @@ from tutor.judge.check import Check, Criterion
 CHECK = Check(
     "i2.3",
     (
-        Criterion("blocks", judges.judge_blocks, (scenarios.lone, scenarios.trio)),
-        Criterion("timer", judges.judge_timer, (scenarios.quiet, scenarios.lone)),
-        Criterion("concurrent", judges.judge_concurrent, (scenarios.trio, scenarios.lone)),
-        Criterion("shutdown", judges.judge_shutdown, (scenarios.quiet,)),
+        Criterion("blocks", judges.judge_blocks, (scenarios.call_singly, scenarios.call_concurrently)),
+        Criterion("timer", judges.judge_timer, (scenarios.run_idle, scenarios.call_singly)),
+        Criterion("concurrent", judges.judge_concurrent, (scenarios.call_concurrently, scenarios.call_singly)),
+        Criterion("shutdown", judges.judge_shutdown, (scenarios.run_idle,)),
         Criterion(
             "parallel",
             judges.judge_parallel,
-            (scenarios.lone, scenarios.trio),
+            (scenarios.call_singly, scenarios.call_concurrently),
             after=("blocks", "concurrent"),
             bonus=True,
         ),
-        Criterion("shutdown-busy", judges.judge_shutdown_busy, (scenarios.interrupted, scenarios.lone), bonus=True),
+        Criterion(
+            "shutdown-busy",
+            judges.judge_shutdown_busy,
+            (scenarios.interrupt_during_call, scenarios.call_singly),
+            bonus=True,
+        ),
     ),
-    asks_s=8.0,  # lone: two calls of 3 s, each until the message of the next tenth tick, 4 s and 8 s after the start
+    expected_s=8.0,  # two single calls of 3 s, each until the next tenth tick's message, 4 s and 8 s after the start
 )

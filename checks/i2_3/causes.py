@@ -7,11 +7,11 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from checks.i2_3 import steps
-from checks.i2_3.facts import SERVICE, SHORTEST_S, TYPE, Lone, Quiet, Three, right_sum
-from checks.i2_3.pace import During, Fault
+from checks.i2_3.facts import SERVICE, SHORTEST_S, TYPE, CallBatch, IdleRun, SingleCalls, right_sum
+from checks.i2_3.pace import Fault, TimerDuring
 from checks.i2_3.ticks import HZ, Series
 from tutor.judge import causes, tracebacks
-from tutor.judge.rewriting.node import NodeFile, started
+from tutor.judge.rewriting.node import NodeFile, started_node
 from tutor.judge.trace import CallAnswer, Service, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Cause
@@ -24,9 +24,9 @@ REPEATED = 4
 """Lines of one shape that are as many as this come from a timer."""
 
 
-def of_no_service(trace: Trace) -> Cause:
+def diagnose_no_service(trace: Trace) -> Cause:
     """Why the service is not there."""
-    if (broken := causes.of_process(trace) or causes.of_lifecycle(trace)) is not None:
+    if (broken := causes.diagnose_process(trace) or causes.diagnose_lifecycle(trace)) is not None:
         return broken
     offered = [s for s in trace.graph.services if not s.type.startswith(("rcl_interfaces/", "type_description_"))]
     for service in offered:
@@ -34,7 +34,7 @@ def of_no_service(trace: Trace) -> Cause:
             return Cause(
                 "wrong type",
                 f"{SERVICE} has the type {service.type}, not {TYPE}",
-                steps.offering(started(trace))
+                steps.fix_service(started_node(trace))
                 or f"create it with AddTwoInts: self.create_service(AddTwoInts, '{SERVICE[1:]}', ...)",
             )
     same_type = [service for service in offered if service.type == TYPE]
@@ -44,87 +44,91 @@ def of_no_service(trace: Trace) -> Cause:
         return Cause(
             "wrong service name",
             f"there is {service.name} instead of {SERVICE}",
-            steps.offering(started(trace))
+            steps.fix_service(started_node(trace))
             or f"name it '{SERVICE[1:]}', spelled like this, without a namespace or ~ in front",
         )
     return Cause(
         "service missing",
         f"the node is up, but offers no {SERVICE}",
-        steps.offering(started(trace))
+        steps.fix_service(started_node(trace))
         or f"in __init__: self.create_service(AddTwoInts, '{SERVICE[1:]}', self.slow_add, callback_group=...)",
     )
 
 
-def of_no_answer(seen: Lone) -> Cause:
+def diagnose_no_answer(seen: SingleCalls) -> Cause:
     """Why a call got no answer."""
-    if (broken := causes.of_process(seen.trace)) is not None:
+    if (broken := causes.diagnose_process(seen.trace)) is not None:
         return broken
     if (unmatched := causes.incompatible_service(_here(seen.trace))) is not None:
         return unmatched
-    if not seen.spins and (empty := steps.not_added(started(seen.trace))) is not None:
+    if not seen.spins and (empty := steps.diagnose_node_not_added(started_node(seen.trace))) is not None:
         return empty
-    if not seen.spins or causes.in_call(seen.stuck):
-        return _fixed(causes.of_no_answer(seen.trace, seen.stuck), started(seen.trace))
-    blocked = causes.of_blocked(seen.trace, seen.stuck, spins=True)
+    if not seen.spins or causes.is_in_blocking_call(seen.stuck):
+        return _fixed(causes.diagnose_no_answer(seen.trace, seen.stuck), started_node(seen.trace))
+    blocked = causes.diagnose_blocked(seen.trace, seen.stuck, spins=True)
     if blocked is not None and blocked.name != "blocked executor":
-        return _fixed(blocked, started(seen.trace))
+        return _fixed(blocked, started_node(seen.trace))
     if (locked := causes.waiting_for_lock(seen.trace, seen.stuck)) is not None:
-        return _fixed(replace(locked, name="no answer"), started(seen.trace))
-    own = tracebacks.own(seen.stuck, seen.trace.folder)
+        return _fixed(replace(locked, name="no answer"), started_node(seen.trace))
+    own = tracebacks.own_frame(seen.stuck, seen.trace.folder)
     return Cause(
         "no answer",
-        f"the callback does not come to an end{f', at {own}' if own else ''}",
-        (steps.waiting(started(seen.trace), own.code, own.line) if own else steps.answering(started(seen.trace)))
+        f"the callback never returns{f', at {own}' if own else ''}",
+        (
+            steps.remove_wait(started_node(seen.trace), own.code, own.line)
+            if own
+            else steps.fix_answer(started_node(seen.trace))
+        )
         or "let the callback wait 3 s, fill in response.sum and return the response; let nothing wait without a limit",
     )
 
 
 def _fixed(cause: Cause, file: NodeFile) -> Cause:
     """The cause, with the step that rewrites the callback, or all: it needs no more than one service and one timer."""
-    return replace(cause, hint=steps.answering(file) or cause.hint)
+    return replace(cause, hint=steps.fix_answer(file) or cause.hint)
 
 
 def _here(trace: Trace) -> list[Service]:
     return [service for service in trace.graph.services if service.name == SERVICE]
 
 
-def of_wrong_sum(answer: CallAnswer, trace: Trace) -> Cause:
+def diagnose_wrong_sum(answer: CallAnswer, trace: Trace) -> Cause:
     """What may be wrong with this answer."""
     assert answer.response is not None
-    source = started(trace)
-    if answer.took_s < SHORTEST_S and (early := steps.too_early(source)) is not None:
+    source = started_node(trace)
+    if answer.took_s < SHORTEST_S and (early := steps.diagnose_early_answer(source)) is not None:
         return early
-    step = steps.answering(source) or "response.sum = request.a + request.b"
+    step = steps.fix_answer(source) or "response.sum = request.a + request.b"
     got, right = answer.response["sum"], right_sum(answer)
     if got == 0:
         return Cause("wrong sum", "the sum is 0: was it put into response.sum?", step)
     return Cause("wrong sum", f"{got} instead of {right}", step)
 
 
-def of_exception(trace: Trace) -> Cause | None:
+def diagnose_exception(trace: Trace) -> Cause | None:
     """The exception of the learner's that was seen in the run: it explains whatever fails."""
-    found = tracebacks.last(trace)
-    return causes.of_traceback(found, trace) if found is not None and not found.ignored else None
+    found = tracebacks.last_traceback(trace)
+    return causes.diagnose_traceback(found, trace) if found is not None and not found.ignored else None
 
 
-def of_other_pace(alone: Quiet, likely: Series | None) -> Cause:
+def diagnose_other_pace(alone: IdleRun, likely: Series | None) -> Cause:
     """Why no timer of 10 Hz was heard, though nobody called."""
-    if (broken := causes.of_process(alone.trace)) is not None:
+    if (broken := causes.diagnose_process(alone.trace)) is not None:
         return broken
-    source = started(alone.trace)
+    source = started_node(alone.trace)
     if likely is None:
         after = alone.ending.output if alone.ending else ()
         lines = Counter(shape(line.text) for line in (*alone.trace.output, *after))
-        printed = causes.of_printed(
+        printed = causes.diagnose_printed(
             alone.trace, lambda text: lines[shape(text)] >= REPEATED, "what comes again and again", after=after
         )
         return (
             printed
-            or steps.silent(source)
+            or steps.diagnose_no_ticks(source)
             or Cause(
                 "no timer messages",
                 "no log message comes back while nobody calls (debug messages are not shown)",
-                steps.ticks(source)
+                steps.rewrite_ticking(source)
                 or f"self.create_timer({1 / HZ:g}, self.tick, ...), and log every tenth tick's number at info",
             )
         )
@@ -132,92 +136,96 @@ def of_other_pace(alone: Quiet, likely: Series | None) -> Cause:
         return Cause(
             "wrong timer period",
             f"the timer ticks {likely.hz:.1f} times per second, not {HZ:g}",
-            steps.period(source) or f"create_timer takes the period in seconds: {1 / HZ:g}",
+            steps.fix_period(source) or f"create_timer takes the period in seconds: {1 / HZ:g}",
         )
     return Cause(
         "wrong timer period",
         f"{likely.hz:.1f} messages per second, without a number that counts the ticks",
-        steps.period(source)
+        steps.fix_period(source)
         or f"let the timer have a period of {1 / HZ:g} s; if it logs every tenth tick only, put the tick's number in",
     )
 
 
-def of_disturbed_timer(seen: Lone, heard: During) -> Cause:
+def diagnose_disturbed_timer(seen: SingleCalls, heard: TimerDuring) -> Cause:
     """Why the timer does not go on during a call as it does outside one."""
-    if (broken := causes.of_process(seen.trace)) is not None:
+    if (broken := causes.diagnose_process(seen.trace)) is not None:
         return broken
-    source = started(seen.trace)
+    source = started_node(seen.trace)
     if heard.fault is Fault.FAST:
         return Cause(
             "ticks in a burst",
             "more ticks are logged around a call than the timer makes",
-            steps.held(source) or "log ticks in the timer's callback only; do not make up for missed ones",
+            steps.separate_groups(source) or "log ticks in the timer's callback only; do not make up for missed ones",
         )
     if heard.fault is Fault.SLOW:
         return Cause(
             "slowed timer",
             "the timer ticks during a call, but not as often",
-            steps.held(source)
+            steps.separate_groups(source)
             or "give the timer a callback group of its own and the executor enough threads; let the service sleep",
         )
     if heard.count > 1 and heard.longest_s < WHOLE * heard.for_s:
         return Cause(
             "timer pauses",
             f"the timer goes on during a call, but pauses for {heard.longest_s:.1f} s of it",
-            steps.held(source) or "let the two callbacks share no lock, and neither of them wait for the other",
+            steps.separate_groups(source)
+            or "let the two callbacks share no lock, and neither of them wait for the other",
         )
-    own = tracebacks.own(seen.stuck, seen.trace.folder)
+    own = tracebacks.own_frame(seen.stuck, seen.trace.folder)
     where = f", at {own}" if own else ""
     if not seen.stuck:
         return Cause(
             "blocked executor",
             "the timer stands still during a call",
-            steps.executor(source)
+            steps.use_threads(source)
             or "use a MultiThreadedExecutor, and put the timer and the service into different callback groups",
         )
     if _in_worker(seen.stuck):
         if (locked := causes.waiting_for_lock(seen.trace, seen.stuck)) is not None:
-            return replace(locked, hint=steps.held(source) or locked.hint)
+            return replace(locked, hint=steps.separate_groups(source) or locked.hint)
         return Cause(
             "blocked executor",
-            f"the timer stands still while the service works{where}: {steps.held_by(source)}",
-            steps.held(source)
+            f"the timer stands still while the service works{where}: {steps.what_timer_waits_for(source)}",
+            steps.separate_groups(source)
             or "give the timer a ReentrantCallbackGroup of its own, and the executor at least 2 threads: num_threads=4",
         )
     return Cause(
         "blocked executor",
         f"one thread runs all callbacks, and while the service works{where}, the timer waits",
-        steps.executor(source)
+        steps.use_threads(source)
         or "use executor = MultiThreadedExecutor(num_threads=4), executor.add_node(node), executor.spin()",
     )
 
 
-def of_lost_calls(trace: Trace, three: Three, answered: Sequence[CallAnswer]) -> Cause:
+def diagnose_lost_calls(trace: Trace, three: CallBatch, answered: Sequence[CallAnswer]) -> Cause:
     """Why not every one of three calls at once got its own sum."""
-    if (broken := causes.of_process(trace)) is not None:
+    if (broken := causes.diagnose_process(trace)) is not None:
         return broken
-    source = started(trace)
+    source = started_node(trace)
     if len(answered) < len(three.answers):
         return Cause(
             "no answer",
             f"{len(three.answers) - len(answered)} of {len(three.answers)} calls made at once got no answer",
-            steps.answering(source)
+            steps.fix_answer(source)
             or "let every call wait its turn or work beside the others, and return its response; refuse none",
         )
-    if any(answer.took_s < SHORTEST_S for answer in answered) and (early := steps.too_early(source)) is not None:
+    if (
+        any(answer.took_s < SHORTEST_S for answer in answered)
+        and (early := steps.diagnose_early_answer(source)) is not None
+    ):
         return early
     sums = [answer.response["sum"] for answer in answered if answer.response is not None]
     if any(sums.count(right_sum(answer)) > 1 for answer in answered):
         return Cause(
             "shared state",
             "one call was answered with the sum of another: they share a variable",
-            steps.answering(source)
+            steps.fix_answer(source)
             or "keep a and b in local variables of the callback, not in self: several calls are in it at once",
         )
     return Cause(
         "wrong sum",
         f"the sums are {', '.join(map(str, sums))}",
-        steps.answering(source) or "answer every call with its own a + b, also while another one is being worked on",
+        steps.fix_answer(source) or "answer every call with its own a + b, also while another one is being worked on",
     )
 
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from checks.i2_3.pace import During, during
+from checks.i2_3.pace import TimerDuring, timer_during
 from checks.i2_3.ticks import Series
 from tutor.judge.trace import CallAnswer, Ending, LogRecord, Service, Trace
 from tutor.judge.tracebacks import Frame
-from tutor.judge.waiting import STARVED
+from tutor.judge.waiting import CPU_WAIT_SHARE
 
 FILE = "concurrent_service.py"
 SERVICE, TYPE = "/slow_add", "example_interfaces/srv/AddTwoInts"
@@ -21,7 +21,7 @@ SHORTEST_S, LONGEST_S = 2.75, 3.4
 EXCUSED_S = 0.5
 """A busy machine may add this much to what a call takes."""
 
-LITTLE_S = 0.2
+NEGLIGIBLE_S = 0.2
 """Seconds that a busy machine takes away without anybody being in doubt about the rest."""
 
 MOST_EXCUSED_S = 1.0
@@ -34,7 +34,7 @@ CALLS = 3
 PARALLEL = 1.5
 """Three calls at once take less than this many times one call where they run in parallel."""
 
-BESIDE = 1.2
+SLOWED_AT_MOST = 1.2
 """Calls that took more only because the machine was busy, and less than this many times one without, tell nothing."""
 
 IN_TURN = 2.6
@@ -42,7 +42,7 @@ IN_TURN = 2.6
 
 
 @dataclass(frozen=True)
-class Quiet:
+class IdleRun:
     """A start without any call: what the timer logs by itself, and how Ctrl+C ends an idle node.
 
     `series` are the ways to see the timer's log messages: all those of 10 Hz, or the likeliest of another pace, or
@@ -59,18 +59,18 @@ class Quiet:
 class Call:
     """One call, made while no other was.
 
-    `until`: how long the node was listened to after it (seconds since the epoch); `starved_s`: seconds of the call in
+    `until`: how long the node was listened to after it (seconds since the epoch); `cpu_wait_s`: seconds of the call in
     which the machine kept the node, or us who wait for its answer, from running.
     """
 
     answer: CallAnswer
     until: float
-    starved_s: float = 0.0
+    cpu_wait_s: float = 0.0
 
     @property
     def in_time(self) -> bool:
         """Whether it was answered, and not too late. No machine is so busy that 4 s become 3 s."""
-        limit_s = LONGEST_S + min(self.starved_s, EXCUSED_S)
+        limit_s = LONGEST_S + min(self.cpu_wait_s, EXCUSED_S)
         return self.answer.response is not None and self.answer.took_s <= limit_s
 
     @property
@@ -81,11 +81,11 @@ class Call:
     @property
     def busy(self) -> bool:
         """Whether the machine was so busy meanwhile that what was late may have been on time."""
-        return self.starved_s >= STARVED * self.answer.took_s
+        return self.cpu_wait_s >= CPU_WAIT_SHARE * self.answer.took_s
 
 
 @dataclass(frozen=True)
-class Lone:
+class SingleCalls:
     """Single calls: one, or more where the first was disturbed; none where the service was not there.
 
     `later` are those made for a second time, with large numbers, where nothing was wrong with the first. `stuck`: where
@@ -100,7 +100,7 @@ class Lone:
     later: tuple[Call, ...] = ()
 
     @property
-    def rounds(self) -> tuple[Lone, ...]:
+    def first_and_later(self) -> tuple[SingleCalls, ...]:
         """The first call and the second one, each with its repetitions, to be judged for itself."""
         first = replace(self, later=())
         return (first, replace(first, calls=self.later)) if self.later else (first,)
@@ -113,11 +113,11 @@ class Lone:
 
 
 @dataclass(frozen=True)
-class Three:
+class CallBatch:
     """Three calls made at once, and the seconds in which the machine kept the node, or us, from running meanwhile."""
 
     answers: tuple[CallAnswer, ...]
-    starved_s: float = 0.0
+    cpu_wait_s: float = 0.0
 
     @property
     def right(self) -> int:
@@ -129,24 +129,24 @@ class Three:
         """Seconds from the first request to the last answer."""
         return max(a.answered_at for a in self.answers) - min(a.asked_at for a in self.answers)
 
-    def held_up(self, one_s: float) -> bool:
+    def may_be_slowed(self, one_s: float) -> bool:
         """Whether a busy machine alone may be why they took longer than one call, which takes `one_s` seconds."""
-        return self.took_s < IN_TURN * one_s and self.took_s - self.starved_s < BESIDE * one_s
+        return self.took_s < IN_TURN * one_s and self.took_s - self.cpu_wait_s < SLOWED_AT_MOST * one_s
 
 
 @dataclass(frozen=True)
-class Trio:
+class ConcurrentCalls:
     """Three calls at once, made again where the machine may have held them up; not made where there was no service."""
 
     trace: Trace
-    made: tuple[Three, ...] = ()
+    batches: tuple[CallBatch, ...] = ()
 
-    def tells(self, one_s: float) -> bool:
+    def is_conclusive(self, one_s: float) -> bool:
         """Whether they show how the node serves calls at once, however busy the machine was.
 
         What held up the first time only may have been the first connection.
         """
-        return not all(three.held_up(one_s) for three in self.made[1:] or self.made)
+        return not all(three.may_be_slowed(one_s) for three in self.batches[1:] or self.batches)
 
 
 @dataclass(frozen=True)
@@ -158,7 +158,7 @@ class Interrupted:
     ending: Ending | None = None
 
 
-def is_there(services: Sequence[Service]) -> bool:
+def has_service(services: Sequence[Service]) -> bool:
     """Whether the service is there, with its type."""
     return any(service.name == SERVICE and service.type == TYPE for service in services)
 
@@ -168,30 +168,30 @@ def right_sum(answer: CallAnswer) -> int:
     return int(answer.request["a"]) + int(answer.request["b"])
 
 
-def disturbed(logs: Sequence[LogRecord], call: Call, series: Sequence[Series]) -> bool:
+def is_disturbed(logs: Sequence[LogRecord], call: Call, series: Sequence[Series]) -> bool:
     """Whether no way to see the timer's messages lets them go on as they should during this call."""
     right = [each for each in series if each.is_10_hz]
-    return bool(right) and all(heard(each, logs, call).fault for each in right)
+    return bool(right) and all(timer_during_call(each, logs, call).fault for each in right)
 
 
-def doubtful(logs: Sequence[LogRecord], call: Call, series: Sequence[Series]) -> bool:
+def is_doubtful(logs: Sequence[LogRecord], call: Call, series: Sequence[Series]) -> bool:
     """Whether the timer seems undisturbed during this call only because a busy machine excuses much."""
-    if call.starved_s <= LITTLE_S or disturbed(logs, call, series):
+    if call.cpu_wait_s <= NEGLIGIBLE_S or is_disturbed(logs, call, series):
         return False
-    return disturbed(logs, replace(call, starved_s=LITTLE_S), series)
+    return is_disturbed(logs, replace(call, cpu_wait_s=NEGLIGIBLE_S), series)
 
 
-def excused(logs: Sequence[LogRecord], call: Call, series: Sequence[Series]) -> bool:
+def is_excused(logs: Sequence[LogRecord], call: Call, series: Sequence[Series]) -> bool:
     """Whether a busy machine may be what disturbed the timer: had it lost twice the time, all would be well."""
     right = [each for each in series if each.is_10_hz]
-    return call.busy and any(_during(each, logs, call, 2 * call.starved_s).fault is None for each in right)
+    return call.busy and any(_timer_during_call(each, logs, call, 2 * call.cpu_wait_s).fault is None for each in right)
 
 
-def heard(series: Series, logs: Sequence[LogRecord], call: Call) -> During:
+def timer_during_call(series: Series, logs: Sequence[LogRecord], call: Call) -> TimerDuring:
     """What was heard of the timer during this call."""
-    return _during(series, logs, call, min(call.starved_s, MOST_EXCUSED_S))
+    return _timer_during_call(series, logs, call, min(call.cpu_wait_s, MOST_EXCUSED_S))
 
 
-def _during(series: Series, logs: Sequence[LogRecord], call: Call, starved_s: float) -> During:
+def _timer_during_call(series: Series, logs: Sequence[LogRecord], call: Call, cpu_wait_s: float) -> TimerDuring:
     asked, answered = call.answer.asked_at, call.answer.answered_at
-    return during(series, logs, asked, answered, until=call.until, starved_s=starved_s)
+    return timer_during(series, logs, asked, answered, until=call.until, cpu_wait_s=cpu_wait_s)

@@ -19,30 +19,30 @@ from checks.i2_3.facts import (
     SHORTEST_S,
     TYPE,
     WORK_S,
+    ConcurrentCalls,
+    IdleRun,
     Interrupted,
-    Lone,
-    Quiet,
-    Trio,
-    doubtful,
-    excused,
-    heard,
-    is_there,
+    SingleCalls,
+    has_service,
+    is_doubtful,
+    is_excused,
     right_sum,
+    timer_during_call,
 )
-from checks.i2_3.pace import During, Fault
+from checks.i2_3.pace import Fault, TimerDuring
 from checks.i2_3.ticks import HZ, Series, best
 from tutor.judge import causes, ending
 from tutor.judge.bench import MachineTooBusy
-from tutor.judge.following import InWords, follow
 from tutor.judge.rates import TOLERANCE
-from tutor.judge.rewriting.node import started
+from tutor.judge.rewriting.node import started_node
+from tutor.judge.step_parsing import NotAnEdit, apply_step
 from tutor.judge.trace import CallAnswer, Trace
 from tutor.judge.verdict import Cause, Status, Verdict, failed, passed, skipped
 
 
-def judge_blocks(seen: Lone, several: Trio) -> Verdict:
+def judge_blocks(seen: SingleCalls, several: ConcurrentCalls) -> Verdict:
     # Where calls at once do not get their sums either, it is `concurrent` that tells so.
-    alike = any(three.right < CALLS for three in several.made[:1])
+    alike = any(three.right < CALLS for three in several.batches[:1])
     verdict = _judge_answer(replace(seen, later=())) if alike else _of_both(seen, _judge_answer)
     return _followed(verdict, seen.trace)
 
@@ -52,15 +52,15 @@ def _followed(verdict: Verdict, trace: Trace) -> Verdict:
     if verdict.status is not Status.FAILED:
         return verdict
     try:
-        follow(verdict.hint, trace.sources)
-    except InWords:
-        return replace(verdict, hint=steps.everything(started(trace)) or verdict.hint)
+        apply_step(verdict.hint, trace.sources)
+    except NotAnEdit:
+        return replace(verdict, hint=steps.rewrite_everything(started_node(trace)) or verdict.hint)
     return verdict
 
 
-def _of_both(seen: Lone, judge: Callable[[Lone], Verdict]) -> Verdict:
+def _of_both(seen: SingleCalls, judge: Callable[[SingleCalls], Verdict]) -> Verdict:
     """The verdict on the first call, unless the second one is not as good as it."""
-    first, *later = seen.rounds
+    first, *later = seen.first_and_later
     verdict = judge(first)
     for each in later if verdict.passed else ():
         with contextlib.suppress(MachineTooBusy):  # the first call has shown it
@@ -69,41 +69,41 @@ def _of_both(seen: Lone, judge: Callable[[Lone], Verdict]) -> Verdict:
     return verdict
 
 
-def _judge_answer(seen: Lone) -> Verdict:
+def _judge_answer(seen: SingleCalls) -> Verdict:
     verdict = _judge_answer_alone(seen)
-    if verdict.status is Status.FAILED and (raised := why.of_exception(seen.trace)) is not None:
+    if verdict.status is Status.FAILED and (raised := why.diagnose_exception(seen.trace)) is not None:
         return replace(verdict, cause=str(raised), hint=raised.hint)
     return verdict
 
 
-def _judge_answer_alone(seen: Lone) -> Verdict:
+def _judge_answer_alone(seen: SingleCalls) -> Verdict:
     expected = f"{SERVICE} ({TYPE}) answers with the sum after {WORK_S:g} s ({SHORTEST_S:g} to {LONGEST_S:g} s)"
     if not seen.calls:
         return failed(
             expected,
             f"there is no {SERVICE} of this type",
-            why.of_no_service(seen.trace),
-            causes.last_words(seen.trace),
+            why.diagnose_no_service(seen.trace),
+            causes.output_tail(seen.trace),
         )
     best = seen.quickest
     if best is None:
-        observed = causes.unanswered(seen.trace, ANSWER_S)
-        return failed(expected, observed, why.of_no_answer(seen), causes.last_words(seen.trace))
+        observed = causes.describe_no_answer(seen.trace, ANSWER_S)
+        return failed(expected, observed, why.diagnose_no_answer(seen), causes.output_tail(seen.trace))
     for call in seen.calls:
         answer = call.answer
         if answer.response is not None and answer.response["sum"] != right_sum(answer):
-            return failed(expected, _told(answer), why.of_wrong_sum(answer, seen.trace))
-    source = started(seen.trace)
+            return failed(expected, _told(answer), why.diagnose_wrong_sum(answer, seen.trace))
+    source = started_node(seen.trace)
     told, took = _told(best.answer), f"the work takes {best.answer.took_s:.1f} s"
     if best.answer.took_s < SHORTEST_S:
-        if (early := steps.too_early(source)) is not None:
+        if (early := steps.diagnose_early_answer(source)) is not None:
             return failed(expected, told, early)
-        step = steps.working_for(source) or "let the callback wait: time.sleep(3.0), then answer"
+        step = steps.fix_work_time(source) or "let the callback wait: time.sleep(3.0), then answer"
         return failed(expected, told, Cause("too quick", took, step))
     if not best.in_time:
         if best.near and all(call.busy for call in seen.calls):
             raise MachineTooBusy("this machine is too busy to time the service")
-        step = steps.working_for(source) or "let the callback wait 3 s once, then answer"
+        step = steps.fix_work_time(source) or "let the callback wait 3 s once, then answer"
         return failed(expected, told, Cause("too slow", took, step))
     return passed(expected, told)
 
@@ -115,11 +115,11 @@ def _told(answer: CallAnswer) -> str:
     return f"{answer.request['a']} + {answer.request['b']} = {sum_} after {answer.took_s:.2f} s"
 
 
-def judge_timer(alone: Quiet, seen: Lone) -> Verdict:
+def judge_timer(alone: IdleRun, seen: SingleCalls) -> Verdict:
     return _followed(_of_both(seen, partial(_judge_timer, alone)), alone.trace)
 
 
-def _judge_timer(alone: Quiet, seen: Lone) -> Verdict:
+def _judge_timer(alone: IdleRun, seen: SingleCalls) -> Verdict:
     expected = (
         f"the timer of {HZ:g} Hz (±{TOLERANCE:.0%}) logs during a call at the pace it has outside one, without a gap "
         "or a burst"
@@ -128,16 +128,16 @@ def _judge_timer(alone: Quiet, seen: Lone) -> Verdict:
     if likely is None or not likely.is_10_hz:
         if alone.excused:
             raise MachineTooBusy("this machine is too busy to measure the timer")
-        observed = f"outside a call: {likely}" if likely else "outside a call, the node logs nothing again and again"
-        evidence = [tick.text for tick in likely.ticks[:4]] if likely else causes.last_words(alone.trace)
+        observed = f"outside a call: {likely}" if likely else "outside a call, the node logs nothing repeatedly"
+        evidence = [tick.text for tick in likely.ticks[:4]] if likely else causes.output_tail(alone.trace)
         silent = likely is None and bool(seen.calls) and not seen.spins
-        cause = why.of_no_answer(seen) if silent else why.of_other_pace(alone, likely)
+        cause = why.diagnose_no_answer(seen) if silent else why.diagnose_other_pace(alone, likely)
         return failed(expected, observed, cause, evidence)
     if not seen.calls:
         return skipped("not judged, because there was no call to listen during: `blocks` did not pass")
     right = [series for series in alone.series if series.is_10_hz]
-    calls = [call for call in seen.calls if not doubtful(seen.trace.logs, call, right)] or seen.calls
-    found = [(series, heard(series, seen.trace.logs, call)) for call in calls for series in right]
+    calls = [call for call in seen.calls if not is_doubtful(seen.trace.logs, call, right)] or seen.calls
+    found = [(series, timer_during_call(series, seen.trace.logs, call)) for call in calls for series in right]
     series, call = next(
         ((series, call) for series, call in found if not call.fault),
         next(each for each in reversed(found) if each[0] == likely),
@@ -146,15 +146,15 @@ def _judge_timer(alone: Quiet, seen: Lone) -> Verdict:
     observed = f"outside: {series}; {_heard(call, series)}"
     if seen.trace.exit is not None:
         observed = f"{observed}; then the process ended by itself with {seen.trace.exit}"
-        return failed(expected, observed, why.of_disturbed_timer(seen, call), causes.last_words(seen.trace))
+        return failed(expected, observed, why.diagnose_disturbed_timer(seen, call), causes.output_tail(seen.trace))
     if call.fault is None:
         return passed(expected, observed, texts[:6])
-    if excused(seen.trace.logs, calls[-1], right):
+    if is_excused(seen.trace.logs, calls[-1], right):
         raise MachineTooBusy("this machine is too busy to listen to the timer")
-    return failed(expected, observed, why.of_disturbed_timer(seen, call), texts[-6:])
+    return failed(expected, observed, why.diagnose_disturbed_timer(seen, call), texts[-6:])
 
 
-def _heard(call: During, series: Series) -> str:
+def _heard(call: TimerDuring, series: Series) -> str:
     pace = f", {call.hz:.1f} ticks/s" if call.hz is not None and call.fault is not Fault.GAP else ""
     return (
         f"during the call of {call.for_s:.1f} s: {call.count} messages{pace}, the longest pause {call.longest_s:.2f} s "
@@ -162,11 +162,11 @@ def _heard(call: During, series: Series) -> str:
     )
 
 
-def judge_concurrent(seen: Trio, one: Lone | None = None) -> Verdict:
+def judge_concurrent(seen: ConcurrentCalls, one: SingleCalls | None = None) -> Verdict:
     expected = "three calls made at once are all answered, each with its own sum"
-    if not seen.made:
+    if not seen.batches:
         return skipped(f"not judged, because there is no {SERVICE}: `blocks` did not pass")
-    three = seen.made[0]
+    three = seen.batches[0]
     told = [_told(answer) for answer in sorted(three.answers, key=lambda answer: answer.answered_at)]
     if three.right == CALLS:
         return passed(expected, f"all {CALLS} within {three.took_s:.2f} s", told)
@@ -174,41 +174,41 @@ def judge_concurrent(seen: Trio, one: Lone | None = None) -> Verdict:
     observed = f"{three.right} of {CALLS} right, {CALLS - len(answered)} not answered"
     never = one is not None and bool(one.calls) and one.quickest is None and not answered
     cause = (
-        why.of_no_answer(one)
+        why.diagnose_no_answer(one)
         if one is not None and never and seen.trace.exit is None
-        else why.of_lost_calls(seen.trace, three, answered)
+        else why.diagnose_lost_calls(seen.trace, three, answered)
     )
     return _followed(failed(expected, observed, cause, told), seen.trace)
 
 
-def judge_parallel(one: Lone, several: Trio) -> Verdict:
+def judge_parallel(one: SingleCalls, several: ConcurrentCalls) -> Verdict:
     expected = f"three calls at once take less than {PARALLEL:g} times one call"
     alone = one.quickest
     assert alone is not None  # it was answered: `blocks` passed
     one_s = alone.answer.took_s
-    best = min(several.made, key=lambda three: three.took_s)
+    best = min(several.batches, key=lambda three: three.took_s)
     observed = f"one call {one_s:.2f} s, three at once {best.took_s:.2f} s ({best.took_s / one_s:.1f} times)"
-    if any(three.took_s < PARALLEL * one_s + min(three.starved_s, EXCUSED_S) for three in several.made):
+    if any(three.took_s < PARALLEL * one_s + min(three.cpu_wait_s, EXCUSED_S) for three in several.batches):
         return passed(expected, observed)
-    if not several.tells(one_s):
+    if not several.is_conclusive(one_s):
         raise MachineTooBusy("this machine is too busy to time three calls at once")
     cause = Cause(
         "one call at a time",
         "the calls wait for each other",
-        steps.apart(started(several.trace))
+        steps.allow_overlap(started_node(several.trace))
         or "put the service into a ReentrantCallbackGroup, and give the executor threads enough: num_threads=8",
     )
     return failed(expected, observed, cause)
 
 
-def judge_shutdown(seen: Quiet) -> Verdict:
-    return ending.judge(seen.trace, seen.ending)
+def judge_shutdown(seen: IdleRun) -> Verdict:
+    return ending.judge_ending(seen.trace, seen.ending)
 
 
-def judge_shutdown_busy(seen: Interrupted, lone: Lone) -> Verdict:
-    if not seen.called and seen.ending is not None and is_there(seen.trace.graph.services) is False:
+def judge_shutdown_busy(seen: Interrupted, single_calls: SingleCalls) -> Verdict:
+    if not seen.called and seen.ending is not None and has_service(seen.trace.graph.services) is False:
         return skipped(f"not judged, because there is no {SERVICE} to call: `blocks` did not pass")
-    verdict = ending.judge(seen.trace, seen.ending)
-    if verdict.passed and lone.quickest is None:
+    verdict = ending.judge_ending(seen.trace, seen.ending)
+    if verdict.passed and single_calls.quickest is None:
         return skipped("not judged, because no call is answered, so none may have been under way: see `blocks`")
     return verdict

@@ -12,7 +12,7 @@ from tutor.judge.trace import CallAnswer, LogRecord
 from tutor.judge.waiting import IN_FLIGHT_S
 
 UP_S = 1.5
-"""What a node logs later than this after its first sign of life is no greeting."""
+"""What a node logs later than this after its first sign of life is not a greeting."""
 
 LISTEN_S = 6.5
 """Time enough to see that what comes is of another pace, or that nothing comes, not even from a tick in fifty."""
@@ -23,14 +23,14 @@ RARE_S = 12.0
 LOOK_EVERY_S = 0.1
 
 
-def said_since(logs: Sequence[LogRecord], since: float) -> Sequence[LogRecord]:
+def logs_since(logs: Sequence[LogRecord], since: float) -> Sequence[LogRecord]:
     """What was logged from then on: what a node tells of its own start, however steadily, comes from no timer."""
     return [log for log in logs if log.stamp >= since]
 
 
 async def listen(run: Run, since: float, is_up: Callable[[], bool]) -> None:
     """Wait until the logs `since` then tell all about the timer. It is given time from when the node `is_up`."""
-    up_at, lost_s = run.now(), run.starved_s() + run.late_s()
+    up_at, lost_s = run.now(), run.node_cpu_wait_s() + run.our_cpu_wait_s()
     was_up, looked_at, enough = is_up(), 0.0, False
 
     def heard() -> bool:
@@ -39,8 +39,11 @@ async def listen(run: Run, since: float, is_up: Callable[[], bool]) -> None:
             up_at, was_up = run.now(), True
         if run.now() - looked_at >= LOOK_EVERY_S:  # not at each of a thousand messages
             looked_at = run.now()
-            logs = said_since(run.logs, since)
-            enough = _told(logs) or run.now() - up_at > _patience_s(logs) + run.starved_s() + run.late_s() - lost_s
+            logs = logs_since(run.logs, since)
+            enough = (
+                _told(logs)
+                or run.now() - up_at > _patience_s(logs) + run.node_cpu_wait_s() + run.our_cpu_wait_s() - lost_s
+            )
         return enough
 
     await run.until(heard, 2 * RARE_S)

@@ -13,7 +13,7 @@ from tutor.judge.trace import LogRecord
 from tutor.judge.wording import shape
 
 KEPT = 8000
-"""So many texts are read once only: a flood is looked at again and again."""
+"""This many texts are read once only: a flood is looked at again and again."""
 
 _NUMBER = re.compile(r"\d+(?:\.\d+)?")
 _WORD_BEFORE = re.compile(r"\w*\W*$")

@@ -24,7 +24,7 @@ class Fault(Enum):
 
 
 @dataclass(frozen=True, slots=True)
-class During:
+class TimerDuring:
     """The timer's messages around one call: `count` of them during its `for_s` seconds, the longest gap touching it.
 
     `hz`: the ticks in a second, as the series tells them; None where too few messages tell it.
@@ -39,12 +39,12 @@ class During:
     fault: Fault | None
 
 
-def during(
-    series: Series, logs: Iterable[LogRecord], asked_at: float, answered_at: float, *, until: float, starved_s: float
-) -> During:
+def timer_during(
+    series: Series, logs: Iterable[LogRecord], asked_at: float, answered_at: float, *, until: float, cpu_wait_s: float
+) -> TimerDuring:
     """How the series went on while a call was made. `until`: how long the node was watched (seconds since the epoch).
 
-    A node that the machine kept from running for `starved_s` may pause that much longer, and tick that much less.
+    A node that the machine kept from running for `cpu_wait_s` may pause that much longer, and tick that much less.
     """
     ticks = [tick for log in sorted(logs, key=lambda log: log.stamp) if (tick := series.key.of(log))]
     before = [tick for tick in ticks if tick.stamp < asked_at][-1:]
@@ -57,21 +57,21 @@ def during(
         *([] if after else [max(until, answered_at)]),
     ]
     longest = max(b - a for a, b in pairwise(edges))
-    allowed = (1 + TOLERANCE) * min(series.longest_s, 2 * series.interval_s) + SLACK_S + starved_s
+    allowed = (1 + TOLERANCE) * min(series.longest_s, 2 * series.interval_s) + SLACK_S + cpu_wait_s
     for_s = answered_at - asked_at
     expected = for_s / series.interval_s
-    least = (1 - TOLERANCE) * max(0.0, for_s - starved_s) / series.interval_s - 1
+    least = (1 - TOLERANCE) * max(0.0, for_s - cpu_wait_s) / series.interval_s - 1
     most = (1 + TOLERANCE) * expected + 1
     told = len(around) > 1 and around[-1].stamp - around[0].stamp >= 0.5 * for_s > 0.5
     hz = series.hz_in(around) if told else None
     fault = None
     if longest > allowed:
         fault = Fault.GAP
-    elif len(within) < least or (hz and hz < (1 - TOLERANCE) * series.hz * max(0.1, 1 - starved_s / max(for_s, 0.1))):
+    elif len(within) < least or (hz and hz < (1 - TOLERANCE) * series.hz * max(0.1, 1 - cpu_wait_s / max(for_s, 0.1))):
         fault = Fault.SLOW
     elif len(within) > most or _bursts(series, edges) or (hz and hz > (1 + TOLERANCE) * series.hz):
         fault = Fault.FAST
-    return During(len(within), expected, for_s, longest, allowed, hz, fault)
+    return TimerDuring(len(within), expected, for_s, longest, allowed, hz, fault)
 
 
 def _bursts(series: Series, stamps: Sequence[float]) -> bool:

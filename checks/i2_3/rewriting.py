@@ -11,9 +11,9 @@ from itertools import pairwise
 
 from checks.i2_3.facts import WORK_S
 from checks.i2_3.ticks import HZ
-from tutor.judge.edits import Edit, above, apply, in_place, instead
+from tutor.judge.edits import Edit, apply, insert_above, replace_node, replace_statement
 from tutor.judge.rewriting.node import NodeFile, argument, is_static, with_body
-from tutor.judge.rewriting.program import program
+from tutor.judge.rewriting.program import whole_program
 from tutor.judge.source import Function
 
 _GROUP = "callback_group"
@@ -30,24 +30,26 @@ def service(file: NodeFile) -> ast.Call | None:
 def timer(file: NodeFile) -> ast.Call | None:
     """Where the timer is made: one whose callback logs, if there are several."""
     made = [each for each in file.timers if argument(each, 1, "callback") is not None]
-    return next((each for each in made if (found := ticking(file, each)) and _logs(found)), next(iter(made), None))
+    return next(
+        (each for each in made if (found := timer_callback(file, each)) and _logs(found)), next(iter(made), None)
+    )
 
 
-def working(file: NodeFile) -> Function | None:
+def service_callback(file: NodeFile) -> Function | None:
     """The service's callback."""
     made = service(file)
     return file.function(argument(made, 2, "callback")) if made is not None else None
 
 
-def ticking(file: NodeFile, made: ast.Call | None = None) -> Function | None:
+def timer_callback(file: NodeFile, made: ast.Call | None = None) -> Function | None:
     """The timer's callback."""
     made = made or timer(file)
     return file.function(argument(made, 1, "callback")) if made is not None else None
 
 
-def answering(file: NodeFile) -> list[Edit]:
+def rewrite_service_callback(file: NodeFile) -> list[Edit]:
     """The service's callback as a whole: it works, and answers with the sum."""
-    found, made = working(file), service(file)
+    found, made = service_callback(file), service(file)
     sleep, imported = _sleep(file)
     if found is None:
         if made is None or file.setup is None or file.class_of(file.setup) is None:
@@ -55,7 +57,7 @@ def answering(file: NodeFile) -> list[Edit]:
         given = argument(made, 2, "callback")
         code = f"def add_slowly(self, request, response):\n{_indented(_work(sleep, 'request', 'response'))}"
         edits = [*imported, *file.new_method(code)]
-        return [*edits, instead(file.text, given, "self.add_slowly")] if given is not None else edits
+        return [*edits, replace_node(file.text, given, "self.add_slowly")] if given is not None else edits
     names = [each.arg for each in found.args.args]
     own = file.class_of(found) is not None and not is_static(found)
     if len(names) - own != 2 or found.args.kwonlyargs:
@@ -63,7 +65,7 @@ def answering(file: NodeFile) -> list[Edit]:
         code = f"def {found.name}({', '.join([*first, 'request', 'response'])}):\n" + _indented(
             _work(sleep, "request", "response")
         )
-        return [*imported, in_place(found, code)]
+        return [*imported, replace_statement(found, code)]
     return [*imported, with_body(found, _work(sleep, *names[-2:]))]
 
 
@@ -71,25 +73,25 @@ def _work(sleep: str, request: str, response: str) -> str:
     return f"{sleep}({WORK_S})\n{response}.sum = {request}.a + {request}.b\nreturn {response}"
 
 
-def offered(file: NodeFile) -> list[Edit]:
+def rewrite_service(file: NodeFile) -> list[Edit]:
     """The service's creation as a whole: type, name, callback, and a group in which its calls may overlap."""
     kind, imported = file.own("AddTwoInts", "example_interfaces.srv")
     group, of_group = file.own(_REENTRANT, "rclpy.callback_groups")
-    made, found = service(file), working(file)
+    made, found = service(file), service_callback(file)
     if made is None:
         first = _summing(file)
         if first is None:
             return []
         callback = f"self.{first.name}" if file.class_of(first) is not None else first.name
         code = f"{file.name}.create_service({kind}, '/slow_add', {callback}, {_GROUP}={group}())"
-        return [*imported, *of_group, *file.adds_to_setup(code)]
+        return [*imported, *of_group, *file.append_to_setup(code)]
     given = argument(made, 2, "callback")
     callback = ast.unparse(given) if given is not None and found is not None else "self.add_slowly"
     code = f"{ast.unparse(made.func)}({kind}, '/slow_add', {callback}, {_GROUP}={group}())"
-    return [*imported, *of_group, instead(file.text, made, code)]
+    return [*imported, *of_group, replace_node(file.text, made, code)]
 
 
-def timed(file: NodeFile) -> list[Edit]:
+def rewrite_timer(file: NodeFile) -> list[Edit]:
     """The timer's creation as a whole: its period, its callback, and a group of its own."""
     group, of_group = file.own(_REENTRANT, "rclpy.callback_groups")
     made = timer(file)
@@ -97,15 +99,19 @@ def timed(file: NodeFile) -> list[Edit]:
         return _new_timer(file, group, of_group)
     given = argument(made, 1, "callback")
     code = f"{ast.unparse(made.func)}({1 / HZ:g}, {ast.unparse(given or made)}, {_GROUP}={group}())"
-    if made_late(file):
-        return [*of_group, *file.adds_to_setup(code)]
-    return [*of_group, instead(file.text, made, code)]
+    if is_made_in_each_call(file):
+        return [*of_group, *file.append_to_setup(code)]
+    return [*of_group, replace_node(file.text, made, code)]
 
 
-def made_late(file: NodeFile) -> bool:
+def is_made_in_each_call(file: NodeFile) -> bool:
     """Whether the timer is made by the service's callback, with each call."""
     made = timer(file)
-    return made is not None and file.within(made) is not None and file.within(made) is working(file)
+    return (
+        made is not None
+        and file.function_around(made) is not None
+        and file.function_around(made) is service_callback(file)
+    )
 
 
 def _new_timer(file: NodeFile, group: str, of_group: list[Edit]) -> list[Edit]:
@@ -115,15 +121,15 @@ def _new_timer(file: NodeFile, group: str, of_group: list[Edit]) -> list[Edit]:
     unused = next((each for each in file.functions if each.name in ("tick", "on_tick", "timer_callback")), None)
     name = unused.name if unused is not None else "tick"
     lines = f"self.ticks = 0\nself.create_timer({1 / HZ:g}, self.{name}, {_GROUP}={group}())"
-    edits = [*of_group, *file.adds_to_setup(lines)]
+    edits = [*of_group, *file.append_to_setup(lines)]
     if unused is not None:
         return edits
     return [*edits, *file.new_method(f"def {name}(self):\n{_indented(_tick('self.ticks', 'self'))}")]
 
 
-def logged(file: NodeFile) -> list[Edit]:
+def rewrite_timer_callback(file: NodeFile) -> list[Edit]:
     """The timer's callback as a whole: it counts the ticks, and logs their number."""
-    found, made = ticking(file), timer(file)
+    found, made = timer_callback(file), timer(file)
     if found is None or made is None:
         return []
     if file.class_of(found) is None or not found.args.args:
@@ -133,7 +139,9 @@ def logged(file: NodeFile) -> list[Edit]:
     counter = _counter(found, own)
     statement = file.statement(made)
     setup = (
-        [] if counter and _set(file, counter, found) else [above(statement.lineno, f"{counter or f'{own}.ticks'} = 0")]
+        []
+        if counter and _set(file, counter, found)
+        else [insert_above(statement.lineno, f"{counter or f'{own}.ticks'} = 0")]
     )
     return [*setup, with_body(found, _tick(counter or f"{own}.ticks", own))]
 
@@ -142,12 +150,12 @@ def _tick(counter: str, node: str) -> str:
     return f"{counter} += 1\nif {counter} % 10 == 0:\n    {node}.get_logger().info(f'Tick {{{counter}}}')"
 
 
-def spun(file: NodeFile) -> list[Edit]:
+def rewrite_program(file: NodeFile) -> list[Edit]:
     """The program as a whole: its executor has threads enough, and Ctrl+C ends it."""
-    return program(file, threads=True)
+    return whole_program(file, threads=True)
 
 
-def every(file: NodeFile, *parts: list[Edit]) -> list[Edit]:
+def combine_edits(file: NodeFile, *parts: list[Edit]) -> list[Edit]:
     """The edits of several parts, without those that are there twice or change nothing; none where two of them meet."""
     edits = dict.fromkeys(each for part in parts for each in part)
     found = [each for each in edits if apply(file.text, [each]).split() != file.text.split()]
@@ -190,7 +198,7 @@ def _set(file: NodeFile, counter: str, ticking_: Function) -> bool:
         isinstance(each, ast.Assign | ast.AnnAssign)
         and ast.unparse(each.targets[0] if isinstance(each, ast.Assign) else each.target) == counter
         and isinstance(each.value, ast.Constant)
-        and file.within(each) is not ticking_
+        and file.function_around(each) is not ticking_
         for each in ast.walk(file.tree)
     )
 

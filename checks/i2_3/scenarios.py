@@ -16,23 +16,23 @@ from checks.i2_3.facts import (
     TYPE,
     WORK_S,
     Call,
+    CallBatch,
+    ConcurrentCalls,
+    IdleRun,
     Interrupted,
-    Lone,
-    Quiet,
-    Three,
-    Trio,
-    disturbed,
-    excused,
-    is_there,
+    SingleCalls,
+    has_service,
+    is_disturbed,
+    is_excused,
 )
-from checks.i2_3.listening import listen, may_be_10_hz, next_tick, said_since
-from checks.i2_3.repeats import MOST_TRIES, TRIES, again, again_at_once
+from checks.i2_3.listening import listen, logs_since, may_be_10_hz, next_tick
+from checks.i2_3.repeats import MOST_TRIES, TRIES, needs_repeat, needs_repeat_at_once
 from checks.i2_3.ticks import Series, all_series, likely
 from tutor.judge.bench import Bench, Run
-from tutor.judge.ending import confirmed
+from tutor.judge.ending import repeat_if_doubtful
 from tutor.judge.trace import CallAnswer
 from tutor.judge.tracebacks import Frame
-from tutor.judge.waiting import STARVED, appears
+from tutor.judge.waiting import CPU_WAIT_SHARE, wait_until_seen
 
 INTO_CALL_S = 1.5
 """A call that was made this long ago is being worked on."""
@@ -47,40 +47,40 @@ APART_S = 0.1
 """Of three calls at once, the last comes this much later, so that answers in another order are told from chance."""
 
 
-@confirmed
-async def quiet(bench: Bench) -> Quiet:
+@repeat_if_doubtful
+async def run_idle(bench: Bench) -> IdleRun:
     """Listen to the node while nobody calls, then press Ctrl+C."""
-    async with bench.start(FILE) as run:  # first, like `lone`, which waits for it
-        bench.doing(0.1, "waiting for the timer's log messages")
-        await appears(run, lambda: bool(run.graph.nodes))
+    async with bench.start(FILE) as run:  # first, like `call_singly`, which waits for it
+        bench.report_progress(0.1, "waiting for the timer's log messages")
+        await wait_until_seen(run, lambda: bool(run.graph.nodes))
         await _spins(run)
         since = run.now()
-        await appears(run, lambda: bool(said_since(run.logs, since)))
-        listened_at, starved_s = run.now(), run.starved_s()
-        bench.doing(0.3, "listening to the timer")
-        await listen(run, since, lambda: is_there(run.graph.services))
-        share = (run.starved_s() - starved_s) / max(0.1, run.now() - listened_at)
-        series = likely(all_series(said_since(run.logs, since)))
+        await wait_until_seen(run, lambda: bool(logs_since(run.logs, since)))
+        listened_at, cpu_wait_s = run.now(), run.node_cpu_wait_s()
+        bench.report_progress(0.3, "listening to the timer")
+        await listen(run, since, lambda: has_service(run.graph.services))
+        share = (run.node_cpu_wait_s() - cpu_wait_s) / max(0.1, run.now() - listened_at)
+        series = likely(all_series(logs_since(run.logs, since)))
         trace = run.trace()
-        bench.doing(0.8, "pressing Ctrl+C")
+        bench.report_progress(0.8, "pressing Ctrl+C")
         ended = await run.interrupt() if run.exit is None else None
-    busy = share >= STARVED and any(may_be_10_hz(each, share) for each in series if not each.is_10_hz)
-    return Quiet(trace, series, busy, ended)
+    busy = share >= CPU_WAIT_SHARE and any(may_be_10_hz(each, share) for each in series if not each.is_10_hz)
+    return IdleRun(trace, series, busy, ended)
 
 
-async def lone(bench: Bench) -> Lone:
+async def call_singly(bench: Bench) -> SingleCalls:
     """Call the service, then once more, and listen to the timer meanwhile and until it is heard again."""
     async with bench.start(FILE) as run:
-        bench.doing(0.1, f"waiting for {SERVICE}")
+        bench.report_progress(0.1, f"waiting for {SERVICE}")
         if not await _serves(run):
-            return Lone(run.trace())
-        bench.doing(0.2, f"calling {SERVICE}")
+            return SingleCalls(run.trace())
+        bench.report_progress(0.2, f"calling {SERVICE}")
         calls, well = await _call(bench, run, _operands, MOST_TRIES)
         later: Sequence[Call] = ()
         if well and run.exit is None:
-            bench.doing(0.6, f"calling {SERVICE} once more, with large numbers")
+            bench.report_progress(0.6, f"calling {SERVICE} once more, with large numbers")
             later, _ = await _call(bench, run, _large, TRIES)  # no more of them: without a word they take nothing back
-        seen = Lone(run.trace(), tuple(calls), later=tuple(later))
+        seen = SingleCalls(run.trace(), tuple(calls), later=tuple(later))
     if seen.trace.exit is None and not well:
         stuck, spins = await _stuck(bench, calls[-1].answer)
         return replace(seen, stuck=stuck, spins=spins)
@@ -93,21 +93,21 @@ async def _call(
     """Make a call, and again where a busy machine leaves it in doubt; and whether there was nothing wrong with it."""
     calls: list[Call] = []
     series: Sequence[Series] = ()
-    while not calls or (run.exit is None and again(run.logs, calls, series, most)):
+    while not calls or (run.exit is None and needs_repeat(run.logs, calls, series, most)):
         lost_s = _lost_s(run)
         answer = await run.call(SERVICE, TYPE, operands(), limit_s=ANSWER_S)
         lost_s = _lost_s(run) - lost_s
-        series = (await bench.facts(quiet)).series
+        series = (await bench.facts(run_idle)).series
         await next_tick(run, series, answer)
         calls.append(Call(answer, run.now(), lost_s))
     last = calls[-1]
-    well = not disturbed(run.logs, last, series) or excused(run.logs, last, series)
+    well = not is_disturbed(run.logs, last, series) or is_excused(run.logs, last, series)
     return calls, last.answer.response is not None and well
 
 
 async def _serves(run: Run) -> bool:
     """Wait for the service, and for the node to answer anything: it may be in the graph long before it spins."""
-    there = await appears(run, lambda: is_there(run.graph.services))
+    there = await wait_until_seen(run, lambda: has_service(run.graph.services))
     if there:
         await _spins(run)
     return there
@@ -124,33 +124,33 @@ async def _spins(run: Run) -> None:
 
 
 def _lost_s(run: Run) -> float:
-    return run.starved_s() + run.late_s()
+    return run.node_cpu_wait_s() + run.our_cpu_wait_s()
 
 
 async def _stuck(bench: Bench, before: CallAnswer) -> tuple[tuple[Frame, ...], bool]:
     """Call once more, only to see where the node is while it works on the call, and whether it spins at all."""
     async with bench.start(FILE) as run:
-        bench.doing(0.9, "looking where the node is during a call")
-        await appears(run, lambda: is_there(run.graph.services))
+        bench.report_progress(0.9, "looking where the node is during a call")
+        await wait_until_seen(run, lambda: has_service(run.graph.services))
         spins = await run.parameters(2.0) is not None
         # A callback that answers is in the middle of its work; one that does not may come to a halt after it.
         into_s = WORK_S / 2 if before.response is not None else WORK_S + 0.5
         await run.call(SERVICE, TYPE, before.request, limit_s=into_s)
-        return await run.stuck_at(), spins
+        return await run.dump_stacks(), spins
 
 
-async def trio(bench: Bench) -> Trio:
+async def call_concurrently(bench: Bench) -> ConcurrentCalls:
     """Three calls at once, each with its own sum."""
-    async with bench.start(FILE, asks_s=3.5) as run:
-        bench.doing(0.1, f"waiting for {SERVICE}")
+    async with bench.start(FILE, expected_s=3.5) as run:
+        bench.report_progress(0.1, f"waiting for {SERVICE}")
         if not await _serves(run):
-            return Trio(run.trace())
-        bench.doing(0.3, f"calling {SERVICE} three times at once")
-        made: list[Three] = []
-        while not made or again_at_once(Trio(run.trace(), tuple(made))):
+            return ConcurrentCalls(run.trace())
+        bench.report_progress(0.3, f"calling {SERVICE} three times at once")
+        made: list[CallBatch] = []
+        while not made or needs_repeat_at_once(ConcurrentCalls(run.trace(), tuple(made))):
             lost_s = _lost_s(run)
-            made.append(Three(await _ask_at_once(run, _different()), _lost_s(run) - lost_s))
-        return Trio(run.trace(), tuple(made))
+            made.append(CallBatch(await _ask_at_once(run, _different()), _lost_s(run) - lost_s))
+        return ConcurrentCalls(run.trace(), tuple(made))
 
 
 async def _ask_at_once(run: Run, requests: Sequence[Mapping[str, int]]) -> tuple[CallAnswer, ...]:
@@ -177,20 +177,22 @@ def _done(calls: Sequence[asyncio.Task[CallAnswer]]) -> int:
     return sum(call.done() for call in calls)
 
 
-@confirmed
-async def interrupted(bench: Bench) -> Interrupted:
+@repeat_if_doubtful
+async def interrupt_during_call(bench: Bench) -> Interrupted:
     """Press Ctrl+C during a call."""
-    async with bench.start(FILE, asks_s=2.0) as run:
-        bench.doing(0.1, f"waiting for {SERVICE}")
+    async with bench.start(FILE, expected_s=2.0) as run:
+        bench.report_progress(0.1, f"waiting for {SERVICE}")
         called = await _serves(run)
         call = asyncio.create_task(run.call(SERVICE, TYPE, _operands(), limit_s=ANSWER_S))
         try:
             if called:
-                bench.doing(0.4, f"calling {SERVICE}")
-                due, starved_s = run.now() + INTO_CALL_S, run.starved_s()
-                await run.until(lambda: call.done() or run.now() >= due + run.starved_s() - starved_s, 2 * INTO_CALL_S)
+                bench.report_progress(0.4, f"calling {SERVICE}")
+                due, cpu_wait_s = run.now() + INTO_CALL_S, run.node_cpu_wait_s()
+                await run.until(
+                    lambda: call.done() or run.now() >= due + run.node_cpu_wait_s() - cpu_wait_s, 2 * INTO_CALL_S
+                )
             trace = run.trace()
-            bench.doing(0.7, "pressing Ctrl+C during the call")
+            bench.report_progress(0.7, "pressing Ctrl+C during the call")
             ended = await run.interrupt() if run.exit is None else None
         finally:
             call.cancel()

@@ -10,12 +10,12 @@ import ast
 
 from checks.i2_3 import rewriting
 from checks.i2_3.facts import SERVICE, WORK_S
-from checks.i2_3.rewriting import every, service, ticking, timer, working
+from checks.i2_3.rewriting import combine_edits, service, service_callback, timer, timer_callback
 from checks.i2_3.ticks import HZ
-from tutor.judge.causes.printing import audible
-from tutor.judge.edits import Edit, becomes, in_place, instead, without
+from tutor.judge.causes.printing import enable_rosout
+from tutor.judge.edits import Edit, remove_statement, replace_lines, replace_node, replace_statement
 from tutor.judge.rewriting.node import NodeFile, argument
-from tutor.judge.rewriting.program import program
+from tutor.judge.rewriting.program import whole_program
 from tutor.judge.source import calls_in, values_of
 from tutor.judge.verdict import Cause
 
@@ -25,48 +25,58 @@ _THREADS = 8
 _LOGS = ("info", "warning", "warn", "error", "fatal")
 
 
-def everything(file: NodeFile) -> str | None:
+def rewrite_everything(file: NodeFile) -> str | None:
     """The step that rewrites service, timer and program, for what nothing shorter is known to help."""
-    parts = (rewriting.offered(file), rewriting.timed(file), rewriting.answering(file), rewriting.logged(file))
-    return file.step(every(file, *parts, rewriting.spun(file)), every(file, *parts), rewriting.spun(file))
+    parts = (
+        rewriting.rewrite_service(file),
+        rewriting.rewrite_timer(file),
+        rewriting.rewrite_service_callback(file),
+        rewriting.rewrite_timer_callback(file),
+    )
+    return file.step(
+        combine_edits(file, *parts, rewriting.rewrite_program(file)),
+        combine_edits(file, *parts),
+        rewriting.rewrite_program(file),
+    )
 
 
-def offering(file: NodeFile) -> str | None:
+def fix_service(file: NodeFile) -> str | None:
     """The step where the service is missing, or has another name or type than it should."""
     made = service(file)
     name = argument(made, 1, "srv_name") if made is not None else None
     right = ast.unparse(name).strip("'\"") == SERVICE[1:] if name is not None else False
-    renamed = [instead(file.text, name, repr(SERVICE if right else SERVICE[1:]))] if name is not None else []
+    renamed = [replace_node(file.text, name, repr(SERVICE if right else SERVICE[1:]))] if name is not None else []
     kind = argument(made, 0, "srv_type") if made is not None else None
     same = kind is not None and ast.unparse(kind).endswith("AddTwoInts")
     return file.step(
-        renamed if same else None, every(file, rewriting.offered(file), rewriting.answering(file))
-    ) or everything(file)
+        renamed if same else None,
+        combine_edits(file, rewriting.rewrite_service(file), rewriting.rewrite_service_callback(file)),
+    ) or rewrite_everything(file)
 
 
-def answering(file: NodeFile) -> str | None:
+def fix_answer(file: NodeFile) -> str | None:
     """The step where the answer is wrong, or does not come."""
-    return file.step(rewriting.answering(file)) or everything(file)
+    return file.step(rewriting.rewrite_service_callback(file)) or rewrite_everything(file)
 
 
-def working_for(file: NodeFile) -> str | None:
+def fix_work_time(file: NodeFile) -> str | None:
     """The step where the work takes another time than it should."""
-    return file.step(_slept(file)) or answering(file)
+    return file.step(_slept(file)) or fix_answer(file)
 
 
 def _slept(file: NodeFile) -> list[Edit]:
-    found = working(file)
+    found = service_callback(file)
     if found is None or any(isinstance(each, ast.While | ast.For | ast.If) for each in ast.walk(found)):
         return []
     naps = calls_in(found, "sleep", "wait")
     if len(naps) != 1 or len(naps[0].args) != 1:
         return []
-    return [instead(file.text, naps[0].args[0], str(WORK_S))]
+    return [replace_node(file.text, naps[0].args[0], str(WORK_S))]
 
 
-def executor(file: NodeFile) -> str | None:
+def use_threads(file: NodeFile) -> str | None:
     """The step where one thread runs all callbacks."""
-    return file.step(_with_groups(file, _executor(file))) or everything(file)
+    return file.step(_with_groups(file, _executor(file))) or rewrite_everything(file)
 
 
 def _executor(file: NodeFile) -> list[Edit]:
@@ -76,26 +86,28 @@ def _executor(file: NodeFile) -> list[Edit]:
     name, imported = file.own(_MANY, "rclpy.executors")
     if spun is not None and many is not None and own is not None:
         statement = file.statement(spun)
-        return [without(file.text, statement)]
-    if spun is not None and many is not None and (kept := file.kept(many)) and len(spun.args) == 1:
+        return [remove_statement(file.text, statement)]
+    if spun is not None and many is not None and (kept := file.assigned_to(many)) and len(spun.args) == 1:
         node = ast.unparse(spun.args[0])
         added = "" if file.calls("add_node") else f"{kept}.add_node({node})\n"
-        return [in_place(spun, f"{added}{kept}.spin()")]
+        return [replace_statement(spun, f"{added}{kept}.spin()")]
     if spun is None and many is None and single is not None:
-        return [*imported, instead(file.text, single, f"{name}(num_threads={_THREADS})")]
-    return rewriting.spun(file)
+        return [*imported, replace_node(file.text, single, f"{name}(num_threads={_THREADS})")]
+    return rewriting.rewrite_program(file)
 
 
 def _with_groups(file: NodeFile, edits: list[Edit]) -> list[Edit]:
-    return every(file, edits, _groups(file)) if edits else []
+    return combine_edits(file, edits, _groups(file)) if edits else []
 
 
-def held(file: NodeFile) -> str | None:
+def separate_groups(file: NodeFile) -> str | None:
     """The step where several threads run the callbacks, and the timer waits for the service all the same."""
     return (
-        file.step(_threads(file), _groups(file), rewriting.answering(file))
-        or file.step(every(file, rewriting.answering(file), rewriting.logged(file)))
-        or everything(file)
+        file.step(_threads(file), _groups(file), rewriting.rewrite_service_callback(file))
+        or file.step(
+            combine_edits(file, rewriting.rewrite_service_callback(file), rewriting.rewrite_timer_callback(file))
+        )
+        or rewrite_everything(file)
     )
 
 
@@ -103,10 +115,10 @@ def _threads(file: NodeFile) -> list[Edit]:
     """More threads, for an executor that has one only."""
     made = next(iter(file.calls(_MANY)), None)
     given = argument(made, 0, "num_threads") if made is not None else None
-    return [instead(file.text, given, str(_THREADS))] if given is not None and ast.unparse(given) == "1" else []
+    return [replace_node(file.text, given, str(_THREADS))] if given is not None and ast.unparse(given) == "1" else []
 
 
-def held_by(file: NodeFile) -> str:
+def what_timer_waits_for(file: NodeFile) -> str:
     """What the timer waits for while the service works, though the executor has threads."""
     made = timer(file)
     if edits := _threads(file):
@@ -134,20 +146,22 @@ def _groups(file: NodeFile) -> list[Edit]:
         (
             kept
             for each in file.calls("ReentrantCallbackGroup", "MutuallyExclusiveCallbackGroup")
-            if (kept := file.kept(each)).startswith("self.") and kept != _group(works) and each.lineno < ticks.lineno
+            if (kept := file.assigned_to(each)).startswith("self.")
+            and kept != _group(works)
+            and each.lineno < ticks.lineno
         ),
         "",
     )
-    return [*([] if spare else imported), grouped(file, ticks, spare or f"{name}()")]
+    return [*([] if spare else imported), set_group(file, ticks, spare or f"{name}()")]
 
 
-def grouped(file: NodeFile, call: ast.Call, group: str) -> Edit:
+def set_group(file: NodeFile, call: ast.Call, group: str) -> Edit:
     """A timer or a service, made in another group."""
     given = next((each.value for each in call.keywords if each.arg == _GROUP), None)
     if given is not None:
-        return instead(file.text, given, group)
+        return replace_node(file.text, given, group)
     code = ast.unparse(call)
-    return instead(file.text, call, f"{code[:-1]}, {_GROUP}={group})")
+    return replace_node(file.text, call, f"{code[:-1]}, {_GROUP}={group})")
 
 
 def _group(call: ast.Call) -> str:
@@ -157,30 +171,30 @@ def _group(call: ast.Call) -> str:
 
 
 def _reentrant(file: NodeFile, group: str) -> bool:
-    return "Reentrant" in group or any(file.kept(each) == group for each in file.calls("ReentrantCallbackGroup"))
+    return "Reentrant" in group or any(file.assigned_to(each) == group for each in file.calls("ReentrantCallbackGroup"))
 
 
-def apart(file: NodeFile) -> str | None:
+def allow_overlap(file: NodeFile) -> str | None:
     """The step where calls wait for each other: the service's group, or too few threads."""
     made = service(file)
     name, imported = file.own("ReentrantCallbackGroup", "rclpy.callback_groups")
     edits: list[Edit] = []
     if made is not None and not _reentrant(file, _group(made)):
-        edits += [*imported, grouped(file, made, f"{name}()")]
+        edits += [*imported, set_group(file, made, f"{name}()")]
     many = next(iter(file.calls(_MANY)), None)
     given = argument(many, 0, "num_threads") if many is not None else None
     if many is not None and (given is None or ast.unparse(given) in ("1", "2", "3")):
-        edits.append(instead(file.text, many, f"{ast.unparse(many.func)}(num_threads={_THREADS})"))
-    return file.step(edits) or answering(file)
+        edits.append(replace_node(file.text, many, f"{ast.unparse(many.func)}(num_threads={_THREADS})"))
+    return file.step(edits) or fix_answer(file)
 
 
-def not_added(file: NodeFile) -> Cause | None:
+def diagnose_node_not_added(file: NodeFile) -> Cause | None:
     """Whether an executor is spun that has no node."""
     made = next(iter(file.calls(_MANY, "SingleThreadedExecutor")), None)
     spun = next((each for each in file.calls("spin") if not each.args), None)
     if made is None or spun is None or file.calls("add_node"):
         return None
-    if (step := file.step(program(file))) is None:
+    if (step := file.step(whole_program(file))) is None:
         return None
     return Cause(
         "node not added to the executor",
@@ -189,11 +203,11 @@ def not_added(file: NodeFile) -> Cause | None:
     )
 
 
-def too_early(file: NodeFile) -> Cause | None:
+def diagnose_early_answer(file: NodeFile) -> Cause | None:
     """Whether the callback answers while another thread is still at work."""
-    found = working(file)
+    found = service_callback(file)
     started = next(iter(calls_in(found, "Thread", "Timer", "submit", "create_task")), None)
-    if found is None or started is None or (step := answering(file)) is None:
+    if found is None or started is None or (step := fix_answer(file)) is None:
         return None
     return Cause(
         "answered too early",
@@ -203,17 +217,17 @@ def too_early(file: NodeFile) -> Cause | None:
     )
 
 
-def period(file: NodeFile) -> str | None:
+def fix_period(file: NodeFile) -> str | None:
     """The step where the timer has another period than it should, its callback takes too long, or bears no number."""
-    made, found = timer(file), ticking(file)
+    made, found = timer(file), timer_callback(file)
     given = argument(made, 0, "timer_period_sec") if made is not None else None
     if naps := calls_in(found, "sleep"):
         statement = file.statement(naps[0])
-        return file.step([without(file.text, statement)]) or ticks(file)
+        return file.step([remove_statement(file.text, statement)]) or rewrite_ticking(file)
     right = f"{1 / HZ:g}"
     if given is not None and not _is_right(file, given):
-        return file.step([instead(file.text, given, right)]) or ticks(file)
-    return ticks(file)
+        return file.step([replace_node(file.text, given, right)]) or rewrite_ticking(file)
+    return rewrite_ticking(file)
 
 
 def _is_right(file: NodeFile, given: ast.expr) -> bool:
@@ -231,38 +245,46 @@ def _number(expression: ast.expr) -> float | None:
     return None
 
 
-def ticks(file: NodeFile) -> str | None:
+def rewrite_ticking(file: NodeFile) -> str | None:
     """The step that rewrites the timer and its callback."""
-    late = every(file, rewriting.timed(file), rewriting.answering(file)) if rewriting.made_late(file) else []
+    late = (
+        combine_edits(file, rewriting.rewrite_timer(file), rewriting.rewrite_service_callback(file))
+        if rewriting.is_made_in_each_call(file)
+        else []
+    )
     return (
         file.step(late)
-        or file.step(rewriting.logged(file))
-        or file.step(every(file, rewriting.timed(file), rewriting.logged(file)))
-        or everything(file)
+        or file.step(rewriting.rewrite_timer_callback(file))
+        or file.step(combine_edits(file, rewriting.rewrite_timer(file), rewriting.rewrite_timer_callback(file)))
+        or rewrite_everything(file)
     )
 
 
-def silent(file: NodeFile) -> Cause | None:
+def diagnose_no_ticks(file: NodeFile) -> Cause | None:
     """Why no message of the timer's comes."""
-    made, found = timer(file), ticking(file)
+    made, found = timer(file), timer_callback(file)
     given = [each for call in file.calls("__init__", "Node") for each in call.keywords]
     if (off := next((each.value for each in given if each.arg == "enable_rosout"), None)) is not None:
-        return _found(f"line {off.lineno}: what the node logs does not leave it", audible(file))
+        return _found(f"line {off.lineno}: what the node logs does not leave it", enable_rosout(file))
     if made is None or found is None:
-        return _found("the node makes no timer", everything(file)) if file.tree.body and not file.timers else None
-    logs, quiet = calls_in(found, *_LOGS), next(iter(calls_in(found, "debug")), None)
-    if quiet is not None and not logs:
-        info = instead(file.text, quiet.func, f"{ast.unparse(quiet.func).removesuffix('debug')}info")
-        return _found(f"line {quiet.lineno}: {ast.unparse(quiet)}: debug messages are not shown", file.step([info]))
+        return (
+            _found("the node makes no timer", rewrite_everything(file)) if file.tree.body and not file.timers else None
+        )
+    logs, idle_run = calls_in(found, *_LOGS), next(iter(calls_in(found, "debug")), None)
+    if idle_run is not None and not logs:
+        info = replace_node(file.text, idle_run.func, f"{ast.unparse(idle_run.func).removesuffix('debug')}info")
+        return _found(
+            f"line {idle_run.lineno}: {ast.unparse(idle_run)}: debug messages are not shown", file.step([info])
+        )
     if not logs:
-        return _found(f"{found.name} (line {found.lineno}) logs nothing", ticks(file))
+        return _found(f"{found.name} (line {found.lineno}) logs nothing", rewrite_ticking(file))
     seconds = argument(made, 0, "timer_period_sec")
     if seconds is not None and (value := _number(seconds)) is not None and value > 2 / HZ:
         return Cause(
             "wrong timer period",
             f"line {made.lineno}: {ast.unparse(made)} ticks once in {value:g} s: create_timer takes the seconds "
             "between two ticks, not ticks per second",
-            str(period(file)),
+            str(fix_period(file)),
         )
     return None
 
@@ -271,7 +293,7 @@ def _found(says: str, step: str | None) -> Cause | None:
     return Cause("no timer messages", says, step) if step else None
 
 
-def waiting(file: NodeFile, code: str, line: int) -> str | None:
+def remove_wait(file: NodeFile, code: str, line: int) -> str | None:
     """The step where a callback waits for something that never comes, in this line."""
-    limited = [becomes(line, code.replace(".wait()", f".wait({WORK_S})"))] if file.text else []
-    return file.step(limited) or answering(file)
+    limited = [replace_lines(line, code.replace(".wait()", f".wait({WORK_S})"))] if file.text else []
+    return file.step(limited) or fix_answer(file)

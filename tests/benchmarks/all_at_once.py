@@ -3,7 +3,7 @@
     uv run python -m tests.benchmarks.all_at_once [--times 3]
 
 At most 1.3 times the slowest and 2 s are allowed. Prints, too, what the CPU was used for: our own process (which
-watches), and what it started (learners' processes and their wardens). On a machine that is busy they say little.
+watches), and what it started (learners' processes and their supervisors). On a machine that is busy they say little.
 """
 
 from __future__ import annotations

@@ -41,7 +41,7 @@ def main() -> int:
             if ended.returncode != 0:
                 print(ended.stdout.decode(), ended.stderr.decode(), sep="\n", file=sys.stderr)
                 return 1
-        asks = load_check(lesson).asks_s
+        asks = load_check(lesson).expected_s
         median = statistics.median(took)
         print(
             f"{lesson.id:<10}{asks:>8.1f}{1.5 * asks + 1.5:>9.2f}{min(took):>8.2f}{median:>8.2f}{max(took):>8.2f}"

@@ -27,9 +27,9 @@ from pathlib import Path
 from tests.benchmarks.terminal import Terminal, child_of, kept_waiting, use_of
 from tests.live.world import METRONOME, World, world
 from tutor.content import load_course
-from tutor.live.facts import TopicNews
+from tutor.live.facts import TopicUpdate
 from tutor.tui.app import TutorApp
-from tutor.tui.desk import Desk
+from tutor.tui.app_services import AppServices
 from tutor.workspace import Workspace, start
 
 TARGETS_MS = {1000: 50.0, 10000: 100.0}
@@ -127,18 +127,18 @@ def topic_hz(around: World) -> str:
 class WatchedApp(TutorApp):
     """The app, and what it has counted when it is left."""
 
-    counted: TopicNews | None = None
+    counted: TopicUpdate | None = None
 
     def leave(self) -> None:
         """Keep the count, and begin to leave."""
         if self.main is not None and (live := self.main.pages.live) is not None:
-            self.counted = live.state.topics["/ticks"].news if "/ticks" in live.state.topics else None
+            self.counted = live.state.topics["/ticks"].update if "/ticks" in live.state.topics else None
         super().leave()
 
 
 def run_app(report: Path, workspace: Path) -> None:
     """The app that is measured."""
-    app = WatchedApp(Desk(load_course(), Workspace(workspace)))
+    app = WatchedApp(AppServices(load_course(), Workspace(workspace)))
     app.run()
     assert app.counted is not None
     report.write_text(json.dumps({"count": app.counted.count, "lost": app.counted.lost}))

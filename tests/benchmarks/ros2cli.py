@@ -63,7 +63,7 @@ class Figures:
 
 
 def measure(around: Bench, verb: str, rate: int, seconds: float) -> Figures:
-    """Run the verb while a node publishes `rate` messages a second for so many seconds."""
+    """Run the verb while a node publishes `rate` messages a second for this many seconds."""
     count, out = int(rate * seconds), around.folder / "out"
     words = [*command("topic", verb, "/ticks"), *(["-w", "10000000"] if verb == "hz" else [])]
     code = METRONOME.format(rate=rate, count=count, pause=0.5)

@@ -64,7 +64,7 @@ class Terminal:
         os.kill(self.pid, signal.SIGKILL)
         os.waitpid(self.pid, 0)
 
-    def let_go(self) -> None:
+    def detach(self) -> None:
         """Close the terminal."""
         os.close(self._fd)
 

@@ -1,4 +1,4 @@
-"""I1.1: made surveys, values, rates and names, and what must be said of each."""
+"""I1.1: made starts, values, rates and names, and what must be said of each."""
 
 from __future__ import annotations
 
@@ -9,7 +9,18 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checks.i1_1.facts import TOPIC, TYPE, UNITS, NameProbe, Names, RateProbe, Rates, Survey, Values, units
+from checks.i1_1.facts import (
+    TOPIC,
+    TYPE,
+    UNITS,
+    CollectedValues,
+    NameProbe,
+    NameProbes,
+    PlainStart,
+    RateProbe,
+    RateProbes,
+    units,
+)
 from checks.i1_1.judges import (
     judge_echo,
     judge_name,
@@ -45,15 +56,15 @@ def echo(*types: str, shown: bool = True) -> Echo:
     return Echo(TOPIC, types, "reliable", "volatile", MESSAGES[:1] if shown else (), 14.0)
 
 
-def survey(seen: Trace, **more: Any) -> Survey:
+def plain_start(seen: Trace, **more: Any) -> PlainStart:
     facts = {"parameters": (), "echo": echo(TYPE), "ending": ending(0), **more}
-    return Survey(seen, **facts)
+    return PlainStart(seen, **facts)
 
 
 @pytest.mark.parametrize("parameters", [None, ()])
 @pytest.mark.parametrize("seen", [trace(*MESSAGES, graph=PUBLISHING), trace(MESSAGES[0], graph=UP)])
 def test_publishes(seen: Trace, parameters: Any) -> None:
-    assert_passed(judge_publishes(survey(seen, parameters=parameters)))
+    assert_passed(judge_publishes(plain_start(seen, parameters=parameters)))
 
 
 @pytest.mark.parametrize(
@@ -69,12 +80,12 @@ def test_publishes(seen: Trace, parameters: Any) -> None:
     ],
 )
 def test_publishes_not(seen: Trace, parameters: Any, cause: str) -> None:
-    assert_failed(judge_publishes(survey(seen, parameters=parameters)), cause)
+    assert_failed(judge_publishes(plain_start(seen, parameters=parameters)), cause)
 
 
 @given(st.lists(st.lists(st.floats(20, 30), min_size=1).map(tuple), min_size=1).map(tuple))
 def test_range(runs: tuple[tuple[float, ...], ...]) -> None:
-    assert_passed(judge_range(Values(runs), Values(())))
+    assert_passed(judge_range(CollectedValues(runs), CollectedValues(())))
 
 
 @given(
@@ -83,7 +94,7 @@ def test_range(runs: tuple[tuple[float, ...], ...]) -> None:
     st.lists(st.floats(20, 30), max_size=5),
 )
 def test_one_value_outside_is_outside(before: list[float], outside: float, after: list[float]) -> None:
-    verdict = judge_range(Values(((25.0,), (*before, outside, *after))), Values(()))
+    verdict = judge_range(CollectedValues(((25.0,), (*before, outside, *after))), CollectedValues(()))
     assert verdict.cause.startswith(("out of range", "an int in a float field"))
     assert not verdict.passed
 
@@ -101,11 +112,11 @@ def test_one_value_outside_is_outside(before: list[float], outside: float, after
     ],
 )
 def test_range_not(values: tuple[float, ...], cause: str, word: str) -> None:
-    assert_failed(judge_range(Values((values, ())), Values(())), cause, word)
+    assert_failed(judge_range(CollectedValues((values, ())), CollectedValues(())), cause, word)
 
 
 def test_the_values_of_other_starts_count_too() -> None:
-    verdict = judge_range(Values(((25.0,), (24.0,))), Values(((21.0, 19.5),)))
+    verdict = judge_range(CollectedValues(((25.0,), (24.0,))), CollectedValues(((21.0, 19.5),)))
     assert_failed(verdict, "out of range", "1 of 4 values outside, such as 19.5")
 
 
@@ -126,7 +137,7 @@ def drawn(count: int = 24) -> tuple[float, ...]:
     ],
 )
 def test_random(runs: tuple[tuple[float, ...], ...]) -> None:
-    assert_passed(judge_random(Values(runs)))
+    assert_passed(judge_random(CollectedValues(runs)))
 
 
 @pytest.mark.parametrize(
@@ -144,11 +155,11 @@ def test_random(runs: tuple[tuple[float, ...], ...]) -> None:
     ],
 )
 def test_random_not(runs: tuple[tuple[float, ...], ...], cause: str) -> None:
-    assert_failed(judge_random(Values(runs)), cause)
+    assert_failed(judge_random(CollectedValues(runs)), cause)
 
 
 def test_echo() -> None:
-    assert_passed(judge_echo(survey(trace(*MESSAGES), echo=echo(TYPE))))
+    assert_passed(judge_echo(plain_start(trace(*MESSAGES), echo=echo(TYPE))))
 
 
 @pytest.mark.parametrize(
@@ -162,14 +173,14 @@ def test_echo() -> None:
     ],
 )
 def test_echo_not(shown: Echo | None, cause: str) -> None:
-    assert_failed(judge_echo(survey(trace(*MESSAGES), echo=shown)), cause)
+    assert_failed(judge_echo(plain_start(trace(*MESSAGES), echo=shown)), cause)
 
 
 def test_a_node_that_an_exception_has_ended_is_told_so_and_not_to_publish_from_a_timer() -> None:
     crashed = CRASHED
-    assert_failed(judge_random(Values((drawn(1), ()), crashed)), "unhandled exception")
-    assert_failed(judge_echo(survey(crashed, echo=echo(shown=False))), "unhandled exception")
-    assert_failed(judge_echo(survey(crashed, echo=None)), "unhandled exception")
+    assert_failed(judge_random(CollectedValues((drawn(1), ()), crashed)), "unhandled exception")
+    assert_failed(judge_echo(plain_start(crashed, echo=echo(shown=False))), "unhandled exception")
+    assert_failed(judge_echo(plain_start(crashed, echo=None)), "unhandled exception")
 
 
 RATE = parameter("publish_rate", "double", 1.0)
@@ -183,8 +194,8 @@ def probe(
     return RateProbe(name, unit, value, rate, 10 if hz else 0, seen or trace(*MESSAGES, graph=PUBLISHING))
 
 
-def rates(*probes: RateProbe, declared: tuple[Parameter, ...] | None = (RATE,)) -> Rates:
-    return Rates(declared, probes)
+def rates(*probes: RateProbe, declared: tuple[Parameter, ...] | None = (RATE,)) -> RateProbes:
+    return RateProbes(declared, probes)
 
 
 @given(st.lists(st.floats(0.81, 1.19), min_size=3, max_size=3))
@@ -231,7 +242,7 @@ BOTH = (parameter("period", "double", 1.0), RATE)
         (rates(probe(2, 2)), "wrong rate", "one rate"),
     ],
 )
-def test_rate_not(found: Rates, cause: str, word: str) -> None:
+def test_rate_not(found: RateProbes, cause: str, word: str) -> None:
     assert_failed(judge_rate(found), cause, word)
 
 
@@ -262,8 +273,8 @@ NAME = parameter("sensor_name", "string", "s")
 TOKEN = "probe_0_kx7"
 
 
-def names(*probes: NameProbe, declared: tuple[Parameter, ...] | None = (NAME,)) -> Names:
-    return Names(declared, probes)
+def names(*probes: NameProbe, declared: tuple[Parameter, ...] | None = (NAME,)) -> NameProbes:
+    return NameProbes(declared, probes)
 
 
 def name_probe(found: str = "", seen: Trace | None = None, name: str = "sensor_name") -> NameProbe:
@@ -278,7 +289,7 @@ def name_probe(found: str = "", seen: Trace | None = None, name: str = "sensor_n
         names(name_probe(f"[INFO] [node]: {TOKEN}"), declared=None),
     ],
 )
-def test_name(found: Names) -> None:
+def test_name(found: NameProbes) -> None:
     assert_passed(judge_name(found))
 
 
@@ -295,18 +306,18 @@ def test_name(found: Names) -> None:
         (names(name_probe(seen=NO_NODE)), "no node"),
     ],
 )
-def test_name_not(found: Names, cause: str) -> None:
+def test_name_not(found: NameProbes, cause: str) -> None:
     assert_failed(judge_name(found), cause)
 
 
 def test_shutdown() -> None:
-    assert_passed(judge_shutdown(survey(trace(*MESSAGES), ending=ending(0))))
-    assert_passed(judge_shutdown(survey(trace(*MESSAGES), ending=ending(signal=2))))
-    unclean = survey(trace(*MESSAGES), ending=ending(1, err=KEYBOARD_INTERRUPT))
+    assert_passed(judge_shutdown(plain_start(trace(*MESSAGES), ending=ending(0))))
+    assert_passed(judge_shutdown(plain_start(trace(*MESSAGES), ending=ending(signal=2))))
+    unclean = plain_start(trace(*MESSAGES), ending=ending(1, err=KEYBOARD_INTERRUPT))
     assert_failed(judge_shutdown(unclean), "traceback on exit")
-    assert_failed(judge_shutdown(survey(CRASHED, ending=None)), "unhandled exception")
+    assert_failed(judge_shutdown(plain_start(CRASHED, ending=None)), "unhandled exception")
 
 
 def test_a_first_message_is_shown_as_echo_shows_it() -> None:
-    verdict = judge_publishes(survey(trace(sample(TOPIC, 21.25, 1001.0))))
+    verdict = judge_publishes(plain_start(trace(sample(TOPIC, 21.25, 1001.0))))
     assert verdict.evidence == ("data: 21.25",)

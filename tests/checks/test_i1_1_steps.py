@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from checks.i1_1 import steps
-from tests.repairs import follow
+from tests.repairs import apply_step
 from tutor.judge.trace import Trace
 
 NODE = """\
@@ -42,7 +42,7 @@ def changed(*pairs: tuple[str, str]) -> Trace:
 
 def after(step: str, trace: Trace) -> str:
     """The file after the step, done word for word."""
-    return follow(step, trace.sources)["node.py"]
+    return apply_step(step, trace.sources)["node.py"]
 
 
 @pytest.mark.parametrize(
@@ -59,23 +59,23 @@ def after(step: str, trace: Trace) -> str:
     ],
 )
 def test_drawn(trace: Trace, line: str) -> None:
-    assert line in after(steps.drawn(trace), trace)
+    assert line in after(steps.draw_values(trace), trace)
 
 
 def test_a_generator_that_is_seeded_each_time_is_left_alone() -> None:
     trace = changed(("        msg =", "        random.seed(1)\n        msg ="))
-    assert after(steps.drawn(trace), trace) == NODE
+    assert after(steps.draw_values(trace), trace) == NODE
 
 
 def test_where_the_value_is_drawn_already_the_whole_callback_is_told() -> None:
     trace = changed(
         ("        self.publisher.p", "        msg.data = random.uniform(20.0, 30.0)\n        self.publisher.p")
     )
-    assert steps.drawn(trace).startswith("lines 15 to 20 become:\n    def tick(self):")
+    assert steps.draw_values(trace).startswith("lines 15 to 20 become:\n    def tick(self):")
 
 
 def test_an_int_becomes_a_float() -> None:
-    assert steps.as_float(changed(("random.uniform(20.0, 30.0)", "25"))) == "line 17 becomes: msg.data = float(25)"
+    assert steps.make_float(changed(("random.uniform(20.0, 30.0)", "25"))) == "line 17 becomes: msg.data = float(25)"
 
 
 @pytest.mark.parametrize(
@@ -101,7 +101,7 @@ def test_an_int_becomes_a_float() -> None:
     ],
 )
 def test_why_the_rate_is_another(trace: Trace, cause: str, line: str) -> None:
-    found = steps.why_rate(trace, "publish_rate")
+    found = steps.diagnose_rate(trace, "publish_rate")
     assert found is not None
     assert found.name == cause
     assert line in after(found.hint, trace)
@@ -117,7 +117,8 @@ def test_why_the_rate_is_another(trace: Trace, cause: str, line: str) -> None:
 )
 def test_paced(unit: str, code: str) -> None:
     assert (
-        steps.paced(changed(), "period", unit) == f"line 13 becomes: self.timer = self.create_timer({code}, self.tick)"
+        steps.set_timer_period(changed(), "period", unit)
+        == f"line 13 becomes: self.timer = self.create_timer({code}, self.tick)"
     )
 
 
@@ -134,21 +135,21 @@ def test_paced(unit: str, code: str) -> None:
     ],
 )
 def test_name_logged(trace: Trace, cause: str, line: str) -> None:
-    found = steps.name_logged(trace, "sensor_name")
+    found = steps.diagnose_name(trace, "sensor_name")
     assert found.name == cause
     assert line in after(found.hint, trace)
 
 
 def test_what_is_not_declared_is_declared_and_used() -> None:
-    rate = after(steps.pace_declared(changed(), "hz"), changed())
+    rate = after(steps.declare_rate(changed(), "hz"), changed())
     assert "self.declare_parameter('hz', 1.0)\n" in rate
     assert "create_timer(1.0 / self.get_parameter('hz').value, self.tick)" in rate
-    name = after(steps.name_declared(changed(), "name"), changed())
+    name = after(steps.declare_name(changed(), "name"), changed())
     assert "self.declare_parameter('name', 'sensor')\n" in name
     assert "info(str(self.get_parameter('name').value))" in name
 
 
 def test_without_a_source_the_plain_words_are_left() -> None:
-    assert steps.why_rate(changed(), "publish_rate") is None
-    assert "random.uniform(20.0, 30.0)" in steps.drawn(None)
-    assert steps.published(Trace("node.py")) == ""
+    assert steps.diagnose_rate(changed(), "publish_rate") is None
+    assert "random.uniform(20.0, 30.0)" in steps.draw_values(None)
+    assert steps.add_publisher(Trace("node.py")) == ""

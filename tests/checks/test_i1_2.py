@@ -20,11 +20,11 @@ from checks.i1_2.facts import (
     JUMP_MESSAGES,
     RESTART_AFTER,
     RESTART_MESSAGES,
-    Feeding,
     Sent,
+    Trial,
 )
 from checks.i1_2.reading import read, values
-from checks.i1_2.reports import find
+from checks.i1_2.reports import find_reports
 from tests.checks.made import CRASH, NO_NODE, START, UP, assert_failed, assert_passed, ending, exited, trace
 from tutor.judge.bench import MachineTooBusy
 from tutor.judge.trace import Endpoint, LogRecord, Trace
@@ -89,7 +89,7 @@ def fed(
     between_s: float = 0.0002,
     more: Sequence[LogRecord] = (),
     **facts: object,
-) -> Feeding:
+) -> Trial:
     """What is seen when messages with these numbers are sent to the node.
 
     `late_s`: until it logs something of one. `slow_s`: how much later the summaries come.
@@ -112,25 +112,25 @@ def fed(
             stamp = at + late_s + order * between_s + slow_s * (log in summaries)
             logs.append(LogRecord(log[0], "node", log[1], stamp, stamp))
     gone_at = sent[breaks - 1].at + 0.2 if away_s else 0.0
-    seen = Feeding(trace(graph=LISTENING, logs=logs), tuple(sent), breaks, gone_at)
+    seen = Trial(trace(graph=LISTENING, logs=logs), tuple(sent), breaks, gone_at)
     return replace(seen, **facts)  # type: ignore[arg-type]
 
 
-def steady(node: Counter, hz: float = 4.95, **more: object) -> Feeding:
+def steady(node: Counter, hz: float = 4.95, **more: object) -> Trial:
     return fed(node, range(20), hz, **more)  # type: ignore[arg-type]
 
 
-def jump(node: Counter, missed: int = 5, *, first: int = 95, **more: object) -> Feeding:
+def jump(node: Counter, missed: int = 5, *, first: int = 95, **more: object) -> Trial:
     numbers = list(range(first, first + JUMP_MESSAGES))
     numbers = [n + missed * (n >= numbers[JUMP_AFTER]) + (n >= numbers[AGAIN_AFTER]) for n in numbers]
     return fed(node, numbers, 8.0, breaks=JUMP_AFTER, again=AGAIN_AFTER, **more)  # type: ignore[arg-type]
 
 
-def fast(node: Counter, **more: object) -> Feeding:
+def fast(node: Counter, **more: object) -> Trial:
     return fed(node, range(7, 7 + FAST_MESSAGES), FAST_HZ, **more)  # type: ignore[arg-type]
 
 
-def restart(node: Counter, **more: object) -> Feeding:
+def restart(node: Counter, **more: object) -> Trial:
     numbers = [*range(4, 4 + RESTART_AFTER), *range(RESTART_MESSAGES - RESTART_AFTER)]
     return fed(node, numbers, 8.0, breaks=RESTART_AFTER, away_s=1.5, **more)  # type: ignore[arg-type]
 
@@ -418,7 +418,7 @@ class NumbersItsRuns(Restarting):
 
 
 class SinceTheLastSummary(GapCount):
-    """Tells of what is missing since the last summary, and then begins anew."""
+    """Tells of what is missing since the last summary, and then starts again."""
 
     def line(self) -> str:
         missed, self.missed = self.missed, 0
@@ -683,7 +683,7 @@ class ByASlowTimer(Counter):
 
 def test_the_third_summary_may_wait_for_a_slow_timer() -> None:
     jumped = jump(ByASlowTimer())
-    assert [report.messages for report in find(jumped)] == [11, 21, 35, 41]
+    assert [report.messages for report in find_reports(jumped)] == [11, 21, 35, 41]
     assert_passed(judges.judge_slow_summary(steady(Counter()), jumped))
     assert_passed(judges.judge_slow_count(steady(Counter()), jumped))
 
@@ -881,7 +881,7 @@ class DropsTheFirstAfterRestart(Restarting):
 
 
 class SilentResetWithGapCount(SilentReset):
-    """The gap count stays what it is, and is no word of a restart."""
+    """The gap count stays what it is, and says nothing of a restart."""
 
     def summary(self) -> Iterator[Log]:
         for level, text in super().summary():
@@ -922,7 +922,7 @@ class NeverGetsOverItQuietly(NeverGetsOverIt):
 
 
 class ResetsAtAGap(Counter):
-    """A jump is no restart: the total is no total any more."""
+    """A jump is not a restart: the total is no longer a total."""
 
     def jumped(self, last: int, number: int) -> Iterator[Log]:
         yield from super().jumped(last, number)
@@ -1079,7 +1079,7 @@ def test_wrong_ones(node: Callable[[], Counter], criterion: str, cause: str) -> 
     assert_breaks(verdicts, criterion, cause)
 
 
-def test_a_late_summary_of_a_wrong_count_is_no_missing_one() -> None:
+def test_a_late_summary_of_a_wrong_count_is_not_a_missing_one() -> None:
     even = steady(CountsFromOne())
     after_9, *others = even.trace.logs
     assert bisect_right([each.at for each in even.sent], after_9.stamp) == 9
@@ -1096,7 +1096,7 @@ def test_a_late_summary_with_an_older_last_message_counts_truly(late_s: float) -
 
 
 @pytest.mark.parametrize("late_s", [0.0005, 0.05, 0.1])
-def test_who_drops_the_first_message_after_a_restart_counts_too_few(late_s: float) -> None:
+def test_a_node_that_drops_the_first_message_after_a_restart_counts_too_few(late_s: float) -> None:
     verdicts = judged(DropsTheFirstAfterRestart, late_s=late_s)
     assert_breaks(verdicts, "restart", "wrong count after a restart")
 
@@ -1107,9 +1107,9 @@ def test_a_late_summary_with_a_newer_last_message_counts_too_few(late_s: float) 
     assert verdict.status is Status.FAILED, verdict
 
 
-@pytest.mark.parametrize("starved_s", [0.0, 0.02, 2.0])
-def test_what_tells_of_one_gap_does_not_tell_of_the_other(starved_s: float) -> None:
-    jumped = jump(SkipsTheFirstGap(), starved_s=starved_s)
+@pytest.mark.parametrize("cpu_wait_s", [0.0, 0.02, 2.0])
+def test_what_tells_of_one_gap_does_not_tell_of_the_other(cpu_wait_s: float) -> None:
+    jumped = jump(SkipsTheFirstGap(), cpu_wait_s=cpu_wait_s)
     assert_failed(continuity.judge_gaps(jumped, steady(SkipsTheFirstGap())), "gap not noticed")
 
 
@@ -1121,18 +1121,18 @@ def test_one_message_tells_of_both_gaps_where_the_node_was_kept_from_running(tex
     at = jumped.sent[AGAIN_AFTER].at + 0.1
     both = replace(jumped, trace=replace(jumped.trace, logs=(*logs, LogRecord(30, "node", text, at, at))))
     assert_failed(continuity.judge_gaps(both, even), "gap not noticed")
-    verdict = continuity.judge_gaps(replace(both, starved_s=0.5), even)
+    verdict = continuity.judge_gaps(replace(both, cpu_wait_s=0.5), even)
     assert verdict.passed == told, verdict
 
 
-@pytest.mark.parametrize("starved_s", [0.0, 2.0])
+@pytest.mark.parametrize("cpu_wait_s", [0.0, 2.0])
 @pytest.mark.parametrize(("first", "late_s"), [(91, 0.0005), (92, 0.0005), (92, 0.124), (90, 0.0005)])
-def test_an_alarm_beside_a_summary_is_none_of_its_lines(first: int, late_s: float, starved_s: float) -> None:
+def test_an_alarm_beside_a_summary_is_none_of_its_lines(first: int, late_s: float, cpu_wait_s: float) -> None:
     jumped, even = jump(AlarmedByTens(), first=first), steady(AlarmedByTens())
     alarm = next(log for log in jumped.trace.logs if log.text == "out of sequence")
     stamp = alarm.stamp + late_s
     logs = [replace(log, stamp=stamp, received_at=stamp) if log is alarm else log for log in jumped.trace.logs]
-    jumped = replace(jumped, trace=replace(jumped.trace, logs=tuple(logs)), starved_s=starved_s)
+    jumped = replace(jumped, trace=replace(jumped.trace, logs=tuple(logs)), cpu_wait_s=cpu_wait_s)
     assert_passed(judges.judge_slow_summary(even, jumped))
     assert_passed(judges.judge_slow_count(even, jumped))
     assert_failed(continuity.judge_gaps(jumped, even), "false alarm")
@@ -1213,7 +1213,7 @@ def test_a_node_that_ends_when_the_publisher_goes_or_n_jumps() -> None:
     assert_failed(continuity.judge_gaps(replace(jumped, trace=crashed), even), "unhandled exception")
     deaf = replace(restarted, sent=restarted.sent[:RESTART_AFTER], trace=trace(logs=restarted.trace.logs))
     assert_failed(continuity.judge_restart(deaf, even, jumped), "no subscription")
-    assert find(replace(deaf, trace=restarted.trace))[0].messages == 10
+    assert find_reports(replace(deaf, trace=restarted.trace))[0].messages == 10
 
 
 def test_shutdown() -> None:
@@ -1282,19 +1282,19 @@ def judged_fast(node: type[Counter], source: str = "", **more: object) -> Verdic
         ("", "cannot keep up", "rclpy.spin(node)"),
     ],
 )
-def test_who_loses_messages_that_come_fast_is_told_why(source: str, cause: str, step: str) -> None:
+def test_a_node_that_loses_messages_that_come_fast_is_told_why(source: str, cause: str, step: str) -> None:
     for node in (Naps, NapsALittle):
         assert_failed(judged_fast(node, source), cause, step)
 
 
 @pytest.mark.parametrize("late_s", [0.0005, 0.1, 0.5, 1.0])
-def test_who_loses_none_may_be_late(late_s: float) -> None:
+def test_a_node_that_loses_none_may_be_late(late_s: float) -> None:
     for node in (Counter, OneLineEach, Noisy, AllOfThem, QuotesTheFirst, DropsTwo):
         assert_passed(judged_fast(node, NAPS, late_s=late_s))
 
 
 class Throttled(Counter):
-    """Lets one summary through in so many seconds."""
+    """Lets one summary through in that many seconds."""
 
     every_s: float = 1.0
     said_at: float = 0.0
@@ -1316,7 +1316,7 @@ def test_a_summary_that_is_left_out_when_messages_come_fast_is_missing() -> None
     plain = replace(seen, trace=replace(seen.trace, sources={}))
     assert_failed(judges.judge_summary(even, jumped, plain), "missing summary", "callback")
     with pytest.raises(MachineTooBusy):
-        judges.judge_summary(even, jumped, replace(seen, starved_s=1.2))
+        judges.judge_summary(even, jumped, replace(seen, cpu_wait_s=1.2))
 
 
 @pytest.mark.parametrize("late_s", [0.0005, 0.1, 0.5, 1.0])
@@ -1326,11 +1326,11 @@ def test_summaries_may_be_late_when_messages_come_fast(late_s: float) -> None:
         assert verdict.passed == judges.judge_slow_summary(steady(node()), jump(node())).passed
 
 
-def test_what_a_busy_machine_may_have_cost_is_no_verdict() -> None:
+def test_what_a_busy_machine_may_have_cost_is_not_a_verdict() -> None:
     with pytest.raises(MachineTooBusy):
-        judged_fast(NapsALittle, starved_s=1.2)
-    assert_failed(judged_fast(Naps, starved_s=0.2), "cannot keep up")
-    assert_passed(judged_fast(Counter, starved_s=3.0))
+        judged_fast(NapsALittle, cpu_wait_s=1.2)
+    assert_failed(judged_fast(Naps, cpu_wait_s=0.2), "cannot keep up")
+    assert_passed(judged_fast(Counter, cpu_wait_s=3.0))
     slowly = fed(Counter(), range(FAST_MESSAGES), 19.0)
     with pytest.raises(MachineTooBusy):
         judges.judge_count(steady(Counter()), jump(Counter()), slowly)
@@ -1352,7 +1352,7 @@ def checked(
 ) -> dict[str, Verdict]:
     """The verdicts as the check gives them, of a node with this source."""
 
-    def of(seen: Feeding) -> Feeding:
+    def of(seen: Trial) -> Trial:
         network = replace(LISTENING, subscriptions=subscriptions * LISTENING.subscriptions)
         return replace(seen, trace=replace(seen.trace, graph=network, sources={"node.py": source}))
 
@@ -1375,14 +1375,14 @@ class TakesTwice(Counter):
         yield from super().take(now + 1e-4, data)
 
 
-def test_who_has_two_subscriptions_is_told_so_by_each_criterion() -> None:
+def test_a_node_that_has_two_subscriptions_is_told_so_by_each_criterion() -> None:
     failures = {n: v for n, v in checked(TakesTwice, TWO_SUBSCRIPTIONS, 2).items() if v.status is Status.FAILED}
     assert len(failures) >= 2
     for verdict in failures.values():
         assert_failed(verdict, "two subscriptions", "lines 2 and 4", "remove line 4: self.other")
 
 
-def test_who_counts_twice_with_one_subscription_or_once_with_two_is_told_of_something_else() -> None:
+def test_a_node_that_counts_twice_with_one_subscription_or_once_with_two_is_told_of_something_else() -> None:
     for verdict in (
         *checked(TakesTwice, TWO_SUBSCRIPTIONS, 1).values(),
         *checked(CountsFromOne, TWO_SUBSCRIPTIONS, 2).values(),
@@ -1390,7 +1390,7 @@ def test_who_counts_twice_with_one_subscription_or_once_with_two_is_told_of_some
         assert "two subscriptions" not in verdict.cause
 
 
-def test_who_is_kept_waiting_by_its_own_sleep_is_told_so_by_each_criterion() -> None:
+def test_a_node_that_is_kept_waiting_by_its_own_sleep_is_told_so_by_each_criterion() -> None:
     failures = {n: v for n, v in checked(Counter, SLEEPS, late_s=1.6).items() if v.status is Status.FAILED}
     assert len(failures) >= 1
     for verdict in failures.values():
@@ -1402,7 +1402,7 @@ def test_a_nap_in_a_loop_that_waits_is_not_what_keeps_the_callback() -> None:
     assert not any("slow callback" in verdict.cause for verdict in checked(Counter, waits, late_s=1.6).values())
 
 
-def test_who_sleeps_but_keeps_up_is_told_what_else_is_wrong() -> None:
+def test_a_node_that_sleeps_but_keeps_up_is_told_what_else_is_wrong() -> None:
     for node in (CountsFromOne, FirstOverwritten, GapBlind, OneLineEach):
         assert not any("slow" in verdict.cause for verdict in checked(node, SLEEPS).values())
 
@@ -1410,7 +1410,7 @@ def test_who_sleeps_but_keeps_up_is_told_what_else_is_wrong() -> None:
 # A busy machine.
 
 
-def test_who_took_in_the_first_message_late_measured_a_higher_rate() -> None:
+def test_a_node_that_took_in_the_first_message_late_measured_a_higher_rate() -> None:
     """Half a second late, as far as the kernel says: then 10 messages came in 1.3 s."""
 
     class Late(Counter):
@@ -1419,12 +1419,12 @@ def test_who_took_in_the_first_message_late_measured_a_higher_rate() -> None:
 
     even = steady(Late())
     owed = [0.0, 0.25, *[0.5] * 18]
-    excused = tuple(replace(each, starved_s=late) for each, late in zip(even.sent, owed, strict=True))
+    excused = tuple(replace(each, cpu_wait_s=late) for each, late in zip(even.sent, owed, strict=True))
     assert_failed(judges.judge_rate(even, jump(Late())), "wrong rate")
-    assert_passed(judges.judge_rate(replace(even, sent=excused, starved_s=0.5), jump(Late())))
+    assert_passed(judges.judge_rate(replace(even, sent=excused, cpu_wait_s=0.5), jump(Late())))
 
 
-def test_a_pace_at_which_the_seconds_seem_to_be_the_rate_is_no_pace_to_judge_by() -> None:
+def test_a_pace_at_which_the_seconds_seem_to_be_the_rate_is_not_a_pace_to_judge_by() -> None:
     cut = states(rate="{cut}")
     with pytest.raises(MachineTooBusy):
         judges.judge_rate(steady(cut(), 4.4), jump(cut()))
@@ -1489,8 +1489,8 @@ def test_an_alarm_beside_a_summary_is_no_part_of_the_next_one() -> None:
             if self.total == 10:
                 yield 30, "by the way: 3"
 
-    assert [report.messages for report in find(steady(Beside()))] == [10, 20]
-    assert [len(report.lines) for report in find(steady(Beside()))] == [1, 1]
+    assert [report.messages for report in find_reports(steady(Beside()))] == [10, 20]
+    assert [len(report.lines) for report in find_reports(steady(Beside()))] == [1, 1]
 
 
 def test_what_is_said_just_before_a_summary_is_due_is_no_part_of_it() -> None:
@@ -1498,13 +1498,13 @@ def test_what_is_said_just_before_a_summary_is_due_is_no_part_of_it() -> None:
     early = jumped.sent[29].at - 0.01
     logs = (*jumped.trace.logs, LogRecord(40, "node", "1 lost in the last second", early, early))
     jumped = replace(jumped, trace=replace(jumped.trace, logs=logs))
-    assert [report.messages for report in find(jumped)] == [10, 20, 30, 40]
+    assert [report.messages for report in find_reports(jumped)] == [10, 20, 30, 40]
 
 
 def test_how_much_later_than_due_a_message_was_sent() -> None:
     even = steady(Counter())
     late = replace(even, sent=tuple(replace(each, at=each.at + 0.4 * (each.number > 12)) for each in even.sent))
-    assert even.held_up_s == pytest.approx(0.0, abs=1e-6)
-    assert late.held_up_s == pytest.approx(0.4, abs=1e-3)
-    assert restart(Counter()).held_up_s == pytest.approx(0.0, abs=1e-6), "a publisher that is away is none"
-    assert Feeding(trace()).held_up_s == 0.0
+    assert even.most_late_s == pytest.approx(0.0, abs=1e-6)
+    assert late.most_late_s == pytest.approx(0.4, abs=1e-3)
+    assert restart(Counter()).most_late_s == pytest.approx(0.0, abs=1e-6), "a publisher that is away is none"
+    assert Trial(trace()).most_late_s == 0.0

@@ -1,4 +1,4 @@
-"""I1.2: the step that writes a callback anew, done word for word, in files of many shapes."""
+"""I1.2: the step that rewrites a callback, done word for word, in files of many shapes."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import pytest
 
 from checks.i1_2 import rewriting
 from tests.checks.made import trace
-from tests.repairs import follow
+from tests.repairs import apply_step
 
 METHOD = """\
 class Stats(Node):
@@ -72,11 +72,11 @@ TIMER = (
 
 def rewritten(code: str) -> str:
     """The file after the step; the same step is not told again."""
-    step = rewriting.whole(trace(sources={"node.py": code}))
+    step = rewriting.rewrite_callback(trace(sources={"node.py": code}))
     assert step is not None
-    fixed = follow(step, {"node.py": code})["node.py"]
+    fixed = apply_step(step, {"node.py": code})["node.py"]
     ast.parse(fixed)
-    assert rewriting.whole(trace(sources={"node.py": fixed})) is None
+    assert rewriting.rewrite_callback(trace(sources={"node.py": fixed})) is None
     return fixed
 
 
@@ -128,7 +128,7 @@ def rewritten(code: str) -> str:
         ),
     ],
 )
-def test_the_callback_is_written_anew(code: str, lines: list[str]) -> None:
+def test_the_callback_is_written_again(code: str, lines: list[str]) -> None:
     fixed = rewritten(code).splitlines()
     assert [line for line in lines if line not in fixed] == []
 
@@ -137,7 +137,7 @@ def test_a_function_of_the_module_names_what_is_global() -> None:
     told = trace(
         sources={"node.py": GLOBAL.replace("    global count\n", "    global count\n    log = rclpy.logging\n")}
     )
-    assert rewriting.whole(told) is not None
+    assert rewriting.rewrite_callback(told) is not None
     fixed = rewritten(GLOBAL.replace("    count += 1", "    count += 1\n    log.info('a message')"))
     assert "    global count, first_message, last_message, start_time, last_number\n" in fixed
     assert "\nfirst_message = ''\n" in fixed
@@ -152,4 +152,4 @@ def test_a_timer_that_logs_is_taken_out() -> None:
 
 @pytest.mark.parametrize("code", ["", "def f(:", "class Stats(Node):\n    pass\n"])
 def test_where_there_is_no_subscription_nothing_is_told(code: str) -> None:
-    assert rewriting.whole(trace(sources={"node.py": code})) is None
+    assert rewriting.rewrite_callback(trace(sources={"node.py": code})) is None

@@ -11,7 +11,7 @@ from checks.i1_2 import gap_steps, steps
 from checks.i1_2.judges import judge_slow_summary
 from tests.checks.made import assert_failed, trace
 from tests.checks.test_i1_2 import Counter, Log, jump, steady
-from tests.repairs import follow
+from tests.repairs import apply_step
 from tutor.judge.trace import Trace
 from tutor.judge.verdict import Cause
 
@@ -42,13 +42,13 @@ def started(*pairs: tuple[str, str], code: str = NODE) -> Trace:
 
 def followed(told: Trace, step: str) -> str:
     """The file after the step, done word for word."""
-    return follow(step, told.sources)["node.py"]
+    return apply_step(step, told.sources)["node.py"]
 
 
 def test_of_a_node_without_a_fault_nothing_is_said() -> None:
-    assert gap_steps.of_alarm(started()) is None
-    assert gap_steps.of_silence(started()) is None
-    assert gap_steps.of_alarm(started(code="def f(:")) is None
+    assert gap_steps.diagnose_alarm(started()) is None
+    assert gap_steps.diagnose_silence(started()) is None
+    assert gap_steps.diagnose_alarm(started(code="def f(:")) is None
 
 
 @pytest.mark.parametrize(
@@ -65,7 +65,7 @@ def test_of_a_node_without_a_fault_nothing_is_said() -> None:
     ],
 )
 def test_a_number_that_is_taken_from_the_wrong_place(reads: str, what: str) -> None:
-    for seen in (gap_steps.of_alarm, gap_steps.of_silence):
+    for seen in (gap_steps.diagnose_alarm, gap_steps.diagnose_silence):
         cause = seen(started(("int(msg.data.split(':')[1])", reads)))
         assert cause is not None
         assert (cause.name, cause.text) == ("number misread", f"line 10: {reads} {cause.text.partition(reads)[2][1:]}")
@@ -85,16 +85,16 @@ def test_a_number_that_is_taken_from_the_wrong_place(reads: str, what: str) -> N
     ],
 )
 def test_a_number_that_is_read_well_or_in_a_way_that_is_not_known(reads: str) -> None:
-    assert gap_steps.of_alarm(started(("int(msg.data.split(':')[1])", reads))) is None
+    assert gap_steps.diagnose_alarm(started(("int(msg.data.split(':')[1])", reads))) is None
 
 
 def test_a_number_is_followed_through_a_variable_and_into_a_helper() -> None:
     apart = ("number = int(msg.data.split(':')[1])", "parts = msg.data.split()\n        number = int(parts[1])")
-    cause = gap_steps.of_silence(started(apart))
+    cause = gap_steps.diagnose_silence(started(apart))
     assert cause is not None
     assert cause.hint == "line 11 becomes: number = int(msg.data.rpartition(':')[2])"
     helper = NODE.replace("number = int(", "self.check(msg.data)\n\n    def check(self, data):\n        number = int(")
-    cause = gap_steps.of_alarm(started(("msg.data.split(':')[1]", "data[-1]"), code=helper))
+    cause = gap_steps.diagnose_alarm(started(("msg.data.split(':')[1]", "data[-1]"), code=helper))
     assert cause is not None
     assert cause.hint == "line 13 becomes: number = int(data.rpartition(':')[2])"
 
@@ -105,7 +105,7 @@ COMPARES = "self.last_number is not None and number > self.last_number + 1"
 @pytest.mark.parametrize("test", ["number != self.total_count", "number > self.total_count - 1"])
 def test_a_number_that_is_compared_with_the_count(test: str) -> None:
     told = started((COMPARES, test))
-    cause = gap_steps.of_alarm(told)
+    cause = gap_steps.diagnose_alarm(told)
     assert cause is not None
     assert cause.name == "number compared with the count"
     fixed = followed(told, cause.hint)
@@ -153,7 +153,7 @@ def test_a_number_that_is_compared_with_the_count(test: str) -> None:
     ],
 )
 def test_a_last_number_that_does_not_follow(pairs: list[tuple[str, str]], text: str, step: str) -> None:
-    cause = gap_steps.of_alarm(started(*pairs))
+    cause = gap_steps.diagnose_alarm(started(*pairs))
     assert cause is not None
     assert cause.name == "false alarm"
     assert text in cause.text
@@ -163,7 +163,7 @@ def test_a_last_number_that_does_not_follow(pairs: list[tuple[str, str]], text: 
 def test_a_last_number_that_is_replaced_before_it_is_compared() -> None:
     early = "        number = int(msg.data.split(':')[1])\n"
     told = started(("        self.last_number = number\n", ""), (early, f"{early}        self.last_number = number\n"))
-    cause = gap_steps.of_silence(told)
+    cause = gap_steps.diagnose_silence(told)
     assert cause is not None
     assert "line 11: self.last_number = number comes before line 12" in cause.text
     assert COMPARES.replace("last_number", "number_before") in followed(told, cause.hint)
@@ -171,7 +171,7 @@ def test_a_last_number_that_is_replaced_before_it_is_compared() -> None:
 
 def test_a_comparison_that_is_about_lower_numbers_only() -> None:
     told = started(("number > self.last_number + 1", "number < self.last_number"))
-    cause = gap_steps.of_silence(told)
+    cause = gap_steps.diagnose_silence(told)
     assert cause is not None
     assert "line 11: number < self.last_number is about lower numbers only" in cause.text
     assert COMPARES.replace("last_number", "number_before") in followed(told, cause.hint)
@@ -179,7 +179,7 @@ def test_a_comparison_that_is_about_lower_numbers_only() -> None:
 
 def test_an_alarm_that_was_false_is_taken_out() -> None:
     told = started((COMPARES, "number % 4 == 0"))
-    fixed = followed(told, steps.gaps(told, ["3 messages are missing"]) or "")
+    fixed = followed(told, steps.compare_numbers(told, ["3 messages are missing"]) or "")
     assert "if number % 4 == 0:\n            pass\n" in fixed
     assert fixed.count("warning(") == 1
 
@@ -233,14 +233,14 @@ SUMS_UP = (
 )
 def test_a_rate_is_computed_where_the_summary_takes_it_from(pairs: list[tuple[str, str]], lines: list[str]) -> None:
     told = started(*pairs, code=SUMS_UP)
-    fixed = followed(told, steps.rate(told, ["10 messages, 296.00 msg/s"], ["296.00"]) or "").splitlines()
+    fixed = followed(told, steps.measure_rate(told, ["10 messages, 296.00 msg/s"], ["296.00"]) or "").splitlines()
     assert [line for line in lines if line not in fixed] == []
     assert "        self.total_count += 1" in fixed
 
 
 def test_a_restart_is_told_where_the_statistics_are_set_back() -> None:
     told = started(code=NODE + "        if number < self.last_number:\n            self.total_count = 0\n")
-    fixed = followed(told, steps.silent(told) or "")
+    fixed = followed(told, steps.announce_restart(told) or "")
     assert "if number < self.last_number:\n            self.get_logger().warning('the publisher was restarted" in fixed
 
 
@@ -266,4 +266,4 @@ ALARM = "            self.get_logger"
     ],
 )
 def test_a_node_that_ends_itself_or_is_not_subscribed(name: str, pair: tuple[str, str], step: str) -> None:
-    assert step in steps.alive(started(pair), Cause(name, "why", "as it was")).hint
+    assert step in steps.keep_node_up(started(pair), Cause(name, "why", "as it was")).hint

@@ -14,11 +14,11 @@ from checks.i1_3.facts import (
     AFTER_ZERO,
     SIGNS,
     TYPE,
-    Calls,
-    Demonstration,
+    ClientRun,
     Division,
-    complaints_in,
-    missing_of,
+    ServiceCalls,
+    find_complaints,
+    missing_services,
     right_result,
 )
 from checks.i1_3.judges import judge_division, judge_operations, judge_services, judge_shutdown
@@ -66,40 +66,54 @@ def without(service: str, more: Graph) -> Graph:
 
 
 def test_services() -> None:
-    assert_passed(judge_services(Calls(SERVING, ANSWERS)))
-    assert_passed(judge_services(Calls(trace(graph=ALL, err="[INFO] ready"), ANSWERS, spins=False)))
+    assert_passed(judge_services(ServiceCalls(SERVING, ANSWERS)))
+    assert_passed(judge_services(ServiceCalls(trace(graph=ALL, err="[INFO] ready"), ANSWERS, spins=False)))
 
 
 @pytest.mark.parametrize(
     ("seen", "cause", "word"),
     [
-        (Calls(CRASHED, ()), "unhandled exception", "line 12"),
-        (Calls(NO_NODE, ()), "no node", ""),
-        (Calls(trace(graph=UP), ()), "service missing", "are not there"),
-        (Calls(trace(graph=without("/divide", Graph())), ANSWERS[:3]), "service missing", "/divide is not there"),
+        (ServiceCalls(CRASHED, ()), "unhandled exception", "line 12"),
+        (ServiceCalls(NO_NODE, ()), "no node", ""),
+        (ServiceCalls(trace(graph=UP), ()), "service missing", "are not there"),
         (
-            Calls(trace(graph=without("/add", services(add="std_srvs/srv/Trigger"))), ANSWERS[1:]),
+            ServiceCalls(trace(graph=without("/divide", Graph())), ANSWERS[:3]),
+            "service missing",
+            "/divide is not there",
+        ),
+        (
+            ServiceCalls(trace(graph=without("/add", services(add="std_srvs/srv/Trigger"))), ANSWERS[1:]),
             "wrong type",
             "std_srvs/srv/Trigger",
         ),
-        (Calls(trace(graph=without("/add", services(calc__add=TYPE))), ()), "wrong service name", "/calc/add"),
-        (Calls(trace(graph=without("/subtract", services(sub=TYPE))), ()), "wrong service name", "/sub"),
-        (Calls(trace(graph=without("/add", services(Add=TYPE))), ()), "wrong service name", "/Add"),
+        (ServiceCalls(trace(graph=without("/add", services(calc__add=TYPE))), ()), "wrong service name", "/calc/add"),
+        (ServiceCalls(trace(graph=without("/subtract", services(sub=TYPE))), ()), "wrong service name", "/sub"),
+        (ServiceCalls(trace(graph=without("/add", services(Add=TYPE))), ()), "wrong service name", "/Add"),
         (
-            Calls(trace(graph=without("/add", services(node__set_parameters="rcl_interfaces/srv/SetParameters"))), ()),
+            ServiceCalls(
+                trace(graph=without("/add", services(node__set_parameters="rcl_interfaces/srv/SetParameters"))), ()
+            ),
             "service missing",
             "/add",
         ),
-        (Calls(SERVING, (called("/add", 6, 3, None),), spins=False), "no spin", "/node"),
-        (Calls(SERVING, (called("/add", 6, 3, None),), stuck=IN_CALL), "deadlock by call()", "line 12"),
-        (Calls(SERVING, (called("/add", 6, 3, None),), stuck=(frame("add"), EXECUTING)), "blocked executor", "line 12"),
-        (Calls(SERVING, (*ANSWERS[:3], called("/divide", 6, 3, None))), "blocked executor", "/divide"),
-        (Calls(trace(graph=ALL, err=CRASH, exit=exited(1)), (called("/add", 6, 3, None),)), "unhandled exception", ""),
-        (Calls(SERVING, ()), "service missing", "/add"),
-        (Calls(SERVING, ANSWERS[:3]), "service missing", "/divide"),
+        (ServiceCalls(SERVING, (called("/add", 6, 3, None),), spins=False), "no spin", "/node"),
+        (ServiceCalls(SERVING, (called("/add", 6, 3, None),), stuck=IN_CALL), "deadlock by call()", "line 12"),
+        (
+            ServiceCalls(SERVING, (called("/add", 6, 3, None),), stuck=(frame("add"), EXECUTING)),
+            "blocked executor",
+            "line 12",
+        ),
+        (ServiceCalls(SERVING, (*ANSWERS[:3], called("/divide", 6, 3, None))), "blocked executor", "/divide"),
+        (
+            ServiceCalls(trace(graph=ALL, err=CRASH, exit=exited(1)), (called("/add", 6, 3, None),)),
+            "unhandled exception",
+            "",
+        ),
+        (ServiceCalls(SERVING, ()), "service missing", "/add"),
+        (ServiceCalls(SERVING, ANSWERS[:3]), "service missing", "/divide"),
     ],
 )
-def test_services_not(seen: Calls, cause: str, word: str) -> None:
+def test_services_not(seen: ServiceCalls, cause: str, word: str) -> None:
     assert_failed(judge_services(seen), cause, word)
 
 
@@ -131,7 +145,7 @@ def test_services_not(seen: Calls, cause: str, word: str) -> None:
 def test_a_service_of_another_name_is_told_the_line(text: str, offered: str, step: str) -> None:
     there = trace(graph=without("/divide", services(**{offered: TYPE})), sources={"node.py": text})
     assert_failed(
-        judge_services(Calls(there, ANSWERS[:3])),
+        judge_services(ServiceCalls(there, ANSWERS[:3])),
         "wrong service name",
         f"/{offered.replace('__', '/')} instead of",
         step,
@@ -139,8 +153,8 @@ def test_a_service_of_another_name_is_told_the_line(text: str, offered: str, ste
 
 
 def test_a_service_of_another_type_is_missing() -> None:
-    assert missing_of(ALL.services) == []
-    assert missing_of(services(add=TYPE, subtract="a/srv/B").services) == ["/subtract", "/multiply", "/divide"]
+    assert missing_services(ALL.services) == []
+    assert missing_services(services(add=TYPE, subtract="a/srv/B").services) == ["/subtract", "/multiply", "/divide"]
 
 
 operands = st.tuples(st.sampled_from(list(SIGNS)), st.integers(-1000, 1000), st.integers(-20, 20).filter(bool)).map(
@@ -151,14 +165,14 @@ one_of_each = st.tuples(*(operands.map(lambda each, s=service: right(s, each[2] 
 
 @given(one_of_each, st.lists(operands.map(lambda each: right(*each))))
 def test_right_results(each: tuple[CallAnswer, ...], more: list[CallAnswer]) -> None:
-    assert_passed(judge_operations(Calls(SERVING, (*each, *more))))
+    assert_passed(judge_operations(ServiceCalls(SERVING, (*each, *more))))
 
 
 @given(operands, st.integers(), st.lists(operands.map(lambda each: right(*each)), max_size=5))
 def test_any_wrong_result_is_wrong(asked: tuple[str, int, int], result: int, before: list[CallAnswer]) -> None:
     service, a, b = asked
     if result != right_result(service, a, b):
-        verdict = judge_operations(Calls(SERVING, (*ANSWERS, *before, called(service, a, b, result))))
+        verdict = judge_operations(ServiceCalls(SERVING, (*ANSWERS, *before, called(service, a, b, result))))
         assert verdict.status is Status.FAILED
         assert verdict.observed == str(result)
         assert verdict.cause.startswith(("wrong result", "float in an int field"))
@@ -181,24 +195,29 @@ def test_any_wrong_result_is_wrong(asked: tuple[str, int, int], result: int, bef
     ],
 )
 def test_why_a_result_is_wrong(wrong: CallAnswer, cause: str, word: str) -> None:
-    assert_failed(judge_operations(Calls(SERVING, (*ANSWERS, wrong))), cause, word)
+    assert_failed(judge_operations(ServiceCalls(SERVING, (*ANSWERS, wrong))), cause, word)
 
 
 def test_an_exception_in_a_callback_is_named() -> None:
-    seen = Calls(trace(graph=ALL, err=CRASH, exit=exited(1)), (called("/add", 1, 2, None),))
+    seen = ServiceCalls(trace(graph=ALL, err=CRASH, exit=exited(1)), (called("/add", 1, 2, None),))
     assert_failed(judge_operations(seen), "unhandled exception", "self.nothing()")
 
 
 @pytest.mark.parametrize(
-    "seen", [Calls(trace(graph=UP), ()), Calls(trace(graph=without("/add", UP)), ANSWERS[1:]), Calls(CRASHED, ())]
+    "seen",
+    [
+        ServiceCalls(trace(graph=UP), ()),
+        ServiceCalls(trace(graph=without("/add", UP)), ANSWERS[1:]),
+        ServiceCalls(CRASHED, ()),
+    ],
 )
-def test_operations_cannot_be_judged_where_a_service_is_missing(seen: Calls) -> None:
+def test_operations_cannot_be_judged_where_a_service_is_missing(seen: ServiceCalls) -> None:
     assert judge_operations(seen).status is Status.SKIPPED
 
 
 @pytest.mark.parametrize("answers", [(), ANSWERS[:3]])
 def test_what_was_not_asked_is_not_right(answers: tuple[CallAnswer, ...]) -> None:
-    assert_failed(judge_operations(Calls(SERVING, answers)), "service missing", "/divide")
+    assert_failed(judge_operations(ServiceCalls(SERVING, answers)), "service missing", "/divide")
 
 
 # --- division by zero --------------------------------------------------------
@@ -364,18 +383,18 @@ def test_a_warning_needs_no_words(level: int) -> None:
 
 
 @pytest.mark.parametrize("text", NO_ERRORS)
-def test_an_ordinary_message_is_no_error(text: str) -> None:
+def test_an_ordinary_message_is_not_an_error(text: str) -> None:
     assert_failed(judge_division(division(log(text))), "no error message")
 
 
 @given(st.sampled_from(ERRORS), st.sampled_from([10, 20, 30, 40]), st.integers(), st.integers())
-def test_what_a_good_call_brings_too_is_no_complaint(text: str, level: int, usual: int, now: int) -> None:
-    assert complaints_in([log(f"{text} {usual}", level)], [log(f"{text} {now}", level)]) == []
+def test_what_a_good_call_brings_too_is_not_a_complaint(text: str, level: int, usual: int, now: int) -> None:
+    assert find_complaints([log(f"{text} {usual}", level)], [log(f"{text} {now}", level)]) == []
 
 
 @given(st.sampled_from(ERRORS), st.lists(st.sampled_from(ORDINARY)))
 def test_an_error_is_one_among_whatever_else_is_said(text: str, around: list[LogRecord]) -> None:
-    assert complaints_in(ORDINARY, [*around, log(text), *around]) == [log(text)]
+    assert find_complaints(ORDINARY, [*around, log(text), *around]) == [log(text)]
 
 
 @pytest.mark.parametrize(
@@ -413,7 +432,7 @@ def test_any_answer_to_a_division_by_zero_will_do(results: tuple[int, ...]) -> N
     assert_passed(judge_division(division(log("division by zero", 40), after=then(*results))))
 
 
-def test_who_always_divides_wrongly_is_not_judged_for_that_here() -> None:
+def test_a_node_that_always_divides_wrongly_is_not_judged_for_that_here() -> None:
     assert_passed(judge_division(division(log("division by zero", 40), before=13, after=then(7, 0, 0, 8))))
 
 
@@ -434,9 +453,9 @@ SERVED = tuple(Served(name, {"a": 10, "b": 5}, {"sum": right_result(name, 10, 5)
 
 def demonstration(
     served: tuple[Served, ...] = SERVED, code: int | None = 0, stuck: tuple[Frame, ...] = (), **more: Any
-) -> Demonstration:
+) -> ClientRun:
     ended = None if code is None else exited(code)
-    return Demonstration(trace(exit=ended, **more), served, ended, stuck)
+    return ClientRun(trace(exit=ended, **more), served, ended, stuck)
 
 
 @pytest.mark.parametrize("served", [SERVED, SERVED * 3, tuple(reversed(SERVED))])
@@ -447,7 +466,7 @@ def test_client(served: tuple[Served, ...]) -> None:
 @pytest.mark.parametrize(
     ("seen", "cause", "word"),
     [
-        (Demonstration(None), "file missing", "calculator_client.py"),
+        (ClientRun(None), "file missing", "calculator_client.py"),
         (demonstration(SERVED[:3]), "not called", "/divide"),
         (demonstration(()), "not called", "/add, /subtract, /multiply, /divide"),
         (demonstration((), uncalled_main=True), "no main call", "__main__"),
@@ -458,7 +477,7 @@ def test_client(served: tuple[Served, ...]) -> None:
         (demonstration(SERVED, code=None), "did not end", "by itself"),
     ],
 )
-def test_client_not(seen: Demonstration, cause: str, word: str) -> None:
+def test_client_not(seen: ClientRun, cause: str, word: str) -> None:
     assert_failed(judge_client(seen), cause, word)
 
 
@@ -473,7 +492,7 @@ SPINNING = (frame("spin_once", "/venv/rclpy/executors.py"), frame("main"))
 NO_ANSWER = CRASH.replace("'Sensor' object has no attribute 'nothing'", "'NoneType' object has no attribute 'sum'")
 
 
-def asking(text: str, served: tuple[Served, ...] = (), code: int | None = 0, **more: Any) -> Demonstration:
+def asking(text: str, served: tuple[Served, ...] = (), code: int | None = 0, **more: Any) -> ClientRun:
     """A run of a client with this source."""
     return replace(demonstration(served, code, sources={"node.py": text}, **more), clients=MADE)
 
@@ -489,7 +508,7 @@ def asking(text: str, served: tuple[Served, ...] = (), code: int | None = 0, **m
         asking(ASKS, code=None, stuck=(*IN_CALL, *SPINNING)),
     ],
 )
-def test_a_client_that_does_not_wait_is_told_so(seen: Demonstration) -> None:
+def test_a_client_that_does_not_wait_is_told_so(seen: ClientRun) -> None:
     assert_failed(
         judge_client(seen), "service not waited for", "write above line 4", "client.wait_for_service(timeout_sec="
     )
@@ -508,7 +527,7 @@ for name in ('add', 'subtract', 'multiply', 'div'):
 """
 
 
-def wrongly_named(text: str, *clients: Service, code: int | None = None) -> Demonstration:
+def wrongly_named(text: str, *clients: Service, code: int | None = None) -> ClientRun:
     seen = demonstration(SERVED[:3], code, stuck=SPINNING, sources={"node.py": text + WAITS})
     return replace(seen, clients=(*MADE, *clients))
 
@@ -563,7 +582,7 @@ def test_the_step_names_the_line_with_the_wrong_service(text: str, name: str, st
     assert_failed(judge_client(wrongly_named(text, Service(name, TYPE, "/client"))), "wrong service name", step)
 
 
-def test_a_client_for_parameters_is_no_wrong_name() -> None:
+def test_a_client_for_parameters_is_not_a_wrong_name() -> None:
     more = Service("/server/get_parameters", "rcl_interfaces/srv/GetParameters", "/client")
     assert_failed(judge_client(wrongly_named(NAMED, more)), "did not end")
     assert_passed(judge_client(replace(demonstration(), clients=(*MADE, Service("/power", TYPE, "/client")))))
@@ -588,13 +607,13 @@ def run(self):
 """
 
 
-def test_who_calls_a_coroutine_without_await_is_told_so() -> None:
+def test_a_node_that_calls_a_coroutine_without_await_is_told_so() -> None:
     warning = "/ws/client.py:27: RuntimeWarning: coroutine 'CalculatorClient.call' was never awaited"
     seen = asking(WAITS, err=warning)
     assert_failed(judge_client(seen), "coroutine not awaited", "call is an async def")
 
 
-def test_who_returns_from_the_loop_is_told_so() -> None:
+def test_a_node_that_returns_from_the_loop_is_told_so() -> None:
     assert_failed(
         judge_client(asking(LOOP, SERVED[:1])),
         "return in the loop",
@@ -606,7 +625,7 @@ def test_who_returns_from_the_loop_is_told_so() -> None:
     assert_failed(judge_client(asking(LOOP, SERVED[:3])), "not called")
 
 
-def test_who_spins_after_the_last_call_is_told_to_take_that_out() -> None:
+def test_a_node_that_spins_after_the_last_call_is_told_to_take_that_out() -> None:
     spins = (frame("spin", "/venv/rclpy/__init__.py"), frame("main", line=7, code="rclpy.spin(node)"))
     text = WAITS + "rclpy.spin_until_future_complete(node, future)\nrclpy.spin(node)\n"
     assert_failed(
@@ -644,20 +663,20 @@ def test_a_server_that_refuses_negative_operands() -> None:
         return called(service, a, b, 0) if min(a, b) < 0 else right(service, a, b)
 
     asked = [("/add", 6, 3), ("/add", -40, 4), ("/add", 50, -5), ("/add", 7, 7)]
-    seen = Calls(SERVING, tuple(refuse(*each) for each in asked))
+    seen = ServiceCalls(SERVING, tuple(refuse(*each) for each in asked))
     assert_failed(judge_operations(seen), "negative operands refused", "/add answers 0")
 
 
-def test_one_wrong_result_is_no_refusal_of_negative_operands() -> None:
+def test_one_wrong_result_is_not_a_refusal_of_negative_operands() -> None:
     asked = (right("/divide", 6, 3), right("/divide", -1, -1), called("/divide", 0, -1, 1))
-    assert_failed(judge_operations(Calls(SERVING, (*ANSWERS, *asked))), "wrong result", "1 instead of 0")
+    assert_failed(judge_operations(ServiceCalls(SERVING, (*ANSWERS, *asked))), "wrong result", "1 instead of 0")
 
 
-def test_who_crashes_of_itself_is_told_of_that() -> None:
+def test_a_node_that_crashes_of_itself_is_told_of_that() -> None:
     assert_failed(judge_client(asking(ASKS, code=1, err=CRASH)), "unhandled exception", "line 12")
 
 
-def test_who_gives_up_before_there_is_a_server_is_told_so() -> None:
+def test_a_node_that_gives_up_before_there_is_a_server_is_told_so() -> None:
     assert_failed(judge_client(asking(WAITS, code=1)), "waits too short a time", "timeout_sec=10.0")
     assert_failed(judge_client(asking(WAITS, code=1, err=NO_ANSWER)), "waits too short a time")
     assert_failed(judge_client(asking(WAITS, code=1, err=CRASH)), "unhandled exception")
@@ -666,10 +685,10 @@ def test_who_gives_up_before_there_is_a_server_is_told_so() -> None:
 
 
 def test_shutdown() -> None:
-    assert_passed(judge_shutdown(Calls(SERVING, ANSWERS, ending=ending(0))))
-    assert_passed(judge_shutdown(Calls(SERVING, ANSWERS, ending=ending(130))))
-    assert_failed(judge_shutdown(Calls(SERVING, ANSWERS, ending=ending(still_there=True))), "SIGINT ignored")
-    assert_failed(judge_shutdown(Calls(CRASHED, ())), "unhandled exception")
+    assert_passed(judge_shutdown(ServiceCalls(SERVING, ANSWERS, ending=ending(0))))
+    assert_passed(judge_shutdown(ServiceCalls(SERVING, ANSWERS, ending=ending(130))))
+    assert_failed(judge_shutdown(ServiceCalls(SERVING, ANSWERS, ending=ending(still_there=True))), "SIGINT ignored")
+    assert_failed(judge_shutdown(ServiceCalls(CRASHED, ())), "unhandled exception")
 
 
 DONE = """\
@@ -698,5 +717,5 @@ def test_a_server_that_sleeps_where_it_should_spin_is_told_to_spin() -> None:
     text = "import time\nimport rclpy\nrclpy.init()\nnode = rclpy.create_node('c')\nwhile True:\n    time.sleep(0.2)\n"
     there = trace(graph=ALL, sources={"node.py": text})
     sleeping = (frame("<module>", line=6, code="time.sleep(0.2)"),)
-    verdict = judge_services(Calls(there, (called("/add", 6, 3, None),), spins=False, stuck=sleeping))
+    verdict = judge_services(ServiceCalls(there, (called("/add", 6, 3, None),), spins=False, stuck=sleeping))
     assert_failed(verdict, "no spin", "rclpy.spin(node)")

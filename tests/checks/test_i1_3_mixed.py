@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from checks.i1_3.facts import SIGNS, TYPE, Calls, right_result
+from checks.i1_3.facts import SIGNS, TYPE, ServiceCalls, right_result
 from checks.i1_3.judges import judge_operations
-from checks.i1_3.services import computing
+from checks.i1_3.services import compute_results
 from tests.checks.made import assert_failed, called, graph, trace
 from tutor.judge.verdict import Status
 
@@ -26,10 +26,12 @@ for name in OPERATIONS:
 LISTED = "[self.create_service(AddTwoInts, n, lambda q, p: self.do(OPS[n], q, p)) for n in OPS]"
 
 
-def seen(text: str, computes: str = "/multiply") -> Calls:
+def seen(text: str, computes: str = "/multiply") -> ServiceCalls:
     """Four services of a server with this source that all compute the same."""
     answers = [called(name, a, b, right_result(computes, a, b)) for name in SIGNS for a, b in ((20, 4), (-21, 7))]
-    return Calls(trace(graph=graph(services=dict.fromkeys(SIGNS, TYPE)), sources={"node.py": text}), tuple(answers))
+    return ServiceCalls(
+        trace(graph=graph(services=dict.fromkeys(SIGNS, TYPE)), sources={"node.py": text}), tuple(answers)
+    )
 
 
 @pytest.mark.parametrize(
@@ -58,7 +60,7 @@ def test_a_function_made_in_a_loop_is_told_to_bind_the_loops_variables(text: str
         "",
     ],
 )
-def test_who_binds_them_is_not_told_so(text: str) -> None:
+def test_a_node_that_binds_them_is_not_told_so(text: str) -> None:
     verdict = judge_operations(seen(text))
     assert verdict.status is Status.FAILED
     assert "late binding" not in verdict.cause
@@ -97,7 +99,7 @@ class Calculator(Node):
     ],
 )
 def test_the_line_that_computes_something_else(service: str, step: str) -> None:
-    assert computing(trace(sources={"node.py": SERVER}), [service]) == step
+    assert compute_results(trace(sources={"node.py": SERVER}), [service]) == step
 
 
 def test_the_line_is_the_next_step() -> None:

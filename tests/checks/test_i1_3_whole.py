@@ -8,10 +8,10 @@ import pytest
 
 from checks.i1_3 import services, whole
 from checks.i1_3.code import Code
-from checks.i1_3.facts import SIGNS, Calls
+from checks.i1_3.facts import SIGNS, ServiceCalls
 from checks.i1_3.judges import judge_services
 from tests.checks.made import trace
-from tutor.judge.following import follow
+from tutor.judge.step_parsing import apply_step
 from tutor.judge.trace import Trace
 
 SERVER = '''\
@@ -48,27 +48,27 @@ def seen(text: str) -> Trace:
 
 def followed(text: str, step: str | None) -> str:
     assert step is not None
-    return follow(step, {"node.py": text})["node.py"]
+    return apply_step(step, {"node.py": text})["node.py"]
 
 
 def test_a_server_as_a_whole_keeps_the_learners_names() -> None:
-    after = followed(SERVER, whole.server(seen(SERVER)))
+    after = followed(SERVER, whole.rewrite_server(seen(SERVER)))
     ast.parse(after)
     assert after.startswith('#!/usr/bin/env python3\n"""A calculator."""\nimport rclpy\n')
     assert "class Calc(Node):\n    def __init__(self):\n        super().__init__('calc')\n" in after
     assert "def add(self, req, res):\n        res.sum = req.a + req.b\n        return res\n" in after
     assert "Thread" not in after
-    assert whole.server(seen(after)) is None
+    assert whole.rewrite_server(seen(after)) is None
 
 
 @pytest.mark.parametrize("text", ["def main(:\n", "import rclpy\nrclpy.spin(None)\n", "pass\n"])
 def test_it_needs_no_file_that_python_can_read(text: str) -> None:
-    after = followed(text, whole.server(seen(text)))
+    after = followed(text, whole.rewrite_server(seen(text)))
     assert after.count("self.create_service(") == 4
     assert after.count("rclpy.init()") == 1
-    after = followed(text, whole.client(Code(text, "node.py")))
+    after = followed(text, whole.rewrite_client(Code(text, "node.py")))
     assert "rclpy.spin_until_future_complete(node, future)" in after
-    assert whole.client(Code(after, "node.py")) is None
+    assert whole.rewrite_client(Code(after, "node.py")) is None
 
 
 LOOP = """\
@@ -84,14 +84,14 @@ class Calc(Node):
 
 
 def test_what_was_written_already_is_not_written_again() -> None:
-    after = followed(LOOP, services.computing(seen(LOOP), list(SIGNS)))
+    after = followed(LOOP, services.compute_results(seen(LOOP), list(SIGNS)))
     assert "def calculate(self, name, request, response):" in after
-    assert services.computing(seen(after), list(SIGNS)) is None
+    assert services.compute_results(seen(after), list(SIGNS)) is None
 
 
 def test_no_step_of_a_server_is_in_words_only() -> None:
     text = "import rclpy\n\nrclpy.init()\n"
-    verdict = judge_services(Calls(seen(text), ()))
+    verdict = judge_services(ServiceCalls(seen(text), ()))
     after = followed(text, verdict.hint)
     assert after.count("create_service(") == 4
 
@@ -105,7 +105,7 @@ def test_no_step_of_a_server_is_in_words_only() -> None:
     ],
 )
 def test_a_client_as_a_whole_calls_all_four(text: str) -> None:
-    after = followed(text, whole.client(Code(text, "node.py")))
+    after = followed(text, whole.rewrite_client(Code(text, "node.py")))
     assert "for name in ('add', 'subtract', 'multiply', 'divide'):" in after
     assert "rclpy.spin_until_future_complete(node, future)" in after
     assert after.count("rclpy.init()") == 1

@@ -6,10 +6,10 @@ import ast
 
 import pytest
 
-from checks.i1_3.services import guarded
-from checks.i1_3.zero import where_to_log
+from checks.i1_3.services import guard_division
+from checks.i1_3.zero import log_division_by_zero
 from tests.checks.made import trace
-from tutor.judge.following import follow
+from tutor.judge.step_parsing import apply_step
 
 HEAD = """
 class Calculator(Node):
@@ -78,16 +78,16 @@ def method(*body: str) -> str:
     ],
 )
 def test_the_line_to_write(text: str, step: str | None) -> None:
-    assert where_to_log(trace(sources={"node.py": text + MAIN})) == step
+    assert log_division_by_zero(trace(sources={"node.py": text + MAIN})) == step
 
 
 def test_a_lambda_gets_a_function_of_its_own() -> None:
     text = HEAD + LAMBDA + MAIN
-    step = guarded(trace(sources={"node.py": text}))
+    step = guard_division(trace(sources={"node.py": text}))
     assert step is not None
     becomes = "line 5 becomes: self.create_service(AddTwoInts, 'divide', self.divide_callback)"
     assert step.endswith(becomes)
-    followed = ast.unparse(ast.parse(follow(step, {"node.py": text})["node.py"]))
+    followed = ast.unparse(ast.parse(apply_step(step, {"node.py": text})["node.py"]))
     assert "def divide_callback(self, request, response):" in followed
     assert LOG in followed
 
@@ -101,13 +101,13 @@ def test_a_division_is_guarded_once_and_then_written_as_a_whole() -> None:
         + "        self.create_service(AddTwoInts, 'divide', self.divide)\n\n"
         + method("self.lock.acquire()", "resp.sum = req.a // req.b", "return resp").removeprefix(HEAD)
     )
-    step = guarded(trace(sources={"node.py": text}))
+    step = guard_division(trace(sources={"node.py": text}))
     assert step is not None
-    once = follow(step, {"node.py": text})["node.py"]
+    once = apply_step(step, {"node.py": text})["node.py"]
     assert f"def divide(self, req, resp):\n        {GUARD}\n        self.lock.acquire()" in once
-    again = guarded(trace(sources={"node.py": once}))
+    again = guard_division(trace(sources={"node.py": once}))
     assert again is not None
     assert (
         f"{GUARD}\n        resp.sum = req.a // req.b\n        return resp"
-        in follow(again, {"node.py": once})["node.py"]
+        in apply_step(again, {"node.py": once})["node.py"]
     )

@@ -21,13 +21,13 @@ from checks.i2_1.facts import (
     TOPIC,
     TYPE,
     UP_HZ,
-    Atomic,
-    Launched,
-    Retimed,
-    Survey,
-    Switched,
-    Validated,
-    naming,
+    AtomicRequests,
+    BadRates,
+    ParameterStarts,
+    PlainStart,
+    RateChanges,
+    RuntimeChanges,
+    messages_naming_rate,
 )
 from checks.i2_1.judges import (
     judge_atomic,
@@ -79,13 +79,13 @@ def rate(hz: float) -> Rate:
 GOOD = (parameter(PREFIX, "string", "Hello"), parameter(RATE, "double", 1.0), parameter(ENABLED, "boolean", True))
 
 
-def survey(parameters: tuple[Parameter, ...] | None = GOOD, seen: Trace = RUNNING, **more: Any) -> Survey:
-    return Survey(seen, parameters, more.get("ending", ending(0)))
+def plain_start(parameters: tuple[Parameter, ...] | None = GOOD, seen: Trace = RUNNING, **more: Any) -> PlainStart:
+    return PlainStart(seen, parameters, more.get("ending", ending(0)))
 
 
 @pytest.mark.parametrize("parameters", [GOOD, tuple(reversed(GOOD)), (*GOOD, parameter("more", "integer", 3))])
 def test_defaults(parameters: tuple[Parameter, ...]) -> None:
-    assert_passed(judge_defaults(survey(parameters)))
+    assert_passed(judge_defaults(plain_start(parameters)))
 
 
 def but(wrong: Parameter) -> tuple[Parameter, ...]:
@@ -95,21 +95,21 @@ def but(wrong: Parameter) -> tuple[Parameter, ...]:
 @pytest.mark.parametrize(
     ("found", "cause", "word"),
     [
-        (survey(None, CRASHED), "unhandled exception", "line 12"),
-        (survey(None, NO_NODE), "no node", ""),
-        (survey(None), "no spin", "/node"),
-        (survey(()), "parameter not declared", PREFIX),
-        (survey(GOOD[:2]), "parameter not declared", f"declare_parameter('{ENABLED}', True)"),
-        (survey(but(parameter(RATE, "integer", 1))), "integer parameter", "publish_rate', 1.0)"),
-        (survey(but(parameter(RATE, "string", "1.0"))), "wrong parameter type", "string, not double"),
-        (survey(but(parameter(ENABLED, "string", "true"))), "wrong parameter type", ENABLED),
-        (survey(but(parameter(PREFIX, "not set", None))), "wrong parameter type", "not set"),
-        (survey(but(parameter(PREFIX, "string", "hello"))), "wrong default", "'hello', not 'Hello'"),
-        (survey(but(parameter(RATE, "double", 2.0))), "wrong default", "2.0, not 1.0"),
-        (survey(but(parameter(ENABLED, "boolean", False))), "wrong default", "false, not true"),
+        (plain_start(None, CRASHED), "unhandled exception", "line 12"),
+        (plain_start(None, NO_NODE), "no node", ""),
+        (plain_start(None), "no spin", "/node"),
+        (plain_start(()), "parameter not declared", PREFIX),
+        (plain_start(GOOD[:2]), "parameter not declared", f"declare_parameter('{ENABLED}', True)"),
+        (plain_start(but(parameter(RATE, "integer", 1))), "integer parameter", "publish_rate', 1.0)"),
+        (plain_start(but(parameter(RATE, "string", "1.0"))), "wrong parameter type", "string, not double"),
+        (plain_start(but(parameter(ENABLED, "string", "true"))), "wrong parameter type", ENABLED),
+        (plain_start(but(parameter(PREFIX, "not set", None))), "wrong parameter type", "not set"),
+        (plain_start(but(parameter(PREFIX, "string", "hello"))), "wrong default", "'hello', not 'Hello'"),
+        (plain_start(but(parameter(RATE, "double", 2.0))), "wrong default", "2.0, not 1.0"),
+        (plain_start(but(parameter(ENABLED, "boolean", False))), "wrong default", "false, not true"),
     ],
 )
-def test_defaults_not(found: Survey, cause: str, word: str) -> None:
+def test_defaults_not(found: PlainStart, cause: str, word: str) -> None:
     assert_failed(judge_defaults(found), cause, word)
 
 
@@ -125,11 +125,13 @@ def launched(
     woken: Sample | None = None,
     slow_hz: float | None = SLOW_LAUNCH_HZ,
     slow: Trace = RUNNING,
-) -> Launched:
+) -> ParameterStarts:
     seen = loud or trace(*samples(TOPIC, LAUNCH_HZ, data=said), graph=PUBLISHING)
     held_now = None if held is None else parameter(ENABLED, "boolean", held)
     slow_rate = rate(slow_hz) if slow_hz else None
-    return Launched("Ahoy7", seen, rate(hz) if hz else None, 10, slow, slow_rate, 4, disabled, held_now, 2.2, woken)
+    return ParameterStarts(
+        "Ahoy7", seen, rate(hz) if hz else None, 10, slow, slow_rate, 4, disabled, held_now, 2.2, woken
+    )
 
 
 WOKEN = sample(TOPIC, "Hello 1", 1005.0)
@@ -151,7 +153,7 @@ IN_THE_END_WITHOUT = trace(*SAID, sample(TOPIC, "Hello 11", 1004.0), graph=PUBLI
         launched(loud=AT_FIRST_WITHOUT),
     ],
 )
-def test_launch(found: Launched) -> None:
+def test_launch(found: ParameterStarts) -> None:
     assert_passed(judge_launch(found))
 
 
@@ -182,7 +184,7 @@ def test_launch(found: Launched) -> None:
         (launched(disabled=trace(graph=UP, exit=exited(0)), woken=WOKEN), "exit at once", "silence, but not because"),
     ],
 )
-def test_launch_not(found: Launched, cause: str, word: str) -> None:
+def test_launch_not(found: ParameterStarts, cause: str, word: str) -> None:
     assert_failed(judge_launch(found), cause, word)
 
 
@@ -192,7 +194,7 @@ def test_launch_not(found: Launched, cause: str, word: str) -> None:
 AGAIN = samples(TOPIC, 1.0, count=3, data="Gruezi9 5")
 
 
-def switched(**but: Any) -> Switched:
+def switched(**but: Any) -> RuntimeChanges:
     facts: dict[str, Any] = {
         "trace": RUNNING,
         "set_prefix": answer({PREFIX: "Servus7"}),
@@ -207,7 +209,7 @@ def switched(**but: Any) -> Switched:
         "rate": rate(1.0),
         **but,
     }
-    return Switched(prefix="Servus7", later="Gruezi9", **facts)
+    return RuntimeChanges(prefix="Servus7", later="Gruezi9", **facts)
 
 
 UNHEARD = switched(before=None)
@@ -220,7 +222,7 @@ def not_set(reason: str, answered: bool = True) -> SetAnswer:
 WRONG_TYPE = "Wrong parameter type, expected 'Type.STRING' got 'Type.BOOL'"
 
 
-def runtime(seen: Switched, timer: Retimed | None = None) -> Verdict:
+def runtime(seen: RuntimeChanges, timer: RateChanges | None = None) -> Verdict:
     return judge_runtime(seen, timer or retimed())
 
 
@@ -255,9 +257,9 @@ def test_a_timer_that_is_left_behind_by_a_rate_as_well_is_told_of_once() -> None
 @pytest.mark.parametrize(
     ("found", "cause", "word"),
     [
-        (Switched(CRASHED, "", ""), "unhandled exception", "to start with"),
-        (Switched(SILENT, "", ""), "no spin", ""),
-        (Switched(RUNNING, "", ""), "no spin", "no parameter call"),
+        (RuntimeChanges(CRASHED, "", ""), "unhandled exception", "to start with"),
+        (RuntimeChanges(SILENT, "", ""), "no spin", ""),
+        (RuntimeChanges(RUNNING, "", ""), "no spin", "no parameter call"),
         (switched(set_prefix=not_set("", answered=False)), "blocked executor", "no answer in 5 s"),
         (switched(set_off=not_set("", answered=False), trace=BROKEN_LATER), "unhandled exception", "line 12"),
         (switched(set_off=not_set("Callback returned an invalid type")), "callback returns None", ""),
@@ -279,7 +281,7 @@ def test_a_timer_that_is_left_behind_by_a_rate_as_well_is_told_of_once() -> None
         (switched(resumed=None, trace=BROKEN_LATER), "unhandled exception", "line 12"),
     ],
 )
-def test_runtime_not(found: Switched, cause: str, word: str) -> None:
+def test_runtime_not(found: RuntimeChanges, cause: str, word: str) -> None:
     assert_failed(runtime(found), cause, word)
 
 
@@ -288,10 +290,8 @@ def test_runtime_not(found: Switched, cause: str, word: str) -> None:
 REFUSED = tuple((refused({RATE: bad}), 1.0) for bad in BAD_RATES)
 
 
-def validated(
-    *rejected: tuple[SetAnswer, Any], hz: float | None = 1.0, seen: Trace = RUNNING, **more: Any
-) -> Validated:
-    return Validated(seen, rejected=rejected or REFUSED, rate=rate(hz) if hz else None, messages=4, **more)
+def validated(*rejected: tuple[SetAnswer, Any], hz: float | None = 1.0, seen: Trace = RUNNING, **more: Any) -> BadRates:
+    return BadRates(seen, rejected=rejected or REFUSED, rate=rate(hz) if hz else None, messages=4, **more)
 
 
 @pytest.mark.parametrize(
@@ -309,7 +309,7 @@ def validated(
         ),
     ],
 )
-def test_validation(found: Validated) -> None:
+def test_validation(found: BadRates) -> None:
     assert_passed(judge_validation(found, UNHEARD))
 
 
@@ -327,7 +327,7 @@ def test_a_reason_of_their_own_may_have_words_of_rclpys(reason: str) -> None:
     assert_passed(judge_validation(refusing, UNHEARD))
 
 
-def rejected(which: SetAnswer, held: Any = 1.0) -> Validated:
+def rejected(which: SetAnswer, held: Any = 1.0) -> BadRates:
     return validated(REFUSED[0], (which, held))
 
 
@@ -337,8 +337,8 @@ BAD = {RATE: -1.0}
 @pytest.mark.parametrize(
     ("found", "cause", "word"),
     [
-        (Validated(CRASHED), "unhandled exception", ""),
-        (Validated(RUNNING), "no spin", ""),
+        (BadRates(CRASHED), "unhandled exception", ""),
+        (BadRates(RUNNING), "no spin", ""),
         (rejected(answer(BAD)), "no validation", "-1.0 was accepted"),
         (validated((answer({RATE: 0.0}), 0.0)), "no validation", "0.0 was accepted"),
         (rejected(refused(BAD, "")), "no reason given", "-1.0"),
@@ -369,16 +369,16 @@ BAD = {RATE: -1.0}
         (validated(hz=None, seen=BROKEN_LATER), "unhandled exception", "line 12"),
     ],
 )
-def test_validation_not(found: Validated, cause: str, word: str) -> None:
+def test_validation_not(found: BadRates, cause: str, word: str) -> None:
     assert_failed(judge_validation(found, UNHEARD), cause, word)
 
 
 # --- the timer ---------------------------------------------------------------
 
 
-def retimed(up: float | None = UP_HZ, down: float | None = DOWN_HZ, seen: Trace = RUNNING) -> Retimed:
+def retimed(up: float | None = UP_HZ, down: float | None = DOWN_HZ, seen: Trace = RUNNING) -> RateChanges:
     steps = [(answer({RATE: asked}), rate(hz) if hz else None, 9) for asked, hz in ((UP_HZ, up), (DOWN_HZ, down))]
-    return Retimed(seen, tuple(steps))
+    return RateChanges(seen, tuple(steps))
 
 
 @given(st.floats(0.81, 1.19), st.floats(0.81, 1.19))
@@ -395,10 +395,10 @@ def test_any_other_timer_is_wrong(first: bool, factor: float) -> None:
 @pytest.mark.parametrize(
     ("found", "cause", "word"),
     [
-        (Retimed(CRASHED), "unhandled exception", ""),
-        (Retimed(SILENT), "no spin", ""),
-        (Retimed(RUNNING, ((refused({RATE: UP_HZ}, "no"), None, 0),)), "rejected", "10.0"),
-        (Retimed(RUNNING, ((answer({RATE: UP_HZ}, answered=False), None, 0),)), "blocked executor", "10.0"),
+        (RateChanges(CRASHED), "unhandled exception", ""),
+        (RateChanges(SILENT), "no spin", ""),
+        (RateChanges(RUNNING, ((refused({RATE: UP_HZ}, "no"), None, 0),)), "rejected", "10.0"),
+        (RateChanges(RUNNING, ((answer({RATE: UP_HZ}, answered=False), None, 0),)), "blocked executor", "10.0"),
         (retimed(1.0), "timer not replaced", "cancel the timer"),
         (retimed(down=10.0), "timer not replaced", "cancel the timer"),
         (retimed(13.0), "old timer kept", "13.0 Hz"),
@@ -415,7 +415,7 @@ def test_any_other_timer_is_wrong(first: bool, factor: float) -> None:
         (retimed(None, seen=BROKEN_LATER), "unhandled exception", "line 12"),
     ],
 )
-def test_timer_not(found: Retimed, cause: str, word: str) -> None:
+def test_timer_not(found: RateChanges, cause: str, word: str) -> None:
     assert_failed(judge_timer(found), cause, word)
 
 
@@ -424,7 +424,7 @@ def test_timer_not(found: Retimed, cause: str, word: str) -> None:
 BEFORE = ("Hello", 1.0)
 
 
-def atomic(**but: Any) -> Atomic:
+def atomic(**but: Any) -> AtomicRequests:
     facts: dict[str, Any] = {
         "trace": RUNNING,
         "answers": (refused({PREFIX: "a", RATE: -1.0}), refused({RATE: -1.0, PREFIX: "b"})),
@@ -433,7 +433,7 @@ def atomic(**but: Any) -> Atomic:
         "rate": rate(1.0),
         **but,
     }
-    return Atomic(messages=4, **facts)
+    return AtomicRequests(messages=4, **facts)
 
 
 def test_a_rate_that_is_another_one_from_the_start_stays() -> None:
@@ -460,8 +460,8 @@ NO = refused({RATE: -1.0})
 @pytest.mark.parametrize(
     ("found", "cause", "word"),
     [
-        (Atomic(CRASHED), "unhandled exception", ""),
-        (Atomic(RUNNING), "no spin", ""),
+        (AtomicRequests(CRASHED), "unhandled exception", ""),
+        (AtomicRequests(RUNNING), "no spin", ""),
         (atomic(answers=(NO, NO_ANSWER)), "blocked executor", "no answer"),
         (atomic(answers=(NO, ACCEPTED)), "no validation", "accepted"),
         (atomic(answers=(ACCEPTED, NO)), "no validation", "accepted"),
@@ -473,7 +473,7 @@ NO = refused({RATE: -1.0})
         (atomic(rate=rate(5.0)), "partial change", "5.00 Hz"),
     ],
 )
-def test_atomic_not(found: Atomic, cause: str, word: str) -> None:
+def test_atomic_not(found: AtomicRequests, cause: str, word: str) -> None:
     assert_failed(judge_atomic(found, UNHEARD), cause, word)
 
 
@@ -499,7 +499,7 @@ def starts(**more: Any) -> list[Trace]:
     ],
 )
 def test_a_bad_rate_at_start_up_is_named(seen: list[Trace]) -> None:
-    assert_passed(judge_bad_launch(survey(seen=trace(logs=[log("publish_rate: 1.0 Hz")])), seen))
+    assert_passed(judge_bad_launch(plain_start(seen=trace(logs=[log("publish_rate: 1.0 Hz")])), seen))
 
 
 @pytest.mark.parametrize(
@@ -515,17 +515,21 @@ def test_a_bad_rate_at_start_up_is_named(seen: list[Trace]) -> None:
     ],
 )
 def test_a_bad_rate_at_start_up_is_not_named(seen: list[Trace], cause: str, word: str) -> None:
-    plain = survey(seen=trace(logs=[log("publish_rate: 1.0 Hz")]))
+    plain = plain_start(seen=trace(logs=[log("publish_rate: 1.0 Hz")]))
     assert_failed(judge_bad_launch(plain, seen), cause, word)
 
 
 def test_what_names_the_rate() -> None:
     seen = trace(logs=[log("publish_rate 1"), log("rate 2")], out="my publish_rate", err=crash("publish_rate"))
-    assert naming(seen) == ["publish_rate 1", "my publish_rate", "NameError: name 'publish_rate' is not defined"]
+    assert messages_naming_rate(seen) == [
+        "publish_rate 1",
+        "my publish_rate",
+        "NameError: name 'publish_rate' is not defined",
+    ]
 
 
 def test_shutdown() -> None:
-    assert_passed(judge_shutdown(survey()))
-    assert_passed(judge_shutdown(survey(ending=ending(130))))
-    assert_failed(judge_shutdown(survey(ending=ending(1, err=KEYBOARD_INTERRUPT))), "traceback on exit")
-    assert_failed(judge_shutdown(survey(seen=CRASHED, ending=None)), "unhandled exception")
+    assert_passed(judge_shutdown(plain_start()))
+    assert_passed(judge_shutdown(plain_start(ending=ending(130))))
+    assert_failed(judge_shutdown(plain_start(ending=ending(1, err=KEYBOARD_INTERRUPT))), "traceback on exit")
+    assert_failed(judge_shutdown(plain_start(seen=CRASHED, ending=None)), "unhandled exception")

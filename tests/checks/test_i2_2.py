@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from checks.i2_2 import facts, judges, processes
-from checks.i2_2.facts import Launched
+from checks.i2_2.facts import LaunchRun
 from tests.checks.made import FOLDER, START, assert_failed, assert_passed, ending, exited, lines
 from tutor.judge.bench import OnlyWithRos
 from tutor.judge.trace import Endpoint, Graph, LogRecord, Sample, Service, Trace
@@ -36,7 +36,7 @@ def pair(topic: str, other: str | None = None, *, namespace: str = "") -> Graph:
     return graph([end(topic, namespace + TALKS)], [end(other or topic, namespace + HEARS)])
 
 
-def launched(seen: Graph, *, out: str = "", commands: Sequence[str] = (), messages: int = 2, **more: Any) -> Launched:
+def launched(seen: Graph, *, out: str = "", commands: Sequence[str] = (), messages: int = 2, **more: Any) -> LaunchRun:
     """A launch with this graph, and messages on each topic that something is sent on."""
     arguments = more.pop("arguments", {})
     topics = {each.topic for each in seen.publishers}
@@ -57,21 +57,21 @@ def launched(seen: Graph, *, out: str = "", commands: Sequence[str] = (), messag
         launch_arguments=more.pop("declares", ("topic", "namespace")),
     )
     more.setdefault("answering", frozenset(seen.nodes))
-    return Launched(trace, arguments, tuple(commands), **more)
+    return LaunchRun(trace, arguments, tuple(commands), **more)
 
 
 USUAL = launched(pair("/chatter"))
 
 
-def with_topic(seen: Graph, **more: Any) -> Launched:
+def with_topic(seen: Graph, **more: Any) -> LaunchRun:
     return launched(seen, arguments={"topic": "news"}, **more)
 
 
-def in_robot1(seen: Graph, **more: Any) -> Launched:
+def in_robot1(seen: Graph, **more: Any) -> LaunchRun:
     return launched(seen, arguments={"namespace": "robot1"}, **more)
 
 
-def with_both(seen: Graph, **more: Any) -> Launched:
+def with_both(seen: Graph, **more: Any) -> LaunchRun:
     return launched(seen, arguments={"topic": "news", "namespace": "robot1"}, **more)
 
 
@@ -144,7 +144,7 @@ def test_a_traceback_is_read_although_the_streams_are_mixed() -> None:
     mixed += lines(" - InvalidFrontendLaunchFileError: The launch file may have a syntax error", "stdout")
     mixed += lines("SyntaxError: closing parenthesis ']' does not match")
     trace = Trace("my_launch.py", FOLDER, output=(*lines(LOADING, "stdout"), *mixed), exit=exited(1))
-    assert_failed(judges.judge_starts(Launched(trace)), "syntax error", "line 3")
+    assert_failed(judges.judge_starts(LaunchRun(trace)), "syntax error", "line 3")
 
 
 def test_a_command_that_only_an_installed_ros_has_is_no_fault_of_the_learner() -> None:
@@ -365,7 +365,7 @@ def test_one_that_answers_no_calls_but_logs_is_right() -> None:
 )
 def test_one_that_answers_no_calls_but_logs_numbers(logged: Sequence[str], proves: bool) -> None:
     samples = [Sample("/chatter", {"data": number}, START + number / 10, START) for number in range(2)]
-    found = facts.heard(facts.pairs(pair("/chatter"))[0], [heard(text) for text in logged], samples)
+    found = facts.logs_of_messages(facts.pairs(pair("/chatter"))[0], [heard(text) for text in logged], samples)
     assert bool(found) == proves
 
 
@@ -374,7 +374,7 @@ def test_one_that_answers_no_calls_but_logs_numbers(logged: Sequence[str], prove
 )
 def test_a_logged_message_stands_for_itself(said: str, proves: bool) -> None:
     samples = [Sample("/chatter", {"data": "Hello World: 1"}, START, START)]
-    assert bool(facts.heard(facts.pairs(pair("/chatter"))[0], [heard(said)], samples)) == proves
+    assert bool(facts.logs_of_messages(facts.pairs(pair("/chatter"))[0], [heard(said)], samples)) == proves
 
 
 def test_a_log_of_another_node_is_no_proof() -> None:
@@ -445,10 +445,13 @@ def test_lines_are_told_apart_by_their_process() -> None:
 
 def test_processes_that_have_gone() -> None:
     output = lines(f"{DEAD}\n[INFO] [talker-1]: process has finished cleanly [pid 11]")
-    assert [(each.process, each.code) for each in processes.gone(output)] == [("hearer-2", 1), ("talker-1", 0)]
+    assert [(each.process, each.code) for each in processes.ended_processes(output)] == [
+        ("hearer-2", 1),
+        ("talker-1", 0),
+    ]
 
 
 def test_what_was_heard_must_have_been_sent_before() -> None:
     sample = Sample("/chatter", {"data": "late"}, START + 9, START + 9)
     seen = facts.pairs(pair("/chatter"))[0]
-    assert facts.heard(seen, [heard("late")], [sample]) == []
+    assert facts.logs_of_messages(seen, [heard("late")], [sample]) == []

@@ -7,15 +7,15 @@ import ast
 import pytest
 
 from checks.i2_2 import rewriting, steps
-from checks.i2_2.causes import of_launch
+from checks.i2_2.causes import diagnose_launch
 from checks.i2_2.reading import Source
 from checks.i2_2.rewriting import Launch
 from tests.checks.made import trace
 from tests.judging import find
 from tutor.content.submissions import Case
 from tutor.judge.edits import apply
-from tutor.judge.following import follow
 from tutor.judge.rewriting.node import NodeFile
+from tutor.judge.step_parsing import apply_step
 from tutor.judge.verdict import Cause
 
 LAUNCH = """\
@@ -58,7 +58,7 @@ def changed(*pairs: tuple[str, str]) -> Launch:
 def followed(there: Launch, cause: Cause | None) -> Cause:
     """What a learner reads of a cause."""
     assert cause is not None
-    return steps.followed(there, cause)
+    return steps.with_applicable_step(there, cause)
 
 
 @pytest.mark.parametrize(
@@ -97,7 +97,7 @@ def test_a_launch_configuration_that_does_not_exist(there: Launch, cause: str, s
         "[ERROR] [launch]: Caught exception in launch (see debug for traceback): launch configuration 'namespace' does "
         "not exist\n<launch.substitutions.launch_configuration.LaunchConfiguration object at 0x7f0>"
     )
-    found = of_launch(trace(err=said, sources={"node.py": there.file.text}))
+    found = diagnose_launch(trace(err=said, sources={"node.py": there.file.text}))
     assert found is not None
     assert found.name == cause
     assert step in found.hint
@@ -128,7 +128,7 @@ RIGHT = "remappings=[('chatter', name)]"
     ],
 )
 def test_topic(there: Launch, cause: str, step: str) -> None:
-    found = followed(there, steps.topic(there, "chatter"))
+    found = followed(there, steps.diagnose_topic_argument(there, "chatter"))
     assert found.name == cause, found
     assert step in found.hint
     assert "parameters=" not in found.hint
@@ -147,7 +147,7 @@ def test_topic(there: Launch, cause: str, step: str) -> None:
     ],
 )
 def test_namespace(there: Launch, step: str) -> None:
-    found = followed(there, steps.namespace(there))
+    found = followed(there, steps.diagnose_namespace_argument(there))
     assert found.name == "namespace not used"
     assert step in found.hint
     assert "name=[" not in found.hint
@@ -175,7 +175,7 @@ def test_namespace(there: Launch, step: str) -> None:
     ],
 )
 def test_a_node_that_is_not_started(there: Launch, says: str, step: str) -> None:
-    found = followed(there, steps.missing(there, "subscriber"))
+    found = followed(there, steps.diagnose_missing_node(there, "subscriber"))
     assert found.name == "no subscriber"
     assert says in found.text
     assert step in found.hint
@@ -183,31 +183,31 @@ def test_a_node_that_is_not_started(there: Launch, says: str, step: str) -> None
 
 @pytest.mark.parametrize("written", ["f'/{name}'", "'/' + str(name)", "'/'.join([space, name])"])
 def test_text_too_early(written: str) -> None:
-    step = str(steps.text_too_early(changed(("('chatter', name)", f"('chatter', {written})")), "chatter"))
+    step = str(steps.step_for_early_text(changed(("('chatter', name)", f"('chatter', {written})")), "chatter"))
     assert step.count(RIGHT) == 2
 
 
 def test_steps_of_one_line() -> None:
-    assert steps.not_returned(changed(("    return Launch", "    Launch"))) == (
+    assert steps.step_for_missing_return(changed(("    return Launch", "    Launch"))) == (
         "line 12 becomes: return LaunchDescription(["
     )
     kept = changed(("    return Launch", "    found = Launch"))
-    assert str(steps.not_returned(kept)).endswith(": return found")
-    assert steps.other_name(changed(("'topic'", "'topic_name'")), "topic", ["topic_name"]) == (
+    assert str(steps.step_for_missing_return(kept)).endswith(": return found")
+    assert steps.step_for_other_name(changed(("'topic'", "'topic_name'")), "topic", ["topic_name"]) == (
         "line 13 becomes: DeclareLaunchArgument('topic', default_value='chatter'),\n"
         "line 8 becomes: name = LaunchConfiguration('topic')"
     )
     bare = changed(("'topic', default_value='chatter'", "'topic'"))
-    assert steps.without_default(bare, "topic").hint == (
+    assert steps.add_default(bare, "topic").hint == (
         "line 13 becomes: DeclareLaunchArgument('topic', default_value='chatter'),"
     )
     unlisted = changed(("        talker,\n        listener,\n", ""))
-    assert "talker, listener, Declare" in str(steps.nothing_listed(unlisted))
-    assert steps.no_program(changed(("'talker'", "'taker'")), "executable", "taker", "talker") == (
+    assert "talker, listener, Declare" in str(steps.step_for_empty_description(unlisted))
+    assert steps.step_for_other_program(changed(("'talker'", "'taker'")), "executable", "taker", "talker") == (
         "line 10 becomes: talker = Node(package='demo_nodes_py', executable='talker', namespace=space, "
         "remappings=[('chatter', name)])"
     )
-    assert steps.other_function(changed(("generate_launch_description", "generate_launch"))) == (
+    assert steps.step_for_other_function(changed(("generate_launch_description", "generate_launch"))) == (
         "line 7 becomes: def generate_launch_description():"
     )
 
@@ -224,7 +224,7 @@ def generate_launch_description():
 
 
 def test_an_opaque_function_that_returns_nothing_is_told_its_end() -> None:
-    assert steps.nothing_listed(of(OPAQUE)) == (
+    assert steps.step_for_empty_description(of(OPAQUE)) == (
         "write below line 3, with the same indentation: return [talker, listener]"
     )
 
@@ -234,9 +234,9 @@ def test_what_is_right_is_written_with_the_programs_of_the_demos() -> None:
     own = changed(
         ("demo_nodes_py", "my_package"), ("'talker'", "'minimal_publisher'"), ("'listener'", "'minimal_subscriber'")
     )
-    assert "executable='minimal_publisher'," in str(steps.anew(own))
-    once = of(apply(own.file.text, rewriting.whole(own)))
-    assert "executable='talker'," in str(steps.anew(once))
+    assert "executable='minimal_publisher'," in str(steps.rewrite_launch_file(own))
+    once = of(apply(own.file.text, rewriting.rewrite_description(own)))
+    assert "executable='talker'," in str(steps.rewrite_launch_file(once))
 
 
 def test_own_programs_are_kept_with_the_topic_of_their_code() -> None:
@@ -249,10 +249,10 @@ def test_own_programs_are_kept_with_the_topic_of_their_code() -> None:
 
 
 def test_what_cannot_be_read_leaves_the_plain_words() -> None:
-    assert steps.topic(of(""), "chatter") is None
-    assert steps.namespace(of("")) is None
-    assert steps.missing(of(""), "publisher") is None
-    assert steps.anew(of("")) is None
+    assert steps.diagnose_topic_argument(of(""), "chatter") is None
+    assert steps.diagnose_namespace_argument(of("")) is None
+    assert steps.diagnose_missing_node(of(""), "publisher") is None
+    assert steps.rewrite_launch_file(of("")) is None
     assert steps.remapping(Source(), "chatter") == "remappings=[('chatter', LaunchConfiguration('topic'))]"
 
 
@@ -267,14 +267,14 @@ def generate_launch_description():
 
 
 def test_commands_instead_of_nodes_become_nodes() -> None:
-    found = followed(of(COMMANDS), steps.topic(of(COMMANDS), "chatter"))
+    found = followed(of(COMMANDS), steps.diagnose_topic_argument(of(COMMANDS), "chatter"))
     assert "executable='listener'," in found.hint
     assert "from launch_ros.actions import Node" in found.hint
-    assert steps.one_word(of(COMMANDS)) is None
+    assert steps.split_command(of(COMMANDS)) is None
 
 
 def test_a_command_in_one_piece() -> None:
-    found = steps.one_word(of(COMMANDS.replace("'ros2', 'run', 'demo_nodes_py', '", "'ros2 run demo_nodes_py ")))
+    found = steps.split_command(of(COMMANDS.replace("'ros2', 'run', 'demo_nodes_py', '", "'ros2 run demo_nodes_py ")))
     assert found is not None
     assert "executable='listener'," in found.hint
 
@@ -295,16 +295,16 @@ MODULE = changed(
 
 @pytest.mark.parametrize(("there", "own"), [(ALIAS, "LC"), (MODULE, "subs.LaunchConfiguration")])
 def test_what_is_imported_under_another_name_is_understood_and_called_so(there: Launch, own: str) -> None:
-    found = steps.topic(there, "chatter")
+    found = steps.diagnose_topic_argument(there, "chatter")
     assert found is not None
     assert found.name == "topic given as a parameter"
-    assert f"parameters=[{{'topic': {own}('topic')}}]" in steps.in_own_names(there.source, found).text
-    assert f"remappings=[('chatter', {own}('topic'))]" in steps.in_own_names(there.source, found).hint
+    assert f"parameters=[{{'topic': {own}('topic')}}]" in steps.with_own_names(there.source, found).text
+    assert f"remappings=[('chatter', {own}('topic'))]" in steps.with_own_names(there.source, found).hint
 
 
 def test_what_a_step_uses_and_the_file_does_not_import_is_imported() -> None:
     plain = Source(LAUNCH.replace("LaunchConfiguration", "TextSubstitution"))
-    said = steps.in_own_names(plain, Cause("a", "b", "line 1: LaunchConfiguration('topic')"))
+    said = steps.with_own_names(plain, Cause("a", "b", "line 1: LaunchConfiguration('topic')"))
     assert said.hint.splitlines() == [
         "line 1: LaunchConfiguration('topic')",
         "at the top of the file: from launch.substitutions import LaunchConfiguration",
@@ -316,42 +316,42 @@ def test_arguments_in_a_dict_that_nodes_share_are_not_given_twice() -> None:
         (REMAPPED, ", **common"),
         ("    talker =", "    common = dict(\n        parameters=[{'topic': name}],\n    )\n    talker ="),
     )
-    found = followed(shared, steps.topic(shared, "chatter"))
+    found = followed(shared, steps.diagnose_topic_argument(shared, "chatter"))
     assert "**common" not in found.hint
     assert "remappings=[('chatter', LaunchConfiguration('topic'))]," in found.hint
 
 
 @pytest.mark.parametrize("case", find(["i2.2"])[0], ids=str)
-def test_each_submission_can_be_written_anew(case: Case) -> None:
+def test_each_submission_can_be_written_again(case: Case) -> None:
     """Where Python can read it at all."""
     text = (case.folder / "my_launch.py").read_text()
     try:
         ast.parse(text)
     except SyntaxError:
         return
-    assert steps.anew(of(text))
+    assert steps.rewrite_launch_file(of(text))
 
 
 def test_a_step_in_words_gives_way_to_one_that_can_be_followed() -> None:
     said = Cause("a node that ends", "speaker has ended", "start this program alone, and see what it says")
-    assert "executable='listener'," in steps.followed(of(OPAQUE), said).hint
+    assert "executable='listener'," in steps.with_applicable_step(of(OPAQUE), said).hint
     right = changed(("demo_nodes_py", "my_package"))
-    assert "package='demo_nodes_py'," in steps.followed(right, said, right.demo).hint
+    assert "package='demo_nodes_py'," in steps.with_applicable_step(right, said, right.demo).hint
     told = Cause("exception", "x", "line 1 becomes: x = 1")
-    assert steps.followed(of(OPAQUE), told) == told
+    assert steps.with_applicable_step(of(OPAQUE), told) == told
 
 
 def test_what_ends_python_while_the_file_is_loaded_is_taken_out() -> None:
-    assert steps.nothing_listed(of(f"import os\nos._exit(0)\n{LAUNCH}")) == "remove line 2: os._exit(0)"
+    assert steps.step_for_empty_description(of(f"import os\nos._exit(0)\n{LAUNCH}")) == "remove line 2: os._exit(0)"
 
 
 def test_a_launch_file_that_python_cannot_read_is_told_as_a_whole_one() -> None:
     there = of("this is a launch file that nobody can read\n")
 
-    step = steps.anew(there)
+    step = steps.rewrite_launch_file(there)
 
     assert step is not None
-    code = follow(step, {"my_launch.py": there.file.text})["my_launch.py"]
+    code = apply_step(step, {"my_launch.py": there.file.text})["my_launch.py"]
     assert "executable='talker'" in code
     assert "executable='listener'" in code
     compile(code, "my_launch.py", "exec")
@@ -367,7 +367,7 @@ def test_a_class_that_is_imported_from_elsewhere_gets_the_line_of_its_own() -> N
     )
     cause = Cause("import error", "ImportError: cannot import name 'Node' from 'launch.actions'", "take it out there")
 
-    step = steps.followed(there, cause).hint
+    step = steps.with_applicable_step(there, cause).hint
 
     assert step == (
         "line 2 becomes:\n    from launch.actions import DeclareLaunchArgument\n    from launch_ros.actions import Node"

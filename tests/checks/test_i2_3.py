@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checks.i2_3.facts import SERVICE, TYPE, Call, Interrupted, Lone, Quiet, Three, Trio
+from checks.i2_3.facts import SERVICE, TYPE, Call, CallBatch, ConcurrentCalls, IdleRun, Interrupted, SingleCalls
 from checks.i2_3.judges import (
     judge_blocks,
     judge_concurrent,
@@ -20,9 +20,9 @@ from checks.i2_3.judges import (
     judge_shutdown_busy,
     judge_timer,
 )
-from checks.i2_3.listening import said_since
-from checks.i2_3.pace import Fault, during
-from checks.i2_3.repeats import MOST_AT_ONCE_TRIES, MOST_TRIES, TRIES, again, again_at_once
+from checks.i2_3.listening import logs_since
+from checks.i2_3.pace import Fault, timer_during
+from checks.i2_3.repeats import MOST_AT_ONCE_TRIES, MOST_TRIES, TRIES, needs_repeat, needs_repeat_at_once
 from checks.i2_3.ticks import Series, all_series, likely
 from tests.checks.made import (
     CRASHED,
@@ -93,44 +93,48 @@ def answer(took_s: float = 3.01, a: int = 5, b: int = 3, sum_: int | None = 8, a
     return CallAnswer(SERVICE, {"a": a, "b": b}, response, asked_at, asked_at + took_s, 12.0)
 
 
-def lone(
-    logs: Sequence[LogRecord] = (), *called: CallAnswer, starved_s: float = 0.0, until: float = START + 4.7, **more: Any
-) -> Lone:
-    calls = tuple(Call(each, until, starved_s) for each in called or (answer(),))
-    return Lone(trace(graph=SERVING, logs=logs), calls, **more)
+def single_calls(
+    logs: Sequence[LogRecord] = (),
+    *called: CallAnswer,
+    cpu_wait_s: float = 0.0,
+    until: float = START + 4.7,
+    **more: Any,
+) -> SingleCalls:
+    calls = tuple(Call(each, until, cpu_wait_s) for each in called or (answer(),))
+    return SingleCalls(trace(graph=SERVING, logs=logs), calls, **more)
 
 
-def quiet(logs: Sequence[LogRecord], **more: Any) -> Quiet:
-    return Quiet(trace(graph=SERVING, logs=logs), seen_in(logs), **more)
+def idle_run(logs: Sequence[LogRecord], **more: Any) -> IdleRun:
+    return IdleRun(trace(graph=SERVING, logs=logs), seen_in(logs), **more)
 
 
-def blocks(seen: Lone, several: Trio | None = None) -> Verdict:
-    return judge_blocks(seen, several or Trio(trace()))
+def blocks(seen: SingleCalls, several: ConcurrentCalls | None = None) -> Verdict:
+    return judge_blocks(seen, several or ConcurrentCalls(trace()))
 
 
 @given(st.floats(2.8, 3.35), st.integers(-900, 900), st.integers(-900, 900))
 def test_three_seconds(took_s: float, a: int, b: int) -> None:
-    assert_passed(blocks(lone((), answer(took_s, a, b, a + b))))
+    assert_passed(blocks(single_calls((), answer(took_s, a, b, a + b))))
 
 
 @given(st.floats(0, 2.7) | st.floats(3.5, 12))
 def test_other_times(took_s: float) -> None:
-    assert_failed(blocks(lone((), answer(took_s))), "too quick" if took_s < 3 else "too slow", "s")
+    assert_failed(blocks(single_calls((), answer(took_s))), "too quick" if took_s < 3 else "too slow", "s")
 
 
 def test_a_busy_machine_may_take_longer_but_never_less() -> None:
-    assert_passed(blocks(lone((), answer(3.7), starved_s=0.4)))
-    assert_passed(blocks(lone((), answer(4.2), answer(3.3))))
-    assert_failed(blocks(lone((), answer(2.6), starved_s=2.0)), "too quick")
-    assert_failed(blocks(lone((), answer(4.0), starved_s=0.6)), "too slow", "4.0 s")
-    assert_failed(blocks(lone((), answer(4.5), starved_s=1.0)), "too slow", "4.5 s")
-    assert_failed(blocks(lone((), answer(4.5), answer(4.1))), "too slow", "4.1 s")
+    assert_passed(blocks(single_calls((), answer(3.7), cpu_wait_s=0.4)))
+    assert_passed(blocks(single_calls((), answer(4.2), answer(3.3))))
+    assert_failed(blocks(single_calls((), answer(2.6), cpu_wait_s=2.0)), "too quick")
+    assert_failed(blocks(single_calls((), answer(4.0), cpu_wait_s=0.6)), "too slow", "4.0 s")
+    assert_failed(blocks(single_calls((), answer(4.5), cpu_wait_s=1.0)), "too slow", "4.5 s")
+    assert_failed(blocks(single_calls((), answer(4.5), answer(4.1))), "too slow", "4.1 s")
     with pytest.raises(MachineTooBusy):
-        blocks(lone((), answer(4.2), starved_s=1.0))
+        blocks(single_calls((), answer(4.2), cpu_wait_s=1.0))
 
 
 def test_one_late_call_on_a_calm_machine_is_enough() -> None:
-    busy, calm = lone((), answer(4.05), starved_s=0.9), lone((), answer(4.2), starved_s=0.3)
+    busy, calm = single_calls((), answer(4.05), cpu_wait_s=0.9), single_calls((), answer(4.2), cpu_wait_s=0.3)
     for calls in (busy.calls + calm.calls, calm.calls + busy.calls):
         assert_failed(blocks(replace(busy, calls=calls)), "too slow", "4.0 s")
     with pytest.raises(MachineTooBusy):
@@ -140,33 +144,33 @@ def test_one_late_call_on_a_calm_machine_is_enough() -> None:
 def calls_made(each: Call, logs: Sequence[LogRecord] = (), *, most: int = MOST_TRIES, calm_at: int = 99) -> int:
     """How often it is called, if every call is like this one; on a calm machine only from the one numbered so on."""
     made: list[Call] = []
-    while not made or again(logs, made, seen_in(ticking(every=1)), most):
-        made.append(each if len(made) + 1 < calm_at else replace(each, starved_s=0.0))
+    while not made or needs_repeat(logs, made, seen_in(ticking(every=1)), most):
+        made.append(each if len(made) + 1 < calm_at else replace(each, cpu_wait_s=0.0))
     return len(made)
 
 
 def test_calls_go_on_until_one_tells_something() -> None:
-    (good,), (late,) = lone((), starved_s=1.0).calls, lone((), answer(4.1), starved_s=1.0).calls
+    (good,), (late,) = single_calls((), cpu_wait_s=1.0).calls, single_calls((), answer(4.1), cpu_wait_s=1.0).calls
     ticks, gap = ticking(every=1, until_s=5.5), ticking(every=1, until_s=5.5, stands_still=(0.5, 2))
-    assert calls_made(replace(good, starved_s=0.0), ticks) == 1
-    assert calls_made(replace(late, starved_s=0.0), ticks) == 2
-    assert calls_made(late, ticks) == calls_made(replace(good, starved_s=0.7), gap) == MOST_TRIES
+    assert calls_made(replace(good, cpu_wait_s=0.0), ticks) == 1
+    assert calls_made(replace(late, cpu_wait_s=0.0), ticks) == 2
+    assert calls_made(late, ticks) == calls_made(replace(good, cpu_wait_s=0.7), gap) == MOST_TRIES
     assert calls_made(late, ticks, most=TRIES) == TRIES
     assert calls_made(late, ticks, calm_at=3) == 3
     assert calls_made(late, ticks, calm_at=6) == 6
-    assert calls_made(replace(good, starved_s=0.7), gap, calm_at=6) == 6
-    assert calls_made(replace(late, starved_s=0.3), ticks) == TRIES  # each of them tells, another might be in time
+    assert calls_made(replace(good, cpu_wait_s=0.7), gap, calm_at=6) == 6
+    assert calls_made(replace(late, cpu_wait_s=0.3), ticks) == TRIES  # each of them tells, another might be in time
     assert calls_made(replace(late, answer=answer(5.0)), ticks) == 2
     assert calls_made(replace(late, answer=answer(sum_=None)), ticks) == 1
 
 
 def test_one_wrong_sum_is_wrong() -> None:
-    assert_failed(blocks(lone((), answer(3.6), answer(3.0, sum_=9))), "wrong sum", "9 instead of 8")
+    assert_failed(blocks(single_calls((), answer(3.6), answer(3.0, sum_=9))), "wrong sum", "9 instead of 8")
 
 
-def called_again(*called: CallAnswer, starved_s: float = 0.0) -> Lone:
+def called_again(*called: CallAnswer, cpu_wait_s: float = 0.0) -> SingleCalls:
     """A first call with nothing wrong, and these as the second one."""
-    return replace(lone(), later=lone((), *called, starved_s=starved_s).calls)
+    return replace(single_calls(), later=single_calls((), *called, cpu_wait_s=cpu_wait_s).calls)
 
 
 @pytest.mark.parametrize(
@@ -187,31 +191,31 @@ def test_what_calls_at_once_show_as_well_is_not_told_twice() -> None:
 
 
 def test_a_second_call_on_a_busy_machine_takes_nothing_back() -> None:
-    assert_passed(blocks(called_again(answer(4.2), starved_s=1.0)))
+    assert_passed(blocks(called_again(answer(4.2), cpu_wait_s=1.0)))
 
 
 @pytest.mark.parametrize(
     ("seen", "cause", "word"),
     [
-        (lone((), answer(sum_=2)), "wrong sum", "2 instead of 8"),
-        (lone((), answer(sum_=0)), "wrong sum", "response.sum"),
-        (lone((), answer(sum_=None), stuck=IN_CALL), "deadlock by call()", "line 12"),
-        (lone((), answer(sum_=None), stuck=IN_WORKER), "no answer", "line 12"),
-        (lone((), answer(sum_=None), spins=False), "no spin", "/node"),
-        (Lone(CRASHED), "unhandled exception", "line 12"),
-        (Lone(NO_NODE), "no node", ""),
-        (Lone(trace(graph=UP)), "service missing", SERVICE),
-        (Lone(trace(graph=graph(services={"/slow_sum": TYPE}))), "wrong service name", "/slow_sum"),
-        (Lone(trace(graph=graph(services={"/me/slow_add": TYPE}))), "wrong service name", "namespace"),
-        (Lone(trace(graph=graph(services={SERVICE: "std_srvs/srv/Trigger"}))), "wrong type", "Trigger"),
+        (single_calls((), answer(sum_=2)), "wrong sum", "2 instead of 8"),
+        (single_calls((), answer(sum_=0)), "wrong sum", "response.sum"),
+        (single_calls((), answer(sum_=None), stuck=IN_CALL), "deadlock by call()", "line 12"),
+        (single_calls((), answer(sum_=None), stuck=IN_WORKER), "no answer", "line 12"),
+        (single_calls((), answer(sum_=None), spins=False), "no spin", "/node"),
+        (SingleCalls(CRASHED), "unhandled exception", "line 12"),
+        (SingleCalls(NO_NODE), "no node", ""),
+        (SingleCalls(trace(graph=UP)), "service missing", SERVICE),
+        (SingleCalls(trace(graph=graph(services={"/slow_sum": TYPE}))), "wrong service name", "/slow_sum"),
+        (SingleCalls(trace(graph=graph(services={"/me/slow_add": TYPE}))), "wrong service name", "namespace"),
+        (SingleCalls(trace(graph=graph(services={SERVICE: "std_srvs/srv/Trigger"}))), "wrong type", "Trigger"),
         (
-            Lone(trace(graph=graph(services={"/node/get_parameters": "rcl_interfaces/srv/GetParameters"}))),
+            SingleCalls(trace(graph=graph(services={"/node/get_parameters": "rcl_interfaces/srv/GetParameters"}))),
             "service missing",
             SERVICE,
         ),
     ],
 )
-def test_no_right_answer(seen: Lone, cause: str, word: str) -> None:
+def test_no_right_answer(seen: SingleCalls, cause: str, word: str) -> None:
     assert_failed(blocks(seen), cause, word)
 
 
@@ -236,45 +240,45 @@ TEXTS: list[Text] = [
 @pytest.mark.parametrize("text", TEXTS)
 @pytest.mark.parametrize("every", [1, 2, 5, 10, 20])
 def test_a_timer_is_found_and_goes_on(text: Text, every: int) -> None:
-    alone = quiet(ticking(text, until_s=8, every=every))
+    alone = idle_run(ticking(text, until_s=8, every=every))
     during_call = [
         *ticking(text, every=every),
         says("Service called: 5 + 3", ASKED),
         *(says(f"working: {percent} %", ASKED + percent / 34) for percent in range(0, 100, 3)),
         says("Service complete: 8", ASKED + 3.01),
     ]
-    assert_passed(judge_timer(alone, lone(during_call)))
+    assert_passed(judge_timer(alone, single_calls(during_call)))
 
 
 @pytest.mark.parametrize("text", TEXTS)
 @pytest.mark.parametrize("every", [1, 5, 10, 20])
 def test_a_timer_that_stands_still_is_found_out(text: Text, every: int) -> None:
-    alone = quiet(ticking(text, until_s=8, every=every))
+    alone = idle_run(ticking(text, until_s=8, every=every))
     blocked = ticking(text, every=every, stands_still=(0.3, 3.31), until_s=8)
-    seen = lone(blocked, until=START + 8, stuck=IN_WORKER)
+    seen = single_calls(blocked, until=START + 8, stuck=IN_WORKER)
     assert_failed(judge_timer(alone, seen), "blocked executor", "line 12", "default group")
-    alone_thread = lone(blocked, until=START + 8, stuck=(frame("slow_add"), EXECUTING))
+    alone_thread = single_calls(blocked, until=START + 8, stuck=(frame("slow_add"), EXECUTING))
     assert_failed(judge_timer(alone, alone_thread), "blocked executor", "one thread")
 
 
 def test_a_timer_that_pauses_for_a_part_of_a_call() -> None:
     logs = ticking(every=1, stands_still=(1.2, 2.6), until_s=8)
-    verdict = judge_timer(quiet(ticking(every=1)), lone(logs, until=START + 8, stuck=IN_WORKER))
+    verdict = judge_timer(idle_run(ticking(every=1)), single_calls(logs, until=START + 8, stuck=IN_WORKER))
     assert_failed(verdict, "timer pauses", "1.5 s")
 
 
 def test_a_process_that_ends_after_a_call() -> None:
-    seen = lone(ticking(until_s=4.0), until=START + 4.1)
+    seen = single_calls(ticking(until_s=4.0), until=START + 4.1)
     gone = replace(seen, trace=replace(seen.trace, exit=exited(0, after_s=4.1)))
-    assert_failed(judge_timer(quiet(ticking()), gone), "exit at once", "exit code 0")
+    assert_failed(judge_timer(idle_run(ticking()), gone), "exit at once", "exit code 0")
 
 
 def test_the_timer_is_listened_to_during_a_second_call_too() -> None:
     later = answer(asked_at=START + 4.8)
     whole, still = (ticking(until_s=10, every=5, stands_still=pause) for pause in (None, (5.0, 7.9)))
     for logs, right in ((whole, True), (still, False)):
-        seen = replace(lone(logs), later=lone((), later, until=START + 9).calls)
-        verdict = judge_timer(quiet(ticking(every=5)), seen)
+        seen = replace(single_calls(logs), later=single_calls((), later, until=START + 9).calls)
+        verdict = judge_timer(idle_run(ticking(every=5)), seen)
         assert verdict.passed == right
         assert right or verdict.observed.startswith("the second call: ")
 
@@ -291,20 +295,22 @@ UNNUMBERED: list[Text] = [
 
 @pytest.mark.parametrize("text", UNNUMBERED)
 def test_without_a_number_ten_messages_per_second_are_the_timer(text: Text) -> None:
-    assert_passed(judge_timer(quiet(ticking(text, every=1)), lone(ticking(text, every=1))))
+    assert_passed(judge_timer(idle_run(ticking(text, every=1)), single_calls(ticking(text, every=1))))
     blocked = ticking(text, every=1, stands_still=(0.4, 3.3))
-    assert_failed(judge_timer(quiet(ticking(text, every=1)), lone(blocked)), "blocked executor")
+    assert_failed(judge_timer(idle_run(ticking(text, every=1)), single_calls(blocked)), "blocked executor")
 
 
 @pytest.mark.parametrize("text", UNNUMBERED[:3])
-def test_without_a_number_one_message_per_second_is_no_timer_of_10_hz(text: Text) -> None:
-    assert_failed(judge_timer(quiet(ticking(text, every=10)), lone(ticking(text))), "wrong timer period", "0.1 s")
+def test_without_a_number_one_message_per_second_is_not_a_timer_of_10_hz(text: Text) -> None:
+    assert_failed(
+        judge_timer(idle_run(ticking(text, every=10)), single_calls(ticking(text))), "wrong timer period", "0.1 s"
+    )
 
 
 @given(st.floats(0.2, 7.5) | st.floats(12.6, 100), st.sampled_from([1, 2, 5, 10]))
 def test_other_rates(hz: float, every: int) -> None:
-    alone = quiet(ticking(hz=hz, every=every, until_s=1.2 + 4.1 * every / hz))
-    assert_failed(judge_timer(alone, lone()), "wrong timer period", "times per second")
+    alone = idle_run(ticking(hz=hz, every=every, until_s=1.2 + 4.1 * every / hz))
+    assert_failed(judge_timer(alone, single_calls()), "wrong timer period", "times per second")
 
 
 @given(st.floats(8.5, 11.5), st.sampled_from([1, 2, 5, 10]), st.integers(0, 100), st.floats(0, 0.03))
@@ -312,90 +318,90 @@ def test_jitter_is_no_fault(hz: float, every: int, seed: int, jitter_s: float) -
     def logs(until_s: float, seed: int) -> list[LogRecord]:
         return ticking(hz=hz, every=every, until_s=until_s, jitter_s=jitter_s, seed=seed)
 
-    assert_passed(judge_timer(quiet(logs(3.6, seed)), lone(logs(4.7, seed + 1))))
+    assert_passed(judge_timer(idle_run(logs(3.6, seed)), single_calls(logs(4.7, seed + 1))))
 
 
 @given(st.floats(0.3, 1.5), st.floats(1.2, 3.0), st.sampled_from([1, 2, 5]))
 def test_a_gap_of_more_than_a_second_is_one(start: float, length: float, every: int) -> None:
     logs = ticking(every=every, stands_still=(start, start + length), until_s=6)
-    verdict = judge_timer(quiet(ticking(every=every)), lone(logs, until=START + 6))
+    verdict = judge_timer(idle_run(ticking(every=every)), single_calls(logs, until=START + 6))
     assert verdict.status is Status.FAILED
 
 
 def test_a_gap_that_the_machine_made_is_excused() -> None:
     blocked = ticking(every=1, stands_still=(0.5, 1.6))
-    assert_passed(judge_timer(quiet(ticking(every=1)), lone(blocked, starved_s=1.0)))
+    assert_passed(judge_timer(idle_run(ticking(every=1)), single_calls(blocked, cpu_wait_s=1.0)))
     with pytest.raises(MachineTooBusy):
-        judge_timer(quiet(ticking(every=1)), lone(ticking(every=1, stands_still=(0.5, 2)), starved_s=0.7))
-    long = lone(ticking(every=1, stands_still=(0.3, 3.3)), starved_s=0.7)
-    assert_failed(judge_timer(quiet(ticking(every=1)), long), "blocked executor")
+        judge_timer(idle_run(ticking(every=1)), single_calls(ticking(every=1, stands_still=(0.5, 2)), cpu_wait_s=0.7))
+    long = single_calls(ticking(every=1, stands_still=(0.3, 3.3)), cpu_wait_s=0.7)
+    assert_failed(judge_timer(idle_run(ticking(every=1)), long), "blocked executor")
     with pytest.raises(MachineTooBusy):  # all of the call stands still: no machine is so busy that this passes
-        judge_timer(quiet(ticking()), lone(ticking(stands_still=(0.3, 3.3)), starved_s=2.5))
+        judge_timer(idle_run(ticking()), single_calls(ticking(stands_still=(0.3, 3.3)), cpu_wait_s=2.5))
     with pytest.raises(MachineTooBusy):
-        judge_timer(quiet(ticking(hz=7), excused=True), lone())
+        judge_timer(idle_run(ticking(hz=7), excused=True), single_calls())
 
 
 def test_missed_ticks_made_up_for_are_a_gap_and_a_burst() -> None:
     burst = [says(f"Timer tick: {n}", START + 3.32 + n / 1e4) for n in range(3, 34)]
     logs = [*ticking(every=1, until_s=0.25), *burst, *ticking(every=1)[33:]]
-    assert_failed(judge_timer(quiet(ticking(every=1)), lone(logs, stuck=IN_WORKER)), "blocked executor")
+    assert_failed(judge_timer(idle_run(ticking(every=1)), single_calls(logs, stuck=IN_WORKER)), "blocked executor")
 
 
 def test_a_burst_without_a_gap() -> None:
     logs = [*ticking(every=1), *(says("Timer tick: 99", START + 3.2 + n / 1e3) for n in range(20))]
-    assert_failed(judge_timer(quiet(ticking(every=1)), lone(logs)), "ticks in a burst")
+    assert_failed(judge_timer(idle_run(ticking(every=1)), single_calls(logs)), "ticks in a burst")
 
 
 def test_every_second_tick_left_out_during_a_call() -> None:
     kept = [log for n, log in enumerate(ticking(lambda n: "tick", every=1)) if n % 2 or not 3 < n < 33]
-    assert_failed(judge_timer(quiet(ticking(lambda n: "tick", every=1)), lone(kept)), "slowed timer")
+    assert_failed(judge_timer(idle_run(ticking(lambda n: "tick", every=1)), single_calls(kept)), "slowed timer")
 
 
 def test_a_call_that_needs_no_excuse_tells_more_than_one_that_does() -> None:
     kept = [log for n, log in enumerate(ticking(lambda n: "tick", every=1)) if n % 3 or not 3 < n < 33]
     later = [replace(log, stamp=log.stamp + 5) for n, log in enumerate(kept)]
     first, second = answer(), answer(asked_at=ASKED + 5)
-    alone = quiet(ticking(lambda n: "tick", every=1))
+    alone = idle_run(ticking(lambda n: "tick", every=1))
     calls = (Call(first, START + 4.7, 1.0), Call(second, START + 9.7, 0.0))
-    slowed = Lone(trace(graph=SERVING, logs=[*kept, *later]), calls)
+    slowed = SingleCalls(trace(graph=SERVING, logs=[*kept, *later]), calls)
     assert_failed(judge_timer(alone, slowed), "slowed timer")
     assert_passed(judge_timer(alone, replace(slowed, calls=calls[:1])))
 
 
 def test_a_timer_that_never_comes_back() -> None:
-    assert_failed(judge_timer(quiet(ticking()), lone(ticking(until_s=2))), "blocked executor")
+    assert_failed(judge_timer(idle_run(ticking()), single_calls(ticking(until_s=2))), "blocked executor")
 
 
 def test_only_the_service_logs() -> None:
-    assert_failed(judge_timer(quiet([says("Ready", START)]), lone(ticking(every=1))), "no timer messages")
+    assert_failed(judge_timer(idle_run([says("Ready", START)]), single_calls(ticking(every=1))), "no timer messages")
     ticks = "\n".join(f"tick {n}" for n in range(20))
-    printing = Quiet(trace(graph=SERVING, out=ticks))
-    assert_failed(judge_timer(printing, lone()), "printed, not logged", "tick 0")
-    late = Quiet(trace(graph=SERVING), ending=replace(ending(), output=lines(ticks, "stdout")))
-    assert_failed(judge_timer(late, lone()), "output held back by buffering", "tick 0")
-    assert_failed(judge_timer(Quiet(CRASHED), lone()), "unhandled exception", "line 12")
+    printing = IdleRun(trace(graph=SERVING, out=ticks))
+    assert_failed(judge_timer(printing, single_calls()), "printed, not logged", "tick 0")
+    late = IdleRun(trace(graph=SERVING), ending=replace(ending(), output=lines(ticks, "stdout")))
+    assert_failed(judge_timer(late, single_calls()), "output held back by buffering", "tick 0")
+    assert_failed(judge_timer(IdleRun(CRASHED), single_calls()), "unhandled exception", "line 12")
 
 
-def test_a_greeting_of_many_messages_is_no_timer() -> None:
+def test_a_greeting_of_many_messages_is_not_a_timer() -> None:
     greeting = [says(f"loading module {n}", START + n / 1000) for n in range(300)]
     assert all_series(greeting) == []
-    assert_passed(judge_timer(quiet([*greeting, *ticking()]), lone([*greeting, *ticking()])))
+    assert_passed(judge_timer(idle_run([*greeting, *ticking()]), single_calls([*greeting, *ticking()])))
 
 
-def test_what_a_node_tells_while_it_starts_is_no_timer() -> None:
+def test_what_a_node_tells_while_it_starts_is_not_a_timer() -> None:
     loading = [says(f"loading part {n}", START + n / 10) for n in range(30)]
     later = [replace(log, stamp=log.stamp + 3) for log in ticking()]
-    found = all_series(said_since([*loading, *later], START + 3))
+    found = all_series(logs_since([*loading, *later], START + 3))
     assert {tick.text for series in found for tick in series.ticks} == {log.text for log in later}
 
 
 def test_a_second_timer_is_not_taken_for_the_fast_one() -> None:
     slow = [says(f"heartbeat {n}", START + n) for n in range(1, 9)]
-    alone = quiet([*ticking(), *slow])
-    assert_passed(judge_timer(alone, lone([*ticking(), *slow])))
+    alone = idle_run([*ticking(), *slow])
+    assert_passed(judge_timer(alone, single_calls([*ticking(), *slow])))
     blocked = ticking(stands_still=(0.4, 3.3))
-    assert_failed(judge_timer(alone, lone([*blocked, *slow])), "blocked executor")
-    assert_failed(judge_timer(quiet(slow), lone(slow)), "wrong timer period", "1.0 times")
+    assert_failed(judge_timer(alone, single_calls([*blocked, *slow])), "blocked executor")
+    assert_failed(judge_timer(idle_run(slow), single_calls(slow)), "wrong timer period", "1.0 times")
 
 
 def roman(number: int) -> str:
@@ -422,28 +428,30 @@ def test_what_one_function_logs_is_one_timer_whatever_its_words(text: Text, ever
         return logged_by("on_timer", ticking(text, every=every, **more))
 
     service = logged_by("slow_add", [says(f"working, step {n} of 30", ASKED + n / 10) for n in range(30)])
-    assert_passed(judge_timer(quiet(logs(until_s=2.1)), lone([*logs(), *service])))
-    blocked = lone([*logs(stands_still=(0.4, 3.3)), *service])
-    assert_failed(judge_timer(quiet(logs(until_s=2.1)), blocked), "blocked executor")
+    assert_passed(judge_timer(idle_run(logs(until_s=2.1)), single_calls([*logs(), *service])))
+    blocked = single_calls([*logs(stands_still=(0.4, 3.3)), *service])
+    assert_failed(judge_timer(idle_run(logs(until_s=2.1)), blocked), "blocked executor")
 
 
-def test_what_a_shared_function_logs_for_the_service_is_no_tick() -> None:
-    alone = quiet(logged_by("say", ticking(every=1, until_s=2.1)))
+def test_what_a_shared_function_logs_for_the_service_is_not_a_tick() -> None:
+    alone = idle_run(logged_by("say", ticking(every=1, until_s=2.1)))
     steps = [says(f"working, step {n} of 30", ASKED + 0.1 * (n + 1)) for n in range(30)]
-    blocked = lone(logged_by("say", [*ticking(every=1, stands_still=(0.35, 3.3)), *steps]))
+    blocked = single_calls(logged_by("say", [*ticking(every=1, stands_still=(0.35, 3.3)), *steps]))
     assert_failed(judge_timer(alone, blocked), "blocked executor")
 
 
-def test_a_function_that_counts_to_another_speed_is_no_timer_of_10_hz() -> None:
+def test_a_function_that_counts_to_another_speed_is_not_a_timer_of_10_hz() -> None:
     fast = logged_by("on_timer", ticking(lambda n: f"tick {n} of {n % 7}, {n % 3} calls", hz=100, every=10))
-    assert_failed(judge_timer(quiet(fast), lone(fast)), "wrong timer period", "100.0 times")
+    assert_failed(judge_timer(idle_run(fast), single_calls(fast)), "wrong timer period", "100.0 times")
 
 
 def test_two_nodes_may_use_the_same_words() -> None:
     slow = [says(f"{n}", START + n / 2 + 0.01, node="monitor") for n in range(1, 10)]
-    assert_passed(judge_timer(quiet([*ticking("{}".format), *slow]), lone([*ticking("{}".format), *slow])))
+    assert_passed(judge_timer(idle_run([*ticking("{}".format), *slow]), single_calls([*ticking("{}".format), *slow])))
     blocked = ticking("{}".format, stands_still=(0.4, 3.3))
-    assert_failed(judge_timer(quiet([*ticking("{}".format), *slow]), lone([*blocked, *slow])), "blocked executor")
+    assert_failed(
+        judge_timer(idle_run([*ticking("{}".format), *slow]), single_calls([*blocked, *slow])), "blocked executor"
+    )
 
 
 @pytest.mark.parametrize("every", [1, 5, 10])
@@ -452,25 +460,25 @@ def test_a_counter_may_start_over(size: int, every: int) -> None:
     def logs(**more: Any) -> list[LogRecord]:
         return [replace(log, text=f"tick {int(log.text) % size}") for log in ticking("{}".format, every=every, **more)]
 
-    alone = quiet(ticking("tick {}".format, every=every, until_s=2.1))
-    assert_passed(judge_timer(alone, lone(logs())))
-    assert_failed(judge_timer(alone, lone(logs(stands_still=(0.4, 3.3)))), "blocked executor")
+    alone = idle_run(ticking("tick {}".format, every=every, until_s=2.1))
+    assert_passed(judge_timer(alone, single_calls(logs())))
+    assert_failed(judge_timer(alone, single_calls(logs(stands_still=(0.4, 3.3)))), "blocked executor")
 
 
 def test_a_timer_without_a_call_is_not_judged() -> None:
-    assert judge_timer(quiet(ticking()), Lone(trace(graph=UP))).status is Status.SKIPPED
-    assert_failed(judge_timer(quiet(ticking(hz=5)), Lone(trace(graph=UP))), "wrong timer period")
+    assert judge_timer(idle_run(ticking()), SingleCalls(trace(graph=UP))).status is Status.SKIPPED
+    assert_failed(judge_timer(idle_run(ticking(hz=5)), SingleCalls(trace(graph=UP))), "wrong timer period")
 
 
 def test_numbers_that_tell_the_time_are_no_ticks() -> None:
     (series,) = seen_in(ticking(lambda n: f"{n * 100_000_000} ns", every=1))
     assert not series.numbered
-    assert during(series, [], START, START + 3, until=START + 4, starved_s=0).fault is Fault.GAP
+    assert timer_during(series, [], START, START + 3, until=START + 4, cpu_wait_s=0).fault is Fault.GAP
 
 
-def three(*sums: int | None, took_s: Sequence[float] = (3.0, 3.0, 3.0), starved_s: float = 0.0) -> Trio:
+def three(*sums: int | None, took_s: Sequence[float] = (3.0, 3.0, 3.0), cpu_wait_s: float = 0.0) -> ConcurrentCalls:
     answers = tuple(answer(took, 1000 * n, 5, sum_) for n, (took, sum_) in enumerate(zip(took_s, sums, strict=True), 1))
-    return Trio(trace(graph=SERVING), (Three(answers, starved_s),))
+    return ConcurrentCalls(trace(graph=SERVING), (CallBatch(answers, cpu_wait_s),))
 
 
 def test_three_at_once() -> None:
@@ -479,8 +487,8 @@ def test_three_at_once() -> None:
     assert_failed(judge_concurrent(three(3005, 3005, 3005)), "shared state", "1 of 3")
     assert_failed(judge_concurrent(three(1005, -1, -1)), "wrong sum", "-1")
     assert_failed(judge_concurrent(three(1005, None, None)), "no answer", "2 of 3")
-    assert_failed(judge_concurrent(Trio(CRASHED, three(1005, None, None).made)), "unhandled exception")
-    assert judge_concurrent(Trio(trace(graph=UP))).status is Status.SKIPPED
+    assert_failed(judge_concurrent(ConcurrentCalls(CRASHED, three(1005, None, None).batches)), "unhandled exception")
+    assert judge_concurrent(ConcurrentCalls(trace(graph=UP))).status is Status.SKIPPED
 
 
 @given(st.permutations([1005, 2005, 3005]))
@@ -491,31 +499,41 @@ def test_each_its_own_sum(sums: list[int]) -> None:
 
 def test_parallel() -> None:
     sums = (1005, 2005, 3005)
-    assert_passed(judge_parallel(lone(), three(*sums, took_s=(3.0, 3.1, 4.4))))
-    assert_passed(judge_parallel(lone(), three(*sums, took_s=(3.0, 3.1, 4.9), starved_s=0.6)))
-    again = Trio(trace(graph=SERVING), (*three(*sums, took_s=(3.0, 3.1, 5.0)).made, *three(*sums).made))
-    assert_passed(judge_parallel(lone(), again))
-    assert_failed(judge_parallel(lone(), three(*sums, took_s=(3.0, 3.0, 6.0))), "one call at a time", "2.0 times")
+    assert_passed(judge_parallel(single_calls(), three(*sums, took_s=(3.0, 3.1, 4.4))))
+    assert_passed(judge_parallel(single_calls(), three(*sums, took_s=(3.0, 3.1, 4.9), cpu_wait_s=0.6)))
+    again = ConcurrentCalls(
+        trace(graph=SERVING), (*three(*sums, took_s=(3.0, 3.1, 5.0)).batches, *three(*sums).batches)
+    )
+    assert_passed(judge_parallel(single_calls(), again))
+    assert_failed(
+        judge_parallel(single_calls(), three(*sums, took_s=(3.0, 3.0, 6.0))), "one call at a time", "2.0 times"
+    )
     with pytest.raises(MachineTooBusy):
-        judge_parallel(lone(), three(*sums, took_s=(3.0, 3.0, 6.0), starved_s=2.6))
-    assert_failed(judge_parallel(lone(), three(*sums, took_s=(3.0, 6.0, 9.0), starved_s=5.0)), "one call at a time")
+        judge_parallel(single_calls(), three(*sums, took_s=(3.0, 3.0, 6.0), cpu_wait_s=2.6))
+    assert_failed(
+        judge_parallel(single_calls(), three(*sums, took_s=(3.0, 6.0, 9.0), cpu_wait_s=5.0)), "one call at a time"
+    )
 
 
 def test_three_on_a_calm_machine_are_enough_to_tell() -> None:
-    (calm,), (busy,) = two_at_a_time(0.3).made, two_at_a_time(3.0).made
+    (calm,), (busy,) = two_at_a_time(0.3).batches, two_at_a_time(3.0).batches
     for made in ((calm,), (calm, calm), (busy, calm), (busy, calm, busy)):
-        assert_failed(judge_parallel(lone(), Trio(trace(graph=SERVING), made)), "one call at a time", "2.0 times")
+        assert_failed(
+            judge_parallel(single_calls(), ConcurrentCalls(trace(graph=SERVING), made)),
+            "one call at a time",
+            "2.0 times",
+        )
     for made in ((busy,), (busy, busy), (calm, busy, busy)):  # the first may have been held up by the connection
         with pytest.raises(MachineTooBusy):
-            judge_parallel(lone(), Trio(trace(graph=SERVING), made))
+            judge_parallel(single_calls(), ConcurrentCalls(trace(graph=SERVING), made))
 
 
-def two_at_a_time(starved_s: float) -> Trio:
-    return three(1005, 2005, 3005, took_s=(3.0, 3.0, 6.0), starved_s=starved_s)
+def two_at_a_time(cpu_wait_s: float) -> ConcurrentCalls:
+    return three(1005, 2005, 3005, took_s=(3.0, 3.0, 6.0), cpu_wait_s=cpu_wait_s)
 
 
 @pytest.mark.parametrize(
-    ("starved_s", "times"),
+    ("cpu_wait_s", "times"),
     [
         ((0.0, 0.0), 2),
         ((3.0, 0.0), 2),
@@ -526,29 +544,29 @@ def two_at_a_time(starved_s: float) -> Trio:
         ((3.0,) * 6, MOST_AT_ONCE_TRIES),
     ],
 )
-def test_calls_at_once_go_on_until_they_tell_something(starved_s: Sequence[float], times: int) -> None:
-    made = tuple(three_ for each in starved_s for three_ in two_at_a_time(each).made)
-    repeated = [again_at_once(Trio(trace(graph=SERVING), made[:n])) for n in range(1, len(made) + 1)]
+def test_calls_at_once_go_on_until_they_tell_something(cpu_wait_s: Sequence[float], times: int) -> None:
+    made = tuple(three_ for each in cpu_wait_s for three_ in two_at_a_time(each).batches)
+    repeated = [needs_repeat_at_once(ConcurrentCalls(trace(graph=SERVING), made[:n])) for n in range(1, len(made) + 1)]
     assert repeated == [True] * (times - 1) + [False]
-    good, serial = three(1005, 2005, 3005, starved_s=3.0), three(1005, 2005, 3005, took_s=(3, 6, 9), starved_s=3.0)
-    assert not again_at_once(good)
-    assert not again_at_once(serial)
-    assert not again_at_once(three(1005, None, 3005, took_s=(3.0, 3.0, 6.0), starved_s=3.0))
+    good, serial = three(1005, 2005, 3005, cpu_wait_s=3.0), three(1005, 2005, 3005, took_s=(3, 6, 9), cpu_wait_s=3.0)
+    assert not needs_repeat_at_once(good)
+    assert not needs_repeat_at_once(serial)
+    assert not needs_repeat_at_once(three(1005, None, 3005, took_s=(3.0, 3.0, 6.0), cpu_wait_s=3.0))
 
 
 def test_shutdown() -> None:
-    assert_passed(judge_shutdown(quiet([], ending=ending())))
-    assert_failed(judge_shutdown(quiet([], ending=ending(1, err=KEYBOARD_INTERRUPT))), "traceback on exit")
+    assert_passed(judge_shutdown(idle_run([], ending=ending())))
+    assert_failed(judge_shutdown(idle_run([], ending=ending(1, err=KEYBOARD_INTERRUPT))), "traceback on exit")
 
 
 def test_shutdown_busy() -> None:
     clean = Interrupted(trace(graph=SERVING), True, ending(130))
-    assert_passed(judge_shutdown_busy(clean, lone()))
+    assert_passed(judge_shutdown_busy(clean, single_calls()))
     stays = Interrupted(trace(graph=SERVING), True, ending(still_there=True))
-    assert_failed(judge_shutdown_busy(stays, lone()), "SIGINT ignored")
-    assert_failed(judge_shutdown_busy(Interrupted(CRASHED, False), Lone(trace())), "unhandled exception")
+    assert_failed(judge_shutdown_busy(stays, single_calls()), "SIGINT ignored")
+    assert_failed(judge_shutdown_busy(Interrupted(CRASHED, False), SingleCalls(trace())), "unhandled exception")
     gone = Interrupted(trace(graph=UP), False, ending())
-    assert judge_shutdown_busy(gone, Lone(trace())).status is Status.SKIPPED
-    unanswered = lone([], answer(sum_=None))
+    assert judge_shutdown_busy(gone, SingleCalls(trace())).status is Status.SKIPPED
+    unanswered = single_calls([], answer(sum_=None))
     assert judge_shutdown_busy(clean, unanswered).status is Status.SKIPPED
     assert_failed(judge_shutdown_busy(stays, unanswered), "SIGINT ignored")

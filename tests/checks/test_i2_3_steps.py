@@ -10,8 +10,8 @@ from checks.i2_3 import rewriting, steps
 from tests.checks.made import trace
 from tests.judging import find
 from tutor.content.submissions import Case
-from tutor.judge.following import follow
-from tutor.judge.rewriting.node import NodeFile, started
+from tutor.judge.rewriting.node import NodeFile, started_node
+from tutor.judge.step_parsing import apply_step
 
 NODE = """\
 import time
@@ -80,7 +80,7 @@ def changed(*pairs: tuple[str, str]) -> NodeFile:
     ],
 )
 def test_one_thread_for_all(file: NodeFile, step: str) -> None:
-    assert step in str(steps.executor(file))
+    assert step in str(steps.use_threads(file))
 
 
 @pytest.mark.parametrize(
@@ -102,8 +102,8 @@ def test_one_thread_for_all(file: NodeFile, step: str) -> None:
     ],
 )
 def test_held_by_a_group_or_by_few_threads(file: NodeFile, held: str, step: str) -> None:
-    assert held in steps.held_by(file)
-    assert step in str(steps.held(file))
+    assert held in steps.what_timer_waits_for(file)
+    assert step in str(steps.separate_groups(file))
 
 
 @pytest.mark.parametrize(
@@ -115,7 +115,7 @@ def test_held_by_a_group_or_by_few_threads(file: NodeFile, held: str, step: str)
     ],
 )
 def test_one_call_at_a_time(file: NodeFile, step: str) -> None:
-    assert step in str(steps.apart(file))
+    assert step in str(steps.allow_overlap(file))
 
 
 @pytest.mark.parametrize(
@@ -136,23 +136,23 @@ def test_one_call_at_a_time(file: NodeFile, step: str) -> None:
     ],
 )
 def test_no_messages_of_the_timer(file: NodeFile, cause: str, step: str) -> None:
-    found = steps.silent(file)
+    found = steps.diagnose_no_ticks(file)
     assert found is not None
     assert found.name == cause
     assert step in found.hint
 
 
 def test_steps_of_one_line() -> None:
-    assert steps.working_for(changed(("sleep(3.0)", "sleep(1)"))) == "line 18 becomes: time.sleep(3.0)"
-    assert steps.period(changed(("timer(0.1", "timer(1.0"))) == (
+    assert steps.fix_work_time(changed(("sleep(3.0)", "sleep(1)"))) == "line 18 becomes: time.sleep(3.0)"
+    assert steps.fix_period(changed(("timer(0.1", "timer(1.0"))) == (
         "line 14 becomes: self.timer = self.create_timer(0.1, self.tick, callback_group=self.other)"
     )
     waits = changed(("time.sleep(3.0)", "threading.Event().wait()"), ("import time", "import threading"))
-    assert steps.waiting(waits, "threading.Event().wait()", 18) == "line 18 becomes: threading.Event().wait(3.0)"
+    assert steps.remove_wait(waits, "threading.Event().wait()", 18) == "line 18 becomes: threading.Event().wait(3.0)"
     named = changed(("'slow_add'", "'slow_sum'"))
-    assert "AddTwoInts, 'slow_add', self.add" in str(steps.offering(named))
+    assert "AddTwoInts, 'slow_add', self.add" in str(steps.fix_service(named))
     spaced = changed(("__init__('concurrent_service'", "__init__('concurrent_service', namespace='x'"))
-    assert "AddTwoInts, '/slow_add', self.add" in str(steps.offering(spaced))
+    assert "AddTwoInts, '/slow_add', self.add" in str(steps.fix_service(spaced))
 
 
 @pytest.mark.parametrize(
@@ -166,21 +166,23 @@ def test_steps_of_one_line() -> None:
     ],
 )
 def test_the_callback_as_a_whole(old: str, new: str) -> None:
-    step = str(steps.answering(changed((old, new))))
+    step = str(steps.fix_answer(changed((old, new))))
     assert "time.sleep(3.0)\n" in step
     assert "response.sum = request.a + request.b\n" in step
     assert "return response" in step
 
 
 def test_work_beside_the_callback_answers_too_early() -> None:
-    found = steps.too_early(changed(("time.sleep(3.0)", "Thread(target=self.work, args=(request, response)).start()")))
+    found = steps.diagnose_early_answer(
+        changed(("time.sleep(3.0)", "Thread(target=self.work, args=(request, response)).start()"))
+    )
     assert found is not None
     assert found.name == "answered too early"
     assert "response.sum = request.a + request.b\n    return response" in found.hint
 
 
 def test_an_executor_without_a_node() -> None:
-    found = steps.not_added(changed(("    executor.add_node(node)\n", "")))
+    found = steps.diagnose_node_not_added(changed(("    executor.add_node(node)\n", "")))
     assert found is not None
     assert "executor.add_node(node)\n" in found.hint
 
@@ -188,8 +190,8 @@ def test_an_executor_without_a_node() -> None:
 def test_the_same_step_is_not_told_again() -> None:
     """What is as it should be is not rewritten, but what it may be due to besides."""
     right = NodeFile(NODE)
-    assert rewriting.answering(right)
-    step = str(steps.answering(right))
+    assert rewriting.rewrite_service_callback(right)
+    step = str(steps.fix_answer(right))
     assert "response.sum" not in step
     assert "ReentrantCallbackGroup()" in step
 
@@ -202,27 +204,34 @@ def test_each_submission_can_be_rewritten(case: Case) -> None:
             ast.parse(text := path.read_text())
         except SyntaxError:
             continue
-        assert steps.everything(NodeFile(text)) or "create_service" not in text
+        assert steps.rewrite_everything(NodeFile(text)) or "create_service" not in text
 
 
 def test_what_cannot_be_read_leaves_the_plain_words() -> None:
-    for step in (steps.executor, steps.apart, steps.working_for, steps.period, steps.silent, steps.offering):
+    for step in (
+        steps.use_threads,
+        steps.allow_overlap,
+        steps.fix_work_time,
+        steps.fix_period,
+        steps.diagnose_no_ticks,
+        steps.fix_service,
+    ):
         assert step(NodeFile("")) is None, step
 
 
 def test_a_step_names_its_file_where_there_are_others() -> None:
-    read = started(trace(sources={"node.py": NODE.replace("time.sleep(3.0)", "time.sleep(9.0)"), "other.py": ""}))
+    read = started_node(trace(sources={"node.py": NODE.replace("time.sleep(3.0)", "time.sleep(9.0)"), "other.py": ""}))
 
-    assert steps.working_for(read) == "in node.py, line 18 becomes: time.sleep(3.0)"
+    assert steps.fix_work_time(read) == "in node.py, line 18 becomes: time.sleep(3.0)"
 
 
 def test_a_timer_that_each_call_makes_is_made_with_the_service() -> None:
     made = "        self.timer = self.create_timer(0.1, self.tick, callback_group=self.other)\n"
     file = changed((made, ""), ("        time.sleep(3.0)\n", f"{made}        time.sleep(3.0)\n"))
 
-    step = steps.ticks(file)
+    step = steps.rewrite_ticking(file)
 
     assert step is not None
-    code = follow(step, {"node.py": file.text})["node.py"]
+    code = apply_step(step, {"node.py": file.text})["node.py"]
     assert code.count("create_timer(") == 1
     assert code.index("create_timer(") < code.index("def add(")

@@ -9,9 +9,9 @@ import pytest
 from checks.i1_1 import steps as of_sensor
 from checks.i2_1 import steps as of_parameters
 from checks.i2_1.facts import ENABLED, PREFIX, RATE
-from tests.repairs import follow
-from tutor.judge import following
-from tutor.judge.rewriting.whole import followable
+from tests.repairs import apply_step
+from tutor.judge import step_parsing
+from tutor.judge.rewriting.whole import with_applicable_steps
 from tutor.judge.trace import Trace
 from tutor.judge.verdict import Cause, failed
 
@@ -107,19 +107,19 @@ main()
 """
 
 STEPS: dict[str, Callable[[Trace], str]] = {
-    "followed": of_parameters.followed,
-    "resumed": of_parameters.resumed,
-    "steady": of_parameters.steady,
-    "refused": of_parameters.refused,
-    "separate": of_parameters.separate,
-    "cancelled": of_parameters.cancelled,
-    "published": of_parameters.published,
-    "rate": lambda trace: of_parameters.heeded(trace, RATE),
-    "prefix": lambda trace: of_parameters.heeded(trace, PREFIX),
-    "enabled later": lambda trace: of_parameters.heeded_later(trace, ENABLED),
-    "declared": lambda trace: of_parameters.declared(trace, [PREFIX, RATE, ENABLED]),
-    "sensor": of_sensor.drawn,
-    "sensor's pace": lambda trace: of_sensor.paced(trace, "publish_rate"),
+    "followed": of_parameters.follow_changes,
+    "resumed": of_parameters.keep_timer_running,
+    "steady": of_parameters.send_once_per_tick,
+    "refused": of_parameters.refuse_bad_rates,
+    "separate": of_parameters.check_all_first,
+    "cancelled": of_parameters.cancel_old_timer,
+    "published": of_parameters.add_publisher,
+    "rate": lambda trace: of_parameters.use_parameter(trace, RATE),
+    "prefix": lambda trace: of_parameters.use_parameter(trace, PREFIX),
+    "enabled later": lambda trace: of_parameters.use_parameter_later(trace, ENABLED),
+    "declared": lambda trace: of_parameters.declare_parameters(trace, [PREFIX, RATE, ENABLED]),
+    "sensor": of_sensor.draw_values,
+    "sensor's pace": lambda trace: of_sensor.set_timer_period(trace, "publish_rate"),
 }
 
 
@@ -128,7 +128,7 @@ def started(code: str) -> Trace:
 
 
 def done(step: str, trace: Trace) -> str:
-    return follow(step, trace.sources)["node.py"]
+    return apply_step(step, trace.sources)["node.py"]
 
 
 @pytest.mark.parametrize("step", STEPS)
@@ -138,13 +138,13 @@ def test_a_step_that_did_not_help_is_followed_by_the_whole_program(code: str, st
     trace = started(code)
     while "def main" not in (told[-1] if told else "") and "def talk" not in (told[-1] if told else ""):
         told.append(STEPS[step](trace))
-        assert following.leads_on(told[-1], trace.sources), told[-1]
+        assert step_parsing.is_applicable(told[-1], trace.sources), told[-1]
         assert len(set(told)) == len(told) <= 3
         trace = started(done(told[-1], trace))
 
 
 def test_the_program_is_in_the_learners_names() -> None:
-    code = done(of_parameters.anything(started(TIMERS)), started(TIMERS))
+    code = done(of_parameters.whole_program_step(started(TIMERS)), started(TIMERS))
     assert code.startswith(HEAD.split("import")[0])
     assert "class Speaker(Node):" in code
     assert "super().__init__('speaker')" in code
@@ -152,11 +152,13 @@ def test_the_program_is_in_the_learners_names() -> None:
     assert "self.add_on_set_parameters_callback(self.look)" in code
     assert "def say(self):" in code
     assert "self.sent += 1" in code
-    assert of_parameters.anything(started(code)) == ""
+    assert of_parameters.whole_program_step(started(code)) == ""
 
 
 def test_what_a_node_has_itself_is_not_overwritten() -> None:
-    code = done(of_parameters.anything(started(TIMERS.replace("self.out", "self.publishers"))), started(TIMERS))
+    code = done(
+        of_parameters.whole_program_step(started(TIMERS.replace("self.out", "self.publishers"))), started(TIMERS)
+    )
     assert "self.publishers" not in code
 
 
@@ -169,12 +171,12 @@ def test_an_expression_that_names_the_topic_gets_another_one() -> None:
 @pytest.mark.parametrize("hint", ["look again", "line 2 becomes: 1"])
 def test_a_step_in_words_becomes_one_that_can_be_followed(hint: str) -> None:
     trace = started("import rclpy\nrclpy.init()\n")
-    judge = followable(
+    judge = with_applicable_steps(
         lambda trace: failed("all", "nothing", Cause("wrong", "it is", hint)),
         lambda trace: [trace],
-        of_parameters.anything,
+        of_parameters.whole_program_step,
     )
     verdict = judge(trace)
-    assert following.leads_on(verdict.hint, trace.sources)
+    assert step_parsing.is_applicable(verdict.hint, trace.sources)
     assert (verdict.hint == hint) == hint.startswith("line")
     assert verdict.cause == ("wrong: it is" if verdict.hint == hint else "wrong: it is; look again")

@@ -108,7 +108,7 @@ def test_what_the_runs_show_is_1_and_a_line_each(run: Run, prover: Prover) -> No
     assert summary == "2 findings, 1 could not be judged: 1 exercise, 2 runs"
 
 
-def test_what_could_not_be_judged_is_no_finding_but_3(run: Run, prover: Prover) -> None:
+def test_what_could_not_be_judged_is_not_a_finding_but_3(run: Run, prover: Prover) -> None:
     prover.verdicts = {(Kind.SOLUTION, "client"): Verdict(Status.ERROR, cause="too busy", hint="wait")}
     ran = run("author", "check", LESSON)
     assert ran.code == 3

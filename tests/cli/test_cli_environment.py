@@ -36,7 +36,7 @@ def run(argv: list[str], folder: Path, variables: dict[str, str]) -> subprocess.
 PROGRAMS = {
     "clone": [str(ROOT / "ros-tutor")],
     "installed": [str(Path(sys.prefix) / "bin" / "ros-tutor")],
-    "engine": list(interpreter.of_ours("tutor.engine")),
+    "engine": list(interpreter.module_command("tutor.engine")),
 }
 SURROUNDINGS: dict[str, dict[str, str]] = {
     "the current folder": {"PYTHONPATH": "."},

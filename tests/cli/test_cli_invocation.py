@@ -43,13 +43,13 @@ def clone(monkeypatch: pytest.MonkeyPatch) -> None:
     ],
 )
 def test_it_is_the_word_that_was_typed(environ: dict[str, str], argv: list[str], word: str) -> None:
-    assert invocation.started_as(environ, argv) == word
+    assert invocation.detect_program_name(environ, argv) == word
 
 
 def test_below_the_current_folder_it_is_a_short_path(home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    assert invocation.started_as({}, [str(home / "venv/bin/ros-tutor")]) == "venv/bin/ros-tutor"
+    assert invocation.detect_program_name({}, [str(home / "venv/bin/ros-tutor")]) == "venv/bin/ros-tutor"
     monkeypatch.setattr(shutil, "which", lambda name: str(home / "venv/bin/ros-tutor"))
-    assert invocation.started_as({}, [str(home / "venv/bin/ros-tutor")]) == "ros-tutor"
+    assert invocation.detect_program_name({}, [str(home / "venv/bin/ros-tutor")]) == "ros-tutor"
 
 
 @pytest.mark.usefixtures("clone")
@@ -75,13 +75,13 @@ def test_a_clone_is_told_by_its_script(tmp_path: Path) -> None:
 
 def test_commands_in_a_text() -> None:
     text = "ros-tutor check i1.1\n$ ros-tutor hint i1.1\n`ros-tutor` and ros-tutor's folder, `ros-tutor list`"
-    assert invocation.as_started(text) == text
+    assert invocation.with_program_name(text) == text
 
 
 @pytest.mark.usefixtures("clone")
 def test_commands_in_a_text_of_a_clone() -> None:
     text = "ros-tutor check i1.1\n$ ros-tutor hint i1.1\n`ros-tutor` and ros-tutor's folder, `ros-tutor list`"
-    assert invocation.as_started(text) == (
+    assert invocation.with_program_name(text) == (
         "./ros-tutor check i1.1\n$ ./ros-tutor hint i1.1\n`./ros-tutor` and ros-tutor's folder, `./ros-tutor list`"
     )
 

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from tutor.process.warden import descendants, processes
+from tutor.process.supervisor import descendants, processes
 
 ROOT = Path(__file__).parents[2]
 LIMIT_S = 60.0
@@ -33,7 +33,7 @@ def until(seen: Callable[[], bool], limit_s: float, what: str) -> None:
         time.sleep(0.01)
 
 
-@pytest.mark.parametrize(("victim", "code"), [("-m tutor", -9), ("warden.py", 3), ("temperature_publisher.py", 0)])
+@pytest.mark.parametrize(("victim", "code"), [("-m tutor", -9), ("supervisor.py", 3), ("temperature_publisher.py", 0)])
 def test_of_a_clones_check(tmp_path: Path, victim: str, code: int) -> None:
     file = shutil.copy(ROOT / "lessons/i1_1/solution/temperature_publisher.py", tmp_path)
     process = subprocess.Popen(
@@ -46,7 +46,7 @@ def test_of_a_clones_check(tmp_path: Path, victim: str, code: int) -> None:
 
     def is_up() -> bool:
         running.update({pid: command(pid) for pid in (process.pid, *(p.pid for p in descendants(process.pid)))})
-        return any(str(file) in line and "warden.py" not in line for line in running.values())
+        return any(str(file) in line and "supervisor.py" not in line for line in running.values())
 
     try:
         until(is_up, LIMIT_S, "the learner's node")

@@ -154,11 +154,11 @@ class Finding:
     name: str
     ok: bool | None
     text: str
-    mend: str
+    hint: str
 
 
 @pytest.mark.parametrize(("ok", "code", "word"), [(True, 0, "✓ ok"), (None, 0, "! warning"), (False, 3, "✗ wrong")])
-def test_the_doctor_gives_each_finding_with_its_mend(
+def test_the_doctor_gives_each_finding_with_its_hint(
     run: Run, monkeypatch: pytest.MonkeyPatch, ok: bool | None, code: int, word: str
 ) -> None:
     doctor = types.ModuleType("tutor.doctor")
@@ -167,7 +167,7 @@ def test_the_doctor_gives_each_finding_with_its_mend(
     ran = run("doctor")
     assert ran.code == code
     assert ran.out.startswith(word)
-    assert ("mend: do this" in ran.out) == (ok is not True)
+    assert ("fix: do this" in ran.out) == (ok is not True)
 
 
 def test_damaged_progress_is_told_once_and_kept(run: Run, home: Path) -> None:

@@ -106,6 +106,6 @@ runpy.run_module("tutor", run_name="__main__")
 """
 
 
-def test_ctrl_c_while_the_program_is_being_imported_is_no_traceback() -> None:
+def test_ctrl_c_while_the_program_is_being_imported_is_not_a_traceback() -> None:
     found = ran(sys.executable, "-c", PRESSES_EARLY)
     assert (found.returncode, found.stdout, found.stderr) == (130, "", "")

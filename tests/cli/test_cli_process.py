@@ -20,7 +20,7 @@ from pathlib import Path
 import pytest
 
 from tests.cli.fake_engine import FAILURE
-from tutor.cli.live import LiveDisplay, _Line
+from tutor.cli.progress_display import ProgressDisplay, _Line
 from tutor.content import load_course
 from tutor.judge.result import CriterionResult
 
@@ -145,7 +145,7 @@ def test_all_exercises_fit_on_a_common_terminal_with_a_bar_for_each_criterion() 
     from rich.console import Console
 
     course = load_course()
-    display = LiveDisplay(course, vanishing=True)
+    display = ProgressDisplay(course, vanishing=True)
     output = io.StringIO()
     display._console = Console(file=output, width=80, height=24, force_terminal=True, color_system=None)
     for lesson in course.lessons:
@@ -192,7 +192,7 @@ def test_an_interrupt_lets_the_engine_clean_up_and_is_130(number: signal.Signals
     process.stderr.close()
 
 
-def test_a_reader_that_goes_away_is_no_error() -> None:
+def test_a_reader_that_goes_away_is_not_an_error() -> None:
     read, write = os.pipe()
     os.close(read)
     ran = subprocess.run(

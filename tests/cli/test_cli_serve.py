@@ -192,7 +192,7 @@ def test_a_taken_usual_port_is_replaced_by_a_free_one(taken: int, monkeypatch: p
         listen("127.0.0.1", taken)
 
 
-def test_who_opens_it_to_others_is_warned(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_anyone_who_opens_it_to_others_is_warned(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     from tutor.serve.server import AppServer
 
     async def run_shortly(self: AppServer, on_ready: Callable[[], None], on_stop: Callable[[], None]) -> None:

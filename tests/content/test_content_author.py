@@ -9,10 +9,10 @@ from pathlib import Path
 import pytest
 
 from tutor.content import ContentError, Course, Lesson, load_course
-from tutor.content.lint_checks import lint_check, lint_strays
-from tutor.content.lint_commands import lint_commands
-from tutor.content.lint_submissions import lint_submissions
-from tutor.content.proof import faults, findings_of
+from tutor.content.lint_checks import find_disagreements, find_stray_files
+from tutor.content.lint_commands import find_bad_commands
+from tutor.content.lint_submissions import find_bad_submissions
+from tutor.content.proof import faults, find_disproofs
 from tutor.content.submissions import read_expected
 from tutor.judge.check import Check, Criterion
 from tutor.judge.result import CriterionResult, ExerciseResult
@@ -64,7 +64,7 @@ def check(*criteria: str, exercise: str = "x1.1", bonus: tuple[str, ...] = ("sto
     ],
 )
 def test_a_lesson_and_its_check_agree(course: Course, made: Check, place: str, text: str) -> None:
-    found = list(lint_check(course.lessons[0], made))
+    found = list(find_disagreements(course.lessons[0], made))
     assert [problem.text for problem in found] == ([text] if text else [])
     assert all(str(problem.file).endswith(place) for problem in found)
 
@@ -72,20 +72,20 @@ def test_a_lesson_and_its_check_agree(course: Course, made: Check, place: str, t
 def test_a_check_names_the_lessons_files(course: Course) -> None:
     lesson = course.lessons[0]
     lesson.check.write_text('FILE = "walker.py"\n')
-    assert [problem.text for problem in lint_check(lesson, check("moves", "stops"))] == [
+    assert [problem.text for problem in find_disagreements(lesson, check("moves", "stops"))] == [
         "the file mover.py is named nowhere in it"
     ]
     lesson.check.with_name("facts.py").write_text('FILE = "mover.py"\n')
-    assert list(lint_check(lesson, check("moves", "stops"))) == []
+    assert list(find_disagreements(lesson, check("moves", "stops"))) == []
 
 
 def test_strays_beside_lessons_and_checks_are_found(course: Course, lesson_folder: Path) -> None:
     root = lesson_folder.parents[1]
-    assert list(lint_strays(course, course.lessons)) == []
+    assert list(find_stray_files(course, course.lessons)) == []
     for stray in ("lessons/notes.txt", "checks/x1_2.py", "checks/__init__.py"):
         (root / stray).touch()
     (root / "checks" / "__pycache__").mkdir()
-    found = [str(problem.file.relative_to(root)) for problem in lint_strays(course, course.lessons)]
+    found = [str(problem.file.relative_to(root)) for problem in find_stray_files(course, course.lessons)]
     assert found == ["lessons/notes.txt", "checks/x1_2.py"]
 
 
@@ -112,7 +112,7 @@ def test_a_lessons_commands_can_be_typed(course: Course, line: str, text: str) -
     def usage(argv: list[str]) -> str:
         return "" if argv[0] == "check" else "no such command"
 
-    found = [problem.text for problem in lint_commands(lesson, {"given.py"}, usage)]
+    found = [problem.text for problem in find_bad_commands(lesson, {"given.py"}, usage)]
     assert len(found) == bool(text)
     assert not text or found[0].endswith(f": {text}")
 
@@ -135,7 +135,7 @@ def submissions(root: Path, course: Course, made: Mapping[str, str]) -> list[str
         (folder / "expect.yaml").write_text(expect)
     return [
         f"{problem.file.relative_to(root)}: {problem.text}"
-        for problem in lint_submissions(root, course, course.lessons)
+        for problem in find_bad_submissions(root, course, course.lessons)
     ]
 
 
@@ -157,14 +157,14 @@ def test_right_submissions_have_no_problem(course: Course, tmp_path: Path) -> No
         ("x1_1/wrong/a", "says: a\nfails: [flies]\n", "fails: there is no criterion 'flies'"),
         ("x1_1/wrong/a", "says: a\nfails: [moves]\ncause: {flies: b}\n", "cause: there is no criterion 'flies'"),
         ("x1_1/wrong/a", "says: a\nfails: [stops]\n", "fails: stops is a bonus"),
-        ("x1_1/wrong/a", "says: a\nbonus_failed: [moves]\n", "bonus_failed: moves is no bonus"),
+        ("x1_1/wrong/a", "says: a\nbonus_failed: [moves]\n", "bonus_failed: moves is not a bonus"),
         ("x1_1/wrong/a", "says: a\nfails: [moves]\neither: [moves]\n", "moves is in fails and in another key"),
         ("x1_1/wrong/a", "says: a\neither: [moves]\n", "nothing fails, and this is a wrong one"),
         ("x1_1/wrong/a", "says: a\npasses: all\nfails: [moves]\n", "a wrong one does not pass"),
         ("x1_1/right/a", "says: a\n", "a right one passes"),
         ("x1_1/right/a", RIGHT + "either: [moves]\n", "moves does not have to pass, and this is a right one"),
         ("x1_2/right/a", RIGHT, "x1_2: this belongs to no exercise"),
-        ("x1_1/maybe/a", RIGHT, "x1_1/maybe: this is no submission"),
+        ("x1_1/maybe/a", RIGHT, "x1_1/maybe: this is not a submission"),
     ],
 )
 def test_what_is_wrong_with_a_submission_is_found(
@@ -180,9 +180,9 @@ def test_files_that_are_no_submission_are_found(course: Course, tmp_path: Path) 
     (root / "x1_1/right/empty").mkdir()
     (root / "x1_1/right/mover.py").touch()
     (root / "x1_1/right/plain/mover.py").unlink()
-    assert [problem.text for problem in lint_submissions(root, course, course.lessons)] == [
+    assert [problem.text for problem in find_bad_submissions(root, course, course.lessons)] == [
         "there is no expect.yaml",
-        "this is no submission",
+        "this is not a submission",
         "there is no mover.py",
     ]
 
@@ -239,7 +239,7 @@ def test_our_own_code_is_judged_as_the_lesson_says(
 ) -> None:
     lesson = course.lessons[0]
     judged = result(lesson, moves=moves, stops=stops)
-    found = list(findings_of(lesson, kind, judged))
+    found = list(find_disproofs(lesson, kind, judged))
     assert [problem.text for problem in found] == ([text] if text else [])
     assert all(problem.file == lesson.folder / kind for problem in found)
     assert [c.id for c in faults(judged)] == (["moves"] if moves.status is Status.ERROR else [])
@@ -247,7 +247,7 @@ def test_our_own_code_is_judged_as_the_lesson_says(
 
 def test_a_skeleton_that_passes_what_is_open_is_found(course: Course) -> None:
     lesson = course.lessons[0]
-    found = findings_of(lesson, "skeleton", result(lesson, moves=passed("", ""), stops=passed("", "")))
+    found = find_disproofs(lesson, "skeleton", result(lesson, moves=passed("", ""), stops=passed("", "")))
     assert [problem.text for problem in found] == [
         "moves passes, and the lesson says that it is open",
         "no criterion fails",

@@ -6,7 +6,7 @@ import re
 
 import pytest
 
-from tutor.content import Lesson, LessonFile, lint, load_course
+from tutor.content import Lesson, LessonFile, lint_course, load_course
 
 CRITERIA = {
     "i1.1": ("publishes range random echo rate sensor-name", "shutdown"),
@@ -37,7 +37,7 @@ def sources() -> list[tuple[str, LessonFile]]:
 
 
 def test_the_course_is_right() -> None:
-    assert [str(problem) for problem in lint(load_course())] == []
+    assert [str(problem) for problem in lint_course(load_course())] == []
 
 
 @pytest.mark.parametrize("lesson", lessons(), ids=lambda lesson: lesson.id)

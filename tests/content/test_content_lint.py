@@ -7,12 +7,12 @@ from pathlib import Path
 
 import pytest
 
-from tutor.content import Checklist, Course, lint, load_course
+from tutor.content import Checklist, Course, lint_course, load_course
 
 
 def problems(folder: Path) -> list[tuple[str, str]]:
     """What lint finds, each with the path of the file below the lesson's folder."""
-    return [(str(problem.file.relative_to(folder.parent)), problem.text) for problem in lint(load_course())]
+    return [(str(problem.file.relative_to(folder.parent)), problem.text) for problem in lint_course(load_course())]
 
 
 def test_a_right_course_has_no_problems(lesson_folder: Path) -> None:
@@ -70,7 +70,7 @@ def test_a_problem_in_the_lesson_is_found(lesson_folder: Path, old: str, new: st
 def test_bonus_criteria_come_last(lesson_folder: Path) -> None:
     course = load_course()
     swapped = replace(course.lessons[0], criteria=course.lessons[0].criteria[::-1])
-    found = [problem.text for problem in lint(replace(course, lessons=(swapped,)))]
+    found = [problem.text for problem in lint_course(replace(course, lessons=(swapped,)))]
     assert found == ["its required criteria belong before the bonus ones"]
 
 
@@ -125,7 +125,7 @@ def test_a_stray_file_is_found_and_bytecode_is_not(lesson_folder: Path) -> None:
 def test_an_exercise_id_used_twice_is_found(lesson_folder: Path) -> None:
     course = load_course()
     twice = replace(course, lessons=course.lessons * 2)
-    assert "the exercise id x1.1 is used twice" in [problem.text for problem in lint(twice)]
+    assert "the exercise id x1.1 is used twice" in [problem.text for problem in lint_course(twice)]
 
 
 @pytest.mark.parametrize(
@@ -148,9 +148,9 @@ def test_a_problem_in_the_checklist_is_found(lesson_folder: Path, old: str, new:
 
 def test_a_problem_is_one_line_with_its_file(lesson_folder: Path) -> None:
     (lesson_folder / "notes.txt").touch()
-    (problem,) = lint(load_course())
+    (problem,) = lint_course(load_course())
     assert str(problem) == f"{lesson_folder}/notes.txt: this file belongs to no lesson"
 
 
 def test_an_empty_course_has_no_problems() -> None:
-    assert lint(Course((), Checklist())) == []
+    assert lint_course(Course((), Checklist())) == []

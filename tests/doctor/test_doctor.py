@@ -35,11 +35,11 @@ def in_child(code: str, **variables: str) -> str:
 
 
 def assert_told(finding: Finding, *parts: str) -> None:
-    """A failure that names these parts, and has a mend."""
+    """A failure that names these parts, and has a hint."""
     assert finding.ok is False
     for part in parts:
         assert part in finding.text
-    assert finding.mend
+    assert finding.hint
 
 
 def children_of_this_process() -> set[str]:
@@ -85,7 +85,7 @@ def test_the_wrong_python_and_machine() -> None:
     assert_told(machine.python_version((3, 11)), "3.11", "needs Python 3.12")
     other = machine.python_version((3, 12), "Linux aarch64")
     assert other.ok is None
-    assert other.mend
+    assert other.hint
 
 
 def test_a_wheel_that_is_not_installed_is_named(tmp_path: Path) -> None:
@@ -130,7 +130,7 @@ def test_a_missing_interface(tmp_path: Path) -> None:
     ros = RosEnvironment("system", "jazzy", Path(sys.executable), "rmw_fastrtps_cpp")
     finding = ros2.example_interfaces(ros, {**os.environ, "PYTHONPATH": str(tmp_path)})
     assert_told(finding, "not built")
-    assert "apt install ros-jazzy-example-interfaces" in finding.mend
+    assert "apt install ros-jazzy-example-interfaces" in finding.hint
 
 
 def test_processes_that_cannot_find_each_other(tmp_path: Path) -> None:
@@ -140,12 +140,12 @@ def test_processes_that_cannot_find_each_other(tmp_path: Path) -> None:
         child.first_message_ms(BUNDLED, {**os.environ, "PYTHONPATH": str(tmp_path)}, limit_s=3.0)
 
 
-def test_another_ros_is_a_warning_with_a_mend() -> None:
+def test_another_ros_is_a_warning_with_a_hint() -> None:
     finding = ros2.variables(detect({**os.environ, "ROS_DISTRO": "humble"}))
     assert finding.ok is None
     assert "humble" in finding.text
     assert "bundled" in finding.text
-    assert "/opt/ros/jazzy/setup.bash" in finding.mend
+    assert "/opt/ros/jazzy/setup.bash" in finding.hint
 
 
 @needs_own_network
@@ -230,7 +230,7 @@ def test_terminals(variables: dict[str, str], parts: tuple[str, ...]) -> None:
 def test_no_terminal_at_all_is_only_a_warning() -> None:
     said = in_child("from tutor.doctor import terminal\nprint(terminal.capabilities())")
     assert "ok=None" in said
-    assert "no terminal" in said
+    assert "not a terminal" in said
 
 
 def test_an_examination_that_breaks_does_not_hide_the_others(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -18,12 +18,12 @@ from tutor.judge.events import Event
 from tutor.judge.result import ExerciseResult
 from tutor.judge.submission import Submission
 from tutor.judge.verdict import Verdict, passed
-from tutor.process.warden import processes
+from tutor.process.supervisor import processes
 from tutor.ros import domain
 from tutor.ros.environment import RosEnvironment
 
 if TYPE_CHECKING:  # they bring in rclpy, which must find its environment chosen
-    from tutor.engine.bench import LiveBench
+    from tutor.engine.bench import RosBench
 
 FILE = "node.py"
 
@@ -96,11 +96,11 @@ class Scene:
             (self.folder / f"{name}.py").write_text(source)
         return Submission("t1", {f"{name}.py": self.folder / f"{name}.py" for name in sources})
 
-    def bench(self, source: str) -> LiveBench:
+    def bench(self, source: str) -> RosBench:
         """A bench on which this script is node.py."""
-        from tutor.engine.bench import LiveBench
+        from tutor.engine.bench import RosBench
 
-        return LiveBench(self.submission(node=source), self.ros, nothing_shared, lambda fraction, text: None)
+        return RosBench(self.submission(node=source), self.ros, nothing_shared, lambda fraction, text: None)
 
     async def judge(
         self,

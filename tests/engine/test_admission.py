@@ -1,4 +1,4 @@
-"""Starts take turns: a few at a time, the longest first, and nobody waits for ever."""
+"""Starts take turns: a few at a time, the longest first, and nobody waits forever."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ class Starts:
         self.up: dict[str, asyncio.Event] = {}
         self.over: dict[str, asyncio.Event] = {}
 
-    def begin(self, name: str, asks_s: float) -> asyncio.Task[None]:
+    def begin(self, name: str, expected_s: float) -> asyncio.Task[None]:
         self.up[name], self.over[name] = asyncio.Event(), asyncio.Event()
 
         async def start() -> None:
-            async with self.admission.start(asks_s) as up:
+            async with self.admission.start(expected_s) as up:
                 self.began.append(name)
                 await self.up[name].wait()
                 up()
@@ -74,7 +74,7 @@ async def test_an_end_before_it_is_up_frees_the_slot_once() -> None:
 
 
 @pytest.mark.parametrize("given_it", [False, True])
-async def test_who_gives_up_waiting_takes_no_slot_along(given_it: bool) -> None:
+async def test_anyone_who_gives_up_waiting_takes_no_slot_along(given_it: bool) -> None:
     starts = Starts(1)
     async with starts.admission.start(1) as up:
         gives_up = starts.begin("a", 1)

@@ -11,7 +11,7 @@ import pytest
 
 from tests.engine.made import Scene, nothing_shared
 from tutor.content import load_course
-from tutor.judge.ending import judge
+from tutor.judge.ending import judge_ending
 from tutor.judge.submission import Submission
 from tutor.ros.environment import RosEnvironment
 from tutor.workspace import solution
@@ -43,12 +43,12 @@ RACE = "try_shutdown()"
 TRIES = "rclpy.try_shutdown()"
 TRIES_SAFELY = "with __import__('contextlib').suppress(RuntimeError): rclpy.try_shutdown()"
 SCENARIOS = [
-    ("i1.1", "survey"),
+    ("i1.1", "plain_start"),
     ("i1.2", "steady"),
-    ("i1.3", "survey"),
-    ("i2.1", "survey"),
-    ("i2.3", "quiet"),
-    ("i2.3", "interrupted"),
+    ("i1.3", "call_each_service"),
+    ("i2.1", "plain_start"),
+    ("i2.3", "run_idle"),
+    ("i2.3", "interrupt_during_call"),
 ]
 
 
@@ -62,7 +62,7 @@ async def ends(
     else_does: str = "",
 ) -> Any:
     """The facts of a scenario of this exercise, done to its solution, which at these ends (from 1) does this."""
-    from tutor.engine.bench import LiveBench
+    from tutor.engine.bench import RosBench
 
     files = {}
     for name, path in solution(load_course().find(exercise)).files.items():
@@ -70,7 +70,7 @@ async def ends(
         text = path.read_text()
         assert text.count(TRIES) == 1, path
         files[name].write_text(text.replace(TRIES, TRIES_SAFELY) + CRASHES.format(which, does, else_does))
-    bench = LiveBench(Submission(exercise, files), ros, nothing_shared, lambda fraction, text: None)
+    bench = RosBench(Submission(exercise, files), ros, nothing_shared, lambda fraction, text: None)
     scenarios = importlib.import_module(f"checks.{exercise.replace('.', '_')}.scenarios")
     return await getattr(scenarios, scenario)(bench)
 
@@ -80,7 +80,7 @@ async def test_one_bad_end_is_forgiven(ros: RosEnvironment, scene: Scene) -> Non
         folder = scene.folder / str(number)
         folder.mkdir()
         seen = await ends(ros, folder, exercise, scenario, (1,), SPIN_ON if scenario == "quiet" else CRASH)
-        verdict = judge(seen.trace, seen.ending)
+        verdict = judge_ending(seen.trace, seen.ending)
         assert verdict.passed, (exercise, scenario, verdict)
         assert (folder / "ends").read_text() == "...", (exercise, scenario)  # the crash, and two more
 
@@ -91,34 +91,34 @@ async def test_one_bad_end_is_forgiven(ros: RosEnvironment, scene: Scene) -> Non
 
 @pytest.mark.parametrize(("crashes", "starts"), [((1, 2), 2), ((1, 3), 3)])
 async def test_a_second_crash_is_not(scene: Scene, crashes: tuple[int, ...], starts: int) -> None:
-    seen = await ends(scene.ros, scene.folder, "i1.3", "survey", crashes, CRASH)
-    verdict = judge(seen.trace, seen.ending)
+    seen = await ends(scene.ros, scene.folder, "i1.3", "call_each_service", crashes, CRASH)
+    verdict = judge_ending(seen.trace, seen.ending)
     assert verdict.cause is not None
     assert "signal 11, at calculator_server.py, line" in str(verdict.cause), verdict
     assert len((scene.folder / "ends").read_text()) == starts
 
 
 async def test_a_second_spin_after_the_end_is_not(scene: Scene) -> None:
-    seen = await ends(scene.ros, scene.folder, "i1.3", "survey", (1, 2), SPIN_ON)
-    verdict = judge(seen.trace, seen.ending)
+    seen = await ends(scene.ros, scene.folder, "i1.3", "call_each_service", (1, 2), SPIN_ON)
+    verdict = judge_ending(seen.trace, seen.ending)
     assert "RCLError: failed to initialize wait set" in str(verdict.cause), verdict
     assert (scene.folder / "ends").read_text() == ".."
 
 
 async def test_what_a_race_in_rclpy_hid_is_seen(scene: Scene) -> None:
-    seen = await ends(scene.ros, scene.folder, "i1.3", "survey", (1,), RACE, "raise SystemExit(3)")
-    verdict = judge(seen.trace, seen.ending)
+    seen = await ends(scene.ros, scene.folder, "i1.3", "call_each_service", (1,), RACE, "raise SystemExit(3)")
+    verdict = judge_ending(seen.trace, seen.ending)
     assert "exit code 3" in str(verdict.cause), verdict
     assert (scene.folder / "ends").read_text() == "..."
 
 
 async def test_a_race_in_rclpy_each_time_is_forgiven(scene: Scene) -> None:
-    seen = await ends(scene.ros, scene.folder, "i1.3", "survey", (1, 2), RACE)
-    assert judge(seen.trace, seen.ending).passed
+    seen = await ends(scene.ros, scene.folder, "i1.3", "call_each_service", (1, 2), RACE)
+    assert judge_ending(seen.trace, seen.ending).passed
     assert (scene.folder / "ends").read_text() == ".."
 
 
-async def test_who_does_not_crash_is_started_once(scene: Scene) -> None:
-    seen = await ends(scene.ros, scene.folder, "i1.3", "survey", (), CRASH)
-    assert judge(seen.trace, seen.ending).passed
+async def test_a_program_that_does_not_crash_is_started_once(scene: Scene) -> None:
+    seen = await ends(scene.ros, scene.folder, "i1.3", "call_each_service", (), CRASH)
+    assert judge_ending(seen.trace, seen.ending).passed
     assert (scene.folder / "ends").read_text() == "."

@@ -9,13 +9,13 @@ from pathlib import Path
 CHECKS_TWICE = """
 import asyncio, os
 from tutor.content import load_course
-from tutor.engine import check
+from tutor.engine import run_check
 from tutor.workspace import solution
 
 course = load_course()
 submission = solution(course.find("i1.3"))
 for _ in range(2):
-    report = asyncio.run(check([submission], course, only=frozenset({"services"})))
+    report = asyncio.run(run_check([submission], course, only=frozenset({"services"})))
     print(report.verdict.value, report.environment.ros)
     os.environ.pop("FASTRTPS_DEFAULT_PROFILES_FILE", None)  # whoever puts the environment back must not undo isolation
 """

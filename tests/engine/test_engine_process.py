@@ -17,7 +17,7 @@ import pytest
 from tests.engine.made import WAITS
 from tutor.judge.events import CheckFinished, CheckStarted, CriterionJudged, Event, ExerciseJudged, decode
 from tutor.judge.verdict import Status
-from tutor.process.warden import descendants, processes
+from tutor.process.supervisor import descendants, processes
 
 LIMIT_S = 60
 SOLUTION = Path(__file__).parents[2] / "lessons" / "i1_1" / "solution"
@@ -137,7 +137,7 @@ def test_interrupted_it_cleans_up(tmp_path: Path, number: int) -> None:
     with engine("i1.1", tmp_path) as started:
         started.until(CheckStarted)
         end = time.monotonic() + 20
-        while len(started.left()) < 3:  # itself, a warden and a learner
+        while len(started.left()) < 3:  # itself, a supervisor and a learner
             assert time.monotonic() < end
             time.sleep(0.01)
         started.send(number)

@@ -47,19 +47,19 @@ async def others_node(scene: Scene, folder: Path, domain_id: int, group: str) ->
 async def test_on_one_domain_id_they_do_not_see_each_other(scene: Scene, tmp_path: Path) -> None:
     watch = {"/chatter": TYPE, "/other": TYPE}
     async with scene.bench(node(PUBLISHES)).start(FILE, watch=watch) as run:
-        assert await run.until(lambda: bool(run.on("/chatter")), 20), run.trace()
+        assert await run.until(lambda: bool(run.samples_on("/chatter")), 20), run.trace()
         (domain_id,) = scene.domains
         async with others_node(scene, tmp_path, domain_id, "239.1.2.3") as said:
             seen: list[str] = []
             while not seen or "/other" not in seen[-1]:  # it is up, and discovery is running
                 seen.append((await asyncio.wait_for(said.readline(), 20)).decode())
-            already = len(run.on("/chatter"))
+            already = len(run.samples_on("/chatter"))
             # Both go on for longer than either needs to find a node that it can find.
-            assert await run.until(lambda: len(run.on("/chatter")) >= already + 20, 20)
+            assert await run.until(lambda: len(run.samples_on("/chatter")) >= already + 20, 20)
             while len(seen) < 20:
                 seen.append((await asyncio.wait_for(said.readline(), 20)).decode())
             graph = run.graph
-    assert run.on("/other") == []
+    assert run.samples_on("/other") == []
     assert graph.nodes == ("/learner",)
     assert {p.topic for p in graph.publishers} == {"/chatter"}
     assert not [line for line in seen if "HEARD" in line or "_ros_tutor" in line]
@@ -74,4 +74,4 @@ async def test_two_nodes_of_one_check_do_see_each_other(scene: Scene, tmp_path: 
             line = ""
             while line.count("'learner'") != 2:
                 line = (await asyncio.wait_for(said.readline(), 20)).decode()
-            assert await run.until(lambda: bool(run.on("/other")), 20)
+            assert await run.until(lambda: bool(run.samples_on("/other")), 20)

@@ -9,13 +9,13 @@ from pathlib import Path
 
 import pytest
 
-from tutor.interpreter import of_ours
+from tutor.interpreter import module_command
 
 COURSE = Path(__file__).parents[1] / "courses" / "greeting"
 
 
 def checked(course: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
-    command = of_ours("tutor", "check", "h1.1", "--lessons", str(course), *arguments)
+    command = module_command("tutor", "check", "h1.1", "--lessons", str(course), *arguments)
     return subprocess.run(command, capture_output=True, text=True, timeout=100, check=False)
 
 

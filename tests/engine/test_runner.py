@@ -135,7 +135,7 @@ async def test_a_fault_of_ours_is_never_the_learners(scene: Scene) -> None:
     assert result.verdict is Status.ERROR
 
 
-async def test_no_free_domain_is_the_machines_fault_with_its_mend(
+async def test_no_free_domain_is_the_machines_fault_with_its_hint(
     scene: Scene, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     import tutor.engine.bench as live
@@ -169,13 +169,13 @@ async def test_what_the_scenario_raises_is_what_went_wrong(scene: Scene) -> None
 async def test_events_come_in_order_with_progress_that_goes_on(scene: Scene) -> None:
     async def steps(bench: Bench) -> str:
         for fraction in (-1.0, 0.0, 0.3, 0.7, 1.0, 4.0):
-            bench.doing(fraction, f"at {fraction}")
+            bench.report_progress(fraction, f"at {fraction}")
             await asyncio.sleep(0)
         return "done"
 
     async def other(bench: Bench) -> str:
         await bench.facts(steps)
-        bench.doing(1.0, "the other")
+        bench.report_progress(1.0, "the other")
         return "done"
 
     result = await scene.judge(criterion("a", steps), criterion("b", steps, other), criterion("c", nothing))
@@ -203,7 +203,7 @@ async def test_cancellation_leaves_nothing(scene: Scene) -> None:
 
     async def forever(bench: Bench) -> None:
         async with bench.start(FILE, watch={"/chatter": "std_msgs/msg/String"}) as run:
-            assert await run.until(lambda: bool(run.on("/chatter")), 20)
+            assert await run.until(lambda: bool(run.samples_on("/chatter")), 20)
             running.set()
             await run.until(lambda: False, 1000)
 
@@ -246,7 +246,7 @@ async def test_killed_once_by_others_it_is_looked_at_again(scene: Scene) -> None
             assert await run.until(lambda: bool(run.output) or run.exit is not None, 20)
             if not met:
                 os.kill(int(run.output[0].text), signal.SIGKILL)
-                await run.ends(20)
+                await run.wait_for_exit(20)
             met.append(str(run.exit))
             return met[-1]
 
@@ -264,10 +264,10 @@ def lives(found: str) -> Verdict:
     return passed("lives", found) if found == "None" else fails()
 
 
-async def test_what_the_supervisors_end_does_to_a_check_is_no_failure(scene: Scene) -> None:
+async def test_what_the_supervisors_end_does_to_a_check_is_not_a_failure(scene: Scene) -> None:
     async def broken(bench: Bench) -> str:
         async with bench.start(FILE) as run:
-            await run.ends(20)
+            await run.wait_for_exit(20)
             raise ValueError("what the check makes of facts that mean nothing")
 
     source = "import os, time; os.kill(os.getppid(), 9); time.sleep(1000)"

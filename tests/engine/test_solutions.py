@@ -18,11 +18,11 @@ UP_S, ANSWER_S = 60.0, 20.0
 
 @pytest.mark.timeout(200)
 async def test_the_calculator_answers_what_no_int64_can_hold(scene: Scene) -> None:
-    from tutor.engine.bench import LiveBench
+    from tutor.engine.bench import RosBench
 
     file = "calculator_server.py"
     files = solution(load_course().find("i1.3")).files
-    bench = LiveBench(Submission("i1.3", files), scene.ros, nothing_shared, lambda fraction, text: None)
+    bench = RosBench(Submission("i1.3", files), scene.ros, nothing_shared, lambda fraction, text: None)
     async with bench.start(file) as run:
         assert await run.until(lambda: "/divide" in [each.name for each in run.graph.services], UP_S)
         for service, a, b, nearest in (
@@ -43,11 +43,11 @@ async def test_the_calculator_answers_what_no_int64_can_hold(scene: Scene) -> No
 
 @pytest.mark.timeout(200)
 async def test_the_slow_service_answers_what_no_int64_can_hold(scene: Scene) -> None:
-    from tutor.engine.bench import LiveBench
+    from tutor.engine.bench import RosBench
 
     file = "concurrent_service.py"
     files = solution(load_course().find("i2.3")).files
-    bench = LiveBench(Submission("i2.3", files), scene.ros, nothing_shared, lambda fraction, text: None)
+    bench = RosBench(Submission("i2.3", files), scene.ros, nothing_shared, lambda fraction, text: None)
     questions = ((MOST, 1, MOST), (LEAST, -1, LEAST), (1, 2, 3))
     async with bench.start(file) as run:
         assert await run.until(lambda: "/slow_add" in [each.name for each in run.graph.services], UP_S)

@@ -22,7 +22,7 @@ def test_what_a_launch_file_names_is_beside_it(tmp_path: Path) -> None:
     assert set(sources(tmp_path / "my_launch.py")) == {"my_launch.py", "helper.py", "speaker.py", "more.launch.py"}
 
 
-def test_a_text_of_a_node_is_no_file(tmp_path: Path) -> None:
+def test_a_text_of_a_node_is_not_a_file(tmp_path: Path) -> None:
     (tmp_path / "talker.py").write_text("topic = 'chatter'\n")
     (tmp_path / "chatter.py").write_text("x = 1\n")
     assert set(sources(tmp_path / "talker.py")) == {"talker.py"}

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from tutor.content import Lesson, load_course
-from tutor.engine.untouched import begin_there, first_todo
+from tutor.engine.unchanged_skeleton import first_todo, point_to_todo
 from tutor.judge.submission import Submission
 from tutor.judge.verdict import Cause, failed, passed
 
@@ -31,8 +31,8 @@ def test_an_untouched_skeleton_has_a_first_todo_until_it_is_changed(lesson: Less
 
 def test_its_next_step_is_the_hint_of_the_criterion() -> None:
     verdict = failed("a", "b", Cause("no publisher", "there is none", "line 3 becomes: all of it"))
-    told = begin_there(verdict, "node.py, line 8", "Create a publisher.")
+    told = point_to_todo(verdict, "node.py, line 8", "Create a publisher.")
     assert told.hint == "work through the TODOs of the skeleton, from node.py, line 8 on. Create a publisher."
     assert (told.cause, told.status) == (verdict.cause, verdict.status)
-    assert begin_there(verdict, "", "Create a publisher.") == verdict
-    assert begin_there(passed("a", "b"), "node.py, line 8", "x") == passed("a", "b")
+    assert point_to_todo(verdict, "", "Create a publisher.") == verdict
+    assert point_to_todo(passed("a", "b"), "node.py, line 8", "x") == passed("a", "b")

@@ -18,7 +18,7 @@ import pytest
 
 from tests.report.shape import assert_report_shape
 from tutor.content import load_course
-from tutor.interpreter import of_ours
+from tutor.interpreter import module_command
 
 FILE = "temperature_publisher.py"
 
@@ -95,7 +95,7 @@ def walls() -> None:
 def check(*arguments: str, **variables: str) -> tuple[int, Any, str]:
     """Check from the command line. Gives the exit code, the report and what was said on stderr."""
     ran = subprocess.run(
-        [*of_ours("tutor"), "check", "i1.1", *arguments, "--format", "json"],
+        [*module_command("tutor"), "check", "i1.1", *arguments, "--format", "json"],
         capture_output=True, text=True, timeout=120, check=False, env={**os.environ, **variables},
     )  # fmt: skip
     return ran.returncode, json.loads(ran.stdout) if ran.stdout else None, ran.stderr

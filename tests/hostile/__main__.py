@@ -26,16 +26,16 @@ from typing import Any
 from tests.hostile import find_hostile
 from tests.judging import compare
 from tutor.content.submissions import Case, Expected
-from tutor.interpreter import of_ours
+from tutor.interpreter import module_command
 from tutor.judge.result import CriterionResult, ExerciseResult
 from tutor.judge.verdict import Status, Verdict
-from tutor.process.warden import descendants
+from tutor.process.supervisor import descendants
 
 LIMIT_S = 180.0
 LOOK_EVERY_S = 0.02
 MOST_ABOVE_ORDINARY_MB = 150.0
 MOST_REPORT_KB = 1024.0
-OURS = (b"tutor", b"tutor.engine", b"warden.py")
+OURS = (b"tutor", b"tutor.engine", b"supervisor.py")
 _PR_SET_CHILD_SUBREAPER = 36
 EXERCISES = ("i1.1", "i1.2", "i1.3", "i2.1", "i2.2", "i2.3")
 
@@ -83,7 +83,7 @@ def check(name: str, exercise: str, arguments: Iterable[str], folder: Path | Non
             (base / inner).mkdir()
         work = shutil.copytree(folder, base / "work") if folder else base
         shared = set(os.listdir("/dev/shm"))
-        command = [*of_ours("tutor"), "check", exercise, *arguments, "--format", "json"]
+        command = [*module_command("tutor"), "check", exercise, *arguments, "--format", "json"]
         if folder:
             command.append(str(work))
         started, peak = time.monotonic(), Peak()

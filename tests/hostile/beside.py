@@ -23,7 +23,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from tutor.content import load_course
-from tutor.interpreter import of_ours
+from tutor.interpreter import module_command
 
 JOINS_ALL = Path(__file__).with_name("submissions") / "i1_1" / "joins-them-all"
 MANY = ("i2.1", 12)
@@ -44,7 +44,7 @@ def check(exercise: str, *arguments: str) -> Ended:
     """Check with the command line, in a folder where nothing is."""
     with tempfile.TemporaryDirectory(prefix="beside-") as folder:
         ended = subprocess.run(
-            [*of_ours("tutor"), "check", exercise, "--format", "json", *arguments],
+            [*module_command("tutor"), "check", exercise, "--format", "json", *arguments],
             capture_output=True, text=True, cwd=folder, check=False,
         )  # fmt: skip
     if ended.returncode == 0:
@@ -62,7 +62,7 @@ def joined(*arguments: str) -> Iterator[list[int]]:
     """Have the submission that joins every domain checked over and over; gives the exit codes, the last at the end."""
     over, codes = threading.Event(), list[int]()
     with tempfile.TemporaryDirectory(prefix="beside-") as folder:
-        command = [*of_ours("tutor"), "check", "i1.1", str(JOINS_ALL), *arguments]
+        command = [*module_command("tutor"), "check", "i1.1", str(JOINS_ALL), *arguments]
 
         def work() -> None:
             while not over.is_set():
@@ -83,7 +83,7 @@ def joined(*arguments: str) -> Iterator[list[int]]:
 
 
 def check_solutions(exercises: Sequence[str], at_once: int, *arguments: str) -> list[Ended]:
-    """Check our solution of each of these exercises, so many at a time."""
+    """Check our solution of each of these exercises, this many at a time."""
     with ThreadPoolExecutor(at_once) as pool:
         return list(pool.map(lambda exercise: check(exercise, "--solution", *arguments), exercises))
 
@@ -104,7 +104,7 @@ def main() -> int:
     """Print two tables. Exit code 1 where a check did not pass."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--checks", type=int, default=24, help="how many checks of our solutions (24)")
-    parser.add_argument("--at-once", type=int, default=4, help="so many of them at a time (4)")
+    parser.add_argument("--at-once", type=int, default=4, help="this many of them at a time (4)")
     parser.add_argument("--isolate", action="store_true", help="all of them with --isolate")
     arguments = parser.parse_args()
     walls = ["--isolate"] if arguments.isolate else []

@@ -7,9 +7,9 @@ from dataclasses import replace
 import pytest
 
 from tests.checks.made import FOLDER, lines, trace
-from tutor.judge.causes import in_threads, of_blocked
+from tutor.judge.causes import diagnose_blocked, use_threads
 from tutor.judge.trace import Trace
-from tutor.judge.tracebacks import Frame, dumped, threads
+from tutor.judge.tracebacks import Frame, dumped_frames, frames_by_thread
 
 
 def node(*body: str) -> Trace:
@@ -112,11 +112,11 @@ MAIN = (rclpy("spin", thread=2), own(42, "executor.spin()", "main", 2))
             "line 2: await self.cli.call_async(req)",
             "callback_group=self.group",
         ),
-        (node("x = 1"), MAIN, "blocked executor", "does not come to an end;", "let every callback return"),
+        (node("x = 1"), MAIN, "blocked executor", "never returns;", "let every callback return"),
     ],
 )
 def test_what_holds_it_up(seen: Trace, stuck: tuple[Frame, ...], cause: str, words: str, step: str) -> None:
-    found = of_blocked(seen, stuck, spins=True)
+    found = diagnose_blocked(seen, stuck, spins=True)
     assert found is not None
     assert found.name == cause
     assert words in found.text
@@ -184,7 +184,7 @@ def full(*body: str) -> Trace:
     ],
 )
 def test_what_is_to_be_written_in_the_file(body: list[str], stuck: tuple[Frame, ...], steps: tuple[str, ...]) -> None:
-    found = of_blocked(full(*body), (*stuck, *WORKER, *MAIN), spins=True)
+    found = diagnose_blocked(full(*body), (*stuck, *WORKER, *MAIN), spins=True)
     assert found is not None
     for each in steps:
         assert each in found.hint
@@ -192,20 +192,22 @@ def test_what_is_to_be_written_in_the_file(body: list[str], stuck: tuple[Frame, 
 
 def test_what_is_taken_of_an_answer_is_taken_once_it_is_there() -> None:
     code = "r.sum = c.call(AddTwoInts.Request(a=q.a, b=-q.b)).sum"
-    found = of_blocked(node(), (rclpy("call", "client"), own(3, code), *WORKER))
+    found = diagnose_blocked(node(), (rclpy("call", "client"), own(3, code), *WORKER))
     assert found is not None
     assert "r.sum = (await c.call_async(AddTwoInts.Request(a=q.a, b=-q.b))).sum" in found.hint
 
 
 def test_a_node_that_was_never_seen_to_spin_is_not_blocked() -> None:
-    assert of_blocked(node("x = 1"), MAIN) is None
+    assert diagnose_blocked(node("x = 1"), MAIN) is None
 
 
 def test_steps_do_not_ask_for_what_is_there() -> None:
     seen = node("executor = MultiThreadedExecutor(num_threads=4)", "rclpy.spin(node)")
-    assert in_threads(seen) == "write executor.spin() in place of line 2, rclpy.spin(node)"
+    assert use_threads(seen) == "write executor.spin() in place of line 2, rclpy.spin(node)"
     everything = node("g = ReentrantCallbackGroup()", "self.create_client(A, 'add', callback_group=g)")
-    found = of_blocked(everything, (rclpy("call", "client"), own(3, "self.cli.call(request)"), *WORKER), spins=True)
+    found = diagnose_blocked(
+        everything, (rclpy("call", "client"), own(3, "self.cli.call(request)"), *WORKER), spins=True
+    )
     assert found is not None
     assert "callback_group" not in found.hint
 
@@ -220,4 +222,7 @@ Thread 0x00007f16a3a3e740 (most recent call first):
 Current thread 0x00007f16a3a3e741 (most recent call first):
   File "/lib/rclpy/executors.py", line 3 in spin
   File "/home/me/ws/node.py", line 42 in main"""
-    assert [[frame.line for frame in thread] for thread in threads(dumped(lines(text)))] == [[8, 9], [3, 42]]
+    assert [[frame.line for frame in thread] for thread in frames_by_thread(dumped_frames(lines(text)))] == [
+        [8, 9],
+        [3, 42],
+    ]

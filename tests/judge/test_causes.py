@@ -10,21 +10,21 @@ import pytest
 from tests.checks.made import CRASH, CRASHED, FOLDER, NO_NODE, UP, exited, graph, lines, log, trace
 from tests.judge.real import crash
 from tutor.judge.causes import (
+    diagnose_deafness,
+    diagnose_lifecycle,
+    diagnose_no_answer,
+    diagnose_printed,
+    diagnose_process,
+    diagnose_qos,
+    diagnose_refusal,
+    diagnose_silence,
     incompatible_service,
-    last_words,
-    of_deafness,
-    of_lifecycle,
-    of_no_answer,
-    of_printed,
-    of_process,
-    of_qos,
-    of_refusal,
-    of_silence,
+    output_tail,
     same_name,
     wrong_topic,
 )
 from tutor.judge.trace import Endpoint, Graph, Service, Trace
-from tutor.judge.tracebacks import Frame, Traceback, find
+from tutor.judge.tracebacks import Frame, Traceback, find_tracebacks
 
 TOPIC, TYPE = "/sensor/temperature", "std_msgs/msg/Float64"
 NOWHERE = Graph()
@@ -76,7 +76,7 @@ expecting type '{wanted}': wrong"""
     ],
 )
 def test_why_the_process_did_not_do_its_work(seen: Trace, cause: str, word: str) -> None:
-    found = of_process(seen)
+    found = diagnose_process(seen)
     assert found is not None
     assert found.name == cause
     assert word in found.text
@@ -85,7 +85,7 @@ def test_why_the_process_did_not_do_its_work(seen: Trace, cause: str, word: str)
 
 @pytest.mark.parametrize("seen", [trace(), trace(uncalled_main=True), trace(out=CRASH), trace(dropped_lines=5)])
 def test_a_node_that_is_up_gives_no_cause(seen: Trace) -> None:
-    assert of_process(seen) is None
+    assert diagnose_process(seen) is None
 
 
 @pytest.mark.parametrize(
@@ -109,7 +109,7 @@ def test_a_node_that_is_up_gives_no_cause(seen: Trace) -> None:
     ],
 )
 def test_why_nothing_came(seen: Trace, answers: bool, cause: str, word: str) -> None:
-    found = of_silence(seen, TOPIC, TYPE, answers=answers)
+    found = diagnose_silence(seen, TOPIC, TYPE, answers=answers)
     assert found.name == cause
     assert word in found.text
     assert found.hint
@@ -124,13 +124,13 @@ def test_the_nearest_of_several_wrong_topics_is_explained() -> None:
 
 def test_last_words_are_the_last_lines_with_something_in_them() -> None:
     text = "\n".join(f"line {i}\n   " for i in range(20))
-    assert last_words(trace(out=text)) == tuple(f"line {i}" for i in range(14, 20))
-    assert last_words(trace(out=text), 2) == ("line 18", "line 19")
-    assert last_words(trace()) == ()
+    assert output_tail(trace(out=text)) == tuple(f"line {i}" for i in range(14, 20))
+    assert output_tail(trace(out=text), 2) == ("line 18", "line 19")
+    assert output_tail(trace()) == ()
 
 
 def test_the_words_of_a_traceback() -> None:
-    (found,) = find(lines(CRASH))
+    (found,) = find_tracebacks(lines(CRASH))
     assert found.raised == "AttributeError: 'Sensor' object has no attribute 'nothing'"
     assert Traceback("KeyboardInterrupt", "", ()).raised == "KeyboardInterrupt"
 
@@ -182,7 +182,7 @@ def subscribed(topic: str = OURS.topic, type_name: str = OURS.type, *qos: str) -
     ],
 )
 def test_why_a_subscriber_took_in_nothing(seen: Trace, answers: bool, cause: str, word: str) -> None:
-    found = of_deafness(seen, OURS, answers=answers)
+    found = diagnose_deafness(seen, OURS, answers=answers)
     assert found.name == cause
     assert word in found.text
     assert found.hint
@@ -209,10 +209,10 @@ def test_qos_of_the_learners_own_endpoints(offered: tuple[Any, ...], asked: tupl
     both = Graph(
         publishers=(Endpoint("/a", "T", "/one", *offered),), subscriptions=(Endpoint("/a", "T", "/two", *asked),)
     )
-    found = of_qos(trace(graph=both), "/a")
+    found = diagnose_qos(trace(graph=both), "/a")
     assert (found.name if found else "") == ("incompatible QoS" if policy else "")
     assert found is None or policy in found.text
-    assert of_qos(trace(graph=both), "/b") is None
+    assert diagnose_qos(trace(graph=both), "/b") is None
 
 
 def test_a_service_with_best_effort_is_not_connected() -> None:
@@ -241,10 +241,10 @@ CALL = Frame("/lib/rclpy/client.py", 90, "call", "")
     ],
 )
 def test_why_a_node_answers_nothing(stuck: tuple[Frame, ...], spins: bool, cause: str) -> None:
-    found = of_no_answer(trace(), stuck, spins=spins)
+    found = diagnose_no_answer(trace(), stuck, spins=spins)
     assert found.name == cause
     assert ("line 12" in found.text) == (OWN in stuck)
-    assert of_no_answer(CRASHED, stuck).name == "unhandled exception"
+    assert diagnose_no_answer(CRASHED, stuck).name == "unhandled exception"
 
 
 CONSOLE = "[INFO] [1763716000.125] [node]: kx7 is up"
@@ -264,7 +264,7 @@ CONSOLE = "[INFO] [1763716000.125] [node]: kx7 is up"
     ],
 )
 def test_what_was_printed_instead_of_logged(seen: Trace, after: str, cause: str) -> None:
-    found = of_printed(seen, lambda text: "kx7" in text, "the name", after=lines(after, "stdout"))
+    found = diagnose_printed(seen, lambda text: "kx7" in text, "the name", after=lines(after, "stdout"))
     assert (found.name if found else "") == cause
 
 
@@ -296,7 +296,7 @@ class A(Node):
 )
 def test_what_was_printed_is_told_with_its_line(line: str, out: str, text: str, step: str) -> None:
     seen = trace(out=out, sources={"node.py": SAYS.format(line=line)})
-    found = of_printed(seen, lambda text: "kx7" in text, "the name")
+    found = diagnose_printed(seen, lambda text: "kx7" in text, "the name")
     assert found is not None
     assert text in found.text
     assert step in found.hint
@@ -304,7 +304,7 @@ def test_what_was_printed_is_told_with_its_line(line: str, out: str, text: str, 
 
 def test_silence_is_laid_to_pythons_logging_only_where_the_node_logs_nothing() -> None:
     both = SAYS.format(line="log.debug('x'); self.get_logger().debug(name)")
-    assert of_printed(trace(sources={"node.py": both}), lambda text: "kx7" in text, "the name") is None
+    assert diagnose_printed(trace(sources={"node.py": both}), lambda text: "kx7" in text, "the name") is None
 
 
 ROSOUT = "Failed to publish log message to rosout: publisher's context is invalid, at ./src/rcl/publisher.c:423"
@@ -327,7 +327,7 @@ SHUTDOWN = f"""Traceback (most recent call last):
     ],
 )
 def test_what_ros_says_by_itself_is_not_the_learners_print(seen: Trace, after: str) -> None:
-    assert of_printed(seen, re.compile("(?i)error|fail").search, "the error", after=lines(after)) is None
+    assert diagnose_printed(seen, re.compile("(?i)error|fail").search, "the error", after=lines(after)) is None
 
 
 @pytest.mark.parametrize(
@@ -344,13 +344,13 @@ def test_what_ros_says_by_itself_is_not_the_learners_print(seen: Trace, after: s
     ],
 )
 def test_why_a_good_value_is_refused(reason: str, cause: str) -> None:
-    found = of_refusal(reason, "declare it")
+    found = diagnose_refusal(reason, "declare it")
     assert found.name == cause
     assert found.hint == "declare it"
 
 
 def test_an_exception_that_nobody_knows_does_not_get_its_line_unchanged_as_the_step() -> None:
-    cause = of_process(trace(err=CRASH.replace("AttributeError: 'Sensor' object has", "OddError: it has")))
+    cause = diagnose_process(trace(err=CRASH.replace("AttributeError: 'Sensor' object has", "OddError: it has")))
     assert cause is not None
     assert "self.nothing()" in cause.text
     assert "line 12 of " in cause.hint
@@ -359,12 +359,12 @@ def test_an_exception_that_nobody_knows_does_not_get_its_line_unchanged_as_the_s
 
 def test_a_chain_of_exceptions_is_named_by_the_one_that_tells_most() -> None:
     wrapped = "try:\n    import std_msg\nexcept ImportError as error:\n    raise RuntimeError('set it up') from error"
-    found = of_process(trace(err=crash(wrapped), exit=exited(1)))
+    found = diagnose_process(trace(err=crash(wrapped), exit=exited(1)))
     assert found is not None
     assert found.name == "import error"
     assert "std_msg" in found.text
     assert "set it up" in found.text
-    found = of_process(trace(err=crash("try:\n    1 / 0\nfinally:\n    undefined"), exit=exited(1)))
+    found = diagnose_process(trace(err=crash("try:\n    1 / 0\nfinally:\n    undefined"), exit=exited(1)))
     assert found is not None
     assert found.name == "unhandled exception"
     assert "ZeroDivisionError" in found.text
@@ -378,7 +378,7 @@ def test_a_service_callback_without_a_response() -> None:
   File "/lib/rclpy/service.py", line 75, in send_response
     raise TypeError()
 TypeError"""
-    found = of_process(trace(err=text, exit=exited(1)))
+    found = diagnose_process(trace(err=text, exit=exited(1)))
     assert found is not None
     assert found.name == "response not returned"
 
@@ -415,7 +415,7 @@ def main():
 def test_a_lifecycle_node_that_nobody_activates(source: str, steps: list[str]) -> None:
     asleep = graph(services={"/sensor/change_state": "lifecycle_msgs/srv/ChangeState"})
     seen = trace(graph=asleep, sources={"node.py": source})
-    cause = of_silence(seen, "/chatter", "std_msgs/msg/String", answers=True)
+    cause = diagnose_silence(seen, "/chatter", "std_msgs/msg/String", answers=True)
     assert cause.name == "lifecycle node not activated"
     for step in steps:
         assert step in cause.hint
@@ -426,11 +426,11 @@ def test_a_lifecycle_node_that_nobody_activates(source: str, steps: list[str]) -
             + "    sensor.trigger_activate()"
         },
     )
-    assert of_lifecycle(awake) is None
+    assert diagnose_lifecycle(awake) is None
 
 
 def test_logs_that_do_not_reach_rosout_are_let_out() -> None:
     text = "class A(Node):\n    def __init__(self):\n        super().__init__('a', enable_rosout=False)\n"
-    found = of_printed(trace(err=CONSOLE, sources={"node.py": text}), lambda said: "kx7" in said, "the name")
+    found = diagnose_printed(trace(err=CONSOLE, sources={"node.py": text}), lambda said: "kx7" in said, "the name")
     assert found is not None
     assert found.hint == "line 3 becomes: super().__init__('a', enable_rosout=True)"

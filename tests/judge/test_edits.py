@@ -9,7 +9,7 @@ import pytest
 
 from tutor.judge import edits
 from tutor.judge.edits import Edit
-from tutor.judge.following import follow
+from tutor.judge.step_parsing import apply_step
 
 TEXT = textwrap.dedent("""\
     from __future__ import annotations
@@ -40,26 +40,31 @@ def _function(name: str) -> ast.FunctionDef:
 
 
 CASES = {
-    "line": (edits.becomes(12, "self.count += 2"), "line 12 becomes: self.count += 2"),
+    "line": (edits.replace_lines(12, "self.count += 2"), "line 12 becomes: self.count += 2"),
     "lines": (
-        edits.becomes(15, "if self.count == 3:\n    self.count = 0", 16),
+        edits.replace_lines(15, "if self.count == 3:\n    self.count = 0", 16),
         "lines 15 to 16 become:\n    if self.count == 3:\n        self.count = 0",
     ),
-    "above": (edits.above(16, "self.count = 0"), "write above line 16, with the same indentation: self.count = 0"),
-    "below": (edits.below(12, "print()"), "write below line 12, with the same indentation: print()"),
-    "inside": (edits.inside(15, "print()"), "write below line 15, four spaces deeper: print()"),
+    "above": (
+        edits.insert_above(16, "self.count = 0"),
+        "write above line 16, with the same indentation: self.count = 0",
+    ),
+    "below": (edits.insert_below(12, "print()"), "write below line 12, with the same indentation: print()"),
+    "inside": (edits.insert_into_block(15, "print()"), "write below line 15, four spaces deeper: print()"),
     "at the end": (
-        edits.at_end(_function("on_message"), "print()"),
+        edits.append_to_function(_function("on_message"), "print()"),
         "write below line 18, with the indentation of line 17: print()",
     ),
     "expression": (
-        edits.instead(TEXT, next(each for each in ast.walk(ast.parse(TEXT)) if isinstance(each, ast.JoinedStr)), "'a'"),
+        edits.replace_node(
+            TEXT, next(each for each in ast.walk(ast.parse(TEXT)) if isinstance(each, ast.JoinedStr)), "'a'"
+        ),
         "line 14 becomes: 'a')",
     ),
-    "removed": (edits.removed(TEXT, 12), "remove line 12: self.count += 1"),
-    "removed alone in its block": (edits.removed(TEXT, 16), "line 16 becomes: pass"),
+    "removed": (edits.remove_lines(TEXT, 12), "remove line 12: self.count += 1"),
+    "removed alone in its block": (edits.remove_lines(TEXT, 16), "line 16 becomes: pass"),
     "import below __future__": (
-        edits.on_top(TEXT, "import time")[0],
+        edits.add_import(TEXT, "import time")[0],
         "write below line 1, with the same indentation: import time",
     ),
 }
@@ -67,51 +72,66 @@ CASES = {
 
 @pytest.mark.parametrize(("edit", "words"), CASES.values(), ids=CASES)
 def test_an_edit_is_said_in_words_that_lead_to_the_same_file(edit: Edit, words: str) -> None:
-    assert edits.told(TEXT, edit) == words
-    assert follow(words, {"counter.py": TEXT})["counter.py"] == edits.apply(TEXT, [edit])
+    assert edits.describe_edits(TEXT, edit) == words
+    assert apply_step(words, {"counter.py": TEXT})["counter.py"] == edits.apply(TEXT, [edit])
 
 
 def test_several_edits_count_the_lines_of_the_file_as_it_is() -> None:
-    several = [edits.becomes(9, "self.seen = 0"), edits.below(12, "self.seen += 1"), *edits.on_top(TEXT, "import time")]
-    words = edits.told(TEXT, several, file="counter.py")
+    several = [
+        edits.replace_lines(9, "self.seen = 0"),
+        edits.insert_below(12, "self.seen += 1"),
+        *edits.add_import(TEXT, "import time"),
+    ]
+    words = edits.describe_edits(TEXT, several, file="counter.py")
     assert words is not None
     assert words.startswith("in counter.py, line 9 becomes: self.seen = 0\nwrite below line 12")
-    assert follow(words, {"counter.py": TEXT, "other.py": ""})["counter.py"] == edits.apply(TEXT, several)
+    assert apply_step(words, {"counter.py": TEXT, "other.py": ""})["counter.py"] == edits.apply(TEXT, several)
     ast.parse(edits.apply(TEXT, several))
 
 
 def test_what_the_file_has_is_not_imported_twice() -> None:
-    assert edits.on_top(TEXT, "import rclpy") == []
-    assert edits.on_top("x = 1\n", "import time") == [Edit(1, 0, "import time")]
+    assert edits.add_import(TEXT, "import rclpy") == []
+    assert edits.add_import("x = 1\n", "import time") == [Edit(1, 0, "import time")]
 
 
 def test_alone_in_a_function_a_line_is_replaced_by_pass() -> None:
-    assert edits.told("def f():\n    x()\n", edits.removed("def f():\n    x()\n", 2)) == "line 2 becomes: pass"
+    assert (
+        edits.describe_edits("def f():\n    x()\n", edits.remove_lines("def f():\n    x()\n", 2))
+        == "line 2 becomes: pass"
+    )
 
 
 @pytest.mark.parametrize(
     "edit",
     {
-        "no Python": edits.becomes(12, "self.count +="),
-        "a name that nothing sets": edits.becomes(12, "self.count += time.time()"),
-        "an attribute that nothing sets": edits.becomes(12, "self.count += self.total"),
-        "half of a statement": edits.becomes(13, "print()"),
-        "no change": edits.becomes(12, "self.count  +=  1"),
+        "no Python": edits.replace_lines(12, "self.count +="),
+        "a name that nothing sets": edits.replace_lines(12, "self.count += time.time()"),
+        "an attribute that nothing sets": edits.replace_lines(12, "self.count += self.total"),
+        "half of a statement": edits.replace_lines(13, "print()"),
+        "no change": edits.replace_lines(12, "self.count  +=  1"),
     }.values(),
 )
 def test_a_step_that_breaks_the_file_or_changes_nothing_is_not_told(edit: Edit) -> None:
-    assert edits.told(TEXT, edit) is None
+    assert edits.describe_edits(TEXT, edit) is None
 
 
 def test_names_that_the_step_brings_along_may_be_used() -> None:
-    step = edits.told(
-        TEXT, edits.becomes(12, "self.count += time.time()"), edits.on_top(TEXT, "import time"), file="counter.py"
+    step = edits.describe_edits(
+        TEXT,
+        edits.replace_lines(12, "self.count += time.time()"),
+        edits.add_import(TEXT, "import time"),
+        file="counter.py",
     )
     assert step is not None
-    assert edits.told(TEXT, edits.below(9, "self.total = 0"), edits.becomes(12, "self.count += self.total")) is not None
-    assert edits.told(TEXT, edits.becomes(12, "self.get_logger().info('a')")) is not None
+    assert (
+        edits.describe_edits(
+            TEXT, edits.insert_below(9, "self.total = 0"), edits.replace_lines(12, "self.count += self.total")
+        )
+        is not None
+    )
+    assert edits.describe_edits(TEXT, edits.replace_lines(12, "self.get_logger().info('a')")) is not None
 
 
-def test_a_name_that_the_file_already_lacks_is_no_reason_to_be_silent() -> None:
+def test_a_name_that_the_file_already_lacks_is_not_a_reason_to_be_silent() -> None:
     text = "def f():\n    return unknown + self.other\n"
-    assert edits.told(text, edits.becomes(2, "return unknown + self.other + 1")) is not None
+    assert edits.describe_edits(text, edits.replace_lines(2, "return unknown + self.other + 1")) is not None

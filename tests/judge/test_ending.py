@@ -6,7 +6,7 @@ import pytest
 
 from tests.checks.made import CRASH, FOLDER, KEYBOARD_INTERRUPT, NO_NODE, assert_failed, assert_passed, exited, trace
 from tests.checks.made import ending as ended
-from tutor.judge.ending import doubtful, judge
+from tutor.judge.ending import judge_ending, may_be_chance
 from tutor.judge.trace import Ending, Trace
 
 RCLPY = "/venv/lib/python3.12/site-packages/rclpy"
@@ -66,7 +66,7 @@ rclpy._rclpy_pybind11.RCLError: Failed to publish: publisher's context is invali
     ],
 )
 def test_clean(end: Ending) -> None:
-    assert_passed(judge(trace(), end))
+    assert_passed(judge_ending(trace(), end))
 
 
 @pytest.mark.parametrize(
@@ -100,7 +100,7 @@ def test_clean(end: Ending) -> None:
     ],
 )
 def test_not_clean(end: Ending, cause: str, words: str) -> None:
-    assert_failed(judge(trace(), end), cause, words)
+    assert_failed(judge_ending(trace(), end), cause, words)
 
 
 @pytest.mark.parametrize(
@@ -115,16 +115,16 @@ def test_not_clean(end: Ending, cause: str, words: str) -> None:
     ],
 )
 def test_ended_before_ctrl_c(seen: Trace, cause: str) -> None:
-    assert_failed(judge(seen, None), cause)
+    assert_failed(judge_ending(seen, None), cause)
 
 
 def test_the_limit_is_named() -> None:
-    assert "within 5 s" in judge(trace(), ended(0)).expected
-    assert "within 2.5 s" in judge(trace(), Ending(None, 2.5, 2.5)).expected
+    assert "within 5 s" in judge_ending(trace(), ended(0)).expected
+    assert "within 2.5 s" in judge_ending(trace(), Ending(None, 2.5, 2.5)).expected
 
 
 def test_the_last_words_are_shown() -> None:
-    verdict = judge(trace(err="one\n\ntwo"), ended(still_there=True))
+    verdict = judge_ending(trace(err="one\n\ntwo"), ended(still_there=True))
     assert verdict.evidence == ("one", "two")
 
 
@@ -144,7 +144,7 @@ def test_the_last_words_are_shown() -> None:
     ],
 )
 def test_what_may_be_chance_is_to_be_seen_again(end: Ending) -> None:
-    assert doubtful(end)
+    assert may_be_chance(end)
 
 
 @pytest.mark.parametrize(
@@ -166,4 +166,4 @@ def test_what_may_be_chance_is_to_be_seen_again(end: Ending) -> None:
     ],
 )
 def test_what_the_learner_has_done_is_told_at_once(end: Ending | None) -> None:
-    assert not doubtful(end)
+    assert not may_be_chance(end)

@@ -69,7 +69,7 @@ def test_a_round_trip_changes_nothing(event: Event) -> None:
         '{"event": "ExerciseJudged", "result": []}',
     ],
 )
-def test_what_is_no_event_is_refused(line: str) -> None:
+def test_what_is_not_an_event_is_refused(line: str) -> None:
     with pytest.raises(ValueError, match=r"not an event|valid Status"):
         decode(line)
 

@@ -9,15 +9,15 @@ import pytest
 
 from tests.checks.made import exited, trace
 from tests.judge.real import crash
-from tutor.judge.causes import of_process
-from tutor.judge.exceptions import Example, Known, Seen, TableError, find, load, parse, shipped
+from tutor.judge.causes import diagnose_process
+from tutor.judge.exceptions import Example, Known, RaisedException, TableError, explain, load, load_shipped, parse
 from tutor.judge.tracebacks import Frame, Traceback
 
 FOLDER = "/home/me/ws"
 OWN = "unhandled exception"
 
 
-def seen(example: Example) -> Seen:
+def seen(example: Example) -> RaisedException:
     """What a process would have shown of an example."""
     name, _, message = example.raised.partition(": ")
     frames = []
@@ -29,15 +29,15 @@ def seen(example: Example) -> Seen:
         path, _, function = example.at.partition(", ")
         frames.append(Frame(path, 75, function, ""))
     found = Traceback(name, message, tuple(frames))
-    return Seen(found, FOLDER, found.own(FOLDER), "node.py", example.source or example.line)
+    return RaisedException(found, FOLDER, found.own(FOLDER), "node.py", example.source or example.line)
 
 
 OF_CHECKS = [load(path) for path in sorted((Path(__file__).parents[2] / "checks").glob("*/exceptions.toml"))]
 EXAMPLES = [
     pytest.param(table, known, example, id=f"{example.raised[:50]} | {example.line[:30]}")
     for own in ((), *OF_CHECKS)
-    for table in ((*own, *shipped()),)
-    for known in own or shipped()
+    for table in ((*own, *load_shipped()),)
+    for known in own or load_shipped()
     for example in known.examples
 ]
 
@@ -50,11 +50,11 @@ def test_the_checks_have_tables_of_their_own() -> None:
 def test_each_example_gets_its_step_and_no_other_entry_takes_it(
     table: tuple[Known, ...], known: Known, example: Example
 ) -> None:
-    found = find(seen(example), table, cause=OWN)
+    found = explain(seen(example), table, cause=OWN)
     assert found is not None
     assert found.hint == example.step
     assert found.name == (known.cause or OWN)
-    assert found == find(seen(example), [known], cause=OWN)
+    assert found == explain(seen(example), [known], cause=OWN)
     assert "{" in example.line or "{" not in found.hint
 
 
@@ -103,7 +103,7 @@ def test_a_table_that_is_not_there(tmp_path: Path) -> None:
 
 def one(text: str, example: Example) -> str:
     """The step of a table of one's own."""
-    found = find(seen(example), parse(text), cause=OWN)
+    found = explain(seen(example), parse(text), cause=OWN)
     return found.hint if found else ""
 
 
@@ -124,17 +124,17 @@ def test_every_pattern_must_be_found() -> None:
 
 def test_what_is_said_names_the_line_and_what_it_led_to() -> None:
     example = Example("ValueError: 5", "", line="int(x)")
-    found = find(seen(example), parse(ENTRY), cause=OWN, after="; then it ended")
+    found = explain(seen(example), parse(ENTRY), cause=OWN, after="; then it ended")
     assert str(found) == f"{OWN}: ValueError: 5 (node.py, line 1: int(x)); then it ended: no"
 
 
 def test_the_entries_of_a_check_come_before_those_of_the_program() -> None:
     crashed = trace(err=crash("raise ValueError('rate')"), exit=exited(1))
     (own,) = parse(ENTRY)
-    found = of_process(replace(crashed, exceptions=(own,)))
+    found = diagnose_process(replace(crashed, exceptions=(own,)))
     assert found is not None
     assert found.hint == "do"
-    assert of_process(crashed) != found
+    assert diagnose_process(crashed) != found
 
 
 def test_an_entry_that_asks_for_a_line_does_not_fit_where_there_is_none() -> None:
@@ -142,24 +142,24 @@ def test_an_entry_that_asks_for_a_line_does_not_fit_where_there_is_none() -> Non
 
 
 def test_the_table_is_as_large_as_it_should_be() -> None:
-    assert len(shipped()) >= 100
+    assert len(load_shipped()) >= 100
     assert len(EXAMPLES) >= 80
 
 
-def test_a_line_that_stays_as_it_is_is_no_step() -> None:
+def test_a_line_that_stays_as_it_is_is_not_a_step() -> None:
     table = ENTRY.replace("do", "line {number} becomes: {becomes}") + "replace = ['int', 'int']"
     assert one(table, Example("ValueError: 5", "", line="int(x)")) == ""
 
 
 def test_an_unknown_exception_says_what_python_complains_of_and_not_the_line_again() -> None:
-    found = of_process(trace(err=crash("def f(): raise_it\nx = 1\nx.y = 5"), exit=exited(1)))
+    found = diagnose_process(trace(err=crash("def f(): raise_it\nx = 1\nx.y = 5"), exit=exited(1)))
     assert found is not None
     assert "in line 3 of node.py, change what Python complains of there: AttributeError: 'int'" in found.hint
     assert "x.y = 5" not in found.hint
     assert "x.y = 5" in found.text
 
 
-@pytest.mark.parametrize("entry", shipped(), ids=lambda entry: entry.says[:40])
+@pytest.mark.parametrize("entry", load_shipped(), ids=lambda entry: entry.says[:40])
 def test_words_after_a_line_of_code_are_not_joined_to_it_by_a_semicolon(entry: Known) -> None:
     assert "{becomes};" not in entry.step
 

@@ -6,8 +6,8 @@ import ast
 
 import pytest
 
-from tutor.judge.exceptions import Seen, find, shipped
-from tutor.judge.following import follow
+from tutor.judge.exceptions import RaisedException, explain, load_shipped
+from tutor.judge.step_parsing import apply_step
 from tutor.judge.tracebacks import Frame, Traceback
 
 FOLDER = "/home/me/ws"
@@ -34,9 +34,9 @@ def repaired(text: str, raised: str, number: int, function: str = "f") -> str:
     name, _, message = raised.partition(": ")
     frame = Frame(f"{FOLDER}/node.py", number, function, text.splitlines()[number - 1].strip())
     found = Traceback(name, message, (frame,))
-    cause = find(Seen(found, FOLDER, frame, "node.py", text), shipped(), cause="x")
+    cause = explain(RaisedException(found, FOLDER, frame, "node.py", text), load_shipped(), cause="x")
     assert cause is not None
-    after = follow(cause.hint, {"node.py": text})["node.py"]
+    after = apply_step(cause.hint, {"node.py": text})["node.py"]
     ast.parse(after)
     return after
 

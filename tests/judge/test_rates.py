@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from tests.checks.made import sample, samples
 from tutor.judge.rates import FEW, TOLERANCE, Rate, describe, measure
-from tutor.judge.waiting import excused
+from tutor.judge.waiting import too_few_by_cpu_wait
 
 rates = st.floats(0.05, 1000)
 
@@ -48,12 +48,12 @@ def test_in_words() -> None:
 
 
 def test_a_crowded_machine_excuses_too_few_messages_by_as_much_as_it_took_and_never_too_many() -> None:
-    assert not excused(5, 10.0, starved_s=0.0, of_s=1.0)
-    assert excused(5, 10.0, starved_s=0.5, of_s=1.0)
-    assert not excused(1, 10.0, starved_s=0.5, of_s=1.0)
-    assert not excused(20, 10.0, starved_s=0.9, of_s=1.0)
-    assert excused(0, 10.0, starved_s=1.0, of_s=1.0)
-    assert not excused(0, 0.5, starved_s=0.1, of_s=1.0)
+    assert not too_few_by_cpu_wait(5, 10.0, cpu_wait_s=0.0, of_s=1.0)
+    assert too_few_by_cpu_wait(5, 10.0, cpu_wait_s=0.5, of_s=1.0)
+    assert not too_few_by_cpu_wait(1, 10.0, cpu_wait_s=0.5, of_s=1.0)
+    assert not too_few_by_cpu_wait(20, 10.0, cpu_wait_s=0.9, of_s=1.0)
+    assert too_few_by_cpu_wait(0, 10.0, cpu_wait_s=1.0, of_s=1.0)
+    assert not too_few_by_cpu_wait(0, 0.5, cpu_wait_s=0.1, of_s=1.0)
 
 
 @given(st.floats(0.5, 10), st.integers(2, 8), st.integers(3, 8))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from tests.repairs import follow
+from tests.repairs import apply_step
 from tutor.judge.causes import parameter_slips, period_slips
 from tutor.judge.edits import Edit
 from tutor.judge.rewriting import parameters, publishing
@@ -68,11 +68,11 @@ def done(file: NodeFile, edits: list[Edit]) -> str:
     """The file after the step, done word for word."""
     step = file.step(edits)
     assert step is not None
-    return follow(step, {"node.py": file.text})["node.py"]
+    return apply_step(step, {"node.py": file.text})["node.py"]
 
 
 def test_the_callback_refuses_bad_rates_and_lets_the_others_take_effect() -> None:
-    after = done(changed(), parameters.following(changed(), RATE, PREFIX, ENABLED))
+    after = done(changed(), parameters.follow_parameters(changed(), RATE, PREFIX, ENABLED))
     assert (
         """\
     def changed(self, params):
@@ -131,7 +131,7 @@ def test_the_callback_refuses_bad_rates_and_lets_the_others_take_effect() -> Non
     ],
 )
 def test_what_the_callback_needs_comes_with_it(file: NodeFile, words: list[str]) -> None:
-    after = done(file, parameters.following(file, RATE, PREFIX, ENABLED))
+    after = done(file, parameters.follow_parameters(file, RATE, PREFIX, ENABLED))
     for word in words:
         assert word in after, after
 
@@ -141,7 +141,7 @@ def test_a_timer_that_is_emptied_later_is_kept() -> None:
         ("self.timer = self.create_timer(1.0 / self.rate, self.tick)", "self.create_timer(1.0, self.tick)"),
         (REGISTERED, f"        self.timer = None\n{REGISTERED}"),
     )
-    after = done(file, parameters.following(file, RATE))
+    after = done(file, parameters.follow_parameters(file, RATE))
     assert "self.timer = self.create_timer(1.0, self.tick)\n" + REGISTERED in after
 
 
@@ -156,19 +156,19 @@ def test_whether_a_parameter_is_followed() -> None:
 
 def test_what_is_kept_of_a_period_is_worked_out_from_the_new_rate() -> None:
     file = changed(("self.rate = self", "self.period = 1.0 / self"), ("1.0 / self.rate,", "self.period,"))
-    assert "self.period = 1.0 / p.value\n" in done(file, parameters.following(file, RATE))
+    assert "self.period = 1.0 / p.value\n" in done(file, parameters.follow_parameters(file, RATE))
 
 
 def test_where_only_the_old_timer_is_left_it_is_cancelled() -> None:
     making = "self.timer = self.create_timer(1.0 / params[0].value, self.tick)"
     file = changed(("        return Set", f"        {making}\n        return Set"))
     right = changed(("        return Set", f"        self.timer.cancel()\n        {making}\n        return Set"))
-    assert done(file, parameters.cancelling(file)) == right.text
-    assert parameters.cancelling(right) == parameters.cancelling(changed()) == []
+    assert done(file, parameters.cancel_old_timer(file)) == right.text
+    assert parameters.cancel_old_timer(right) == parameters.cancel_old_timer(changed()) == []
 
 
 def test_bad_rates_are_refused_before_anything_else() -> None:
-    after = done(changed(), parameters.refusing(changed(), RATE))
+    after = done(changed(), parameters.refuse_bad_rates(changed(), RATE))
     assert "    def changed(self, params):\n        for p in params:\n            if p.name == 'publish_rate'" in after
 
 
@@ -189,7 +189,7 @@ def test_bad_rates_are_refused_before_anything_else() -> None:
     ],
 )
 def test_declared(file: NodeFile, name: str, default: object, line: str) -> None:
-    assert line in done(file, parameters.declared(file, name, default))
+    assert line in done(file, parameters.declare_parameter(file, name, default))
 
 
 def test_what_is_declared_again_and_again_is_declared_once() -> None:
@@ -197,28 +197,28 @@ def test_what_is_declared_again_and_again_is_declared_once() -> None:
         ("        self.declare_parameter('message_prefix', 'Hello')\n", ""),
         ("        self.count += 1", "        self.prefix = self.declare_parameter('message_prefix', 'Hello').value"),
     )
-    after = done(file, parameters.declared_once(file, 22))
+    after = done(file, parameters.declare_once(file, 22))
     assert "__init__('parameterized_publisher')\n        self.declare_parameter('message_prefix', 'Hello')\n" in after
     assert after.endswith("        self.prefix = self.get_parameter('message_prefix').value\n")
-    assert parameters.declared_once(changed(), 9) == []
+    assert parameters.declare_once(changed(), 9) == []
 
 
 def test_a_parameter_of_another_name_is_renamed_wherever_it_is_named() -> None:
     file = changed(("'message_prefix'", "'prefix'"))
-    assert done(file, parameters.renamed(file, PREFIX, [PREFIX, RATE, ENABLED])) == NODE
+    assert done(file, parameters.rename_parameter(file, PREFIX, [PREFIX, RATE, ENABLED])) == NODE
 
 
 @pytest.mark.parametrize("code", ["msg = String()\n        msg.data = 'x'\n        self.publisher.publish(msg)", ""])
 def test_the_message_is_another_one(code: str) -> None:
     file = changed(("self.publisher.publish(String(data=self.prefix))", code)) if code else changed()
     assert publishing.text_with(file, PREFIX) in done(
-        file, publishing.sending(file, publishing.text_with(file, PREFIX))
+        file, publishing.send_data(file, publishing.text_with(file, PREFIX))
     )
 
 
 def test_the_whole_callback_of_the_timer() -> None:
     code = publishing.text_with(changed(), PREFIX)
-    assert done(changed(), publishing.ticking(changed(), code, enabled=ENABLED)).endswith(
+    assert done(changed(), publishing.whole_timer_callback(changed(), code, enabled=ENABLED)).endswith(
         """\
     def tick(self):
         if not self.get_parameter('enabled').value:
@@ -233,7 +233,7 @@ def test_the_whole_callback_of_the_timer() -> None:
 
 def test_a_node_without_anything_gets_publisher_timer_and_callback() -> None:
     file = node_file("class P(Node):\n    def __init__(self):\n        super().__init__('p')\n")
-    after = done(file, publishing.publishing(file, "/chatter", "std_msgs/msg/String", "'Hello'", RATE))
+    after = done(file, publishing.whole_publishing(file, "/chatter", "std_msgs/msg/String", "'Hello'", RATE))
     for line in (
         "from std_msgs.msg import String",
         "self.publisher = self.create_publisher(String, '/chatter', 10)",
@@ -260,7 +260,7 @@ def test_slips_in_a_period(file: NodeFile, cause: str, line: str) -> None:
     found = period_slips.whole_division(file) or period_slips.other_unit(file)
     assert found is not None
     assert found.name == cause
-    assert line in follow(found.hint, {"node.py": file.text})["node.py"]
+    assert line in apply_step(found.hint, {"node.py": file.text})["node.py"]
     assert period_slips.whole_division(changed()) is period_slips.other_unit(changed()) is None
 
 
@@ -287,7 +287,7 @@ def test_a_value_that_the_node_overwrites(file: NodeFile, right: str) -> None:
     found = parameter_slips.overridden(file, PREFIX)
     assert found is not None
     assert found.name == "value overwritten by the node"
-    assert follow(found.hint, {"node.py": file.text})["node.py"] == right
+    assert apply_step(found.hint, {"node.py": file.text})["node.py"] == right
     assert parameter_slips.overridden(changed(), PREFIX) is None
     corrected = changed(
         (
@@ -314,7 +314,7 @@ def test_a_callback_that_is_never_called(file: NodeFile, cause: str, line: str) 
     found = parameter_slips.not_called(file)
     assert found is not None
     assert found.name == cause
-    assert line in follow(found.hint, {"node.py": file.text})["node.py"]
+    assert line in apply_step(found.hint, {"node.py": file.text})["node.py"]
     assert parameter_slips.not_called(changed()) is None
 
 
@@ -329,7 +329,10 @@ def test_the_old_value_is_read_in_an_on_set_callback() -> None:
 def test_a_file_that_cannot_be_read_gives_no_step() -> None:
     for text in ("", "def f(:\n"):
         file = node_file(text)
-        assert file.step(parameters.following(file, RATE), parameters.declared(file, RATE, 1.0)) is None
         assert (
-            file.step(publishing.sending(file, "1.0"), publishing.publishing(file, "/a", "a/msg/B", "1", "1")) is None
+            file.step(parameters.follow_parameters(file, RATE), parameters.declare_parameter(file, RATE, 1.0)) is None
+        )
+        assert (
+            file.step(publishing.send_data(file, "1.0"), publishing.whole_publishing(file, "/a", "a/msg/B", "1", "1"))
+            is None
         )

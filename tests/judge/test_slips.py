@@ -24,12 +24,12 @@ def node(text: str) -> Trace:
         ("self.on = 'false' == p.value", "becomes: self.on = not p.value"),
     ],
 )
-def test_a_truth_is_no_text(text: str, step: str) -> None:
-    assert step in (slips.truth_as_text(node(text)) or "")
+def test_a_truth_is_not_a_text(text: str, step: str) -> None:
+    assert step in (slips.boolean_compared_with_text(node(text)) or "")
 
 
 @pytest.mark.parametrize(
     "text", ["x = str(p.value).lower() == 'true'", "if p.name == 'true': pass", "x = p.value == 'a'"]
 )
 def test_a_comparison_that_goes_well(text: str) -> None:
-    assert slips.truth_as_text(node(text)) is None
+    assert slips.boolean_compared_with_text(node(text)) is None

@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 
 from tests.checks.made import FOLDER, UP, exited, trace
-from tutor.judge.causes import of_no_answer, of_process
+from tutor.judge.causes import diagnose_no_answer, diagnose_process
 from tutor.judge.trace import Trace
 from tutor.judge.tracebacks import Frame
 
@@ -84,7 +84,7 @@ def at(line: int, code: str, function: str = "main") -> tuple[Frame, ...]:
     ],
 )
 def test_where_it_stays_instead_of_spinning(body: list[str], stuck: tuple[Frame, ...], text: str, step: str) -> None:
-    found = of_no_answer(started(*body), stuck)
+    found = diagnose_no_answer(started(*body), stuck)
     assert found.name == "no spin"
     assert text in found.text
     assert step in found.hint
@@ -93,7 +93,7 @@ def test_where_it_stays_instead_of_spinning(body: list[str], stuck: tuple[Frame,
 
 def test_what_a_loop_counts_is_counted_by_the_timer() -> None:
     body = ["n = 0", "while not talker.done:", "    n += 1", "    print(n)", "    time.sleep(0.5)"]
-    found = of_no_answer(started(*body), at(17, "time.sleep(0.5)"))
+    found = diagnose_no_answer(started(*body), at(17, "time.sleep(0.5)"))
     code = (
         "def on_timer():\n        nonlocal n\n        if not talker.done:\n            n += 1\n            print(n)\n"
     )
@@ -101,7 +101,7 @@ def test_what_a_loop_counts_is_counted_by_the_timer() -> None:
 
 
 def test_the_node_is_spun_before_the_program_tidies_up() -> None:
-    found = of_process(started("talker.tick()", "talker.destroy_node()", exit=exited(0)))
+    found = diagnose_process(started("talker.tick()", "talker.destroy_node()", exit=exited(0)))
     assert found is not None
     assert found.hint == "write above line 14, with the same indentation: rclpy.spin(talker)"
 
@@ -109,14 +109,14 @@ def test_the_node_is_spun_before_the_program_tidies_up() -> None:
 def test_a_loop_in_the_constructor_is_left_to_a_timer() -> None:
     code = NODE.replace("\n    def tick", "        while True:\n            self.tick()\n\n    def tick", 1)
     seen = replace(started("rclpy.spin(talker)"), sources={"node.py": code.format(body="rclpy.spin(talker)")})
-    found = of_no_answer(seen, at(6, "self.tick()", "__init__"))
+    found = diagnose_no_answer(seen, at(6, "self.tick()", "__init__"))
     assert "lines 5 to 6 become: self.create_timer(1.0, self.tick)" in found.hint
     assert "rclpy.spin" not in found.hint
 
 
 def test_one_that_does_spin_is_not_told_to() -> None:
     for stuck in ((), at(13, "rclpy.spin(talker)")):
-        assert "stays" not in of_no_answer(started("rclpy.spin(talker)"), stuck).text
+        assert "stays" not in diagnose_no_answer(started("rclpy.spin(talker)"), stuck).text
 
 
 @pytest.mark.parametrize(
@@ -129,13 +129,13 @@ def test_one_that_does_spin_is_not_told_to() -> None:
     ],
 )
 def test_one_that_ends_is_told_where_to_spin(body: list[str], step: str) -> None:
-    found = of_process(started(*body, exit=exited(0)))
+    found = diagnose_process(started(*body, exit=exited(0)))
     assert found is not None
     assert (found.name, found.hint) == ("exit at once", step)
 
 
 @pytest.mark.parametrize("body", ["rclpy.spin(talker)", "while ok():\n        rclpy.spin_once(talker)"])
 def test_one_that_ends_though_it_spins_is_not_told_that_it_does_not(body: str) -> None:
-    found = of_process(started(body, exit=exited(0)))
+    found = diagnose_process(started(body, exit=exited(0)))
     assert found is not None
     assert "never spins" not in found.text

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from tutor.judge.following import follow
-from tutor.judge.rewriting.syntax import readable
+from tutor.judge.rewriting.syntax import make_readable
+from tutor.judge.step_parsing import apply_step
 
 _SOUND = """\
 import time
@@ -52,22 +52,22 @@ def test_a_slip_is_told_as_the_line_without_it(line: str, slipped: str) -> None:
     broken = _SOUND.replace(line, slipped, 1)
     assert broken != _SOUND
 
-    step = readable(broken)
+    step = make_readable(broken)
 
     assert step is not None
-    assert follow(step, {"stats.py": broken})["stats.py"] == _SOUND
+    assert apply_step(step, {"stats.py": broken})["stats.py"] == _SOUND
 
 
 def test_two_slips_are_told_together() -> None:
     broken = _SOUND.replace("message):", "message)").replace("10)\n\n    def", "10\n\n    def")
 
-    step = readable(broken)
+    step = make_readable(broken)
 
     assert step is not None
-    assert follow(step, {"stats.py": broken})["stats.py"] == _SOUND
+    assert apply_step(step, {"stats.py": broken})["stats.py"] == _SOUND
 
 
 def test_nothing_is_told_where_python_can_read_the_file_or_no_small_change_helps() -> None:
-    assert readable(_SOUND) is None
-    assert readable("") is None
-    assert readable("this is a text and no program at all\n" * 5) is None
+    assert make_readable(_SOUND) is None
+    assert make_readable("") is None
+    assert make_readable("this is a text and no program at all\n" * 5) is None

@@ -12,9 +12,17 @@ from hypothesis import strategies as st
 
 from tests.checks.made import CRASH, FOLDER, lines, trace
 from tests.judge.real import OWN, crash
-from tutor.judge.causes import of_traceback
+from tutor.judge.causes import diagnose_traceback
 from tutor.judge.trace import OutputLine, Trace
-from tutor.judge.tracebacks import Frame, called_by_executor, dumped, find, last, own, without
+from tutor.judge.tracebacks import (
+    Frame,
+    called_by_executor,
+    dumped_frames,
+    find_tracebacks,
+    last_traceback,
+    lines_without_tracebacks,
+    own_frame,
+)
 
 CALLS = """\
 def tick():
@@ -29,7 +37,7 @@ HEADER = "Traceback (most recent call last):"
 
 
 def test_an_exception_is_read_whole() -> None:
-    (found,) = find(lines(crash(CALLS)))
+    (found,) = find_tracebacks(lines(crash(CALLS)))
     assert (found.type, found.message) == ("ZeroDivisionError", "division by zero")
     assert found.raised == "ZeroDivisionError: division by zero"
     assert [(frame.line, frame.function, frame.code) for frame in found.frames] == [
@@ -60,7 +68,7 @@ def test_an_exception_is_read_whole() -> None:
     ],
 )
 def test_what_was_raised(source: str, type_name: str, message: str) -> None:
-    found = find(lines(crash(source)))[0]
+    found = find_tracebacks(lines(crash(source)))[0]
     assert (found.type.removeprefix("__main__."), found.message) == (type_name, message)
 
 
@@ -76,7 +84,7 @@ def test_what_was_raised(source: str, type_name: str, message: str) -> None:
 def test_a_syntax_error_of_the_main_file_has_no_header(source: str, type_name: str, line: int) -> None:
     text = crash(source)
     assert HEADER not in text
-    (found,) = find(lines(text))
+    (found,) = find_tracebacks(lines(text))
     assert found.type == type_name
     assert found.own(FOLDER) == found.frames[-1]
     assert (found.frames[-1].line, found.frames[-1].function) == (line, "")
@@ -90,7 +98,7 @@ def test_a_syntax_error_in_a_helper_module_is_at_the_helpers_line() -> None:
     def f(:
           ^
 SyntaxError: invalid syntax"""
-    (found,) = find(lines(text))
+    (found,) = find_tracebacks(lines(text))
     assert str(found.own(FOLDER)) == "helper.py, line 3: def f(:"
 
 
@@ -104,16 +112,18 @@ SyntaxError: invalid syntax"""
 )
 def test_chained_exceptions_are_found_in_their_order(how: str, types: list[str]) -> None:
     text = crash(f"try:\n    1 / 0\nexcept ZeroDivisionError as error:\n    {how}\n")
-    found = find(lines(text))
+    found = find_tracebacks(lines(text))
     assert [each.type for each in found] == types
     assert [[frame.line for frame in each.frames] for each in found][-1] == [4]
-    assert last(trace(err=text)) == found[-1]
+    assert last_traceback(trace(err=text)) == found[-1]
 
 
 def test_an_exception_knows_what_it_followed() -> None:
-    (first, second) = find(lines(crash("try:\n    1 / 0\nexcept ZeroDivisionError:\n    raise RuntimeError('two')\n")))
+    (first, second) = find_tracebacks(
+        lines(crash("try:\n    1 / 0\nexcept ZeroDivisionError:\n    raise RuntimeError('two')\n"))
+    )
     assert (first.follows, second.follows, second.origin) == (None, first, first)
-    alone = find(lines(f"{CRASH}\n{CRASH}"))
+    alone = find_tracebacks(lines(f"{CRASH}\n{CRASH}"))
     assert [each.follows for each in alone] == [None, None]
 
 
@@ -132,7 +142,7 @@ raise ExceptionGroup("many", [found[0], ExceptionGroup("more", [found[1]])])
 
 
 def test_a_group_of_exceptions_is_read_one_by_one() -> None:
-    found = find(lines(f"before\n{crash(GROUP)}\nafter\n| a table |"))
+    found = find_tracebacks(lines(f"before\n{crash(GROUP)}\nafter\n| a table |"))
     assert [each.raised for each in found] == [
         "ExceptionGroup: many (2 sub-exceptions)",
         "ValueError: no",
@@ -141,8 +151,8 @@ def test_a_group_of_exceptions_is_read_one_by_one() -> None:
     mine = found[-1].own(FOLDER)
     assert mine is not None
     assert (mine.line, mine.code) == (2, 'raise kind("no")')
-    assert "| a table |" in without(lines(f"{crash(GROUP)}\n| a table |"))
-    assert not [line for line in without(lines(crash(GROUP))) if "raise kind" in line]
+    assert "| a table |" in lines_without_tracebacks(lines(f"{crash(GROUP)}\n| a table |"))
+    assert not [line for line in lines_without_tracebacks(lines(crash(GROUP))) if "raise kind" in line]
 
 
 def test_the_way_out_of_an_executor_to_a_callback() -> None:
@@ -155,7 +165,7 @@ def test_the_way_out_of_an_executor_to_a_callback() -> None:
 
 
 def test_an_exception_in_a_thread() -> None:
-    (found,) = find(lines(f"Exception in thread Thread-1 (work):\n{CRASH}"))
+    (found,) = find_tracebacks(lines(f"Exception in thread Thread-1 (work):\n{CRASH}"))
     assert (found.type, found.ignored) == ("AttributeError", False)
 
 
@@ -165,26 +175,26 @@ IGNORED = (
 
 
 def test_an_ignored_exception_is_told_apart() -> None:
-    found = find(lines(f"{IGNORED}\n{CRASH}\n{IGNORED}"))
+    found = find_tracebacks(lines(f"{IGNORED}\n{CRASH}\n{IGNORED}"))
     assert [each.ignored for each in found] == [True, False, True]
 
 
 def test_an_exception_at_exit_is_told_apart() -> None:
     at_exit = IGNORED.replace("in: <function Node.__del__", "in atexit callback: <function goodbye")
-    found = find(lines(f"{IGNORED}\n{at_exit}\n{CRASH}"))
+    found = find_tracebacks(lines(f"{IGNORED}\n{at_exit}\n{CRASH}"))
     assert [(each.ignored, each.at_exit) for each in found] == [(True, False), (True, True), (False, False)]
 
 
 def test_an_ignored_one_does_not_make_the_next_without_header_ignored() -> None:
-    assert [each.ignored for each in find(lines(f"{IGNORED}\n{crash('if x')}"))] == [True, False]
+    assert [each.ignored for each in find_tracebacks(lines(f"{IGNORED}\n{crash('if x')}"))] == [True, False]
 
 
 def test_the_last_is_the_one_that_ended_something() -> None:
-    # What rclpy's objects say while the interpreter goes down comes after the crash, and is no news.
-    found = last(trace(err=f"{CRASH}\n{IGNORED}"))
+    # What rclpy's objects say while the interpreter goes down comes after the crash, and is not news.
+    found = last_traceback(trace(err=f"{CRASH}\n{IGNORED}"))
     assert found is not None
     assert found.type == "AttributeError"
-    only = last(trace(err=IGNORED))
+    only = last_traceback(trace(err=IGNORED))
     assert only is not None
     assert only.ignored
 
@@ -197,15 +207,15 @@ def test_own_is_the_innermost_of_the_learners_frames() -> None:
         Frame("/usr/lib/python3.12/threading.py", 4, "run", ""),
     )
     text = "\n".join(f'  File "{f.path}", line {f.line}, in {f.function}\n    code' for f in frames)
-    (found,) = find(lines(f"{HEADER}\n{text}\nValueError: x"))
+    (found,) = find_tracebacks(lines(f"{HEADER}\n{text}\nValueError: x"))
     for folder in (FOLDER, FOLDER + "/"):
         mine = found.own(folder)
         assert mine is not None
         assert mine.line == 2
     assert found.own("/home/me/w") is None
     assert found.own("") is None
-    assert own(reversed(frames), FOLDER) == frames[1]
-    assert own((), FOLDER) is None
+    assert own_frame(reversed(frames), FOLDER) == frames[1]
+    assert own_frame((), FOLDER) is None
 
 
 @pytest.mark.parametrize(
@@ -222,11 +232,11 @@ def test_own_is_the_innermost_of_the_learners_frames() -> None:
 def test_a_file_that_python_refuses_altogether(source: bytes, raised: str, tmp_path: Path) -> None:
     path = tmp_path / "node.py"
     path.write_bytes(source)
-    found = find(lines(subprocess.run([sys.executable, path], capture_output=True, text=True).stderr))
+    found = find_tracebacks(lines(subprocess.run([sys.executable, path], capture_output=True, text=True).stderr))
     assert len(found) == 1
     assert found[0].raised.startswith(raised)
     assert not found[0].frames or found[0].own(str(tmp_path)) == found[0].frames[0]
-    cause = of_traceback(found[0], Trace(path.name, str(tmp_path)))
+    cause = diagnose_traceback(found[0], Trace(path.name, str(tmp_path)))
     assert cause.name == "syntax error"
 
 
@@ -240,34 +250,34 @@ Thread 0x00007f1 (most recent call first):
 Current thread 0x00007f2 (most recent call first):
   File "{FOLDER}/node.py", line 12 in tick
 """
-    frames = dumped(lines(text))
+    frames = dumped_frames(lines(text))
     assert [(f.path.rpartition("/")[2], f.line, f.function) for f in frames] == [
         ("threading.py", 359, "wait"),
         ("node.py", 20, "<module>"),
         ("node.py", 12, "tick"),
     ]
-    assert dumped(lines(text, "stdout")) == ()
-    assert find(lines(text)) == ()  # a dump is no exception
-    assert dumped(lines(CRASH)) == ()
+    assert dumped_frames(lines(text, "stdout")) == ()
+    assert find_tracebacks(lines(text)) == ()  # a dump is not an exception
+    assert dumped_frames(lines(CRASH)) == ()
 
 
 def test_only_stderr_counts() -> None:
-    assert find(lines(CRASH, "stdout")) == ()
+    assert find_tracebacks(lines(CRASH, "stdout")) == ()
 
 
 def test_colours_do_not_hide_it() -> None:
     def painted(text: str) -> str:
         return "\n".join(f"\x1b[1;31m{line}\x1b[0m" if line else line for line in text.split("\n"))
 
-    assert find(lines(painted(CRASH))) == find(lines(CRASH))
-    assert find(lines(f"\x1b[33m[WARN] [1.5] [node]: hot\x1b[0m\n{CRASH}")) == find(lines(CRASH))
+    assert find_tracebacks(lines(painted(CRASH))) == find_tracebacks(lines(CRASH))
+    assert find_tracebacks(lines(f"\x1b[33m[WARN] [1.5] [node]: hot\x1b[0m\n{CRASH}")) == find_tracebacks(lines(CRASH))
 
 
 @given(st.integers(0, CRASH.count("\n")), st.sampled_from(["[INFO] [1.5] [node]: tick 3", "[node]: a: b", "", "=> 3"]))
 def test_a_log_line_in_the_middle_does_not_hide_it(where: int, text: str) -> None:
     # Another thread's log message may come between any two lines that Python writes.
     crash_lines = CRASH.split("\n")
-    (found,) = find(lines("\n".join([*crash_lines[:where], text, *crash_lines[where:]])))
+    (found,) = find_tracebacks(lines("\n".join([*crash_lines[:where], text, *crash_lines[where:]])))
     assert found.type == "AttributeError"
 
 
@@ -286,38 +296,43 @@ ordinary = st.sampled_from(
 
 
 @given(st.lists(ordinary))
-def test_ordinary_output_is_no_traceback(text: list[str]) -> None:
+def test_ordinary_output_is_not_a_traceback(text: list[str]) -> None:
     output = lines("\n".join(text))
-    assert find(output) == ()
-    assert list(without(output)) == [line.text for line in output]
+    assert find_tracebacks(output) == ()
+    assert list(lines_without_tracebacks(output)) == [line.text for line in output]
 
 
 @given(st.lists(ordinary), st.lists(ordinary))
 def test_the_same_traceback_whatever_is_around_it(before: list[str], after: list[str]) -> None:
     text = "\n".join([*before, CRASH, *after])
-    assert find(lines(text)) == find(lines(CRASH))
+    assert find_tracebacks(lines(text)) == find_tracebacks(lines(CRASH))
 
 
 @given(st.lists(st.builds(OutputLine, st.sampled_from(["stdout", "stderr"]), st.text(), st.just(0.0))))
 def test_anything_can_be_read(output: list[OutputLine]) -> None:
-    find(output)
-    dumped(output)
-    assert len(without(output)) <= len(output)
+    find_tracebacks(output)
+    dumped_frames(output)
+    assert len(lines_without_tracebacks(output)) <= len(output)
 
 
 def test_without_keeps_what_names_the_exception_and_drops_the_source_lines() -> None:
     source = "publish_rate = 0.0\nraise ValueError('publish_rate is bad')"
     text = "before\n" + crash(source) + "after\n  indented"
-    assert without(lines(text)) == ("before", "ValueError: publish_rate is bad", "after", "  indented")
-    assert without(lines("publish_rate", "stdout")) == ("publish_rate",)
+    assert lines_without_tracebacks(lines(text)) == ("before", "ValueError: publish_rate is bad", "after", "  indented")
+    assert lines_without_tracebacks(lines("publish_rate", "stdout")) == ("publish_rate",)
 
 
 def test_of_one_traceback_nothing_is_read_twice_or_from_the_other_stream() -> None:
     mixed = [line for pair in zip(lines(CRASH), lines(CRASH, "stdout"), strict=True) for line in pair]
-    assert len(find(mixed)) == 1
+    assert len(find_tracebacks(mixed)) == 1
 
 
 def test_without_drops_what_joins_two_exceptions_of_a_chain() -> None:
     chain = "During handling of the above exception, another exception occurred:"
     one = 'Traceback (most recent call last):\n  File "/a/node.py", line 1, in main\n    spin()\nKeyboardInterrupt'
-    assert without(lines(f"{one}\n\n{chain}\n\n{one}")) == ("KeyboardInterrupt", "", "", "KeyboardInterrupt")
+    assert lines_without_tracebacks(lines(f"{one}\n\n{chain}\n\n{one}")) == (
+        "KeyboardInterrupt",
+        "",
+        "",
+        "KeyboardInterrupt",
+    )

@@ -9,7 +9,7 @@ import pytest
 
 from tests.live.test_live_process import LIMIT_S, Watching
 from tests.live.world import world
-from tutor.live.facts import TopicNews
+from tutor.live.facts import TopicUpdate
 from tutor.live.protocol import Follow
 
 BIG = """
@@ -42,8 +42,8 @@ def test_following_a_topic_of_big_messages_takes_little_memory(tmp_path: Any) ->
         watching.ready()
         before = peak_mb(watching.process.pid)
         watching.tell(Follow("/big"))
-        news = (each for each in watching.news(LIMIT_S) if isinstance(each, TopicNews))
-        last = next(each for each in news if each.count > 100)
+        update = (each for each in watching.updates(LIMIT_S) if isinstance(each, TopicUpdate))
+        last = next(each for each in update if each.count > 100)
         assert last.count > 100
         assert peak_mb(watching.process.pid) - before < 100
 
@@ -69,8 +69,8 @@ class Subscription:
 
 @pytest.mark.parametrize("size", [8, 100_000, 1_000_000, 100_000_000])
 def test_a_batch_of_big_messages_is_small(size: int) -> None:
-    from tutor.sandbox.ros2 import taking
+    from tutor.bundled_ros.ros2 import receiving
 
-    found, told = taking._all_of(Subscription(size), True)  # type: ignore[arg-type]
+    found, told = receiving._all_of(Subscription(size), True)  # type: ignore[arg-type]
     assert told == size
-    assert len(found) == min(5000, max(1, taking.MOST_BYTES // size))
+    assert len(found) == min(5000, max(1, receiving.MOST_BYTES // size))

@@ -25,7 +25,7 @@ def test_a_node_leads_to_its_topic_and_that_to_its_listeners() -> None:
     ]
 
 
-def test_who_is_not_connected_has_no_arrow() -> None:
+def test_a_node_that_is_not_connected_has_no_arrow() -> None:
     listeners = (Endpoint("/good", S, BEST_EFFORT), Endpoint("/late", S))
     drawn = lines(Topic("/chatter", (Endpoint("/talker", S, BEST_EFFORT),), listeners))
     assert "▶│ /good" in drawn[1]

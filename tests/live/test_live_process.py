@@ -14,8 +14,8 @@ from collections.abc import Iterator
 import pytest
 
 from tests.live.world import METRONOME, World, world
-from tutor.live.facts import TopicNews
-from tutor.live.protocol import Attend, Command, Follow, News, Ready, decode_news, encode
+from tutor.live.facts import TopicUpdate
+from tutor.live.protocol import Follow, Ready, SetVisible, Update, WatcherRequest, decode_update, encode
 
 LIMIT_S = 30.0
 
@@ -31,11 +31,11 @@ class Watching:
         )
         self._held = b""
 
-    def tell(self, command: Command) -> None:
+    def tell(self, command: WatcherRequest) -> None:
         assert self.process.stdin is not None
         self.process.stdin.write(encode(command).encode() + b"\n")
 
-    def news(self, limit_s: float = LIMIT_S) -> Iterator[News]:
+    def updates(self, limit_s: float = LIMIT_S) -> Iterator[Update]:
         assert self.process.stdout is not None
         deadline = time.monotonic() + limit_s
         while select.select([self.process.stdout], [], [], max(0.0, deadline - time.monotonic()))[0]:
@@ -43,10 +43,10 @@ class Watching:
                 return
             *lines, self._held = (self._held + some).split(b"\n")
             for line in lines:
-                yield decode_news(line.decode())
+                yield decode_update(line.decode())
 
     def ready(self) -> None:
-        assert any(isinstance(news, Ready) for news in self.news())
+        assert any(isinstance(update, Ready) for update in self.updates())
 
     def close(self) -> None:
         for end in (self.process.stdin, self.process.stdout):
@@ -68,13 +68,13 @@ def test_every_message_of_a_1_khz_topic_is_counted_and_news_of_it_are_few(around
         watching.tell(Follow("/ticks"))
         watching.ready()
         node = around.run(METRONOME, "1000", "3000")
-        last: TopicNews | None = None
+        last: TopicUpdate | None = None
         began, heard = 0.0, 0
-        for news in watching.news():
-            if isinstance(news, TopicNews) and news.count:
+        for update in watching.updates():
+            if isinstance(update, TopicUpdate) and update.count:
                 began = began or time.monotonic()
-                heard, last = heard + 1, news
-                if news.count >= 3000:
+                heard, last = heard + 1, update
+                if update.count >= 3000:
                     break
         assert last is not None
         assert last.count == 3000
@@ -92,12 +92,12 @@ def test_where_nobody_looks_it_counts_on_in_silence(around: World) -> None:
     watching = Watching(around)
     try:
         watching.tell(Follow("/ticks"))
-        watching.tell(Attend(False))
+        watching.tell(SetVisible(False))
         watching.ready()
         node = around.run(METRONOME, "500", "500")
         assert around.said(node).startswith("500 ")
-        watching.tell(Attend(True))
-        counts = (news.count for news in watching.news() if isinstance(news, TopicNews))
+        watching.tell(SetVisible(True))
+        counts = (update.count for update in watching.updates() if isinstance(update, TopicUpdate))
         first = next(count for count in counts if count)
         assert first > 450  # not told before; the last few may still be on their way
         assert first == 500 or next(count for count in counts if count >= 500) == 500
@@ -122,14 +122,14 @@ def test_it_ends_even_before_it_has_begun(around: World) -> None:
     watching.close()
 
 
-def test_a_line_that_is_no_command_does_no_harm(around: World) -> None:
+def test_a_line_that_is_not_a_command_does_no_harm(around: World) -> None:
     watching = Watching(around)
     try:
         assert watching.process.stdin is not None
         watching.process.stdin.write(b'{"kind": "Dance"}\n\xff\n')
         watching.ready()
         watching.tell(Follow("/ticks"))
-        assert any(isinstance(news, TopicNews) for news in watching.news())
+        assert any(isinstance(update, TopicUpdate) for update in watching.updates())
     finally:
         watching.close()
 
@@ -138,11 +138,11 @@ def test_a_line_that_is_no_command_does_no_harm(around: World) -> None:
 APP = """
 import asyncio, os, sys
 from tutor.tui.live.child import LiveChild
-from tutor.tui.live.command import live_command
+from tutor.tui.live.launching import watcher_command
 
 async def main():
-    child = await LiveChild.start(live_command(int(os.environ["ROS_DOMAIN_ID"])))
-    async for news in child.news():
+    child = await LiveChild.start(watcher_command(int(os.environ["ROS_DOMAIN_ID"])))
+    async for update in child.updates():
         print(child.pid, flush=True)
         break
     await asyncio.sleep(60)

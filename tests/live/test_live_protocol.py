@@ -16,20 +16,20 @@ from tutor.live.facts import (
     SetOutcome,
     Timing,
     Topic,
-    TopicNews,
+    TopicUpdate,
 )
 from tutor.live.protocol import (
-    Attend,
     Call,
     Follow,
-    News,
     Publish,
     Ready,
     SetParameter,
+    SetVisible,
     StopPublishing,
-    Trouble,
-    decode_command,
-    decode_news,
+    Update,
+    WatcherError,
+    decode_request,
+    decode_update,
     encode,
 )
 
@@ -37,13 +37,13 @@ END = Endpoint("/n", "std_msgs/msg/String", Qos("best_effort", deadline_s=0.5))
 
 
 @pytest.mark.parametrize(
-    "news",
+    "update",
     [
         Ready(3),
-        Trouble("é\u2028"),
+        WatcherError("é\u2028"),
         Graph(("/n", "/n"), (Topic("/t", (END,), (END, END)),), (Service("/s", ("a/srv/B",), ("/n",)),)),
-        TopicNews("/t", "x", Qos(), 3, None, None, None),
-        TopicNews("/t", "x", Qos(), 3, 1, Timing(2, 0.1, 0.0, 0.1, 0.1), 0.5, "a: 1\n", ("a",), "a", ((1.0, 2.0),)),
+        TopicUpdate("/t", "x", Qos(), 3, None, None, None),
+        TopicUpdate("/t", "x", Qos(), 3, 1, Timing(2, 0.1, 0.0, 0.1, 0.1), 0.5, "a: 1\n", ("a",), "a", ((1.0, 2.0),)),
         NodeParameters("/n", True, (Parameter("/n", "p", "double array", [1.0], minimum=0.0),)),
         SetOutcome(1, "/n", "p", [1.0], True, False, "no", 1.0, 0.1),
         RequestForm("a/srv/B", (Field("x.y", "int64", "0"),)),
@@ -51,26 +51,26 @@ END = Endpoint("/n", "std_msgs/msg/String", Qos("best_effort", deadline_s=0.5))
         Published("/t", "a/msg/B", 2.0, 3, 1, 1.0, True, "no"),
     ],
 )
-def test_news_arrive_as_they_were_said(news: News) -> None:
-    line = encode(news)
+def test_news_arrive_as_they_were_said(update: Update) -> None:
+    line = encode(update)
     assert "\n" not in line
     assert line.isascii()
-    assert decode_news(line) == news
+    assert decode_update(line) == update
 
 
 def test_commands_arrive_as_they_were_given() -> None:
     for command in (
         Follow("/t"),
-        Attend(False),
+        SetVisible(False),
         SetParameter(1, "/n", "p", "double", 2.0),
         Call(2, "/s", "a/srv/B", {"a": [1, 2]}, 3.0),
         Publish("/t", "a/msg/B", {"x.y": 1.5}, 0.0),
         StopPublishing("/t"),
     ):
-        assert decode_command(encode(command)) == command
+        assert decode_request(encode(command)) == command
 
 
 @pytest.mark.parametrize("line", ["", "{}", "[1]", '{"kind": "Follow"}', '{"kind": "Eval", "x": 1}', encode(Ready(1))])
-def test_anything_else_is_no_command(line: str) -> None:
+def test_anything_else_is_not_a_command(line: str) -> None:
     with pytest.raises(ValueError, match="not understood"):
-        decode_command(line)
+        decode_request(line)

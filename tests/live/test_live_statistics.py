@@ -54,7 +54,7 @@ def test_a_slow_topic_is_measured_over_more_than_the_window() -> None:
     assert timing.mean_s == pytest.approx(2.0)
 
 
-def test_after_a_long_pause_measuring_begins_anew() -> None:
+def test_after_a_long_pause_measuring_begins_again() -> None:
     timing = fed([*(n * 0.1 for n in range(20)), *(60 + n * 0.1 for n in range(5))]).timing()
     assert timing is not None
     assert timing.periods == 4

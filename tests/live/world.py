@@ -17,7 +17,7 @@ from tests.ros.users_domain import users_domain
 from tutor import private
 from tutor.ros.environment import detect, learner_env
 from tutor.tui import messages
-from tutor.tui.live.command import LiveCommand, live_command
+from tutor.tui.live.launching import WatcherCommand, watcher_command
 from tutor.tui.live.pane import LivePane
 from tutor.tui.text_app import TextApp
 from tutor.tui.themes import DARK, LIGHT
@@ -82,9 +82,9 @@ class World:
         assert process.stdout is not None
         return process.stdout.readline().decode().strip()
 
-    def command(self) -> LiveCommand:
+    def command(self) -> WatcherCommand:
         """How the app watches this domain."""
-        return live_command(self.domain, self.environ)
+        return watcher_command(self.domain, self.environ)
 
 
 @contextmanager
@@ -122,7 +122,7 @@ class LiveApp(TextApp[int]):
     def pane(self) -> LivePane:
         return self.query_one(LivePane)
 
-    def on_trouble(self, message: messages.Trouble) -> None:
+    def on_error_occurred(self, message: messages.ErrorOccurred) -> None:
         self.told.append(message.text)
 
 

@@ -37,7 +37,7 @@ def test_every_lesson_is_said_whole_and_without_markup() -> None:
         found = speech.sections(lesson.body)
         assert len(found) >= 4
         said = " ".join(line for section in found for line in (section.title, *section.lines))
-        assert not re.search(r"(?<!\w)\*\*|\*\*(?!\w)", said)  # 2**63 is no markup
+        assert not re.search(r"(?<!\w)\*\*|\*\*(?!\w)", said)  # 2**63 is not markup
         assert "```" not in said
         for word in set(re.findall(r"\w+", lesson.body)) - {"python", "bash", "console", "text", "xml", "yaml"}:
             assert word in said, (lesson.id, word)

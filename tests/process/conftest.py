@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 from tutor.process import LearnerProcess
-from tutor.process.warden import processes
+from tutor.process.supervisor import processes
 
 ROOT = Path(__file__).parents[2]
 LIMIT_S = 20.0
@@ -64,7 +64,7 @@ class Bench:
         return {**self.env, "PYTHONPATH": str(ROOT), "_ROS_WHEELS_BOOTSTRAP_COMPLETE": "1"}
 
     def helper(self, source: str, *, before: str = "pass", then: str = "pass") -> list[str]:
-        """A command that starts `source` as we do, does `before` and `then` around that, and waits for ever."""
+        """A command that starts `source` as we do, does `before` and `then` around that, and waits forever."""
         return self.script(
             f"""
 import asyncio

@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from tutor.process import EndError, LearnerProcess
-from tutor.process.warden import descendants, processes
+from tutor.process.supervisor import descendants, processes
 
 CHILD = "if os.fork() == 0:\n    note('child'); forever()\nnote('main'); forever()\n"
 STUBBORN = """
@@ -303,16 +303,16 @@ def alive(pid: int) -> bool:
     return found is not None and found.alive
 
 
-async def warden_of(learner: LearnerProcess) -> int:
+async def supervisor_of(learner: LearnerProcess) -> int:
     return processes()[learner.pid].parent
 
 
 @each_case
-async def test_the_warden_killed(bench: Any, source: str) -> None:
+async def test_the_supervisor_killed(bench: Any, source: str) -> None:
     learner = await bench.start(source)
     await bench.noted_pid("main")
     await bench.noted_pid("child")
-    os.kill(await warden_of(learner), signal.SIGKILL)
+    os.kill(await supervisor_of(learner), signal.SIGKILL)
     assert await learner.wait(20) is not None
     assert learner.exit is not None
     assert learner.exit.signal == signal.SIGKILL
@@ -322,21 +322,21 @@ async def test_the_warden_killed(bench: Any, source: str) -> None:
     assert await learner.survivors() == []
 
 
-async def test_we_and_the_warden_killed(bench: Any) -> None:
+async def test_we_and_the_supervisor_killed(bench: Any) -> None:
     """Nobody is left to look after it; the kernel still ends the main process."""
     helper = await asyncio.create_subprocess_exec(
         *bench.helper("note('main'); forever()"), env=bench.helper_env, cwd=bench.folder
     )
     main = await bench.noted_pid("main")
-    warden = processes()[main].parent
+    supervisor = processes()[main].parent
     os.kill(helper.pid, signal.SIGSTOP)
-    os.kill(warden, signal.SIGKILL)
+    os.kill(supervisor, signal.SIGKILL)
     helper.kill()
     await helper.wait()
     await bench.all_gone()
 
 
-async def test_the_warden_killed_by_the_learners_own_code(bench: Any) -> None:
+async def test_the_supervisor_killed_by_the_learners_own_code(bench: Any) -> None:
     learner = await bench.start("""
 if os.fork() == 0:
     os.setsid(); note('child'); forever()
@@ -349,7 +349,7 @@ os.kill(os.getppid(), signal.SIGKILL); forever()
     assert bench.left() == []
 
 
-async def test_the_warden_killed_after_the_exit(bench: Any) -> None:
+async def test_the_supervisor_killed_after_the_exit(bench: Any) -> None:
     learner = await bench.start("""
 if os.fork() == 0:
     os.setsid(); note('child'); forever()
@@ -358,7 +358,7 @@ while not os.path.exists('child'): time.sleep(0.001)
     child = await bench.noted_pid("child")
     found = await learner.wait(20)
     os.kill(processes()[child].parent, signal.SIGKILL)
-    await bench.until(lambda: learner.fault, "that the warden was killed is known")
+    await bench.until(lambda: learner.fault, "that the supervisor was killed is known")
     await learner.end()
     assert bench.left() == []
     assert learner.exit == found
@@ -389,26 +389,26 @@ async def test_killed_by_the_system(bench: Any, monkeypatch: pytest.MonkeyPatch,
     )
 
 
-async def test_the_warden_told_to_end(bench: Any) -> None:
+async def test_the_supervisor_told_to_end(bench: Any) -> None:
     learner = await bench.start(STUBBORN)
     await bench.noted_pid("child")
-    os.kill(await warden_of(learner), signal.SIGTERM)
+    os.kill(await supervisor_of(learner), signal.SIGTERM)
     await bench.all_gone()
     assert str(await learner.wait(20)) == "signal 9"
     assert "was killed, and the program with it" in learner.fault
 
 
-async def test_the_warden_stopped(bench: Any, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("tutor.process.link._WARDEN_LIMIT_S", 1000.0)
+async def test_the_supervisor_stopped(bench: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("tutor.process.link._SUPERVISOR_LIMIT_S", 1000.0)
     learner = await bench.start(STUBBORN)
     await bench.noted_pid("child")
-    os.kill(await warden_of(learner), signal.SIGSTOP)
+    os.kill(await supervisor_of(learner), signal.SIGSTOP)
     await asyncio.wait_for(learner.end(), 60)
     assert bench.left() == []
 
 
-async def test_a_warden_that_never_gets_it_done(bench: Any, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("tutor.process.link._WARDEN_LIMIT_S", 0.0)
+async def test_a_supervisor_that_never_gets_it_done(bench: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("tutor.process.link._SUPERVISOR_LIMIT_S", 0.0)
     learner = await bench.start(NAMELESS)
     await bench.noted_pid("child")
     await learner.end()
@@ -417,12 +417,12 @@ async def test_a_warden_that_never_gets_it_done(bench: Any, monkeypatch: pytest.
 
 async def test_what_cannot_be_ended_is_said(bench: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     """Only after a while, and with names; here because our SIGKILL is withheld."""
-    monkeypatch.setattr("tutor.process.link._SWEEP_LIMIT_S", 0.05)
+    monkeypatch.setattr("tutor.process.link._ORPHANS_LIMIT_S", 0.05)
     monkeypatch.setattr("tutor.process.link.kill", lambda found: None)
     learner = await bench.start(DAEMON.format(before="pass"))
     child = await bench.noted_pid("child")
-    os.kill(await warden_of(learner), signal.SIGKILL)
-    await bench.until(lambda: not alive(learner.pid), "the program itself, which goes with its warden, has gone")
+    os.kill(await supervisor_of(learner), signal.SIGKILL)
+    await bench.until(lambda: not alive(learner.pid), "the program itself, which goes with its supervisor, has gone")
     with pytest.raises(EndError, match=rf"could not be ended: {child} \(.*learner_.*\)\.$"):
         await learner.end()
     os.kill(child, signal.SIGKILL)
@@ -450,18 +450,18 @@ async def test_nobody_else_is_harmed(bench: Any) -> None:
     one, other = await bench.start("note('one'); forever()"), await bench.start("note('other'); forever()")
     await bench.noted_pid("one")
     await bench.noted_pid("other")
-    os.kill(await warden_of(one), signal.SIGKILL)
+    os.kill(await supervisor_of(one), signal.SIGKILL)
     await one.end()
     assert [s.pid for s in await other.survivors()] == [other.pid]
     assert bench.left() == [other.pid]
 
 
 @pytest.mark.parametrize("killed", [False, True])
-async def test_no_warden_and_no_zombie_of_ours_stays(bench: Any, killed: bool) -> None:
+async def test_no_supervisor_and_no_zombie_of_ours_stays(bench: Any, killed: bool) -> None:
     before = {p.pid for p in descendants(os.getpid())}
     for _ in range(3):
         learner = await bench.start(CHILD)
         if killed:
-            os.kill(await warden_of(learner), signal.SIGKILL)
+            os.kill(await supervisor_of(learner), signal.SIGKILL)
         await learner.end()
     assert {p.pid for p in descendants(os.getpid())} <= before

@@ -16,9 +16,9 @@ import ctypes, json, os
 libc = ctypes.CDLL(None, use_errno=True)
 def stat(pid):
     return open(f"/proc/{pid}/stat").read().rpartition(")")[2].split()
-warden = os.getppid()
+supervisor = os.getppid()
 done = []
-for pid in (warden, int(stat(warden)[1])):
+for pid in (supervisor, int(stat(supervisor)[1])):
     for file in ("fd/1", "fd/0", "environ", "mem"):
         try:
             os.open(f"/proc/{pid}/{file}", os.O_WRONLY if file.startswith("fd") else os.O_RDONLY)

@@ -250,18 +250,18 @@ async def test_what_cannot_be_started(bench: Any, argv: list[str], folder: str |
     assert str(caught.value).endswith(".")
 
 
-async def test_no_python_for_the_warden(bench: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+async def test_no_python_for_the_supervisor(bench: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(sys, "executable", "/no/such/python")
     with pytest.raises(StartError, match="/no/such/python"):
         await bench.start("pass")
 
 
-async def test_a_warden_that_fails_at_once_says_why(
+async def test_a_supervisor_that_fails_at_once_says_why(
     bench: Any, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     broken = tmp_path / "broken.py"
     broken.write_text("raise SystemExit('this machine is odd')")
-    monkeypatch.setattr("tutor.process.link._WARDEN", broken)
+    monkeypatch.setattr("tutor.process.link._SUPERVISOR", broken)
     with pytest.raises(StartError, match="this machine is odd"):
         await bench.start("pass")
 

@@ -16,7 +16,7 @@ from tutor.content import Checklist, ChecklistGroup, ChecklistItem, Course, Crit
 from tutor.judge.verdict import Status
 from tutor.report.assessment import Evidence, Source, assess
 from tutor.report.checklist import FORMATS, format_of, render_checklist
-from tutor.report.saying import calendar_day, near_day, say_evidence, say_sources
+from tutor.report.phrases import calendar_day, describe_evidence, describe_sources, near_day
 from tutor.workspace import Attempt, ExerciseProgress, Progress
 
 NOON = "2026-01-02T12:00:00Z"
@@ -111,8 +111,8 @@ def test_what_could_show_an_item_is_known() -> None:
     )
     assert sources["launch"] == (Source("i2.2", ()),)
     assert sources["judge"] == ()
-    assert say_sources(sources["declare"]) == ["i2.1 defaults and validation", "i2.2 defaults and validation"]
-    assert say_sources(sources["launch"]) == ["i2.2"]
+    assert describe_sources(sources["declare"]) == ["i2.1 defaults and validation", "i2.2 defaults and validation"]
+    assert describe_sources(sources["launch"]) == ["i2.2"]
 
 
 def test_days_are_said_as_people_say_them() -> None:
@@ -131,12 +131,12 @@ def test_evidence_is_said_in_one_phrase_for_each_exercise_and_day() -> None:
         Evidence("i2.1", "shutdown", NOON),
         Evidence("i2.2", "", ""),
     ]
-    assert say_evidence(found, calendar_day) == [
+    assert describe_evidence(found, calendar_day) == [
         "i2.1 defaults, timer and validation passed, 2026-01-03",
         "i2.1 shutdown passed, 2026-01-02",
         "i2.2 passed",
     ]
-    assert say_evidence(found, calendar_day, most=1) == [
+    assert describe_evidence(found, calendar_day, most=1) == [
         "i2.1 defaults, timer and validation passed, 2026-01-03",
         "2 more",
     ]
@@ -149,7 +149,7 @@ ALL = progress("declare validate end launch judge", i2_1=PASSED)
 
 def test_ready_is_who_has_ticked_everything() -> None:
     assert not assess(COURSE, HALF).ready
-    assert assess(COURSE, HALF).ticked == 1  # a tick for an item that the course does not have is no tick
+    assert assess(COURSE, HALF).ticked == 1  # a tick for an item that the course does not have is not a tick
     assert assess(COURSE, ALL).ready
     assert not assess(Course(LESSONS, Checklist()), ALL).ready
 

@@ -7,7 +7,7 @@ import shutil
 import sys
 from pathlib import Path
 
-from tutor.sandbox import interfaces
+from tutor.bundled_ros import interfaces
 
 _SITE = Path("lib") / "python3.12" / "site-packages"
 _NOT_OF_ROS = ("numpy", "numpy.libs", "yaml", "_yaml")  # what a system Python has beside ROS, and ours has not

@@ -104,7 +104,7 @@ with ExitStack() as held:
         held.enter_context(reserve_domain())
         raise SystemExit("got one too many")
     except NoFreeDomain as error:
-        assert "free" in str(error) and error.mend
+        assert "free" in str(error) and error.hint
     port.close()
     assert held.enter_context(reserve_domain()) == IDS[41]
 with reserve_domain():

@@ -14,15 +14,15 @@ from pathlib import Path
 import pytest
 
 from tests.ros import sourced
+from tutor.bundled_ros import interfaces
 from tutor.ros import environment, isolation, prefixes
 from tutor.ros.domain import reserve_domain
 from tutor.ros.environment import RosEnvironment, detect, learner_env
-from tutor.sandbox import interfaces
 
 ROOT = Path(environment.__file__).parents[2]
 PROBE = ROOT / "tutor" / "ros" / "probe.py"
 PLAIN = {
-    "PATH": prefixes.joined(prefixes.without_ours(os.environ, "PATH")),
+    "PATH": prefixes.joined(prefixes.without_bundled(os.environ, "PATH")),
     "HOME": os.environ.get("HOME", "/"),
     "LANG": "C.UTF-8",
 }
@@ -154,7 +154,7 @@ def test_without_loopback_multicast_ros_finds_localhost_by_itself(
 
 
 def test_multicast_over_an_interface_that_is_not_here_does_not_come_back() -> None:
-    assert not isolation.multicast_comes_back("203.0.113.9")
+    assert not isolation.multicast_works("203.0.113.9")
 
 
 def test_another_distribution_is_told_and_cleaned_away(tmp_path: Path) -> None:
@@ -190,7 +190,7 @@ def test_a_sourced_jazzy_is_used_and_nothing_bundled_with_it(jazzy: Path, tmp_pa
     environ = {**PLAIN, **sourced.source(jazzy)}
     ros = detect(environ)
     assert (ros.kind, ros.problems) == ("system", ())
-    assert not prefixes.is_ours(ros.python)
+    assert not prefixes.is_bundled(ros.python)
     told = run([str(ros.python), "-c", TELL], env_for(ros, environ, tmp_path))
     assert str(told["rclpy"]).startswith(str(jazzy))
     libraries = ros_libraries(told["maps"])
@@ -205,7 +205,7 @@ sys.path.append(os.environ["ROS_TUTOR_ROOT"])
 from tutor.ros import this_process
 from tutor.ros.environment import detect
 ros = detect()
-this_process.use(ros, isolated=True)
+this_process.prepare_for_rclpy(ros, isolated=True)
 """
 
 

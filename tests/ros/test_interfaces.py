@@ -14,7 +14,7 @@ from typing import Any
 import pytest
 
 from tests.ros.users_domain import users_domain
-from tutor.sandbox import interfaces
+from tutor.bundled_ros import interfaces
 
 PACKAGE = "example_interfaces"
 SERVICE = f"{PACKAGE}/srv/AddTwoInts"
@@ -175,7 +175,7 @@ def test_a_process_gets_at_it_through_its_environment(environment: dict[str, str
 
 
 def test_activate_makes_it_work_in_the_running_process(environment: dict[str, str]) -> None:
-    seen = python(NODE.format(first="from tutor.sandbox.interfaces import activate; activate()"), environment)
+    seen = python(NODE.format(first="from tutor.bundled_ros.interfaces import activate; activate()"), environment)
     assert Path(seen["file"]).is_relative_to(interfaces.prefix())
     assert seen["sum"] == 2**40 - 2
 
@@ -185,7 +185,7 @@ def test_activate_leaves_a_real_one_alone(environment: dict[str, str], tmp_path:
     (tmp_path / PACKAGE / "__init__.py").touch()
     source = """
 import json, os, sys
-from tutor.sandbox.interfaces import activate
+from tutor.bundled_ros.interfaces import activate
 before = [list(sys.path), dict(os.environ)]
 activate()
 import example_interfaces
@@ -195,7 +195,7 @@ print(json.dumps({"file": example_interfaces.__file__, "untouched": before == [s
     assert seen == {"file": str(tmp_path / PACKAGE / "__init__.py"), "untouched": True}
 
 
-def test_a_missing_prefix_is_named_with_its_mend(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def test_a_missing_prefix_is_named_with_its_hint(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setattr(interfaces, "prefix", lambda: tmp_path)
     monkeypatch.setattr(importlib.util, "find_spec", lambda name: None)
     with pytest.raises(interfaces.InterfacesNotBuiltError, match="uv sync --inexact --reinstall-package ros-tutor"):

@@ -7,13 +7,13 @@ import sys
 
 CODE = """
 import sys
-from tutor.ros.messages import UnknownType, interface
+from tutor.ros.messages import UnknownType, interface_class
 for name in ("this.msg/msg/X", "this/msg/X", "antigravity/msg/X", "os/path/join", "../msg/X", "std_msgs/msg/X"):
     try:
-        interface(name)
+        interface_class(name)
     except UnknownType:
         print(name)
-print("this" in sys.modules, "antigravity" in sys.modules, interface("std_msgs/msg/Float64").__name__)
+print("this" in sys.modules, "antigravity" in sys.modules, interface_class("std_msgs/msg/Float64").__name__)
 """
 
 

@@ -131,7 +131,7 @@ class Bench:
 
 def command(*words: str) -> list[str]:
     """Our `ros2` with these words."""
-    return [sys.executable, "-P", "-m", "tutor.sandbox.ros2", *words]
+    return [sys.executable, "-P", "-m", "tutor.bundled_ros.ros2", *words]
 
 
 @contextmanager

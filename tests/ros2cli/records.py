@@ -51,7 +51,7 @@ def read(file: Path) -> Record:
     """Parse one file. Raises ValueError where it does not have the form."""
     found = _SHAPE.match(file.read_text(encoding="utf-8"))
     if found is None:
-        raise ValueError(f"{file} is no record of a command")
+        raise ValueError(f"{file} is not a record of a command")
     head = dict(line.removeprefix("# ").split(": ", 1) for line in found["head"].splitlines() if ": " in line)
     interrupted = re.match(r"Ctrl\+C after ([\d.]+) s", found["ended"])
     return Record(

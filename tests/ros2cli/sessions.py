@@ -13,8 +13,8 @@ import time
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
+from tutor.bundled_ros.ros2.sourced import sourced_environment
 from tutor.ros.environment import detect
-from tutor.sandbox.ros2.sourced import sourced_environment
 from tutor.workspace import Workspace, domain_of
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -32,7 +32,7 @@ FILES = {
 
 
 def make_workspace(folder: Path) -> Path:
-    """A workspace with every solution in my_package, as a learner has it who has solved everything."""
+    """A workspace with every solution in my_package, as a learner who has solved everything has it."""
     workspace = folder / "ws"
     subprocess.run(
         [TOOL, "--workspace", str(workspace), "start", "i1.1"],

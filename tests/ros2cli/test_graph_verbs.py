@@ -90,7 +90,7 @@ def test_a_call_that_cannot_be_made_says_why(bench: Bench) -> None:
     )
     bad = bench.ros2(*call, "example_interfaces/srv/AddTwoInts", "{a: 10")
     assert (bad.stdout, bad.code, bad.stderr.count("\n")) == ("", 1, 1)
-    assert "no YAML" in bad.stderr
+    assert "not YAML" in bad.stderr
     assert bench.ros2(*call, "std_msgs/msg/String") == Ran("", "The passed type is not a service\n", 1)
     with bench.running(*call, "example_interfaces/srv/AddTwoInts") as waiting:
         assert waiting.line() == "waiting for service to become available..."

@@ -71,7 +71,7 @@ def test_types_and_packages_are_listed(bench: Bench) -> None:
 
 
 def test_what_the_doctor_cannot_report_is_refused_in_a_line(capsys: pytest.CaptureFixture[str]) -> None:
-    from tutor.sandbox.ros2.doctor import add_arguments, main
+    from tutor.bundled_ros.ros2.doctor import add_arguments, main
 
     parser = argparse.ArgumentParser()
     add_arguments(parser)

@@ -164,8 +164,8 @@ def test_it_is_zsh_where_that_is_the_users(bench: Bench, workspace: Path) -> Non
 
 
 def test_with_an_installed_ros_its_own_variables_stay(tmp_path: Path) -> None:
+    from tutor.bundled_ros.ros2.sourced import setup_file, sourced_environment
     from tutor.ros.environment import RosEnvironment
-    from tutor.sandbox.ros2.sourced import setup_file, sourced_environment
 
     installed = RosEnvironment("system", "jazzy", Path("/usr/bin/python3.12"), "rmw_fastrtps_cpp")
     environ = {

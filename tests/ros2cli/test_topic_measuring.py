@@ -7,7 +7,7 @@ import re
 import pytest
 
 from tests.ros2cli.bench import TALKER, Bench
-from tutor.sandbox.ros2.topic.statistics import Rate, size
+from tutor.bundled_ros.ros2.topic.statistics import Rate, size
 
 STAMPED = """
 from geometry_msgs.msg import PointStamped
@@ -67,7 +67,7 @@ def test_a_rate_is_told_half_a_second_after_the_second_message_and_once_a_second
     assert told[2] == "average rate: 2.000\n\tmin: 0.500s max: 0.500s std dev: 0.00000s window: 2"
 
 
-def test_a_clock_that_goes_back_begins_anew() -> None:
+def test_a_clock_that_goes_back_begins_again() -> None:
     rate = Rate(3)
     for second in (10, 11, 12, 1, 2):
         rate.add(second * 1_000_000_000)

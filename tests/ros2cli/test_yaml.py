@@ -10,8 +10,8 @@ import yaml
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tutor.ros.as_yaml import _Dumper, to_csv
-from tutor.ros.yaml_quickly import yaml_of_plain
+from tutor.ros.fast_yaml import dump_plain
+from tutor.ros.yaml_format import _Dumper, to_csv
 
 
 class Made:
@@ -52,14 +52,14 @@ scalars = st.one_of(
 @given(scalars, st.lists(scalars, max_size=4), st.lists(st.floats(width=32), max_size=4))
 def test_it_is_what_pyyaml_writes(one: Any, several: list[Any], numbers: list[float]) -> None:
     message = Made(data=one, several=several, nested=Made(x=one, numbers=array.array("d", numbers)))
-    if (written := yaml_of_plain(message, None)) is not None:
+    if (written := dump_plain(message, None)) is not None:
         assert written == by_pyyaml(message)
 
 
 @pytest.mark.parametrize("text", ["Hello World: 3", "it's so: yes", "map", "base_link", "a b", "robot1/chatter"])
 def test_the_usual_needs_no_pyyaml(text: str) -> None:
     message = Made(data=text, nested=Made(x=0.5, y=-3, on_time=True))
-    written = yaml_of_plain(message, 128)
+    written = dump_plain(message, 128)
     assert written is not None
     assert written == by_pyyaml(message)
 

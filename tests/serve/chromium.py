@@ -106,7 +106,7 @@ class Page:
             await self.do("Input.dispatchKeyEvent", type="keyUp", **given)
 
     async def press_for(self, text: str, *keys: str) -> None:
-        """Press keys, and wait until `text` is drawn anew."""
+        """Press keys, and wait until `text` is redrawn."""
         self.drawn = ""
         await self.press(*keys)
         await self.sees(text)

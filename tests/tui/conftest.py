@@ -17,7 +17,7 @@ from tests.tui import made
 from tests.tui.person import Person
 from tutor.judge.events import Event
 from tutor.tui.app import TutorApp
-from tutor.tui.desk import Desk
+from tutor.tui.app_services import AppServices
 from tutor.tui.node import Node
 from tutor.tui.screens.main import MainScreen
 from tutor.tui.widgets.code_pane import CodePane
@@ -29,9 +29,9 @@ from tutor.tui.widgets.line_view import LineView
 class Learner(Person[TutorApp]):
     """Somebody with a workspace."""
 
-    def __init__(self, app: TutorApp, pilot: Pilot[int], desk: Desk) -> None:
+    def __init__(self, app: TutorApp, pilot: Pilot[int], app_services: AppServices) -> None:
         super().__init__(app, pilot)
-        self.desk = desk
+        self.app_services = app_services
 
     @property
     def main(self) -> MainScreen:
@@ -81,25 +81,25 @@ class Learner(Person[TutorApp]):
 
     async def told(self, *lines: Event | str) -> None:
         """Have the engine say this. In a daemon thread: opening the pipe waits for the child."""
-        assert isinstance(self.desk, made.MadeDesk)
-        thread = threading.Thread(target=self.desk.engine.say, args=lines, daemon=True)
+        assert isinstance(self.app_services, made.FakeServices)
+        thread = threading.Thread(target=self.app_services.engine.say, args=lines, daemon=True)
         thread.start()
         await self.until(lambda: not thread.is_alive(), "the engine listens")
 
 
 @asynccontextmanager
-async def at(desk: Desk, size: tuple[int, int] = (120, 36)) -> AsyncIterator[Learner]:
+async def at(app_services: AppServices, size: tuple[int, int] = (120, 36)) -> AsyncIterator[Learner]:
     """Open the app for a learner; when they leave, nothing runs any more."""
-    app = TutorApp(desk)
+    app = TutorApp(app_services)
     app.animation_level = "none"
     async with app.run_test(size=size, notifications=True) as pilot:
         try:
-            if desk.workspace.exists:
+            if app_services.workspace.exists:
                 await made.opened(app, pilot)
-            yield Learner(app, pilot, desk)
+            yield Learner(app, pilot, app_services)
         finally:
-            if isinstance(desk, made.MadeDesk):
-                desk.engine.close()
+            if isinstance(app_services, made.FakeServices):
+                app_services.engine.close()
             if app.main is not None:
                 await app.main.close_down()
 
@@ -109,6 +109,6 @@ def learner(tmp_path: Path) -> Callable[..., object]:
     """A learner with a made course, an engine that says what it is told, and nodes without ROS."""
 
     def opened(size: tuple[int, int] = (120, 36), *, started: bool = True) -> AbstractAsyncContextManager[Learner]:
-        return at(made.MadeDesk(tmp_path / "learner", started=started), size)
+        return at(made.FakeServices(tmp_path / "learner", started=started), size)
 
     return opened

@@ -16,7 +16,7 @@ from tutor.judge.result import CriterionResult, Environment, ExerciseResult, Rep
 from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped
 from tutor.tui import run_options
 from tutor.tui.app import TutorApp
-from tutor.tui.desk import Desk
+from tutor.tui.app_services import AppServices
 from tutor.tui.node import NodeCommand
 from tutor.workspace import RunOptions, Workspace
 
@@ -101,8 +101,8 @@ def _lesson(folder: Path, id: str, title: str, difficulty: Difficulty, unit: str
     return Lesson(id, title, difficulty, unit, "Publish.", tuple(files), tuple(criteria), hints, (), body, home)
 
 
-class MadeDesk(Desk):
-    """The real desk, but for the engine, which is a script that takes its lines from a pipe, and nodes without ROS."""
+class FakeServices(AppServices):
+    """The real ones, but for the engine, a script that takes its lines from a pipe, and nodes without ROS."""
 
     def __init__(self, folder: Path, *, started: bool = True, lessons: Course | None = None) -> None:
         folder.mkdir(parents=True, exist_ok=True)

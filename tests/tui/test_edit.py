@@ -9,7 +9,7 @@ import pytest
 
 from tests.tui import made
 from tutor.tui.widgets.code_pane import CodePane
-from tutor.workspace import keep_aside
+from tutor.workspace import back_up_file
 
 
 def backups(path: Path) -> list[str]:
@@ -94,9 +94,9 @@ async def test_what_is_typed_while_the_backup_is_written_is_in_a_backup_too(
         def meanwhile(path: Path, text: str) -> Path:
             if text == "m" + made.NODE:
                 me.app.call_from_thread(me.editor.insert, "ore")
-            return keep_aside(path, text)
+            return back_up_file(path, text)
 
-        monkeypatch.setattr("tutor.tui.control.files.keep_aside", meanwhile)
+        monkeypatch.setattr("tutor.tui.control.files.back_up_file", meanwhile)
         await conflict(me)
         await me.press("escape")
         await me.until(lambda: me.editor.text == "theirs = 1\n")
@@ -140,7 +140,7 @@ async def test_a_file_that_is_still_being_read_when_the_app_closes_is_shown_nowh
         assert not pane.children
 
 
-async def test_a_file_that_is_no_text_is_left_alone(learner: Any) -> None:
+async def test_a_file_that_is_not_a_text_is_left_alone(learner: Any) -> None:
     async with learner() as me:
         me.file.write_bytes(b"\xff\xfe")
         await me.press("2")

@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 from tests.patience import seen_within
-from tutor.process.warden import processes
+from tutor.process.supervisor import processes
 from tutor.tui.engine_child import EngineChild
 
 KILLED = """

@@ -25,9 +25,9 @@ from tutor.live.facts import (
     Service,
     SetOutcome,
     Topic,
-    TopicNews,
+    TopicUpdate,
 )
-from tutor.live.protocol import News, Ready, Trouble
+from tutor.live.protocol import Ready, Update, WatcherError
 from tutor.tui import messages
 from tutor.tui.live.pane import TABS, LivePane
 from tutor.tui.screens.confirm import ConfirmScreen
@@ -60,14 +60,14 @@ def prove_harmless(me: Any) -> None:
         assert cell_len(text) == width, repr(text)
 
 
-def everything(name: str) -> tuple[News, ...]:
+def everything(name: str) -> tuple[Update, ...]:
     node, topic = f"/{name}", f"/t/{name}"
     ends = (Endpoint(node, name), Endpoint(node, "std_msgs/msg/String"))
     return (
         Ready(1),
         Graph((node,), (Topic(topic, ends, ends),), (Service(f"/s/{name}", (name,), (node,)),)),
-        TopicNews(topic, name, Qos(), 1, 0, None, 0.1, f"data: {name}", (name,), name, ((1.0, 2.0), (2.0, 3.0))),
-        TopicNews(topic, name, Qos(), 0, 0, None, None, problem=name),
+        TopicUpdate(topic, name, Qos(), 1, 0, None, 0.1, f"data: {name}", (name,), name, ((1.0, 2.0), (2.0, 3.0))),
+        TopicUpdate(topic, name, Qos(), 0, 0, None, None, problem=name),
         NodeParameters(node, True, (Parameter(node, name, "string", name), Parameter(node, f"z{name}", name, [name]))),
         NodeParameters(f"{node}2", False),
         SetOutcome(1, node, name, name, True, False, name, 1.0, 0.1),
@@ -77,7 +77,7 @@ def everything(name: str) -> tuple[News, ...]:
         RequestForm(name, problem=name),
         Published(topic, name, 1.0, 3, 0, 1.0),
         Published(f"{topic}2", name, 1.0, 3, 0, 1.0, problem=name),
-        Trouble(name),
+        WatcherError(name),
     )
 
 
@@ -86,11 +86,11 @@ async def test_on_the_live_page(learner: Any) -> None:
         await me.press("4")
         pane = me.main.query_one(LivePane)
         for name in HOSTILE:
-            for news in everything(name):
-                pane.post_message(LivePane.Arrived(news))
+            for update in everything(name):
+                pane.post_message(LivePane.Arrived(update))
             await me.pilot.pause()
             for tab in TABS:
-                pane.turn_to(tab)
+                pane.open_tab(tab)
                 pane.focus_content()
                 await me.press("down", "enter")
                 prove_harmless(me)
@@ -113,10 +113,10 @@ async def test_in_dialogs_and_notes(learner: Any) -> None:
                 await me.pilot.pause()
                 prove_harmless(me)
                 me.app.pop_screen()
-            me.main.post_message(messages.Trouble(name))
+            me.main.post_message(messages.ErrorOccurred(name))
             me.main.say(name)
             me.app.notify(name)
-            me.desk.notify(name)
+            me.app_services.notify(name)
             await me.sees("a")
             prove_harmless(me)
             me.app.clear_notifications()
@@ -126,8 +126,8 @@ async def test_in_the_log_the_terminal_and_the_code(learner: Any) -> None:
     async with learner() as me:
         said = ALL.replace("\ud800", "")
         comment = said.translate(dict.fromkeys(map(ord, "\0\n\r")))
-        me.desk.path(me.desk.lessons[0].files[0]).write_text(f"# {comment}\nprint({said!r})\n")
-        (me.desk.workspace.root / "all.txt").write_text(said)
+        me.app_services.path(me.app_services.lessons[0].files[0]).write_text(f"# {comment}\nprint({said!r})\n")
+        (me.app_services.workspace.root / "all.txt").write_text(said)
         await me.press("2")
         await me.pilot.pause()
         prove_harmless(me)
@@ -135,7 +135,7 @@ async def test_in_the_log_the_terminal_and_the_code(learner: Any) -> None:
         await me.sees("gain")
         prove_harmless(me)
         await me.press("7")
-        await me.types(f"cat {me.desk.workspace.root}/all.txt\n")
+        await me.types(f"cat {me.app_services.workspace.root}/all.txt\n")
         await me.sees("gain")
         prove_harmless(me)
 

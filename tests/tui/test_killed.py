@@ -17,7 +17,7 @@ from tests.ros.users_domain import users_domain
 from tests.tui import made
 from tutor.content import load_course
 from tutor.judge.events import ExerciseJudged
-from tutor.process.warden import descendants, processes
+from tutor.process.supervisor import descendants, processes
 from tutor.workspace import Progress, Workspace, start
 
 APP = "import sys; from tutor.cli import main; sys.exit(main())"
@@ -94,7 +94,7 @@ class Killed:
     def close(self) -> None:
         for pid in self.running():
             os.kill(pid, signal.SIGKILL)
-        self.app.let_go()
+        self.app.detach()
 
 
 @pytest.fixture

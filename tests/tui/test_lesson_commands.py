@@ -44,7 +44,7 @@ def test_each_line_of_an_example_leads_to_its_command() -> None:
     assert [command_at(example, line) for line in range(4)] == ["one more", "one more", "two", ""]
 
 
-def test_output_is_no_command() -> None:
+def test_output_is_not_a_command() -> None:
     assert command_at("$ one\noutput\n", 1) == ""
 
 

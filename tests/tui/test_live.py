@@ -14,7 +14,7 @@ from textual.pilot import Pilot
 from tests.live.world import METRONOME, THERMOMETER, LiveApp, World, world
 from tests.tui.person import Person
 from tutor.content import load_course
-from tutor.live.facts import TopicNews
+from tutor.live.facts import TopicUpdate
 from tutor.tui.live import services_panel
 from tutor.tui.live.echo_view import EchoView
 from tutor.tui.live.history import HistoryView
@@ -32,7 +32,7 @@ class Watcher(Person[LiveApp]):
         super().__init__(app, pilot)
         self.around = around
 
-    async def turn_to(self, tab: str) -> None:
+    async def open_tab(self, tab: str) -> None:
         await self.pilot.click("#live-tabs", offset=(self.screen().splitlines()[0].index(tab) + 1, 0))
         await self.until(lambda: tab in self.marked(), f"{tab} marked among the tabs")
 
@@ -46,7 +46,7 @@ class Watcher(Person[LiveApp]):
 
     def count(self) -> int:
         view = self.topics().view
-        return view.news.count if view and view.news else 0
+        return view.update.count if view and view.update else 0
 
 
 @pytest.fixture(scope="module")
@@ -90,13 +90,13 @@ async def test_a_paused_topic_stands_still_and_is_counted_all_the_same(
     warm: World, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     counts: list[int] = []
-    hear = TopicView.hear
+    hear = TopicView.receive
 
-    def heard(view: TopicView, news: TopicNews, now: float) -> None:
-        counts.append(news.count)
-        hear(view, news, now)
+    def heard(view: TopicView, update: TopicUpdate, now: float) -> None:
+        counts.append(update.count)
+        hear(view, update, now)
 
-    monkeypatch.setattr(TopicView, "hear", heard)
+    monkeypatch.setattr(TopicView, "receive", heard)
     async with watching(warm) as me:
         await me.sees("Topics 3", "/cmd_vel")  # all three: else the rows still move
         await me.pilot.click("#topics-table", offset=(5, 2))
@@ -111,7 +111,7 @@ async def test_a_paused_topic_stands_still_and_is_counted_all_the_same(
         await me.pilot.click("#topic-actions", offset=(3, 0))
         await me.sees_no("paused")
         await me.press("x")
-        await me.until(lambda: counts[-1] > 0 and any(after < former for former, after in pairwise(counts)), "anew")
+        await me.until(lambda: counts[-1] > 0 and any(after < former for former, after in pairwise(counts)), "again")
 
 
 async def test_what_comes_while_another_tab_is_open_is_in_the_list_when_i_am_back(cold: World) -> None:
@@ -145,7 +145,7 @@ async def test_the_cursor_of_a_list_shows_whether_the_keys_go_to_it_also_when_th
         await me.until(lambda: cursor() == focused, "the list has the focus")
         await me.press("right_square_bracket")
         await me.sees("Allowed")
-        await me.turn_to("Topics")
+        await me.open_tab("Topics")
         await me.until(lambda: cursor() == blurred, "the tabs have it")
         await me.press("tab")
         await me.until(lambda: cursor() == focused, "the list has it again")
@@ -169,14 +169,14 @@ async def test_the_lessons_topic_and_service_are_chosen_by_themselves(warm: Worl
         me.app.pane.show_for(load_course().find("i1.1"))
         await me.sees("/sensor/temperature", "data: 2")
         me.app.pane.show_for(load_course().find("i1.3"))
-        await me.turn_to("Services")
+        await me.open_tab("Services")
         await me.sees("/add  example_interfaces/AddTwoInts", "a int64", "b int64")
 
 
 async def test_a_parameter_is_set_in_the_table_and_what_the_node_says_is_kept(warm: World) -> None:
     async with watching(warm) as me:
         await me.sees("Parameters 5")
-        await me.turn_to("Parameters")
+        await me.open_tab("Parameters")
         await me.sees("publish_rate", "0.1 to 50", "read-only")
         me.app.pane.focus_content()
         await me.press("down", "down", "enter")
@@ -193,19 +193,19 @@ async def test_a_parameter_is_set_in_the_table_and_what_the_node_says_is_kept(wa
         await me.sees("serial is read-only")
 
 
-async def test_a_parameter_that_the_node_changes_itself_is_shown_anew(warm: World) -> None:
+async def test_a_parameter_that_the_node_changes_itself_is_shown_again(warm: World) -> None:
     async with watching(warm) as me:
         await me.sees("Services 2")
-        await me.turn_to("Parameters")
+        await me.open_tab("Parameters")
         await me.sees("calls")
         held = {each.name: each.value for each in me.app.pane.state.listed_parameters()}
-        await me.turn_to("Services")
+        await me.open_tab("Services")
         me.app.pane.focus_content()
         await me.press("enter")
         await me.sees("a int64")
         await me.press("enter")
         await me.sees("sum: 0")
-        await me.turn_to("Parameters")
+        await me.open_tab("Parameters")
         await me.until(
             lambda: {e.name: e.value for e in me.app.pane.state.listed_parameters()}["calls"] == held["calls"] + 1
         )
@@ -215,7 +215,7 @@ async def test_a_parameter_that_the_node_changes_itself_is_shown_anew(warm: Worl
 async def test_a_service_is_called_by_its_form_and_the_answer_has_its_time(warm: World) -> None:
     async with watching(warm) as me:
         await me.sees("Services 2")
-        await me.turn_to("Services")
+        await me.open_tab("Services")
         me.app.pane.focus_content()
         await me.press("enter")
         await me.sees("a int64", "b int64")
@@ -228,15 +228,15 @@ async def test_a_service_is_called_by_its_form_and_the_answer_has_its_time(warm:
 async def test_a_slow_call_holds_nothing_up_and_can_be_cancelled(warm: World) -> None:
     async with watching(warm) as me:
         await me.sees("Services 2")
-        await me.turn_to("Services")
+        await me.open_tab("Services")
         me.app.pane.focus_content()
         await me.press("down", "enter")
         await me.sees("/slow_add  example", "a int64")
         await me.press("enter")
         await me.sees("/slow_add  waiting")
-        await me.turn_to("Topics")
+        await me.open_tab("Topics")
         await me.sees("/cmd_vel")
-        await me.turn_to("Services")
+        await me.open_tab("Services")
         me.app.pane.focus_content()
         await me.press("escape")
         await me.sees("■", "cancelled after")
@@ -247,7 +247,7 @@ async def test_a_call_without_an_answer_says_so(warm: World, monkeypatch: pytest
     async with watching(warm) as me:
         await me.sees("Services 2")
         panel = me.app.pane.query_one(ServicesPanel)
-        await me.turn_to("Services")
+        await me.open_tab("Services")
         await panel.choose(next(each for each in panel._listed if each.name == "/slow_add"))
         await me.sees("a int64")
         panel.action_call()
@@ -258,7 +258,7 @@ async def test_a_call_without_an_answer_says_so(warm: World, monkeypatch: pytest
 async def test_the_graph_says_in_words_why_two_are_not_connected(warm: World, size: tuple[int, int]) -> None:
     async with watching(warm, size) as me:
         await me.sees("Graph ✗ 1")
-        await me.turn_to("Graph")
+        await me.open_tab("Graph")
         await me.sees("──✗", "not connected", "publisher is best effort, the subscriber wants", "──▶")
 
 

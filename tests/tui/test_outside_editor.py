@@ -13,7 +13,7 @@ import pytest
 
 from tests.benchmarks.terminal import Terminal
 from tutor.content import load_course
-from tutor.process.warden import processes
+from tutor.process.supervisor import processes
 from tutor.tui.outside_editor import EditorError, editor_command
 from tutor.workspace import Workspace, start
 
@@ -86,7 +86,7 @@ def test_an_editor_with_arguments(me: Seated) -> None:
     ("editor", "script", "told"),
     [
         ("no-such-editor", "", b"There is no program no-such-editor"),
-        ("'unclosed", "", b"is no command"),
+        ("'unclosed", "", b"is not a command"),
         ("bad-interpreter", "#!/no/such/shell\n", b"cannot be started"),
         ("fails", "#!/bin/sh\nexit 3\n", b"fails ended with exit code 3"),
     ],

@@ -35,7 +35,7 @@ async def test_the_log_of_a_running_node_is_shown_with_its_levels(learner: Any, 
 async def test_a_node_that_ignores_ctrl_c_is_ended_all_the_same(learner: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("tutor.tui.node.INTERRUPT_S", 0.2)
     async with learner() as me:
-        me.desk.path(me.desk.lessons[0].files[0]).write_text(
+        me.app_services.path(me.app_services.lessons[0].files[0]).write_text(
             "import os\nprint(os.getpid(), flush=True)\n" + made.STUBBORN
         )
         await me.press("r")
@@ -48,14 +48,18 @@ async def test_a_node_that_ignores_ctrl_c_is_ended_all_the_same(learner: Any, mo
 
 async def test_a_node_that_breaks_shows_its_traceback_and_its_exit(learner: Any) -> None:
     async with learner() as me:
-        me.desk.path(me.desk.lessons[0].files[0]).write_text("print('[not markup]')\nraise ValueError('wrong')\n")
+        me.app_services.path(me.app_services.lessons[0].files[0]).write_text(
+            "print('[not markup]')\nraise ValueError('wrong')\n"
+        )
         await me.press("r")
         await me.sees("[not markup]", "Traceback", "ValueError: wrong", "ended by itself with exit code 1")
 
 
 async def test_a_flood_of_lines_leaves_the_app_usable(learner: Any) -> None:
     async with learner() as me:
-        me.desk.path(me.desk.lessons[0].files[0]).write_text("n = 0\nwhile True:\n    n += 1\n    print('line', n)\n")
+        me.app_services.path(me.app_services.lessons[0].files[0]).write_text(
+            "n = 0\nwhile True:\n    n += 1\n    print('line', n)\n"
+        )
         await me.press("r")
         await me.until(lambda: me.node is not None and me.node.state.dropped > 0)
         await me.press("1")
@@ -77,7 +81,9 @@ async def test_the_node_runs_on_while_another_lesson_is_read_and_the_terminal_ch
 
 async def test_quitting_ends_the_node(learner: Any) -> None:
     async with learner() as me:
-        me.desk.path(me.desk.lessons[0].files[0]).write_text("import os\nprint(os.getpid(), flush=True)\n" + made.NODE)
+        me.app_services.path(me.app_services.lessons[0].files[0]).write_text(
+            "import os\nprint(os.getpid(), flush=True)\n" + made.NODE
+        )
         await me.press("r")
         await me.sees("ready")
         await me.until(lambda: any(line.text.isdecimal() for line in me.node.state.lines))
@@ -104,14 +110,14 @@ async def test_a_node_is_run_with_the_parameters_and_remaps_of_the_learners_choi
         await me.sees("ros2 run my_package thermometer --ros-args -p rate:=5.0 -r", "chatter:=/news")
         await me.press("f5")
         await me.sees("given --ros-args -p rate:=5.0 -r chatter:=/news", "$       ros2 run my_package thermometer")
-        await me.until(lambda: me.desk.app_state().run_of("i1.1").parameters == ("rate:=5.0",), "remembered")
+        await me.until(lambda: me.app_services.app_state().run_of("i1.1").parameters == ("rate:=5.0",), "remembered")
 
 
 async def test_a_save_restarts_the_node_where_that_is_wanted(learner: Any) -> None:
     async with learner() as me:
         me.file.write_text(text := ECHO + made.NODE)
         pane = me.main.query_one(CodePane)
-        # Else the node is started anew for it, once more than this test looks for.
+        # Else the node is started again for it, once more than this test looks for.
         await me.until(lambda: pane.knows(me.file) and pane.text(me.file) == text, "the new text is noticed")
         await me.press("W")
         await me.sees("a save restarts")
@@ -120,7 +126,7 @@ async def test_a_save_restarts_the_node_where_that_is_wanted(learner: Any) -> No
         before = me.node
         await me.edits()
         await me.press("end", "#", "ctrl+s")
-        await me.until(lambda: me.node is not before and me.node.state.phase is Phase.RUNNING, "run anew")
+        await me.until(lambda: me.node is not before and me.node.state.phase is Phase.RUNNING, "run again")
         assert before.over.is_set()
         await me.until(lambda: "the sensor is warm" in me.screen())
 
@@ -132,7 +138,7 @@ async def test_a_change_from_outside_restarts_the_node_and_leaves_who_types_at_t
         before = me.node
         await me.edits()
         me.file.write_text(ECHO + made.NODE)
-        await me.until(lambda: me.node is not before and me.node.state.phase is Phase.RUNNING, "run anew")
+        await me.until(lambda: me.node is not before and me.node.state.phase is Phase.RUNNING, "run again")
         await me.until(lambda: any("pid" in line.text for line in me.node.state.lines), "the new file's")
         assert me.main.page == "code"
         assert me.app.focused is me.editor

@@ -50,7 +50,7 @@ async def test_several_run_at_once_and_ctrl_c_stops_the_one_that_is_shown(learne
         assert alive(second)
         await me.press("ctrl+c")
         await me.until(lambda: not alive(second))
-        await me.sees("■ 2 echo second")  # it was stopped, which is no failure
+        await me.sees("■ 2 echo second")  # it was stopped, which is not a failure
         assert alive(first)
         await me.press("ctrl+pagedown")
         await me.until(lambda: "first" in output(me))
@@ -89,7 +89,7 @@ async def test_history_and_what_was_being_typed(learner: Any) -> None:
         await me.press("ctrl+c")
         await me.until(lambda: not prompt.value)
         await me.main.close_down()
-        assert me.desk.typed_commands() == ["echo one", "echo two"]
+        assert me.app_services.typed_commands() == ["echo one", "echo two"]
 
 
 async def test_tab_completes_programs_and_paths(learner: Any) -> None:

@@ -193,7 +193,9 @@ def test_where_the_workspace_is(home: Path, tmp_path: Path, monkeypatch: pytest.
     assert find_workspace() == around
 
 
-def test_a_deleted_current_folder_is_no_obstacle(home: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_deleted_current_folder_is_not_an_obstacle(
+    home: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     gone = tmp_path / "gone"
     gone.mkdir()
     monkeypatch.chdir(gone)

@@ -89,7 +89,7 @@ def test_a_missing_file_is_named_with_what_was_found(
         find_submission(publisher, folder, None)
 
 
-def test_the_other_file_of_the_exercise_is_no_misspelling(calculator: Lesson, folder: Path) -> None:
+def test_the_other_file_of_the_exercise_is_not_a_misspelling(calculator: Lesson, folder: Path) -> None:
     (folder / "calculator_client.py").touch()
     with pytest.raises(SubmissionError) as caught:
         find_submission(calculator, folder, None)

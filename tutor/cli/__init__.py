@@ -30,9 +30,9 @@ def _run(argv: Sequence[str] | None) -> int:
     from tutor.cli import app, completion
     from tutor.cli.errors import UsageError
     from tutor.cli.parser import parse
-    from tutor.invocation import tell_children
+    from tutor.invocation import export_program_name
 
-    tell_children()
+    export_program_name()
     if completion.is_asked():
         completion.answer()
     arguments = parse(argv)

@@ -12,7 +12,7 @@ from tutor.invocation import command
 
 def run(arguments: argparse.Namespace) -> int:
     """Open the app, which needs a terminal, or talk in plain lines, which need none."""
-    root, lessons = context.place(arguments).root, getattr(arguments, "lessons", None)
+    root, lessons = context.choose_workspace(arguments).root, getattr(arguments, "lessons", None)
     if arguments.plain:
         from tutor.plain import run as talk
 

@@ -77,29 +77,29 @@ def _load_checks(lessons: Sequence[Lesson]) -> tuple[dict[str, Check], list[Prob
             checks[lesson.id] = load_check(lesson)
         except Exception as error:  # the check's border: whatever is wrong in it is a finding
             text = f"it cannot be loaded: {type(error).__name__}: {error}"
-            findings.append(Problem(lesson.check, " ".join(text.split()), getattr(error, "mend", "")))
+            findings.append(Problem(lesson.check, " ".join(text.split()), getattr(error, "hint", "")))
     return checks, findings
 
 
 def _static(
     arguments: argparse.Namespace, course: Course, lessons: Sequence[Lesson], checks: Mapping[str, Check]
 ) -> Iterator[Problem]:
-    from tutor.content import Course, lint
-    from tutor.content.lint_checks import lint_check, lint_strays
-    from tutor.content.lint_commands import lint_commands
-    from tutor.content.lint_submissions import lint_submissions
+    from tutor.content import Course, lint_course
+    from tutor.content.lint_checks import find_disagreements, find_stray_files
+    from tutor.content.lint_commands import find_bad_commands
+    from tutor.content.lint_submissions import find_bad_submissions
     from tutor.workspace import TEMPLATE
 
     given = {path.name for path in TEMPLATE.rglob("*.py")}
-    yield from lint(Course(tuple(lessons), course.checklist))
-    yield from lint_strays(course, lessons)
+    yield from lint_course(Course(tuple(lessons), course.checklist))
+    yield from find_stray_files(course, lessons)
     for lesson in lessons:
         if lesson.id in checks:
-            yield from lint_check(lesson, checks[lesson.id])
-        yield from lint_commands(lesson, given, _usage)
+            yield from find_disagreements(lesson, checks[lesson.id])
+        yield from find_bad_commands(lesson, given, _usage)
     root = _submissions(arguments, lessons)
     if root is not None:
-        yield from lint_submissions(root, course, lessons)
+        yield from find_bad_submissions(root, course, lessons)
 
 
 def _submissions(arguments: argparse.Namespace, lessons: Sequence[Lesson]) -> Path | None:
@@ -129,23 +129,23 @@ def _is_whole(lesson: Lesson) -> bool:
 
 
 def _run(lessons: Sequence[Lesson], course: Course) -> Sequence[Proof] | None:
-    from tutor.cli.judging import Silence, interruptible
+    from tutor.cli.judging import NoDisplay, interruptible
     from tutor.engine.proving import prove
 
     def tell(proof: Proof) -> None:
         result = proof.result
         terminal.say(f"{proof.lesson.id} {proof.kind}: {result.verdict.value} in {result.duration_s:.1f} s")
 
-    return interruptible(lambda: prove(lessons, course, tell), Silence())
+    return interruptible(lambda: prove(lessons, course, tell), NoDisplay())
 
 
 def _print_proofs(proofs: Sequence[Proof], findings: list[Problem]) -> int:
     """Print what the runs show and add it to `findings`; gives how many criteria could not be judged."""
-    from tutor.content.proof import faults, findings_of
+    from tutor.content.proof import faults, find_disproofs
 
     unjudged = 0
     for proof in proofs:
-        found = list(findings_of(proof.lesson, proof.kind, proof.result))
+        found = list(find_disproofs(proof.lesson, proof.kind, proof.result))
         findings += found
         _print(found)
         for criterion in faults(proof.result):
@@ -157,8 +157,8 @@ def _print_proofs(proofs: Sequence[Proof], findings: list[Problem]) -> int:
 
 def _print(findings: Sequence[Problem]) -> None:
     for finding in findings:
-        place = context.shown(finding.file)
-        terminal.out(" ".join(f"{place}: {finding.said}".split()) + "\n")
+        place = context.display_path(finding.file)
+        terminal.out(" ".join(f"{place}: {finding.description}".split()) + "\n")
 
 
 def _summary(lessons: int, ran: int, findings: int, unjudged: int) -> None:

@@ -48,7 +48,7 @@ def run(arguments: argparse.Namespace, engine: Engine | None = None) -> int:
     if engine is None:
         engine = _engine(isolate=arguments.isolate)
     course = context.load_course(arguments)
-    workspace = context.workspace(arguments)
+    workspace = context.require_workspace(arguments)
     lessons = choose_lessons(arguments.exercise, arguments.criterion, course)
     missing: Sequence[ExerciseResult] = ()
     if arguments.solution:
@@ -73,15 +73,15 @@ def run(arguments: argparse.Namespace, engine: Engine | None = None) -> int:
 
 
 def _engine(*, isolate: bool) -> Engine:
-    from tutor.engine import check  # late: nothing but a check needs ROS
+    from tutor.engine import run_check  # late: nothing but a check needs ROS
 
     if not isolate:
-        return check
+        return run_check
     from functools import partial
 
     from tutor.engine.walls import Walls
 
-    return partial(check, walls=Walls.prove())  # before anything else: this process has one thread yet
+    return partial(run_check, walls=Walls.prove())  # before anything else: this process has one thread yet
 
 
 def _prove_fitting(arguments: argparse.Namespace) -> None:

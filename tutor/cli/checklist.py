@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 _ACTIONS = ("show", "tick", "untick", "export")
 _FORMATS = ("markdown", "json", "html")
 _MOST_EVIDENCE = 2
-"""So many exercises are named as evidence for an item; a line is only so long."""
+"""This many exercises are named as evidence for an item; a line is only so long."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -35,7 +35,7 @@ def run(arguments: argparse.Namespace) -> int:
     """Do what was asked, and show the checklist afterwards (or write it)."""
     _prove_fitting(arguments)
     course = context.load_course(arguments)
-    workspace = context.workspace(arguments)
+    workspace = context.require_workspace(arguments)
     if arguments.action in ("tick", "untick"):
         for item in arguments.items:
             _prove_known(item, course.checklist)
@@ -87,7 +87,7 @@ def _with_ticks(progress: Progress, items: list[str], ticked: bool) -> Progress:
 
 def _show(course: Course, progress: Progress) -> str:
     from tutor.report.assessment import assess
-    from tutor.report.saying import near_day, say_evidence
+    from tutor.report.phrases import describe_evidence, near_day
 
     assessment = assess(course, progress)
     items = assessment.items
@@ -97,7 +97,7 @@ def _show(course: Course, progress: Progress) -> str:
         lines += [f"{terminal.style(group.title, '1', sys.stdout)}  {group.ticked} of {len(group.items)}"]
         for item in group.items:
             box = terminal.style("[x]", "32", sys.stdout) if item.ticked else "[ ]"
-            shown = "; ".join(say_evidence(item.evidence, near_day, most=_MOST_EVIDENCE))
+            shown = "; ".join(describe_evidence(item.evidence, near_day, most=_MOST_EVIDENCE))
             lines += [f"  {box} {item.id:{width}}  {item.text}{f'  ({shown})' if shown else ''}"]
         lines += [""]
     if assessment.ready:

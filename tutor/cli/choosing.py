@@ -66,7 +66,7 @@ def with_missing(
 ) -> Report:
     """The report together with what was not there (of which, too, the criteria in `only` are shown), in lesson order.
 
-    What was not there is not passed: who asks for all of them wants to know that all of them are.
+    What was not there is not passed: anyone who asks for all of them wants to know that all of them are.
     """
     shown = [
         replace(result, criteria=tuple(each for each in result.criteria if only is None or each.id in only))

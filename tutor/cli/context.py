@@ -27,16 +27,16 @@ def load_course(arguments: argparse.Namespace) -> Course:
     return load_course(extra)
 
 
-def place(arguments: argparse.Namespace) -> Workspace:
+def choose_workspace(arguments: argparse.Namespace) -> Workspace:
     """The workspace to use, whether it exists or not. Raises UsageError where one is named that can never be one."""
-    found = anywhere(arguments)
+    found = choose_any_workspace(arguments)
     named = getattr(arguments, "workspace", None) is not None or os.environ.get("ROS_TUTOR_WORKSPACE")
     if named and not found.exists and (why := _cannot_be_made(found.root)):
         raise UsageError(f"{found.root} cannot be your workspace: {why}; name another folder with --workspace DIR")
     return found
 
 
-def anywhere(arguments: argparse.Namespace) -> Workspace:
+def choose_any_workspace(arguments: argparse.Namespace) -> Workspace:
     """The workspace as `place` gives it, even where it can never be one."""
     from tutor.workspace import Workspace, find_workspace
 
@@ -57,12 +57,12 @@ def _cannot_be_made(root: Path) -> str:
         return f"nothing can be written to {nearest} ({error.strerror})"
 
 
-def workspace(arguments: argparse.Namespace) -> Workspace:
-    """The workspace to use. It may not exist yet, unless it was named: then UsageError says that it is none."""
-    found = place(arguments)
+def require_workspace(arguments: argparse.Namespace) -> Workspace:
+    """The workspace to use. It may not exist yet, unless it was named: then UsageError says that it is not one."""
+    found = choose_workspace(arguments)
     if getattr(arguments, "workspace", None) is not None and not found.exists:
         make = command("start", "i1.1", "--workspace", found.root)
-        raise UsageError(f"{found.root} is no workspace; `{make}` makes it one")
+        raise UsageError(f"{found.root} is not a workspace; `{make}` makes it one")
     return found
 
 
@@ -73,7 +73,7 @@ def read_progress(workspace: Workspace) -> Progress:
     return workspace.progress(terminal.say).read() if workspace.exists else Progress()
 
 
-def shown(path: Path) -> str:
+def display_path(path: Path) -> str:
     """A path as people write it: relative to the current folder or to the home, where that is shorter."""
     from pathlib import Path
 

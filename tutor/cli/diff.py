@@ -31,7 +31,7 @@ def run(arguments: argparse.Namespace) -> int:
     from tutor.workspace import find_submission
 
     lesson = context.load_course(arguments).find(arguments.exercise)
-    submission = find_submission(lesson, arguments.path, context.workspace(arguments))
+    submission = find_submission(lesson, arguments.path, context.require_workspace(arguments))
     lines = list(_lines(lesson, submission, solution=arguments.solution))
     other = "our solution" if arguments.solution else "the skeleton"
     if lines:
@@ -49,7 +49,7 @@ def _lines(lesson: Lesson, submission: Submission, *, solution: bool) -> Iterato
         if own is None:
             continue
         ours = file.solution if solution else file.skeleton
-        mine = (context.shown(own), (read_source(own) or "").splitlines())
+        mine = (context.display_path(own), (read_source(own) or "").splitlines())
         given = (f"{ours.parent.name}/{file.name}", ours.read_text(encoding="utf-8").splitlines())
         (before, old), (after, new) = (mine, given) if solution else (given, mine)
         yield from unified_diff(old, new, before, after, lineterm="")

@@ -16,15 +16,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Print one finding to a line, each with its mend; exit code 3 where something is wrong."""
+    """Print one finding to a line, each with its hint; exit code 3 where something is wrong."""
     from tutor.doctor import examine
 
-    findings = examine(context.anywhere(arguments).root)
+    findings = examine(context.choose_any_workspace(arguments).root)
     width = max((len(finding.name) for finding in findings), default=0)
     for finding in findings:
         mark, word, color = _MARKS[finding.ok]
         state = terminal.style(f"{mark} {word:7}", color, sys.stdout)
         terminal.out(f"{state}  {finding.name:{width}}  {finding.text}\n")
-        if finding.mend and finding.ok is not True:
-            terminal.out(f"{'':9}  {'':{width}}  mend: {finding.mend}\n")
+        if finding.hint and finding.ok is not True:
+            terminal.out(f"{'':9}  {'':{width}}  fix: {finding.hint}\n")
     return FAULT if any(finding.ok is False for finding in findings) else PASSED

@@ -33,7 +33,7 @@ def describe(error: Exception) -> str:
         return f"the course is broken: {text}"
     if isinstance(error, OSError):
         return text or type(error).__name__
-    mend = getattr(error, "mend", "")  # tutor.engine.EngineError has one; importing the engine here would cost a second
-    if mend:
-        return f"{text}; {' '.join(str(mend).split())}"
+    hint = getattr(error, "hint", "")  # tutor.engine.EngineError has one; importing the engine here would cost a second
+    if hint:
+        return f"{text}; {' '.join(str(hint).split())}"
     return f"something went wrong in ros-tutor itself: {type(error).__name__}: {text} (ROS_TUTOR_DEBUG=1 shows where)"

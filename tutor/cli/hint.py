@@ -19,7 +19,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Print one hint, each time the next one; or all."""
     lesson = context.load_course(arguments).find(arguments.exercise)
-    workspace = context.workspace(arguments)
+    workspace = context.require_workspace(arguments)
     of = len(lesson.hints)
     if arguments.all:
         if workspace.exists:

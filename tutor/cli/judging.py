@@ -46,7 +46,7 @@ class Display(Protocol):
         """Leave the terminal tidy."""
 
 
-class Silence:
+class NoDisplay:
     """A display for streams that nobody watches."""
 
     def show(self, event: Event) -> None:
@@ -103,7 +103,7 @@ async def _until_stopped[T](work: Callable[[], Coroutine[None, None, T]], displa
 def display_for(course: Course, *, report_follows: bool) -> Display:
     """A live display where stderr is a terminal. `report_follows`: it makes room for the report at the end."""
     if not terminal.can_animate(sys.stderr):
-        return Silence()
-    from tutor.cli.live import LiveDisplay  # rich: a tenth of a second
+        return NoDisplay()
+    from tutor.cli.progress_display import ProgressDisplay  # rich: a tenth of a second
 
-    return LiveDisplay(course, vanishing=report_follows)
+    return ProgressDisplay(course, vanishing=report_follows)

@@ -32,7 +32,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Print one line for each exercise, what to do next, and the workspace's ROS domain; or all of it as JSON."""
     course = context.load_course(arguments)
-    workspace = context.workspace(arguments)
+    workspace = context.require_workspace(arguments)
     progress = context.read_progress(workspace)
     if arguments.format == "json":
         from tutor.cli.list_json import render

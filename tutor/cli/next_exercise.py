@@ -23,7 +23,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Print the exercise, how far the learner is, and the next command."""
     course = context.load_course(arguments)
-    workspace = context.workspace(arguments)
+    workspace = context.require_workspace(arguments)
     progress = context.read_progress(workspace)
     known = standings(course, progress, workspace)
     lesson = next_lesson(course.lessons, known)
@@ -40,7 +40,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _so_far(lesson: Lesson, standing: Standing, workspace: Workspace) -> list[str]:
-    lines = [f"  to edit   {context.shown(workspace.path_of(file.name))}" for file in lesson.files]
+    lines = [f"  to edit   {context.display_path(workspace.path_of(file.name))}" for file in lesson.files]
     if standing.is_attempted:
         lines += [f"  not yet   {', '.join(standing.missed)}"] if standing.missed else []
         lines += [f"  a hint    {command('hint', lesson.id)}"]

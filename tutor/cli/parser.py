@@ -56,7 +56,7 @@ class _Parser(argparse.ArgumentParser):
         raise argparse.ArgumentError(action, f"invalid choice: {value!r}{guess}; choose from {', '.join(known)}")
 
 
-class _Command(_Parser):
+class _CommandParser(_Parser):
     """Takes options between the positional arguments too: `check i1.1 --format json PATH`."""
 
     _mixing = False
@@ -132,7 +132,9 @@ def build(*, mixing: bool = True) -> argparse.ArgumentParser:
     parser.add_argument(
         "--plain", action="store_true", help="plain lines of text instead of the app, for screen readers"
     )
-    commands = parser.add_subparsers(title="commands", metavar="COMMAND", parser_class=_Command if mixing else _Parser)
+    commands = parser.add_subparsers(
+        title="commands", metavar="COMMAND", parser_class=_CommandParser if mixing else _Parser
+    )
 
     def add(name: str, run: Run, arguments: Callable[[argparse.ArgumentParser], None], help: str) -> None:
         command = commands.add_parser(name, help=help, description=_sentence(help), parents=[everywhere])
@@ -160,9 +162,9 @@ def build(*, mixing: bool = True) -> argparse.ArgumentParser:
     return parser
 
 
-def _global_options() -> _Command:
+def _global_options() -> _CommandParser:
     """Options that are good before and after the command. Suppressed defaults: the second must not undo the first."""
-    parser = _Command(add_help=False, argument_default=argparse.SUPPRESS)
+    parser = _CommandParser(add_help=False, argument_default=argparse.SUPPRESS)
     options = parser.add_argument_group("options for every command")
     options.add_argument(
         "--workspace",

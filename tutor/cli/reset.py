@@ -21,7 +21,7 @@ def run(arguments: argparse.Namespace) -> int:
     from tutor.workspace import is_started, start
 
     lesson = context.load_course(arguments).find(arguments.exercise)
-    workspace = context.workspace(arguments)
+    workspace = context.require_workspace(arguments)
     if not workspace.exists or not is_started(lesson, None, workspace):
         raise UsageError(f"{lesson.id} is not started yet; `{command('start', lesson.id)}` puts the skeleton in place")
     names = " and ".join(file.name for file in lesson.files)
@@ -29,9 +29,9 @@ def run(arguments: argparse.Namespace) -> int:
         terminal.out("Nothing was changed.\n")
         return PASSED
     files = start(lesson, workspace, force=True).files
-    lines = [f"  skeleton again  {context.shown(path)}" for path in files.written]
-    lines += [f"  as it was       {context.shown(path)}" for path in files.already_there]
-    lines += [f"  kept            {context.shown(path)}" for path in files.backups]
+    lines = [f"  skeleton again  {context.display_path(path)}" for path in files.written]
+    lines += [f"  as it was       {context.display_path(path)}" for path in files.already_there]
+    lines += [f"  kept            {context.display_path(path)}" for path in files.backups]
     terminal.out("\n".join([*lines, f"Then: {command('check', lesson.id)}"]) + "\n")
     return PASSED
 

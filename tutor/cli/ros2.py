@@ -24,13 +24,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Become `ros2`, in the user's own ROS domain; comes back only where that cannot be."""
     from tutor import private
+    from tutor.bundled_ros.ros2.errors import CommandError
+    from tutor.bundled_ros.ros2.starting import ros2_command
     from tutor.ros.environment import detect, learner_env
-    from tutor.sandbox.ros2.errors import CommandError
-    from tutor.sandbox.ros2.starting import ros2
     from tutor.workspace import domain_of
 
     ros = detect()
-    workspace = context.place(arguments)
+    workspace = context.choose_workspace(arguments)
     domain = domain_of(workspace)
     env = {**os.environ, "ROS_DOMAIN_ID": str(domain)}
     if ros.kind == "bundled":
@@ -43,7 +43,7 @@ def run(arguments: argparse.Namespace) -> int:
         )
         env["ROS_TUTOR_WORKSPACE"] = str(workspace.root)
     try:
-        command = [*ros2(ros, env), *(arguments.words or ["--help"])]
+        command = [*ros2_command(ros, env), *(arguments.words or ["--help"])]
     except CommandError as error:
         raise UsageError(str(error)) from error
     sys.stdout.flush()

@@ -32,11 +32,11 @@ def run(arguments: argparse.Namespace) -> int:
     context.load_course(arguments)  # a course that is broken is told here, not in the browser
     lessons = getattr(arguments, "lessons", None)
     more = [] if lessons is None else [str(lessons.absolute())]
-    argv = interpreter.of_ours("tutor.serve", str(context.place(arguments).root.absolute()), *more)
+    argv = interpreter.module_command("tutor.serve", str(context.choose_workspace(arguments).root.absolute()), *more)
     try:
         listener = listen(arguments.host, arguments.port)
     except NoAddress as error:
-        raise UsageError(f"{error}; {error.mend}") from error
+        raise UsageError(f"{error}; {error.hint}") from error
 
     token = "" if is_loopback(listener) else secrets.token_urlsafe(16)
 
@@ -63,4 +63,4 @@ _MEND = "install textual-serve (in a clone: ./.ci/uv sync)"
 def _port(text: str) -> int:
     if text.isdecimal() and int(text) <= 65535:
         return int(text)
-    raise argparse.ArgumentTypeError(f"{text!r} is no port: a number from 0 (any that is free) to 65535")
+    raise argparse.ArgumentTypeError(f"{text!r} is not a port: a number from 0 (any that is free) to 65535")

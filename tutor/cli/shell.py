@@ -21,16 +21,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Run the user's shell, or one command line in it; gives its exit code."""
     from tutor import private
+    from tutor.bundled_ros.ros2 import sourced
+    from tutor.bundled_ros.ros2.terminal import interactive, users_shell
     from tutor.ros.environment import detect
-    from tutor.sandbox.ros2 import sourced
-    from tutor.sandbox.ros2.terminal import interactive, users_shell
     from tutor.workspace import domain_of
 
     try:
         shell, path = users_shell()
     except LookupError as error:
         raise UsageError(str(error)) from error
-    workspace, ros = context.place(arguments), detect()
+    workspace, ros = context.choose_workspace(arguments), detect()
     domain = domain_of(workspace)
     with private.folder("shell") as tools:
         env = sourced.sourced_environment(ros, workspace.root, domain, tools)
@@ -38,7 +38,7 @@ def run(arguments: argparse.Namespace) -> int:
         if arguments.line is not None:
             first = "" if setup is None else f". {shlex.quote(str(setup))}\n"
             return _run([str(path), "-c", first + arguments.line], env)
-        where = context.shown(workspace.root)
+        where = context.display_path(workspace.root)
         command = interactive(
             shell,
             path,

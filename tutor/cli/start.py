@@ -28,7 +28,7 @@ def run(arguments: argparse.Namespace) -> int:
     course = context.load_course(arguments)
     lesson = course.find(arguments.exercise)
     if arguments.folder is None:
-        workspace = context.place(arguments)
+        workspace = context.choose_workspace(arguments)
         started = start(lesson, workspace, force=arguments.force)
         if started.created_workspace:
             terminal.out(f"Created your workspace: {workspace.root}\n")
@@ -43,9 +43,9 @@ def run(arguments: argparse.Namespace) -> int:
         check = command("check", lesson.id, arguments.folder)
 
     lines = [f"{lesson.id} {lesson.title} ({lesson.difficulty.value}): {lesson.objective.strip()}"]
-    lines += [f"  to edit        {context.shown(path)}" for path in started.files.written]
-    lines += [f"  already there  {context.shown(path)}" for path in started.files.already_there]
-    lines += [f"  kept           {context.shown(path)}" for path in started.files.backups]
+    lines += [f"  to edit        {context.display_path(path)}" for path in started.files.written]
+    lines += [f"  already there  {context.display_path(path)}" for path in started.files.already_there]
+    lines += [f"  kept           {context.display_path(path)}" for path in started.files.backups]
     lines += [f"Then: {check}"]
     terminal.out("\n".join(lines) + "\n")
     return PASSED

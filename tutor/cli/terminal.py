@@ -18,7 +18,7 @@ _WIDEST = 120
 def out(text: str) -> None:
     """Write to stdout, whatever its encoding, with no control sequence but colours.
 
-    A reader that has gone away (`| head`) is no error.
+    A reader that has gone away (`| head`) is not an error.
     """
     if sys.stdout is None:
         return
@@ -57,7 +57,7 @@ def wants_color(stream: TextIO | None) -> bool:
 
 
 def can_animate(stream: TextIO | None) -> bool:
-    """Whether lines on this stream can be drawn anew."""
+    """Whether lines on this stream can be redrawn."""
     return is_terminal(stream) and os.environ.get("TERM", "dumb") not in ("dumb", "unknown")
 
 

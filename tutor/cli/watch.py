@@ -31,7 +31,7 @@ def run(arguments: argparse.Namespace, engine: Engine | None = None) -> int:
 
     course = context.load_course(arguments)
     lesson = course.find(arguments.exercise)
-    submission = find_submission(lesson, arguments.path, context.workspace(arguments))
+    submission = find_submission(lesson, arguments.path, context.require_workspace(arguments))
     folders = {path.parent for path in submission.files.values()}
     own = {path for path in submission.files.values()}
     others = {file.name for other in course.lessons for file in other.files if other.id != lesson.id}

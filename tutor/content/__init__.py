@@ -1,7 +1,7 @@
 """The course: lessons and the self-assessment checklist, as plain data. Knows neither ROS nor the terminal."""
 
 from tutor.content.errors import ContentError, UnknownExercise
-from tutor.content.lint import lint
+from tutor.content.lint import lint_course
 from tutor.content.live import LiveTopic, LiveView, Partner
 from tutor.content.loader import load_course
 from tutor.content.model import (
@@ -31,6 +31,6 @@ __all__ = [
     "Partner",
     "Problem",
     "UnknownExercise",
-    "lint",
+    "lint_course",
     "load_course",
 ]

@@ -31,7 +31,7 @@ _CODE_FENCE = re.compile(r"\s*```(.*)")
 _RAW_HTML = re.compile(r"</?[a-zA-Z][^>]*>|<!--")
 
 
-def lint(course: Course) -> list[Problem]:
+def lint_course(course: Course) -> list[Problem]:
     """Find everything that is wrong with a course, lesson by lesson; an empty list means that it is right."""
     problems = list(_course(course))
     for lesson in course.lessons:

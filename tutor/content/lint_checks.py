@@ -14,7 +14,7 @@ _PACKAGE = "__init__.py"
 _CACHE = "__pycache__"
 
 
-def lint_check(lesson: Lesson, check: Check) -> Iterator[Problem]:
+def find_disagreements(lesson: Lesson, check: Check) -> Iterator[Problem]:
     """Where a lesson and its check disagree: on the exercise, its criteria, or the files to hand in."""
     said, judged = lesson.folder / "lesson.md", lesson.check
     if check.exercise != lesson.id:
@@ -49,7 +49,7 @@ def lint_check(lesson: Lesson, check: Check) -> Iterator[Problem]:
             )
 
 
-def lint_strays(course: Course, lessons: Sequence[Lesson]) -> Iterator[Problem]:
+def find_stray_files(course: Course, lessons: Sequence[Lesson]) -> Iterator[Problem]:
     """What lies in the folders of `lessons`, and of their checks, and belongs to no lesson of the course."""
     for folder in sorted({lesson.folder.parent for lesson in lessons}):
         mine = {lesson.folder for lesson in course.lessons if lesson.folder.parent == folder}

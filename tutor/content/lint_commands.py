@@ -31,7 +31,7 @@ def commands(body: str) -> Iterator[list[str]]:
                 yield words
 
 
-def lint_commands(lesson: Lesson, given: Collection[str], usage: Callable[[list[str]], str]) -> Iterator[Problem]:
+def find_bad_commands(lesson: Lesson, given: Collection[str], usage: Callable[[list[str]], str]) -> Iterator[Problem]:
     """Find commands that a learner could not type.
 
     `given` are the names of the files that are in every workspace; `usage` says what is wrong with the arguments of

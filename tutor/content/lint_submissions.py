@@ -14,7 +14,7 @@ _EXCLUSIVE = ("fails", "bonus_failed")
 """What one of these names, no other key names: it is failed, and that is all there is to say."""
 
 
-def lint_submissions(root: Path, course: Course, lessons: Sequence[Lesson]) -> Iterator[Problem]:
+def find_bad_submissions(root: Path, course: Course, lessons: Sequence[Lesson]) -> Iterator[Problem]:
     """Find what is wrong with the submissions to `lessons` below `root`, and what is missing."""
     folders = {lesson.folder.name: lesson for lesson in course.lessons}
     for path in _entries(root):
@@ -34,11 +34,11 @@ def lint_submissions(root: Path, course: Course, lessons: Sequence[Lesson]) -> I
 def _of(folder: Path, lesson: Lesson) -> Iterator[Problem | Case]:
     for kind in _entries(folder):
         if kind.name not in (RIGHT, WRONG) or not kind.is_dir():
-            yield Problem(kind, "this is no submission", f"put it into {RIGHT}/<name> or {WRONG}/<name>")
+            yield Problem(kind, "this is not a submission", f"put it into {RIGHT}/<name> or {WRONG}/<name>")
             continue
         for path in _entries(kind):
             if not path.is_dir():
-                yield Problem(path, "this is no submission", "put it into a folder of its own")
+                yield Problem(path, "this is not a submission", "put it into a folder of its own")
             elif not (path / EXPECT).is_file():
                 yield Problem(path, f"there is no {EXPECT}", "say what it must be judged as")
             else:
@@ -61,7 +61,7 @@ def _case(case: Case, lesson: Lesson) -> Iterator[Problem]:
             if name not in bonus:
                 yield Problem(source, f"{key}: there is no criterion {name!r}", f"the criteria are {', '.join(bonus)}")
     yield from _contradictions(source, expected.named, bonus)
-    yield from (Problem(source, text, mend) for text, mend in _kind(case, bonus))
+    yield from (Problem(source, text, hint) for text, hint in _kind(case, bonus))
 
 
 def _contradictions(source: Path, named: Mapping[str, Collection[str]], bonus: Mapping[str, bool]) -> Iterator[Problem]:
@@ -70,7 +70,7 @@ def _contradictions(source: Path, named: Mapping[str, Collection[str]], bonus: M
             yield Problem(source, f"fails: {name} is a bonus", "name it in bonus_failed")
     for name in named["bonus_failed"]:
         if not bonus.get(name, True):
-            yield Problem(source, f"bonus_failed: {name} is no bonus", "name it in fails")
+            yield Problem(source, f"bonus_failed: {name} is not a bonus", "name it in fails")
     for key in _EXCLUSIVE:
         others = {name for other, names in named.items() if other != key for name in names}
         for name in named[key]:

@@ -96,7 +96,7 @@ class ChecklistGroup:
 
 @dataclass(frozen=True, slots=True)
 class Checklist:
-    """The self-assessment checklist. `ready_title` and `ready_text` are for who has ticked every item."""
+    """The self-assessment checklist. `ready_title` and `ready_text` are for anyone who has ticked every item."""
 
     groups: tuple[ChecklistGroup, ...] = ()
     ready_title: str = ""

@@ -8,16 +8,16 @@ from pathlib import Path
 
 @dataclass(frozen=True, slots=True)
 class Problem:
-    """One thing to mend in a course. `file` is the file, or the folder, to mend it in; `mend` says how."""
+    """One thing to fix in a course. `file` is the file, or the folder, to fix it in; `hint` says how."""
 
     file: Path
     text: str
-    mend: str = ""
+    hint: str = ""
 
     @property
-    def said(self) -> str:
-        """What is wrong, and how to mend it."""
-        return f"{self.text}; {self.mend}" if self.mend else self.text
+    def description(self) -> str:
+        """What is wrong, and how to fix it."""
+        return f"{self.text}; {self.hint}" if self.hint else self.text
 
     def __str__(self) -> str:
-        return f"{self.file}: {self.said}"
+        return f"{self.file}: {self.description}"

@@ -10,7 +10,7 @@ from tutor.judge.result import CriterionResult, ExerciseResult
 from tutor.judge.verdict import Status
 
 
-def findings_of(lesson: Lesson, kind: str, result: ExerciseResult) -> Iterator[Problem]:
+def find_disproofs(lesson: Lesson, kind: str, result: ExerciseResult) -> Iterator[Problem]:
     """Where the verdicts on the "skeleton" or the "solution" are not what the lesson says.
 
     Our solution passes every criterion, bonus included. The untouched skeleton fails on the criteria that it leaves
@@ -50,5 +50,5 @@ def _problem(lesson: Lesson, kind: str, criterion: CriterionResult, said: str) -
     return Problem(
         lesson.folder / kind,
         f"{criterion.id} {said}" + (f" ({seen})" if seen else ""),
-        "mend the check, the lesson's `open`, or the code",
+        "fix the check, the lesson's `open`, or the code",
     )

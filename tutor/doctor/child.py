@@ -37,7 +37,7 @@ def ask(ros: RosEnvironment, environ: Mapping[str, str], program: str, limit_s: 
         except OSError as error:
             raise ProbeFailed(f"{ros.python} cannot be run: {error.strerror}") from error
     if done.returncode != 0:
-        raise ProbeFailed(_last_words(done.returncode, done.stderr))
+        raise ProbeFailed(_output_tail(done.returncode, done.stderr))
     answer: dict[str, Any] = json.loads(done.stdout.splitlines()[-1])
     return answer
 
@@ -76,7 +76,7 @@ def _running(
         except ProbeFailed as failure:
             if process.poll() not in (None, 0):
                 said.seek(0)
-                raise ProbeFailed(_last_words(process.returncode, said.read())) from failure
+                raise ProbeFailed(_output_tail(process.returncode, said.read())) from failure
             raise
         finally:
             process.kill()
@@ -97,7 +97,7 @@ def _line(process: subprocess.Popen[str], deadline: float, otherwise: str) -> st
     return line
 
 
-def _last_words(code: int, stderr: str) -> str:
+def _output_tail(code: int, stderr: str) -> str:
     said = [line.strip() for line in stderr.splitlines() if line.strip()]
     how = f"killed by signal {-code}" if code < 0 else f"exit code {code}"
     return f"{said[-1]} ({how})" if said else how

@@ -18,11 +18,11 @@ def python_version(version: tuple[int, int] = sys.version_info[:2], platform_nam
     where = platform_name or f"{platform.system()} {platform.machine()}"
     text = f"Python {'.'.join(map(str, version))} on {where}"
     if version != _NEEDED_PYTHON:
-        mend = "Install ros-tutor with Python 3.12, for example: uv tool install --python 3.12 ros-tutor"
-        return Finding("Python", False, f"{text}; ROS 2 Jazzy needs Python 3.12.", mend)
+        hint = "Install ros-tutor with Python 3.12, for example: uv tool install --python 3.12 ros-tutor"
+        return Finding("Python", False, f"{text}; ROS 2 Jazzy needs Python 3.12.", hint)
     if where != "Linux x86_64":
-        mend = "Use Linux on x86-64 (WSL 2 on Windows, or a virtual machine), or install ROS 2 Jazzy and source it."
-        return Finding("Python", None, f"{text}; the bundled ROS is built for Linux x86_64 only.", mend)
+        hint = "Use Linux on x86-64 (WSL 2 on Windows, or a virtual machine), or install ROS 2 Jazzy and source it."
+        return Finding("Python", None, f"{text}; the bundled ROS is built for Linux x86_64 only.", hint)
     return Finding("Python", True, text)
 
 
@@ -52,13 +52,13 @@ def loopback_multicast() -> Finding:
 def temporary_files() -> Finding:
     """Whether temporary files, such as the logs of a check, can be written."""
     name = "Temporary files"
-    mend = "Free some space there, or set TMPDIR to a folder that you may write to: export TMPDIR=$HOME/tmp"
+    hint = "Free some space there, or set TMPDIR to a folder that you may write to: export TMPDIR=$HOME/tmp"
     try:
         folder = Path(tempfile.gettempdir())
     except FileNotFoundError as error:
-        return Finding(name, False, f"There is no folder for temporary files ({error.strerror}).", mend)
+        return Finding(name, False, f"There is no folder for temporary files ({error.strerror}).", hint)
     if (fault := _cannot_write(folder)) is not None:
-        return Finding(name, False, f"{folder} cannot be written to ({fault}).", mend)
+        return Finding(name, False, f"{folder} cannot be written to ({fault}).", hint)
     return Finding(name, True, f"{folder} can be written to")
 
 
@@ -72,8 +72,8 @@ def workspace(root: Path) -> Finding:
         text = f"{root} cannot be a folder: {folder} is something else."
         return Finding(name, False, text, "Choose another folder with --workspace DIR, or move that file away.")
     if (fault := _cannot_write(folder)) is not None:
-        mend = f"Choose another folder with --workspace DIR, or make this one yours: sudo chown -R $USER {folder}"
-        return Finding(name, False, f"{folder} cannot be written to ({fault}).", mend)
+        hint = f"Choose another folder with --workspace DIR, or make this one yours: sudo chown -R $USER {folder}"
+        return Finding(name, False, f"{folder} cannot be written to ({fault}).", hint)
     return Finding(name, True, f"{root} can be written to" if folder == root else f"{root} can be made")
 
 

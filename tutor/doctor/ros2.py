@@ -64,7 +64,7 @@ def rclpy_import(ros: RosEnvironment, environ: Mapping[str, str]) -> Finding:
     try:
         answer = child.ask(ros, environ, "import", limit_s=20.0)
     except child.ProbeFailed as failure:
-        return Finding("rclpy", False, f"rclpy cannot be imported: {failure}", _mend_of(ros))
+        return Finding("rclpy", False, f"rclpy cannot be imported: {failure}", _hint_for_import(ros))
     return Finding("rclpy", True, f"imported in {answer['seconds']:.2f} s from {answer['file']}")
 
 
@@ -74,8 +74,8 @@ def example_interfaces(ros: RosEnvironment, environ: Mapping[str, str]) -> Findi
     try:
         child.ask(ros, environ, "interfaces", limit_s=20.0)
     except child.ProbeFailed as failure:
-        mend = "sudo apt install ros-jazzy-example-interfaces" if ros.kind == "system" else _REINSTALL
-        return Finding(name, False, f"example_interfaces/srv/AddTwoInts cannot be used: {failure}", mend)
+        hint = "sudo apt install ros-jazzy-example-interfaces" if ros.kind == "system" else _REINSTALL
+        return Finding(name, False, f"example_interfaces/srv/AddTwoInts cannot be used: {failure}", hint)
     return Finding(name, True, "example_interfaces/srv/AddTwoInts can be used")
 
 
@@ -90,8 +90,8 @@ def own_domain(workspace: Path, environ: Mapping[str, str]) -> Finding:
         return Finding(name, True, f"your nodes run in domain {domain}, as ROS_DOMAIN_ID says")
     own = f"your nodes run in domain {domain}, which is your workspace's own"
     if said:
-        mend = f"export ROS_DOMAIN_ID={domain}, or unset ROS_DOMAIN_ID"
-        return Finding(name, None, f"ROS_DOMAIN_ID is {said!r}, which is no number from 0 to 232; {own}", mend)
+        hint = f"export ROS_DOMAIN_ID={domain}, or unset ROS_DOMAIN_ID"
+        return Finding(name, None, f"ROS_DOMAIN_ID is {said!r}, which is not a number from 0 to 232; {own}", hint)
     return Finding(name, True, f"{own} (in another terminal: export ROS_DOMAIN_ID={domain})")
 
 
@@ -100,14 +100,14 @@ def discovery(ros: RosEnvironment, environ: Mapping[str, str]) -> Finding:
     try:
         took_ms = child.first_message_ms(ros, environ, limit_s=15.0)
     except NoFreeDomain as error:
-        return Finding("Discovery", False, str(error), error.mend)
+        return Finding("Discovery", False, str(error), error.hint)
     except child.ProbeFailed as failure:
-        mend = "First mend what is wrong above; then look for a firewall that blocks UDP on the loopback interface."
-        return Finding("Discovery", False, f"Two ROS processes did not find each other: {failure}", mend)
+        hint = "First fix what is wrong above; then look for a firewall that blocks UDP on the loopback interface."
+        return Finding("Discovery", False, f"Two ROS processes did not find each other: {failure}", hint)
     return Finding("Discovery", True, f"first message {took_ms:.0f} ms after the start of a publisher")
 
 
-def _mend_of(ros: RosEnvironment) -> str:
+def _hint_for_import(ros: RosEnvironment) -> str:
     if ros.kind == "bundled":
         return _REINSTALL
     return "Repair the sourced ROS (sudo apt install --reinstall ros-jazzy-rclpy), or use a new terminal without it."

@@ -15,14 +15,14 @@ _COLUMNS, _ROWS = 80, 24
 def capabilities(environ: Mapping[str, str] = os.environ) -> Finding:
     """Whether the terminal shows colour and UTF-8 and is large enough. Never a failure: reports are plain text."""
     if not sys.stdout.isatty():
-        return Finding(_NAME, None, "The output is no terminal: the app cannot be shown here, reports can.")
+        return Finding(_NAME, None, "The output is not a terminal: the app cannot be shown here, reports can.")
     wanting = _wanting(environ)
     columns, rows = os.get_terminal_size(sys.stdout.fileno())
     if columns < _COLUMNS or rows < _ROWS:
         wanting.append((f"it is {columns}x{rows}, smaller than {_COLUMNS}x{_ROWS}", "make the window larger"))
     if wanting:
         text = "This terminal is limited: " + "; ".join(what for what, _ in wanting) + "."
-        return Finding(_NAME, None, text, "To see it well: " + "; ".join(mend for _, mend in wanting) + ".")
+        return Finding(_NAME, None, text, "To see it well: " + "; ".join(hint for _, hint in wanting) + ".")
     return Finding(_NAME, True, f"{environ['TERM']}, {columns}x{rows}, colour, UTF-8")
 
 

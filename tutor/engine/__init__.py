@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tutor.engine.check import check
+from tutor.engine.check import run_check
 from tutor.engine.errors import EngineError
 
-__all__ = ["EngineError", "check"]
+__all__ = ["EngineError", "run_check"]

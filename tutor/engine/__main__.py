@@ -13,7 +13,7 @@ import sys
 from pathlib import Path
 
 from tutor.content import ContentError, UnknownExercise, load_course
-from tutor.engine import EngineError, check
+from tutor.engine import EngineError, run_check
 from tutor.judge.events import Event, encode
 from tutor.process.prctl import die_with_parent
 from tutor.workspace import SubmissionError, find_submission
@@ -48,7 +48,7 @@ def main() -> int:
             except BrokenPipeError:  # nobody is there any more: all that is left to do is to clean up
                 task.cancel()
 
-        task = asyncio.ensure_future(check([submission], course, only=only, on_event=show))
+        task = asyncio.ensure_future(run_check([submission], course, only=only, on_event=show))
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             loop.add_signal_handler(number, task.cancel)
         await task
@@ -56,7 +56,7 @@ def main() -> int:
     try:
         asyncio.run(judge())
     except EngineError as error:
-        print(f"{error}. {error.mend}", file=sys.stderr)
+        print(f"{error}. {error.hint}", file=sys.stderr)
         return 3
     except asyncio.CancelledError:
         return 130

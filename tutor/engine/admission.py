@@ -27,12 +27,12 @@ class Admission:
         self._number = itertools.count()
 
     @asynccontextmanager
-    async def start(self, asks_s: float) -> AsyncIterator[Callable[[], None]]:
-        """Wait for a slot; who `asks_s` more seconds of the clock goes first.
+    async def start(self, expected_s: float) -> AsyncIterator[Callable[[], None]]:
+        """Wait for a slot; the start that is expected to take longest goes first.
 
         Gives what to call when the process is up; the slot is free then, or at the end of the block.
         """
-        await self._enter(asks_s)
+        await self._enter(expected_s)
         held = True
 
         def up() -> None:
@@ -46,12 +46,12 @@ class Admission:
         finally:
             up()
 
-    async def _enter(self, asks_s: float) -> None:
+    async def _enter(self, expected_s: float) -> None:
         if self._free:
             self._free -= 1
             return
         turn = asyncio.get_running_loop().create_future()
-        heapq.heappush(self._waiting, (-asks_s, next(self._number), turn))
+        heapq.heappush(self._waiting, (-expected_s, next(self._number), turn))
         try:
             await turn
         except asyncio.CancelledError:

@@ -10,10 +10,13 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TypeVar
 
+from tutor.bundled_ros.ros2 import overlay
+from tutor.bundled_ros.ros2.errors import CommandError
+from tutor.bundled_ros.ros2.starting import ros2_command
 from tutor.engine.admission import Admission
 from tutor.engine.errors import EngineError
 from tutor.engine.log_folder import log_folder
-from tutor.engine.run import Facts, LiveRun
+from tutor.engine.run import CollectedFacts, RosRun
 from tutor.engine.walls import Walls
 from tutor.judge.bench import Run, Scenario
 from tutor.judge.exceptions import Known
@@ -23,13 +26,10 @@ from tutor.process import LearnerProcess, ProcessError
 from tutor.ros.domain import NoFreeDomain, reserve_domain
 from tutor.ros.environment import RosEnvironment, learner_env
 from tutor.ros.observer import Observer
-from tutor.sandbox.ros2 import overlay
-from tutor.sandbox.ros2.errors import CommandError
-from tutor.sandbox.ros2.starting import ros2
 
 T = TypeVar("T")
 
-_Command = Callable[[dict[str, str], Path], list[str]]
+_MakeArgv = Callable[[dict[str, str], Path], list[str]]
 
 UP_S = 1.5
 """A process that has no node after this long (and what the machine kept it from running) need not be waited for."""
@@ -44,11 +44,11 @@ _WHO_KILLS = (
 
 
 @dataclass(frozen=True, slots=True)
-class LiveBench:
+class RosBench:
     """The `Bench` of `tutor.judge.bench` for one scenario.
 
-    `asks_s`: how many seconds of the clock its check asks for; where several are to start, the longest goes first (a
-    start may say how many it asks for itself). `exceptions`: the check's own known ones. `kills`: the files whose
+    `expected_s`: how many seconds of the clock its check asks for; where several are to start, the longest goes first
+    (a start may say how many it asks for itself). `exceptions`: the check's own known ones. `kills`: the files whose
     process ended with SIGKILL, by itself or by others.
     """
 
@@ -57,7 +57,7 @@ class LiveBench:
     share: Callable[[Scenario[Any]], Any]
     tell: Callable[[float, str], None]
     admission: Admission = field(default_factory=Admission)
-    asks_s: float = 0.0
+    expected_s: float = 0.0
     exceptions: tuple[Known, ...] = ()
     walls: Walls | None = None
     kills: list[Path] = field(default_factory=list)
@@ -69,7 +69,7 @@ class LiveBench:
         *,
         parameters: Mapping[str, Any] | None = None,
         watch: Mapping[str, str] | None = None,
-        asks_s: float | None = None,
+        expected_s: float | None = None,
     ) -> AsyncIterator[Run]:
         path = self.submission.files[file].resolve()
         program = [str(self.ros.python), str(path), *ros_arguments(parameters or {})]
@@ -78,7 +78,9 @@ class LiveBench:
             return program
 
         given = (parameters or {}, watch or {})
-        async with self._start(path, command, *given, asks_s=self.asks_s if asks_s is None else asks_s) as run:
+        async with self._start(
+            path, command, *given, expected_s=self.expected_s if expected_s is None else expected_s
+        ) as run:
             yield run
 
     @asynccontextmanager
@@ -88,27 +90,29 @@ class LiveBench:
 
         def command(env: dict[str, str], log_dir: Path) -> list[str]:
             if self.ros.kind == "system":  # ours does this by itself
-                overlay.make(log_dir / "overlay", path, env, python=str(self.ros.python))
-            return [*ros2(self.ros, env), "launch", str(path), *given]
+                overlay.make_overlay(log_dir / "overlay", path, env, python=str(self.ros.python))
+            return [*ros2_command(self.ros, env), "launch", str(path), *given]
 
-        async with self._start(path, command, {}, {}, terminal=True, nodes=2, asks_s=self.asks_s + LAUNCH_S) as run:
+        async with self._start(
+            path, command, {}, {}, terminal=True, nodes=2, expected_s=self.expected_s + LAUNCH_S
+        ) as run:
             yield run
 
     @asynccontextmanager
     async def _start(
         self,
         path: Path,
-        command: _Command,
+        command: _MakeArgv,
         *given: Any,
         terminal: bool = False,
         nodes: int = 1,
-        asks_s: float,
+        expected_s: float,
     ) -> AsyncIterator[Run]:
-        """Run a command as `_run` does, when it is its turn: others may start when it has so many nodes."""
+        """Run a command as `_run` does, when it is its turn: others may start when it has this many nodes."""
         async with (
-            self.admission.start(asks_s) as up,
+            self.admission.start(expected_s) as up,
             self._run(path, command, *given, terminal=terminal) as run,
-            _told_when_up(run, nodes, up),
+            _report_when_up(run, nodes, up),
         ):
             yield run
 
@@ -116,16 +120,16 @@ class LiveBench:
     async def _run(
         self,
         path: Path,
-        command: _Command,
+        command: _MakeArgv,
         parameters: Mapping[str, Any],
         watch: Mapping[str, str],
         *,
         terminal: bool,
     ) -> AsyncIterator[Run]:
         """Run a command, made from its environment and a folder for its logs, on a domain of its own."""
-        facts = Facts()
+        facts = CollectedFacts()
         with (
-            _faults(),
+            _as_engine_errors(),
             reserve_domain() as domain_id,
             log_folder() as log_dir,
         ):
@@ -143,7 +147,7 @@ class LiveBench:
                     environ=os.environ,
                 )
                 env["TMPDIR"] = str(log_dir)  # what is left there goes with the run
-                env["PYTHONFAULTHANDLER"] = "1"  # see LiveRun.stuck_at
+                env["PYTHONFAULTHANDLER"] = "1"  # see RosRun.dump_stacks
                 argv = command(env, log_dir)
                 walls = self.walls.around(package_folder(path), log_dir, env) if self.walls else ()
                 # A program may have removed its own folder: then the next start of it says so.
@@ -152,26 +156,26 @@ class LiveBench:
                     argv, env=env, cwd=cwd, terminal=terminal, walls=walls, on_change=facts.change
                 ) as process:
                     with _unless_ended_by_others(process):
-                        yield LiveRun(path, parameters, domain_id, process, observer, facts, self.exceptions)
+                        yield RosRun(path, parameters, domain_id, process, observer, facts, self.exceptions)
                     if process.killed:
                         self.kills.append(path)
             finally:
                 observer.close()
 
-    def has(self, file: str) -> bool:
+    def has_file(self, file: str) -> bool:
         return file in self.submission.files
 
     async def facts(self, scenario: Scenario[T]) -> T:
         found: T = await self.share(scenario)
         return found
 
-    def doing(self, fraction: float, text: str) -> None:
+    def report_progress(self, fraction: float, text: str) -> None:
         self.tell(min(1.0, max(0.0, fraction)), text[:MOST_CHARACTERS])
 
 
 @asynccontextmanager
-async def _told_when_up(run: Run, nodes: int, up: Callable[[], None]) -> AsyncIterator[None]:
-    """Call `up` as soon as there are so many nodes, the process has ended, or it is not going to make them."""
+async def _report_when_up(run: Run, nodes: int, up: Callable[[], None]) -> AsyncIterator[None]:
+    """Call `up` as soon as there are this many nodes, the process has ended, or it is not going to make them."""
 
     async def watch() -> None:
         with suppress(EngineError):  # whoever works with the run is told
@@ -199,12 +203,12 @@ def _unless_ended_by_others(process: LearnerProcess) -> Iterator[None]:
 
 
 @contextmanager
-def _faults() -> Iterator[None]:
+def _as_engine_errors() -> Iterator[None]:
     """What the machine refuses us, as an EngineError."""
     try:
         yield
     except NoFreeDomain as error:
-        raise EngineError(str(error), error.mend) from error
+        raise EngineError(str(error), error.hint) from error
     except (ProcessError, CommandError) as error:
         raise EngineError(str(error)) from error
 

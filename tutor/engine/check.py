@@ -19,7 +19,7 @@ from tutor.judge.result import Environment, ExerciseResult, Report
 from tutor.judge.submission import Submission
 
 
-async def check(
+async def run_check(
     submissions: Sequence[Submission],
     course: Course,
     *,
@@ -47,14 +47,14 @@ async def check(
         raise EngineError(what, "switch the loopback interface on: sudo ip link set lo up") from error
     ros = detect()
     try:
-        this_process.use(ros, isolated=True)
+        this_process.prepare_for_rclpy(ros, isolated=True)
         this_process.keep_stdout()
-        await asyncio.to_thread(bytecode.ensure, ros)
+        await asyncio.to_thread(bytecode.compile_ros_modules, ros)
         from tutor.engine.runner import Runner  # brings in rclpy, which must find its environment chosen
     except (ImportError, OSError, RuntimeError) as error:
         raise EngineError(f"ROS 2 cannot be used here: {error}") from error
 
-    unchanged.only()
+    unchanged.refuse_changed_modules()
 
     async def one(submission: Submission) -> ExerciseResult:
         lesson = course.find(submission.exercise)

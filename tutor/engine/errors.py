@@ -6,8 +6,8 @@ from tutor.invocation import command
 
 
 class EngineError(RuntimeError):
-    """A check could not be carried out. `mend` says what to do about it."""
+    """A check could not be carried out. `hint` says what to do about it."""
 
-    def __init__(self, what: str, mend: str = "") -> None:
+    def __init__(self, what: str, hint: str = "") -> None:
         super().__init__(what)
-        self.mend = mend or f"run `{command('doctor')}` to see what is wrong with this machine"
+        self.hint = hint or f"run `{command('doctor')}` to see what is wrong with this machine"

@@ -9,7 +9,7 @@ from enum import StrEnum
 
 from tutor.content import Course, Lesson
 from tutor.engine.admission import Admission
-from tutor.engine.check import check
+from tutor.engine.check import run_check
 from tutor.judge.result import ExerciseResult
 from tutor.judge.submission import Submission
 
@@ -42,7 +42,7 @@ async def prove(lessons: Sequence[Lesson], course: Course, on_proof: Callable[[P
 
     async def one(lesson: Lesson, kind: Kind) -> Proof:
         async with free:
-            report = await check([_submission(lesson, kind)], course, admission=admission)
+            report = await run_check([_submission(lesson, kind)], course, admission=admission)
         proof = Proof(lesson, kind, report.exercises[0])
         on_proof(proof)
         return proof

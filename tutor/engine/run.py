@@ -34,7 +34,7 @@ from tutor.judge.trace import (
     Trace,
 )
 from tutor.judge.tracebacks import Frame
-from tutor.process import CpuMeter, CpuTime, LearnerProcess, cpu_time_here
+from tutor.process import CpuMeter, CpuTime, LearnerProcess, own_cpu_time
 from tutor.ros import echo, graph, parameters
 from tutor.ros.feed import TopicFeed
 from tutor.ros.messages import UnknownType, to_plain
@@ -45,7 +45,7 @@ T = TypeVar("T")
 LOOK_EVERY_S = 0.05
 """How often a wait looks again where no fact comes in by itself: the graph has to be asked."""
 
-MOST_PATIENT = 5
+MOST_EXTENSIONS = 5
 """A limit is extended by what the node was kept from running, up to this many times the limit."""
 
 TOO_BUSY = "this machine is too busy: the node, or what watches it, was not let run"
@@ -53,7 +53,7 @@ TOO_BUSY = "this machine is too busy: the node, or what watches it, was not let 
 ENOUGH_CPU_S = 2.0
 """No wait is for something that takes a node more CPU time than this: its start takes 0.3 s."""
 
-GOING_S = 1.0
+IN_TRANSIT_S = 1.0
 """What a process has sent on its way before it ended may take this long to be gone."""
 
 IN_FLIGHT_S = 0.5
@@ -64,7 +64,7 @@ NEVER_S = 1e6
 """The limit of a request whose time is kept by `until`."""
 
 
-class Facts:
+class CollectedFacts:
     """What has been collected of one run, and a signal for each new fact."""
 
     def __init__(self) -> None:
@@ -76,7 +76,7 @@ class Facts:
         self.changed.set()
 
 
-class LiveRun:
+class RosRun:
     """The `Run` of `tutor.judge.bench`, on a real process and real DDS."""
 
     def __init__(
@@ -86,7 +86,7 @@ class LiveRun:
         domain_id: int,
         process: LearnerProcess,
         observer: Observer,
-        facts: Facts,
+        facts: CollectedFacts,
         exceptions: tuple[Known, ...] = (),
     ) -> None:
         self._exceptions = exceptions
@@ -113,7 +113,7 @@ class LiveRun:
         asked, seen = self._graph
         now = time.monotonic()
         if now - asked >= LOOK_EVERY_S:
-            seen = graph.graph(self._observer.node)
+            seen = graph.read_graph(self._observer.node)
             self._graph = (now, seen)
         return seen
 
@@ -129,7 +129,7 @@ class LiveRun:
     def served(self) -> Sequence[Served]:
         return self._facts.served
 
-    def on(self, topic: str) -> Sequence[Sample]:
+    def samples_on(self, topic: str) -> Sequence[Sample]:
         return self._observer.samples.get(topic, [])
 
     def watch(self, topic: str, type: str) -> bool:
@@ -154,11 +154,11 @@ class LiveRun:
     def now(self) -> float:
         return time.time()
 
-    def starved_s(self) -> float:
+    def node_cpu_wait_s(self) -> float:
         return self._cpu().waited_s
 
-    def late_s(self) -> float:
-        return cpu_time_here().waited_s
+    def our_cpu_wait_s(self) -> float:
+        return own_cpu_time().waited_s
 
     def _cpu(self) -> CpuTime:
         if self.exit is not None:
@@ -172,9 +172,9 @@ class LiveRun:
 
     async def until(self, seen: Callable[[], bool], limit_s: float) -> bool:
         # The limit is for the node, not for a machine that does not let it run, or us see it.
-        return await self._until(seen, limit_s, lambda: self._cpu().waited_s + self.late_s())
+        return await self._until(seen, limit_s, lambda: self._cpu().waited_s + self.our_cpu_wait_s())
 
-    async def ends(self, limit_s: float, *, meanwhile: Callable[[], object] = lambda: None) -> bool:
+    async def wait_for_exit(self, limit_s: float, *, meanwhile: Callable[[], object] = lambda: None) -> bool:
         def ended() -> bool:
             meanwhile()
             return self.exit is not None
@@ -203,7 +203,7 @@ class LiveRun:
             if now >= deadline:
                 if self._cpu().ran_s - ran_s >= ENOUGH_CPU_S:  # one that has used this much of the CPU has run
                     return False
-                late_s, most_s = lost_s() - before_s, MOST_PATIENT * limit_s
+                late_s, most_s = lost_s() - before_s, MOST_EXTENSIONS * limit_s
                 owed_s = min(late_s, most_s) - granted_s
                 if owed_s < LOOK_EVERY_S:
                     if late_s > most_s and limit_s >= 1.0:  # a shorter wait is a look, from which nothing follows
@@ -222,7 +222,7 @@ class LiveRun:
         # Each for itself, that one which never answers does not hide the others; up to three requests, in turn.
         answers = await asyncio.gather(
             *(
-                self._while_alive(parameters.ask(self._observer, [node], NEVER_S), 2 * limit_s, None)
+                self._while_alive(parameters.get_parameters(self._observer, [node], NEVER_S), 2 * limit_s, None)
                 for node in dict.fromkeys(nodes)
             )
         )
@@ -234,7 +234,7 @@ class LiveRun:
     ) -> SetAnswer:
         asked = time.time()
         return await self._while_alive(
-            parameters.set_values(self._observer, node, values, atomic=atomic, limit_s=NEVER_S),
+            parameters.set_parameters(self._observer, node, values, atomic=atomic, limit_s=NEVER_S),
             limit_s,
             SetAnswer(values, False, False, "", asked, asked + limit_s),
         )
@@ -267,7 +267,7 @@ class LiveRun:
             feed.close()
 
     async def echo(self, topic: str, *, samples: int, limit_s: float) -> Echo:
-        shown = await echo.echo(self._domain_id, topic, samples=samples, limit_s=limit_s)
+        shown = await echo.echo_topic(self._domain_id, topic, samples=samples, limit_s=limit_s)
         # echo asks a graph that has long settled; a newcomer may not have met every publisher yet.
         settled = {endpoint.type for endpoint in self.graph.publishers if endpoint.topic == topic}
         return replace(shown, types=tuple(sorted(settled.union(shown.types))))
@@ -275,7 +275,7 @@ class LiveRun:
     async def interrupt(self, limit_s: float = 5.0) -> Ending:
         pressed = time.time()
         self._process.interrupt()
-        await self.ends(limit_s)
+        await self.wait_for_exit(limit_s)
         ended = self.exit
         took = (self.started_at + ended.after_s if ended is not None else time.time()) - pressed
         left = await self._left()
@@ -283,7 +283,7 @@ class LiveRun:
 
     async def _left(self) -> tuple[str, ...]:
         """What is still there. Once the first process has ended, those that are about to follow it are waited for."""
-        deadline = time.monotonic() + (GOING_S if self.exit is not None else 0.0)
+        deadline = time.monotonic() + (IN_TRANSIT_S if self.exit is not None else 0.0)
         while (left := await self._process.survivors()) and time.monotonic() < deadline:
             await asyncio.sleep(LOOK_EVERY_S)
         return tuple(survivor.command for survivor in left)
@@ -291,7 +291,7 @@ class LiveRun:
     async def commands(self) -> tuple[str, ...]:
         return tuple(survivor.command for survivor in await self._process.survivors())
 
-    async def stuck_at(self) -> tuple[Frame, ...]:
+    async def dump_stacks(self) -> tuple[Frame, ...]:
         if self.exit is not None:
             return ()
         asked = time.time()
@@ -299,7 +299,7 @@ class LiveRun:
         with contextlib.suppress(ProcessLookupError):
             os.kill(self._process.pid, signal.SIGABRT)
         await self._process.wait(2.0)
-        frames = tracebacks.dumped(line for line in self.output if line.at >= asked)
+        frames = tracebacks.dumped_frames(line for line in self.output if line.at >= asked)
         return with_code(frames)
 
     def trace(self) -> Trace:

@@ -9,9 +9,9 @@ from typing import Any
 
 from tutor.content import Lesson
 from tutor.engine.admission import Admission
-from tutor.engine.bench import LiveBench
+from tutor.engine.bench import RosBench
 from tutor.engine.errors import EngineError
-from tutor.engine.untouched import begin_there, first_todo
+from tutor.engine.unchanged_skeleton import first_todo, point_to_todo
 from tutor.engine.walls import Walls
 from tutor.judge.bench import MachineTooBusy, OnlyWithRos, Scenario
 from tutor.judge.check import Check, Criterion
@@ -84,8 +84,15 @@ class Runner:
                 self._tell(scenario, fraction, text)
 
             known = self._check.exceptions
-            bench = LiveBench(
-                self._submission, self._ros, self._ask, tell, self._admission, self._check.asks_s, known, self._walls
+            bench = RosBench(
+                self._submission,
+                self._ros,
+                self._ask,
+                tell,
+                self._admission,
+                self._check.expected_s,
+                known,
+                self._walls,
             )
             self._scenarios[scenario] = asyncio.ensure_future(_seen(scenario, bench))
         return self._scenarios[scenario]
@@ -101,9 +108,9 @@ class Runner:
         try:
             facts = [await self._ask(scenario) for scenario in criterion.facts]
             text = self._texts.get(criterion.id)
-            return begin_there(criterion.judge(*facts), self._todo, text.hint if text else "")
+            return point_to_todo(criterion.judge(*facts), self._todo, text.hint if text else "")
         except EngineError as error:
-            return fault(str(error), error.mend)
+            return fault(str(error), error.hint)
         except MachineTooBusy as error:
             return fault(str(error), "close what keeps this machine busy, then check again")
         except OnlyWithRos as error:
@@ -141,7 +148,7 @@ class Runner:
         return time.monotonic() - self._started
 
 
-async def _seen(scenario: Scenario[Any], bench: LiveBench) -> Any:
+async def _seen(scenario: Scenario[Any], bench: RosBench) -> Any:
     """The facts of a scenario; where a process was killed in it, of another: who did it cannot be known from one."""
     facts = await scenario(bench)
     return await scenario(bench) if bench.kills else facts

@@ -137,7 +137,7 @@ def _text(path: Path, most: int) -> str | None:
             return None
         encoding, _ = tokenize.detect_encoding(io.BytesIO(data).readline)
         text = io.TextIOWrapper(io.BytesIO(data), encoding).read()
-        text.encode()  # some encodings, such as unicode_escape, give what is no text
+        text.encode()  # some encodings, such as unicode_escape, give what is not text
     except (LookupError, OSError, SyntaxError, ValueError):
         return None
     return text

@@ -11,7 +11,7 @@ from importlib.machinery import ModuleSpec, SourceFileLoader
 from types import ModuleType
 
 
-def only() -> None:
+def refuse_changed_modules() -> None:
     """From now on, refuse to import a module whose file changes from now on (ImportError)."""
     others = [finder for finder in sys.meta_path if not isinstance(finder, _Unchanged)]
     sys.meta_path[:] = [_Unchanged(), *others]

@@ -84,7 +84,7 @@ class Run(Protocol):
     def served(self) -> Sequence[Served]:
         """The requests that our own servers have answered so far."""
 
-    def on(self, topic: str) -> Sequence[Sample]:
+    def samples_on(self, topic: str) -> Sequence[Sample]:
         """The samples seen on a watched topic so far."""
 
     def watch(self, topic: str, type: str) -> bool:
@@ -96,10 +96,10 @@ class Run(Protocol):
     def now(self) -> float:
         """The wall-clock time, in seconds since the epoch, as in every fact."""
 
-    def starved_s(self) -> float:
+    def node_cpu_wait_s(self) -> float:
         """Seconds that the process waited for a CPU so far: the machine's fault. 0.0 once it has ended."""
 
-    def late_s(self) -> float:
+    def our_cpu_wait_s(self) -> float:
         """Seconds that we who watch it waited for a CPU so far: what is seen may be seen that much later."""
 
     async def until(self, seen: Callable[[], bool], limit_s: float) -> bool:
@@ -109,7 +109,7 @@ class Run(Protocol):
         soon after the process has ended.
         """
 
-    async def ends(self, limit_s: float, *, meanwhile: Callable[[], object] = lambda: None) -> bool:
+    async def wait_for_exit(self, limit_s: float, *, meanwhile: Callable[[], object] = lambda: None) -> bool:
         """Wait until the process has ended; `meanwhile` is called whenever a new fact has come in.
 
         Gives False when `limit_s` seconds have passed, and those in which the machine kept its main thread waiting.
@@ -141,8 +141,8 @@ class Run(Protocol):
     async def commands(self) -> tuple[str, ...]:
         """The command lines of all living processes that the learner's process has started, itself included."""
 
-    async def stuck_at(self) -> tuple[Frame, ...]:
-        """Where the process was, had it not come to an end: ends it, and gives all threads' frames, innermost first."""
+    async def dump_stacks(self) -> tuple[Frame, ...]:
+        """Where the process was, if it had not ended: ends it, and gives all threads' frames, innermost first."""
 
     def trace(self) -> Trace:
         """All facts so far, frozen."""
@@ -157,14 +157,14 @@ class Bench(Protocol):
         *,
         parameters: Mapping[str, Any] | None = None,
         watch: Mapping[str, str] | None = None,
-        asks_s: float | None = None,
+        expected_s: float | None = None,
     ) -> AbstractAsyncContextManager[Run]:
         """Start one of the submission's files; nothing of it is left when the context ends.
 
         `parameters` are given as `--ros-args -p name:=value`; `watch` maps topics to types and is subscribed before the
         process starts.
-        `asks_s`: about how many seconds of the clock this start, and what waits for it, ask for when it is our own
-        solution; without it, the check's `asks_s`. It only says who goes first where many are to start.
+        `expected_s`: about how many seconds of the clock this start, and what waits for it, ask for when it is our own
+        solution; without it, the check's `expected_s`. It only decides which start goes first where there are many.
         """
 
     def launch(self, file: str, *, arguments: Mapping[str, str] | None = None) -> AbstractAsyncContextManager[Run]:
@@ -174,13 +174,13 @@ class Bench(Protocol):
         nodes. Packages resolve as they do in a workspace that is built. Nothing of it is left when the context ends.
         """
 
-    def has(self, file: str) -> bool:
+    def has_file(self, file: str) -> bool:
         """Whether the submission has this (optional) file."""
 
     async def facts(self, scenario: Scenario[T]) -> T:
         """The facts of another scenario of this check; it is run once, however many ask."""
 
-    def doing(self, fraction: float, text: str) -> None:
+    def report_progress(self, fraction: float, text: str) -> None:
         """Tell the learner how far this scenario is (0 to 1) and what is being done to their node."""
 
 

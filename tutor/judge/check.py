@@ -33,14 +33,14 @@ class Criterion:
 class Check:
     """All criteria of one exercise, in the order to show them.
 
-    `asks_s`: the longest wait in seconds that a scenario asks of the clock when it meets our own solution, such as
+    `expected_s`: the longest wait in seconds that a scenario asks of the clock when it meets our own solution, such as
     three messages at 0.5 Hz; what a check takes beyond it is overhead, which a benchmark measures. `exceptions`: known
     ones that are looked for before those that come with the program.
     """
 
     exercise: str
     criteria: tuple[Criterion, ...]
-    asks_s: float = 0.0
+    expected_s: float = 0.0
     exceptions: tuple[Known, ...] = ()
 
     def __post_init__(self) -> None:

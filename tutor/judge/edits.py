@@ -68,75 +68,75 @@ class Edit:
         return f"write below line {self.last}, with the indentation of line {self.like}"
 
 
-def becomes(line: int, code: str, last: int = 0) -> Edit:
+def replace_lines(line: int, code: str, last: int = 0) -> Edit:
     """Line `line`, or all lines up to `last`, with other code, indented as it is now."""
     return Edit(line, last or line, code, like=line)
 
 
-def removed(text: str, first: int, last: int = 0) -> Edit:
+def remove_lines(text: str, first: int, last: int = 0) -> Edit:
     """Lines taken out; where nothing else is left of their block, `pass` takes their place."""
     edit = Edit(first, last or first, "", like=first)
     return edit if _parses(apply(text, [edit])) else Edit(first, last or first, "pass", like=first)
 
 
-def in_place(node: ast.stmt | ast.expr | ast.excepthandler, code: str) -> Edit:
+def replace_statement(node: ast.stmt | ast.expr | ast.excepthandler, code: str) -> Edit:
     """All lines of a statement, with other code."""
-    return becomes(node.lineno, code, node.end_lineno or 0)
+    return replace_lines(node.lineno, code, node.end_lineno or 0)
 
 
-def without(text: str, statement: ast.stmt | ast.expr) -> Edit:
+def remove_statement(text: str, statement: ast.stmt | ast.expr) -> Edit:
     """A statement taken out."""
-    return removed(text, statement.lineno, statement.end_lineno or 0)
+    return remove_lines(text, statement.lineno, statement.end_lineno or 0)
 
 
-def after(statement: ast.stmt, code: str) -> Edit:
+def insert_after(statement: ast.stmt, code: str) -> Edit:
     """Code written below a statement, indented as it is."""
-    return below(statement.end_lineno or statement.lineno, code, like=statement.lineno)
+    return insert_below(statement.end_lineno or statement.lineno, code, like=statement.lineno)
 
 
-def above(line: int, code: str) -> Edit:
+def insert_above(line: int, code: str) -> Edit:
     """Code written above a line, indented as it is."""
     return Edit(line, line - 1, code, like=line)
 
 
-def below(line: int, code: str, *, like: int = 0) -> Edit:
+def insert_below(line: int, code: str, *, like: int = 0) -> Edit:
     """Code written below a line, indented as it is."""
     return Edit(line + 1, line, code, like=like or line)
 
 
-def inside(line: int, code: str) -> Edit:
+def insert_into_block(line: int, code: str) -> Edit:
     """Code written below a line that ends in a colon, as the first of its block."""
     return Edit(line + 1, line, code, like=line, deeper=True)
 
 
-def at_end(function: Function, code: str) -> Edit:
+def append_to_function(function: Function, code: str) -> Edit:
     """Code written where a function ends: before the `return` at its end, if there is one."""
     last = function.body[-1]
     if isinstance(last, ast.Return | ast.Raise):
-        return above(last.lineno, code)
+        return insert_above(last.lineno, code)
     if isinstance(last, ast.Pass):
-        return becomes(last.lineno, code)
-    return below(last.end_lineno or last.lineno, code, like=last.lineno)
+        return replace_lines(last.lineno, code)
+    return insert_below(last.end_lineno or last.lineno, code, like=last.lineno)
 
 
-def at_start(function: Function, code: str) -> Edit:
+def prepend_to_function(function: Function, code: str) -> Edit:
     """Code written as the first of a function, below its docstring."""
     first = function.body[0]
     if isinstance(first, ast.Expr) and isinstance(first.value, ast.Constant) and isinstance(first.value.value, str):
-        return below(first.end_lineno or first.lineno, code, like=first.lineno)
-    return above(first.lineno, code)
+        return insert_below(first.end_lineno or first.lineno, code, like=first.lineno)
+    return insert_above(first.lineno, code)
 
 
-def returned(function: Function, value: str) -> list[Edit]:
+def return_on_every_path(function: Function, value: str) -> list[Edit]:
     """What makes every way through a function return this value, where it returned nothing."""
     inside = _own(function.body)
     found = [
-        becomes(each.lineno, f"return {value}")
+        replace_lines(each.lineno, f"return {value}")
         for each in inside
         if isinstance(each, ast.Return) and (each.value is None or ast.unparse(each.value) == "None")
     ]
     if _falls_through(function.body):
-        found.append(at_end(function, f"return {value}"))
+        found.append(append_to_function(function, f"return {value}"))
     return found
 
 
@@ -169,17 +169,17 @@ def _falls_through(body: Sequence[ast.stmt]) -> bool:
     return True
 
 
-def every(text: str, pattern: str, by: str) -> list[Edit]:
+def replace_pattern(text: str, pattern: str, by: str) -> list[Edit]:
     """Each line that a pattern is found in, with it replaced."""
     found = []
     for number, line in enumerate(text.splitlines(), start=1):
         code = line.strip()
         if (new := re.sub(pattern, by, code)) != code:
-            found.append(becomes(number, new))
+            found.append(replace_lines(number, new))
     return found
 
 
-def on_top(text: str, code: str) -> list[Edit]:
+def add_import(text: str, code: str) -> list[Edit]:
     """An import at the top of the file, below what must come first; nothing where the file has it."""
     tree = SourceFile(text).tree
     if code in {ast.unparse(each) for each in tree.body if isinstance(each, ast.Import | ast.ImportFrom)}:
@@ -187,25 +187,25 @@ def on_top(text: str, code: str) -> list[Edit]:
     first = [each for each in tree.body if isinstance(each, ast.Import | ast.ImportFrom)]
     after = [each for each in first if isinstance(each, ast.ImportFrom) and each.module == "__future__"]
     if after:
-        return [below(after[-1].end_lineno or after[-1].lineno, code)]
+        return [insert_below(after[-1].end_lineno or after[-1].lineno, code)]
     line = first[0].lineno if first else 1
     return [Edit(line, line - 1, code)]
 
 
-def imported_instead(there: ast.ImportFrom, moved: Sequence[tuple[ast.alias, str]]) -> Edit:
+def replace_imports(there: ast.ImportFrom, moved: Sequence[tuple[ast.alias, str]]) -> Edit:
     """Names taken out of an import, each with another import in its place, such as "from a.b import Name"."""
     rest = [each for each in there.names if each not in [alias for alias, _ in moved]]
     lines = [ast.unparse(ast.ImportFrom(there.module, rest, there.level))] if rest else []
     lines += [code + (f" as {alias.asname}" if alias.asname else "") for alias, code in moved]
-    return in_place(there, "\n".join(lines))
+    return replace_statement(there, "\n".join(lines))
 
 
-def instead(text: str, node: ast.expr, new: str) -> Edit:
+def replace_node(text: str, node: ast.expr, new: str) -> Edit:
     """The lines in which an expression stands, with another one in its place."""
-    return swapped(text, (node, new))[0]
+    return replace_nodes(text, (node, new))[0]
 
 
-def swapped(text: str, *swaps: tuple[ast.expr, str]) -> list[Edit]:
+def replace_nodes(text: str, *swaps: tuple[ast.expr, str]) -> list[Edit]:
     """The lines in which expressions stand, each with another one in its place."""
     groups: list[list[tuple[ast.expr, str]]] = []
     end = 0
@@ -226,7 +226,7 @@ def _swapped(lines: Sequence[str], group: Sequence[tuple[ast.expr, str]]) -> Edi
         tail = code[end].encode()[node.end_col_offset or 0 :].decode()
         code[start : end + 1] = [f"{head}{new}{tail}"]
     margin = len(code[0]) - len(code[0].lstrip())
-    return becomes(
+    return replace_lines(
         first, "\n".join(line[min(margin, len(line) - len(line.lstrip())) :].rstrip() for line in code), last
     )
 
@@ -247,25 +247,25 @@ def _indented(lines: Sequence[str], edit: Edit) -> list[str]:
     return textwrap.indent(edit.code, margin).splitlines()
 
 
-def told(text: str, *edits: Edit | Sequence[Edit], file: str = "") -> str | None:
+def describe_edits(text: str, *edits: Edit | Sequence[Edit], file: str = "") -> str | None:
     """The edits in words, as a next step: None where they would break the file, or would change nothing.
 
     A file is broken if Python cannot read it any more, or if the new code uses a name that nothing has given a value.
     """
     flat = [edit for each in edits for edit in ([each] if isinstance(each, Edit) else each)]
     edited = apply(text, flat)
-    if not changes(text, edited) or not holds(text, edited):
+    if not differs_in_words(text, edited) or not is_sound_change(text, edited):
         return None
     words = [_said(text, edit) for edit in flat]
     return (f"in {file}, " if file else "") + "\n".join(words)
 
 
-def told_of(file: SourceFile, *edits: Edit | Sequence[Edit]) -> str | None:
+def describe_edits_of(file: SourceFile, *edits: Edit | Sequence[Edit]) -> str | None:
     """The same of a file, called as it is there."""
-    return told(file.text, *edits, file=file.file)
+    return describe_edits(file.text, *edits, file=file.file)
 
 
-def is_there(text: str, edit: Edit) -> bool:
+def is_already_there(text: str, edit: Edit) -> bool:
     """Whether an edit would write lines that stand above or below their place already."""
     if edit.last >= edit.first or not edit.code:
         return False
@@ -274,7 +274,7 @@ def is_there(text: str, edit: Edit) -> bool:
     return code in (lines[place : place + len(code)], lines[max(0, place - len(code)) : place])
 
 
-def changes(before: str, after: str) -> bool:
+def differs_in_words(before: str, after: str) -> bool:
     """Whether more is another than the spaces within lines, and empty lines."""
 
     def words(text: str) -> list[tuple[int, list[str]]]:
@@ -283,7 +283,7 @@ def changes(before: str, after: str) -> bool:
     return words(before) != words(after)
 
 
-def holds(before: str, after: str) -> bool:
+def is_sound_change(before: str, after: str) -> bool:
     """Whether Python can read the file after a change, and knows each name of it that it knew before."""
     return _parses(after) and not _unknown(before, after)
 

@@ -6,7 +6,7 @@ import signal
 from functools import wraps
 from typing import Protocol
 
-from tutor.judge import causes, closing, tracebacks
+from tutor.judge import causes, shutdown_steps, tracebacks
 from tutor.judge.bench import Bench, Scenario
 from tutor.judge.trace import Ending, Exit, Trace
 from tutor.judge.verdict import Cause, Verdict, failed, passed
@@ -14,7 +14,7 @@ from tutor.judge.verdict import Cause, Verdict, failed, passed
 _CRASHES = signal.SIGSEGV, signal.SIGBUS, signal.SIGABRT
 _CONTEXT_GONE = "the given context is not valid"
 _AGAIN = 2
-"""So many more starts are looked at, at most, where it may be chance that a process did not end cleanly on Ctrl+C."""
+"""This many more starts are looked at, at most, where it may be chance that a process did not end cleanly on Ctrl+C."""
 
 _CONTEXT_OVER = "context is invalid", "context is not valid", "context argument is null"
 _ENDS_A_SPIN = "KeyboardInterrupt", "ExternalShutdownException"
@@ -29,7 +29,7 @@ class _Ended(Protocol):
     def ending(self) -> Ending | None: ...
 
 
-def confirmed[T: _Ended](scenario: Scenario[T]) -> Scenario[T]:
+def repeat_if_doubtful[T: _Ended](scenario: Scenario[T]) -> Scenario[T]:
     """The scenario, whose process ends on Ctrl+C; where it ended as a right program may by chance, seen on more starts.
 
     Gives the facts of one that ended so again, or else of one that did not. A mistake of the learner's shows each time.
@@ -46,20 +46,20 @@ def confirmed[T: _Ended](scenario: Scenario[T]) -> Scenario[T]:
     @wraps(scenario)
     async def look(bench: Bench) -> T:
         seen = await scenario(bench)
-        if doubtful(seen.ending):
+        if may_be_chance(seen.ending):
             for _ in range(_AGAIN):
-                bench.doing(0.9, "it did not end cleanly on Ctrl+C: looking whether it does so again")
+                bench.report_progress(0.9, "it did not end cleanly on Ctrl+C: looking whether it does so again")
                 seen = await scenario(bench)
-                if doubtful(seen.ending):
+                if may_be_chance(seen.ending):
                     break
         return seen
 
     return look
 
 
-def doubtful(ending: Ending | None) -> bool:
-    """Whether the process ended as a right program may by chance (see `confirmed`)."""
-    found = tracebacks.find(ending.output) if ending is not None else []
+def may_be_chance(ending: Ending | None) -> bool:
+    """Whether the process ended as a right program may by chance (see `repeat_if_doubtful`)."""
+    found = tracebacks.find_tracebacks(ending.output) if ending is not None else []
     return all(_spun_on(each) or _race_in_rclpy(each) for each in found) if found else _crashed(ending)
 
 
@@ -74,14 +74,14 @@ def _crashed(ending: Ending | None) -> bool:
     return ending is not None and ending.exit is not None and ending.exit.signal in _CRASHES
 
 
-def judge(trace: Trace, ending: Ending | None) -> Verdict:
+def judge_ending(trace: Trace, ending: Ending | None) -> Verdict:
     """Judge how a process ended. `ending` is None where it had ended by itself before Ctrl+C could be pressed."""
     expected = EXPECTED.format(limit=ending.limit_s if ending else 5)
     if ending is None:
-        cause = causes.of_process(trace) or Cause(
+        cause = causes.diagnose_process(trace) or Cause(
             "exit at once", "the process had ended before Ctrl+C was pressed", "let the node run until Ctrl+C"
         )
-        return failed(expected, f"ended by itself with {trace.exit}", cause, causes.last_words(trace))
+        return failed(expected, f"ended by itself with {trace.exit}", cause, causes.output_tail(trace))
     if ending.exit is None:
         return failed(
             expected,
@@ -89,36 +89,38 @@ def judge(trace: Trace, ending: Ending | None) -> Verdict:
             Cause(
                 "SIGINT ignored",
                 "the process goes on after Ctrl+C",
-                closing.letting_go(trace),
+                shutdown_steps.allow_interrupt(trace),
             ),
-            causes.last_words(trace),
+            causes.output_tail(trace),
         )
-    found = [each for each in tracebacks.find(ending.output) if not _of_rclpys_clean_up(each, trace)]
+    found = [each for each in tracebacks.find_tracebacks(ending.output) if not _is_from_rclpy_clean_up(each, trace)]
     observed = f"ended {ending.took_s:.2f} s after Ctrl+C with {ending.exit}"
     if found and not _race_in_rclpy(found[-1]):
-        return failed(expected, f"{observed} and a traceback", _of_traceback(found[-1], trace), [found[-1].raised])
+        return failed(
+            expected, f"{observed} and a traceback", _diagnose_traceback(found[-1], trace), [found[-1].raised]
+        )
     if ending.exit.code in (0, 130) or ending.exit.signal == 2 or (found and ending.exit.code == 1):
         return passed(expected, observed)
     other = Cause(
         "non-zero exit",
         f"the process ended with {ending.exit}",
-        closing.returning(trace),
+        shutdown_steps.exit_with_zero(trace),
     )
-    crash = _of_crash(ending.exit, ending, trace) if _crashed(ending) else None
-    cause = causes.of_torn_thread(ending.exit, ending.output) or crash or other
-    return failed(expected, observed, cause, causes.last_words(trace))
+    crash = _diagnose_crash(ending.exit, ending, trace) if _crashed(ending) else None
+    cause = causes.diagnose_torn_thread(ending.exit, ending.output) or crash or other
+    return failed(expected, observed, cause, causes.output_tail(trace))
 
 
-def _of_crash(ended: Exit, ending: Ending, trace: Trace) -> Cause:
-    own = tracebacks.own(tracebacks.dumped(ending.output), trace.folder)
+def _diagnose_crash(ended: Exit, ending: Ending, trace: Trace) -> Cause:
+    own = tracebacks.own_frame(tracebacks.dumped_frames(ending.output), trace.folder)
     return Cause(
         "non-zero exit",
         f"after Ctrl+C the process crashes with {ended}" + (f", at {own}" if own else ""),
-        closing.returning(trace),
+        shutdown_steps.exit_with_zero(trace),
     )
 
 
-def _of_rclpys_clean_up(found: tracebacks.Traceback, trace: Trace) -> bool:
+def _is_from_rclpy_clean_up(found: tracebacks.Traceback, trace: Trace) -> bool:
     """Whether Python reports this from the clean-up of an object of rclpy's, with no line of the learner's in it.
 
     Seen once in 200 runs with a fast timer (rclpy 7.1.6).
@@ -135,23 +137,23 @@ def _race_in_rclpy(found: tracebacks.Traceback) -> bool:
     return any(frame.function == "try_shutdown" for frame in found.frames) and "already called" in found.message
 
 
-def _of_traceback(found: tracebacks.Traceback, trace: Trace) -> Cause:
+def _diagnose_traceback(found: tracebacks.Traceback, trace: Trace) -> Cause:
     own = found.own(trace.folder)
     if any(words in found.message for words in _SHUT_DOWN_TWICE):
         return Cause(
             "shutdown() after Ctrl+C",
             "rclpy has shut its context down already when Ctrl+C arrives, so rclpy.shutdown() raises RCLError",
-            closing.catching(trace),
+            shutdown_steps.catch_interrupt(trace),
         )
     if any(found.type.endswith(name) for name in _ENDS_A_SPIN):
         return Cause(
             "traceback on exit",
             f"{found.type.rsplit('.', 1)[-1]} reaches the end of the program" + (f" ({own})" if own else ""),
-            closing.catching(trace),
+            shutdown_steps.catch_interrupt(trace),
         )
     known = causes.known(found, trace) if not any(words in found.message for words in _CONTEXT_OVER) else None
     return Cause(
         "traceback on exit",
         f"{found.raised}" + (f" ({own})" if own else ""),
-        known.hint if known and not closing.raises(own) else closing.leaving_out(trace, own),
+        known.hint if known and not shutdown_steps.is_raise(own) else shutdown_steps.remove_line(trace, own),
     )

@@ -72,7 +72,7 @@ def encode(event: Event) -> str:
 def decode(line: str) -> Event:
     """Read an event that `encode` wrote.
 
-    Raises ValueError for a line that is no event.
+    Raises ValueError for a line that is not an event.
     """
     try:
         fields = json.loads(line)

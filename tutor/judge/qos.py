@@ -23,19 +23,19 @@ class Qos(Protocol):
     def lease_s(self) -> float | None: ...
 
 
-def unmet(offered: Qos, asked: Qos) -> Iterator[Policy]:
+def incompatible_policies(offered: Qos, requested: Qos) -> Iterator[Policy]:
     """The policies of which a subscription asks for more than the publisher offers."""
-    if (offered.reliability, asked.reliability) == ("best_effort", "reliable"):
+    if (offered.reliability, requested.reliability) == ("best_effort", "reliable"):
         yield "reliability"
-    if (offered.durability, asked.durability) == ("volatile", "transient_local"):
+    if (offered.durability, requested.durability) == ("volatile", "transient_local"):
         yield "durability"
-    if _longer(offered.deadline_s, asked.deadline_s):
+    if _longer(offered.deadline_s, requested.deadline_s):
         yield "deadline"
-    if _longer(offered.lease_s, asked.lease_s):
+    if _longer(offered.lease_s, requested.lease_s):
         yield "lease"
-    if (offered.liveliness, asked.liveliness) == ("automatic", "manual_by_topic"):
+    if (offered.liveliness, requested.liveliness) == ("automatic", "manual_by_topic"):
         yield "liveliness"
 
 
-def _longer(offered_s: float | None, asked_s: float | None) -> bool:
-    return asked_s is not None and (offered_s is None or offered_s > asked_s)
+def _longer(offered_s: float | None, requested_s: float | None) -> bool:
+    return requested_s is not None and (offered_s is None or offered_s > requested_s)

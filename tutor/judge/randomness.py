@@ -29,7 +29,7 @@ SMOOTH = 5e-4
 """Values of which all but this share of the variance follows from those before are a curve, not noise."""
 
 LONGEST_STEPS = 6
-"""A ramp may go in a round of up to so many different steps."""
+"""A ramp may go in a round of up to this many different steps."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,10 +45,10 @@ class Pattern:
     sure: bool = True
 
 
-def pattern(values: Sequence[float]) -> Pattern | None:
+def find_pattern(values: Sequence[float]) -> Pattern | None:
     """The regularity in `values` (in order of time), or None where they vary as random ones do.
 
-    Fewer than three values show nothing either way. What is no number is left out, unless there is nothing else.
+    Fewer than three values show nothing either way. What is not a number is left out, unless there is nothing else.
     """
     numbers = _finite(values)
     if len(values) >= 3 and not numbers:
@@ -65,10 +65,10 @@ def pattern(values: Sequence[float]) -> Pattern | None:
     )
 
 
-def suspicious(values: Sequence[float]) -> bool:
+def needs_more_values(values: Sequence[float]) -> bool:
     """Whether more values are needed before `pattern` can be trusted to have found nothing, or something."""
     values = _finite(values)
-    if len(values) < ENOUGH or pattern(values) is not None:
+    if len(values) < ENOUGH or find_pattern(values) is not None:
         return True
     again = max(Counter(step for step in _steps(values) if step != 0).values(), default=0)
     return (

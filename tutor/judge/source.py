@@ -36,30 +36,30 @@ class SourceFile:
     def _parents(self) -> dict[ast.AST, ast.AST]:
         return {child: parent for parent in self.nodes for child in ast.iter_child_nodes(parent)}
 
-    def outwards(self, node: ast.AST) -> Iterator[ast.AST]:
+    def ancestors(self, node: ast.AST) -> Iterator[ast.AST]:
         """What is around a part, from the inside out."""
         while (parent := self._parents.get(node)) is not None:
             yield parent
             node = parent
 
-    def within(self, node: ast.AST) -> Function | None:
+    def function_around(self, node: ast.AST) -> Function | None:
         """The innermost function around a part."""
-        return next((each for each in self.outwards(node) if isinstance(each, Function)), None)
+        return next((each for each in self.ancestors(node) if isinstance(each, Function)), None)
 
     def class_of(self, function: ast.AST) -> ast.ClassDef | None:
         """The class that a method belongs to."""
-        return next((each for each in self.outwards(function) if isinstance(each, ast.ClassDef)), None)
+        return next((each for each in self.ancestors(function) if isinstance(each, ast.ClassDef)), None)
 
     def statement(self, node: ast.AST) -> ast.stmt:
         """The innermost statement that a part belongs to, or is."""
-        return next(each for each in (node, *self.outwards(node)) if isinstance(each, ast.stmt))
+        return next(each for each in (node, *self.ancestors(node)) if isinstance(each, ast.stmt))
 
     def calls(self, *names: str) -> list[ast.Call]:
         """The calls of functions and methods of these names, in the order in which they are written."""
-        found = [each for each in self.nodes if isinstance(each, ast.Call) and called(each) in names]
+        found = [each for each in self.nodes if isinstance(each, ast.Call) and called_name(each) in names]
         return sorted(found, key=lambda each: (each.lineno, each.col_offset))
 
-    def kept(self, call: ast.Call) -> str:
+    def assigned_to(self, call: ast.Call) -> str:
         """What a call's result is assigned to, such as "self.timer"; empty where it is not."""
         match self._parents.get(call):
             case ast.Assign(targets=[*_, target]) | ast.AnnAssign(target=target):
@@ -131,18 +131,18 @@ def files(trace: Trace) -> list[SourceFile]:
     return [SourceFile(text, name if several else "") for name, text in trace.sources.items()]
 
 
-def holding(trace: Trace, node: ast.AST) -> SourceFile:
+def file_holding(trace: Trace, node: ast.AST) -> SourceFile:
     """The file that a part of a syntax tree is of."""
     return next(each for each in files(trace) if node in each.nodes)
 
 
-def nodes(trace: Trace) -> Iterator[ast.AST]:
+def all_nodes(trace: Trace) -> Iterator[ast.AST]:
     """All nodes of the syntax trees of the learner's files."""
     for text in trace.sources.values():
         yield from ast.walk(_parsed(text))
 
 
-def tree(text: str) -> list[ast.AST]:
+def syntax_nodes(text: str) -> list[ast.AST]:
     """All nodes of the syntax tree of one file, by its text: the same ones each time."""
     return list(ast.walk(_parsed(text)))
 
@@ -152,14 +152,14 @@ def mentions(trace: Trace, *names: str) -> bool:
     wanted = set(names)
     return any(
         (isinstance(node, ast.Name) and node.id in wanted) or (isinstance(node, ast.Attribute) and node.attr in wanted)
-        for node in nodes(trace)
+        for node in all_nodes(trace)
     )
 
 
 def calls(trace: Trace, *names: str) -> list[ast.Call]:
     """The calls of functions and methods of these names, in the order in which they are written."""
     wanted = set(names)
-    found = [node for node in nodes(trace) if isinstance(node, ast.Call) and called(node) in wanted]
+    found = [node for node in all_nodes(trace) if isinstance(node, ast.Call) and called_name(node) in wanted]
     return sorted(found, key=lambda call: call.lineno)
 
 
@@ -170,10 +170,10 @@ def assigned(trace: Trace, *names: str) -> list[tuple[str, int]]:
     """
     wanted = set(names)
     found = []
-    for node in nodes(trace):
+    for node in all_nodes(trace):
         if isinstance(node, ast.Assign | ast.AnnAssign) and isinstance(node.value, ast.Call):
             target = node.targets[0] if isinstance(node, ast.Assign) else node.target
-            if called(node.value) in wanted:
+            if called_name(node.value) in wanted:
                 plain = isinstance(target, ast.Name | ast.Attribute)
                 found.append((ast.unparse(target) if plain else "", node.end_lineno or node.lineno))
     return sorted(found, key=lambda each: each[1])
@@ -183,21 +183,21 @@ def callbacks(trace: Trace, create: str) -> list[Function]:
     """The functions that are given to `create`, such as "create_subscription", and those that they call, by name."""
     given = [each for call in calls(trace, create) for each in (*call.args, *(k.value for k in call.keywords))]
     inside = [call for each in given if isinstance(each, ast.Lambda) for call in calls_in(each)]
-    waiting = [last_name(each) for each in given] + [called(call) for call in inside]
+    waiting = [last_name(each) for each in given] + [called_name(call) for call in inside]
     found: dict[str, list[Function]] = {}
     while waiting:
         name = waiting.pop(0)
-        named = [each for each in nodes(trace) if isinstance(each, Function) and each.name == name]
+        named = [each for each in all_nodes(trace) if isinstance(each, Function) and each.name == name]
         if named and name not in found:
             found[name] = named
-            waiting += [called(call) for function in named for call in calls_in(function)]
+            waiting += [called_name(call) for function in named for call in calls_in(function)]
     return [function for named in found.values() for function in named]
 
 
 def calls_in(node: ast.AST | None, *names: str) -> list[ast.Call]:
     """The calls within a part of a syntax tree: all, or those of functions and methods of these names."""
     found = [each for each in ast.walk(node) if isinstance(each, ast.Call)] if node is not None else []
-    return [each for each in found if not names or called(each) in names]
+    return [each for each in found if not names or called_name(each) in names]
 
 
 def values_of(target: str, node: ast.AST) -> list[ast.expr]:
@@ -211,7 +211,7 @@ def where(node: ast.stmt | ast.expr) -> str:
     return f"line {node.lineno}: {ast.unparse(node)}"
 
 
-def called(call: ast.Call) -> str:
+def called_name(call: ast.Call) -> str:
     """The last part of the name of what is called; empty where it has none."""
     return last_name(call.func)
 

@@ -215,6 +215,6 @@ class Trace:
     dropped_lines: int = 0
     exit: Exit | None = None
 
-    def on(self, topic: str) -> tuple[Sample, ...]:
+    def samples_on(self, topic: str) -> tuple[Sample, ...]:
         """The samples of one topic, oldest first."""
         return self.samples.get(topic, ())

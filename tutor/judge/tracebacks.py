@@ -82,10 +82,10 @@ class Traceback:
 
     def own(self, folder: str) -> Frame | None:
         """The innermost frame in the learner's own code: the line that they can change."""
-        return own(reversed(self.frames), folder)
+        return own_frame(reversed(self.frames), folder)
 
 
-def find(output: Iterable[OutputLine]) -> tuple[Traceback, ...]:
+def find_tracebacks(output: Iterable[OutputLine]) -> tuple[Traceback, ...]:
     """All tracebacks in the output, oldest first; those of a main file that Python refuses, without a header, included.
 
     An exception group is followed by the exceptions in it.
@@ -93,7 +93,7 @@ def find(output: Iterable[OutputLine]) -> tuple[Traceback, ...]:
     return tuple(_tracebacks([line.text for line in output if line.stream == "stderr"]))
 
 
-def dumped(output: Iterable[OutputLine]) -> tuple[Frame, ...]:
+def dumped_frames(output: Iterable[OutputLine]) -> tuple[Frame, ...]:
     """The frames of a stack dump as faulthandler writes it on a fatal signal: all threads, innermost frame first."""
     frames: list[Frame] = []
     thread = 0
@@ -107,32 +107,32 @@ def dumped(output: Iterable[OutputLine]) -> tuple[Frame, ...]:
     return tuple(frames)
 
 
-def threads(frames: Iterable[Frame]) -> tuple[tuple[Frame, ...], ...]:
+def frames_by_thread(frames: Iterable[Frame]) -> tuple[tuple[Frame, ...], ...]:
     """The frames of each thread of a stack dump, innermost first."""
     return tuple(tuple(each) for _, each in groupby(frames, key=lambda frame: frame.thread))
 
 
-def own(frames: Iterable[Frame], folder: str) -> Frame | None:
+def own_frame(frames: Iterable[Frame], folder: str) -> Frame | None:
     """The first of the frames that is in the learner's own code."""
-    return next((frame for frame in frames if within(frame.path, folder)), None)
+    return next((frame for frame in frames if is_in_folder(frame.path, folder)), None)
 
 
 def called_by_executor(stuck: Sequence[Frame], folder: str) -> bool:
     """Whether, in frames innermost first, the learner's code is being run by an executor of rclpy's: as a callback."""
-    mine = next((i for i, frame in enumerate(stuck) if within(frame.path, folder)), None)
+    mine = next((i for i, frame in enumerate(stuck) if is_in_folder(frame.path, folder)), None)
     return mine is not None and any(frame.path.endswith("rclpy/executors.py") for frame in stuck[mine + 1 :])
 
 
-def last(trace: Trace) -> Traceback | None:
+def last_traceback(trace: Trace) -> Traceback | None:
     """The last traceback that the process wrote, or None.
 
     An ignored one counts only where there is no other: what objects say while Python goes down comes after the crash.
     """
-    found = find(trace.output)
+    found = find_tracebacks(trace.output)
     return next((each for each in reversed(found) if not each.ignored), found[-1] if found else None)
 
 
-def without(output: Sequence[OutputLine]) -> tuple[str, ...]:
+def lines_without_tracebacks(output: Sequence[OutputLine]) -> tuple[str, ...]:
     """The lines of the output that belong to no traceback's frames; the line that names the exception is kept."""
     kept: list[str] = []
     inside = False
@@ -198,6 +198,6 @@ def _without_margins(lines: Sequence[str]) -> list[str]:
     return plain
 
 
-def within(path: str, folder: str) -> bool:
+def is_in_folder(path: str, folder: str) -> bool:
     """Whether a file lies in the learner's folder, and is none of an installed package."""
     return bool(folder) and path.startswith(folder.rstrip("/") + "/") and "/site-packages/" not in path

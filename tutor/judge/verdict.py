@@ -90,6 +90,6 @@ def skipped(because: str) -> Verdict:
     return Verdict(Status.SKIPPED, cause=because)
 
 
-def fault(what: str, mend: str, evidence: Iterable[str] = ()) -> Verdict:
-    """The tool or the machine could not judge the criterion: `what` went wrong, and how to `mend` it."""
-    return Verdict(Status.ERROR, cause=what, hint=mend, evidence=tuple(evidence))
+def fault(what: str, hint: str, evidence: Iterable[str] = ()) -> Verdict:
+    """The tool or the machine could not judge the criterion: `what` went wrong, and `hint` says how to fix it."""
+    return Verdict(Status.ERROR, cause=what, hint=hint, evidence=tuple(evidence))

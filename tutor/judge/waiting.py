@@ -24,7 +24,7 @@ STUCK_S = 1.5
 """A node that is up has run into what it waits for within this time."""
 
 TRIES = 3
-STARVED = 0.2
+CPU_WAIT_SHARE = 0.2
 """Being kept from running for less than this share of the time hardly shows in a rate."""
 
 
@@ -32,7 +32,7 @@ IN_FLIGHT_S = 0.1
 """A message takes less than this from its source to us."""
 
 
-async def appears(
+async def wait_until_seen(
     run: Run, seen: Callable[[], bool], *, promised: Callable[[], bool] = lambda: False, rare_s: float = RARE_S
 ) -> bool:
     """Wait until `seen()`; give up when the process ends, never makes a node, or its node does nothing of the kind.
@@ -47,26 +47,26 @@ async def appears(
     return seen()
 
 
-async def first_message(run: Run, topic: str, type_name: str, *, rare_s: float = RARE_S) -> bool:
+async def wait_for_message(run: Run, topic: str, type_name: str, *, rare_s: float = RARE_S) -> bool:
     """Wait for a message of this type on this (watched) topic."""
-    return await appears(
+    return await wait_until_seen(
         run,
-        lambda: bool(run.on(topic)),
+        lambda: bool(run.samples_on(topic)),
         promised=lambda: any(p.topic == topic and p.type == type_name for p in run.graph.publishers),
         rare_s=rare_s,
     )
 
 
-async def stuck(bench: Bench, file: str) -> tuple[Frame, ...]:
+async def find_stuck_frames(bench: Bench, file: str) -> tuple[Frame, ...]:
     """Start a node that answered nothing once more, only to see where its threads are: innermost frames first."""
     async with bench.start(file) as run:
-        bench.doing(0.9, "looking where the node is stuck")
+        bench.report_progress(0.9, "looking where the node is stuck")
         await run.until(lambda: bool(run.graph.nodes), START_S)
         await run.until(lambda: run.exit is not None, STUCK_S)
-        return await run.stuck_at()
+        return await run.dump_stacks()
 
 
-async def heard_out(run: Run, *, quiet_s: float, most_s: float) -> None:
+async def wait_until_log_quiet(run: Run, *, quiet_s: float, most_s: float) -> None:
     """Wait until nothing has been logged for `quiet_s`, or for `most_s` where a node logs without end."""
     seen, until = -1, run.now() + most_s
     while len(run.logs) != seen and run.now() < until:
@@ -79,7 +79,7 @@ def window_s(hz: float) -> float:
     return max(1.0, (2.0 if hz < 1 else 3.0) / hz)
 
 
-async def steady_rate(run: Run, topic: str, asked_hz: float, *, since: float) -> tuple[Rate | None, int]:
+async def measure_steady_rate(run: Run, topic: str, asked_hz: float, *, since: float) -> tuple[Rate | None, int]:
     """The rate on `topic` from source time `since` on, and the number of messages it is taken from.
 
     Listens for as long as `asked_hz` needs. Where what it hears does not agree, it listens once more, and longer, and
@@ -91,9 +91,9 @@ async def steady_rate(run: Run, topic: str, asked_hz: float, *, since: float) ->
     for _ in range(TRIES):
         if rate is not None and rate.agrees(asked_hz):
             break
-        for_s, starved_s = max(window_s(asked_hz), AGAIN_S), run.starved_s()
+        for_s, cpu_wait_s = max(window_s(asked_hz), AGAIN_S), run.node_cpu_wait_s()
         rate, messages = await _listen(run, topic, run.now(), for_s)
-        if not excused(messages, asked_hz, starved_s=run.starved_s() - starved_s, of_s=for_s):
+        if not too_few_by_cpu_wait(messages, asked_hz, cpu_wait_s=run.node_cpu_wait_s() - cpu_wait_s, of_s=for_s):
             break
     else:
         if rate is None or not rate.agrees(asked_hz):
@@ -101,20 +101,20 @@ async def steady_rate(run: Run, topic: str, asked_hz: float, *, since: float) ->
     return rate, messages
 
 
-def excused(messages: int, asked_hz: float, *, starved_s: float, of_s: float) -> bool:
-    """Whether so few messages in `of_s` may be so only because the machine kept the node from running for `starved_s`.
+def too_few_by_cpu_wait(messages: int, asked_hz: float, *, cpu_wait_s: float, of_s: float) -> bool:
+    """Whether so few messages in `of_s` may be so only because the machine kept the node from running for `cpu_wait_s`.
 
     Too many messages are never excused.
     """
-    if starved_s < STARVED * of_s:
+    if cpu_wait_s < CPU_WAIT_SHARE * of_s:
         return False
     mean_hz = max(messages, 1) / of_s
-    ran = max(0.05, 1 - starved_s / of_s)
+    ran = max(0.05, 1 - cpu_wait_s / of_s)
     return mean_hz <= asked_hz and mean_hz / ran >= (1 - TOLERANCE) * asked_hz
 
 
 async def _listen(run: Run, topic: str, start: float, for_s: float) -> tuple[Rate | None, int]:
-    end, late_s = start + for_s, run.late_s()
-    await run.until(lambda: run.now() >= end + IN_FLIGHT_S + run.late_s() - late_s, for_s + 2)
-    heard = [sample for sample in run.on(topic) if start <= sample.source_time <= end]
+    end, late_s = start + for_s, run.our_cpu_wait_s()
+    await run.until(lambda: run.now() >= end + IN_FLIGHT_S + run.our_cpu_wait_s() - late_s, for_s + 2)
+    heard = [sample for sample in run.samples_on(topic) if start <= sample.source_time <= end]
     return measure(heard), len(heard)

@@ -1,6 +1,6 @@
 """`python -m tutor.live`: watches the user's own domain, for as long as its input is open.
 
-Commands come on stdin, news go to stdout, a JSON object to a line each (`tutor.live.protocol`).
+Requests come on stdin, updates go to stdout, a JSON object to a line each (`tutor.live.protocol`).
 """
 
 from __future__ import annotations
@@ -11,25 +11,25 @@ import os
 import sys
 from typing import BinaryIO
 
-from tutor.live.facts import TopicNews
+from tutor.live.facts import TopicUpdate
 from tutor.live.lifeline import read_lines
-from tutor.live.protocol import News, decode_command, encode
+from tutor.live.protocol import Update, decode_request, encode
 from tutor.process.prctl import die_with_parent
 from tutor.ros.environment import detect
-from tutor.ros.this_process import use
+from tutor.ros.this_process import prepare_for_rclpy
 
 FULL = 1 << 20
-"""With so many bytes unread, news of topics are left out: the next ones say it all again."""
+"""With this many bytes unread, updates of topics are left out: the next ones say it all again."""
 
 
 def main() -> int:
     """Watch until stdin ends. Exit code 0."""
-    use(detect(), isolated=False)
+    prepare_for_rclpy(detect(), isolated=False)
     die_with_parent()
-    # What libraries print must not get among the news.
-    news = os.fdopen(os.dup(sys.stdout.fileno()), "wb", buffering=0)
+    # What libraries print must not get among the updates.
+    update = os.fdopen(os.dup(sys.stdout.fileno()), "wb", buffering=0)
     os.dup2(sys.stderr.fileno(), sys.stdout.fileno())
-    asyncio.run(_watch(news))
+    asyncio.run(_watch(update))
     # Threads of the middleware may take their time; nothing of ours is left to be saved.
     sys.stderr.flush()
     os._exit(0)
@@ -41,15 +41,15 @@ async def _watch(pipe: BinaryIO) -> None:
     loop = asyncio.get_running_loop()
     transport, _ = await loop.connect_write_pipe(asyncio.BaseProtocol, pipe)
 
-    def say(said: News) -> None:
-        if not (isinstance(said, TopicNews) and transport.get_write_buffer_size() > FULL):
+    def say(said: Update) -> None:
+        if not (isinstance(said, TopicUpdate) and transport.get_write_buffer_size() > FULL):
             transport.write(encode(said).encode() + b"\n")
 
     watcher = Watcher(_domain_id(), say)
     running = asyncio.ensure_future(watcher.run())
 
     def hear(line: str) -> None:
-        loop.call_soon_threadsafe(lambda: watcher.do(decode_command(line)))
+        loop.call_soon_threadsafe(lambda: watcher.do(decode_request(line)))
 
     def over() -> None:
         with contextlib.suppress(RuntimeError):  # the loop is closed: it is over already

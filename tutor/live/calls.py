@@ -9,10 +9,10 @@ from collections.abc import Callable
 from tutor.live.facts import CallOutcome, RequestForm
 from tutor.live.protocol import Call
 from tutor.live.topics import MOST_TEXT
-from tutor.ros.as_yaml import to_yaml
 from tutor.ros.messages import UnknownType, cut
 from tutor.ros.observer import Observer
 from tutor.ros.requests import fill_request, message_fields, request_fields
+from tutor.ros.yaml_format import to_yaml
 
 CANCELLED = "cancelled"
 

@@ -90,13 +90,13 @@ class Timing:
 
 
 @dataclass(frozen=True, slots=True)
-class TopicNews:
+class TopicUpdate:
     """How a followed topic stands.
 
     `count` is exact: every message that was received since following began, or the last clear. `lost` are those that
     were sent and never arrived, as the publisher's numbers tell (None with several publishers). `silent_s` is the time
     since the last message. `text` is the newest one as `ros2 topic echo` writes it, None where there is no newer one.
-    `points` are (t, value) of `field`, a sample of what arrived since the last news. `problem`: why nothing can come.
+    `points` are (t, value) of `field`, a sample of what arrived since the last update. `problem`: why nothing can come.
     """
 
     topic: str

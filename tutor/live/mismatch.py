@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from tutor.judge.qos import Policy, unmet
+from tutor.judge.qos import Policy, incompatible_policies
 from tutor.live.facts import Endpoint, Qos, Topic
 
 
@@ -34,7 +34,7 @@ def problems(publisher: Endpoint, subscription: Endpoint) -> Iterator[str]:
             "No message arrives."
         )
         return
-    for policy in unmet(publisher.qos, subscription.qos):
+    for policy in incompatible_policies(publisher.qos, subscription.qos):
         yield _sentence(policy, publisher.qos, subscription.qos)
 
 

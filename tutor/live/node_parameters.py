@@ -12,8 +12,8 @@ from typing import Any
 from tutor.live.facts import Graph, NodeParameters, SetOutcome
 from tutor.live.protocol import SetParameter
 from tutor.ros.observer import Observer
-from tutor.ros.parameter_events import hear_changes
-from tutor.ros.parameters import ask, set_values
+from tutor.ros.parameter_events import watch_changes
+from tutor.ros.parameters import get_parameters, set_parameters
 
 LIMIT_S = 3.0
 """How long a node may take to answer, in seconds."""
@@ -32,7 +32,7 @@ class ParameterWatch:
         self._asking: dict[str, asyncio.Task[None]] = {}
         self._dirty: set[str] = set()
         self._again: dict[str, float] = {}
-        hear_changes(observer, self.ask)
+        watch_changes(observer, self.ask)
 
     def look(self, graph: Graph) -> None:
         """The graph has changed: ask the nodes that are new."""
@@ -57,7 +57,7 @@ class ParameterWatch:
         for node in self._nodes:
             self.ask(node)
 
-    def ask_silent(self) -> None:
+    def retry_silent(self) -> None:
         """Ask those again that did not answer some time ago."""
         for node, due in list(self._again.items()):
             if time.monotonic() >= due:
@@ -65,7 +65,7 @@ class ParameterWatch:
 
     async def set(self, order: SetParameter) -> SetOutcome:
         """Set one parameter; the node's answer, or that none came."""
-        answer = await set_values(
+        answer = await set_parameters(
             self._observer,
             order.node,
             {order.name: order.value},
@@ -87,7 +87,7 @@ class ParameterWatch:
 
     async def _ask(self, node: str) -> None:
         try:
-            found = await ask(self._observer, [node], LIMIT_S)
+            found = await get_parameters(self._observer, [node], LIMIT_S)
             self._again.pop(node, None)
             if found is None:
                 self._again[node] = time.monotonic() + ASK_AGAIN_S

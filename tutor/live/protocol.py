@@ -9,9 +9,9 @@ from dataclasses import asdict, dataclass, fields, is_dataclass
 from functools import cache
 from typing import Any, Union, get_args, get_origin, get_type_hints
 
-from tutor.live.facts import CallOutcome, Graph, NodeParameters, Published, RequestForm, SetOutcome, TopicNews
+from tutor.live.facts import CallOutcome, Graph, NodeParameters, Published, RequestForm, SetOutcome, TopicUpdate
 
-# --- commands: from the app ---
+# --- requests: from the app ---
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,8 +44,8 @@ class Plot:
 
 
 @dataclass(frozen=True, slots=True)
-class Attend:
-    """Whether anybody looks: without, everything is counted but no news of topics is sent."""
+class SetVisible:
+    """Whether anybody looks: without, everything is counted but no updates of topics are sent."""
 
     seen: bool
 
@@ -93,7 +93,7 @@ class Cancel:
 
 @dataclass(frozen=True, slots=True)
 class Publish:
-    """Publish a message once (`rate_hz` 0) or so many times a second, instead of what is published on the topic now.
+    """Publish a message once (`rate_hz` 0) or `rate_hz` times a second, instead of what is published on the topic now.
 
     `values` are by the paths of its fields. Answered by Published, again and again while it goes on.
     """
@@ -111,12 +111,12 @@ class StopPublishing:
     topic: str
 
 
-Command = (
+WatcherRequest = (
     Follow
     | Unfollow
     | Clear
     | Plot
-    | Attend
+    | SetVisible
     | Refresh
     | SetParameter
     | Describe
@@ -126,7 +126,7 @@ Command = (
     | StopPublishing
 )
 
-# --- news: to the app ---
+# --- updates: to the app ---
 
 
 @dataclass(frozen=True, slots=True)
@@ -137,32 +137,34 @@ class Ready:
 
 
 @dataclass(frozen=True, slots=True)
-class Trouble:
+class WatcherError:
     """Something went wrong in the child; one line."""
 
     text: str
 
 
-News = Ready | Trouble | Graph | TopicNews | NodeParameters | SetOutcome | RequestForm | CallOutcome | Published
+Update = (
+    Ready | WatcherError | Graph | TopicUpdate | NodeParameters | SetOutcome | RequestForm | CallOutcome | Published
+)
 
-_KINDS: dict[str, type[Any]] = {kind.__name__: kind for kind in (*get_args(Command), *get_args(News))}
+_KINDS: dict[str, type[Any]] = {kind.__name__: kind for kind in (*get_args(WatcherRequest), *get_args(Update))}
 
 
-def encode(said: Command | News) -> str:
+def encode(said: WatcherRequest | Update) -> str:
     """Write it as one line of JSON in ASCII, without the line's end."""
     return json.dumps({"kind": type(said).__name__, **asdict(said)})
 
 
-def decode_command(line: str) -> Command:
-    """Read a command. Raises ValueError for a line that is none."""
-    command: Command = _decode(line, get_args(Command))
+def decode_request(line: str) -> WatcherRequest:
+    """Read a request. Raises ValueError for a line that is not one."""
+    command: WatcherRequest = _decode(line, get_args(WatcherRequest))
     return command
 
 
-def decode_news(line: str) -> News:
-    """Read news. Raises ValueError for a line that is none."""
-    news: News = _decode(line, get_args(News))
-    return news
+def decode_update(line: str) -> Update:
+    """Read an update. Raises ValueError for a line that is not one."""
+    update: Update = _decode(line, get_args(Update))
+    return update
 
 
 def _decode(line: str, expected: tuple[Any, ...]) -> Any:

@@ -8,14 +8,14 @@ from collections.abc import Callable
 
 from tutor.live.facts import Published
 from tutor.live.protocol import Publish
-from tutor.ros.by_hand import Hand
+from tutor.ros.manual_publisher import ManualPublisher
 from tutor.ros.messages import UnknownType
 
 CONNECT_S = 2.0
 """How long a publisher that is new waits for those that listen, in seconds; then it publishes all the same."""
 
 LINGER_S = 1.0
-"""How long it stays after its only message, in seconds: who leaves at once may take it along."""
+"""How long it stays after its only message, in seconds: a publisher that leaves at once may take it along."""
 
 TELL_EVERY_S = 0.5
 FASTEST_HZ = 1000.0
@@ -29,8 +29,10 @@ class Publishing:
     `expect` is told a topic and its type before, and answers whether we listen to it ourselves.
     """
 
-    def __init__(self, hand: Hand, expect: Callable[[str, str], bool], tell: Callable[[Published], object]) -> None:
-        self._hand = hand
+    def __init__(
+        self, manual_publisher: ManualPublisher, expect: Callable[[str, str], bool], tell: Callable[[Published], object]
+    ) -> None:
+        self._manual_publisher = manual_publisher
         self._expect = expect
         self._tell = tell
         self._running: dict[str, asyncio.Task[None]] = {}
@@ -50,16 +52,16 @@ class Publishing:
         sent, problem = 0, ""
 
         def say(over: bool) -> None:
-            listeners = self._hand.listeners(order.topic)
-            news = Published(order.topic, order.type, order.rate_hz, sent, listeners, time.time(), over, problem)
-            self._tell(news)
+            listeners = self._manual_publisher.listeners(order.topic)
+            update = Published(order.topic, order.type, order.rate_hz, sent, listeners, time.time(), over, problem)
+            self._tell(update)
 
         try:
-            self._hand.open(order.topic, order.type, order.values)
+            self._manual_publisher.add(order.topic, order.type, order.values)
             await self._connect(order.topic, self._expect(order.topic, order.type))
             began, told = time.perf_counter(), 0.0
             while sent == 0 or order.rate_hz:
-                self._hand.publish(order.topic)
+                self._manual_publisher.publish(order.topic)
                 sent += 1
                 if order.rate_hz and time.perf_counter() >= told + TELL_EVERY_S:
                     told = time.perf_counter()
@@ -75,9 +77,9 @@ class Publishing:
             problem = str(error)
         finally:
             say(over=True)
-            self._hand.shut(order.topic)
+            self._manual_publisher.remove(order.topic)
 
     async def _connect(self, topic: str, ours: bool) -> None:
         deadline = time.monotonic() + CONNECT_S
-        while not self._hand.is_connected(topic, ours) and time.monotonic() < deadline:
+        while not self._manual_publisher.is_connected(topic, ours) and time.monotonic() < deadline:
             await asyncio.sleep(_LOOK_EVERY_S)

@@ -13,11 +13,11 @@ WINDOW_S = 5.0
 """Rate and jitter are those of the last seconds..."""
 
 FEWEST = 10
-"""... or of so many periods, where a topic is slow."""
+"""... or of this many periods, where a topic is slow."""
 
 _BUCKET_S = 0.25
 _PAUSE = 8.0
-"""A period this many times the mean, and longer than the window, is a pause: measuring begins anew after it."""
+"""A period this many times the mean, and longer than the window, is a pause: measuring starts again after it."""
 
 
 @dataclass(slots=True)
@@ -75,7 +75,7 @@ class Statistics:
         )
 
     def _number(self, number: int | None) -> None:
-        # A smaller number is another publisher, or one that was started anew: it says nothing about loss.
+        # A smaller number is another publisher, or one that was restarted: it says nothing about loss.
         if number is not None and self._last_number is not None and number > self._last_number:
             self.missing += number - self._last_number - 1
         self._last_number = number

@@ -1,4 +1,4 @@
-"""The topics that are followed: counted in the tap's thread, told about at a bounded rate."""
+"""The topics that are followed: counted in the subscription's thread, told about at a bounded rate."""
 
 from __future__ import annotations
 
@@ -7,15 +7,15 @@ import time
 from collections import deque
 from dataclasses import dataclass, field
 
-from tutor.live.facts import Endpoint, Graph, Qos, Topic, TopicNews
+from tutor.live.facts import Endpoint, Graph, Qos, Topic, TopicUpdate
 from tutor.live.statistics import Statistics
-from tutor.ros.as_yaml import number_at, numeric_fields, to_yaml
-from tutor.ros.messages import UnknownType, cut, interface
-from tutor.ros.tap import Batch, Tap, read
-from tutor.ros.whole_graph import qos_of_echo
+from tutor.ros.messages import UnknownType, cut, interface_class
+from tutor.ros.raw_subscription import Batch, RawSubscription, deserialize
+from tutor.ros.whole_graph import echo_qos
+from tutor.ros.yaml_format import number_at, numeric_fields, to_yaml
 
 POINTS_PER_NEWS = 10
-"""Values sampled for a plot between two news: a hundred a second, whatever the topic's rate."""
+"""Values sampled for a plot between two updates: a hundred a second, whatever the topic's rate."""
 
 BIG = 100_000
 """Of messages of more bytes than this, only the newest one is sampled."""
@@ -24,7 +24,7 @@ BIGGEST = 10_000_000
 """Messages of more bytes than this are counted only."""
 
 MOST_TEXT = 100_000
-"""Of a message's text, so many characters are told."""
+"""Of a message's text, this many characters are told."""
 
 SILENT_EVERY_S = 1.0
 """How often a silent topic is told about, in seconds."""
@@ -54,7 +54,7 @@ class _Followed:
     lock: threading.Lock = field(default_factory=threading.Lock)
 
     def take(self, batch: Batch) -> None:
-        """In the tap's thread."""
+        """In the subscription's thread."""
         with self.lock:
             self.statistics.add(batch.stamps, batch.numbers)
             self.newest = batch.newest
@@ -68,8 +68,8 @@ class _Followed:
 class FollowedTopics:
     """Which topics are followed, and what has come on them."""
 
-    def __init__(self, tap: Tap) -> None:
-        self._tap = tap
+    def __init__(self, raw_subscription: RawSubscription) -> None:
+        self._raw_subscription = raw_subscription
         self._all: dict[str, _Followed] = {}
 
     def follow(self, topic: str, graph: Graph) -> None:
@@ -88,7 +88,7 @@ class FollowedTopics:
     def unfollow(self, topic: str) -> None:
         """Follow it no longer."""
         if self._all.pop(topic, None) is not None:
-            self._tap.shut(topic)
+            self._raw_subscription.unsubscribe(topic)
 
     def clear(self, topic: str) -> None:
         """Count from nothing."""
@@ -106,11 +106,11 @@ class FollowedTopics:
             followed.stale = True
 
     def look(self, graph: Graph) -> None:
-        """The graph has changed: subscribe to what has appeared, and anew where publishers offer another QoS."""
+        """The graph has changed: subscribe to what has appeared, and again where publishers offer another QoS."""
         for followed in self._all.values():
             self._settle(followed, graph.topic(followed.topic))
 
-    def news(self) -> list[TopicNews]:
+    def updates(self) -> list[TopicUpdate]:
         """What is new since the last call."""
         now = time.monotonic()
         return [self._tell(followed, now) for followed in self._all.values() if _is_due(followed, now)]
@@ -124,7 +124,7 @@ class FollowedTopics:
         followed.stale = followed.stale or followed.problem != before
         if followed.problem:
             return
-        reliability, durability = qos_of_echo(topic)
+        reliability, durability = echo_qos(topic)
         wanted = (types[0], reliability, durability)
         if wanted == followed.opened:
             return
@@ -132,9 +132,9 @@ class FollowedTopics:
         followed.type = types[0]
         followed.qos = Qos(reliability.short_key, durability.short_key)
         followed.stale = True
-        self._tap.open(followed.topic, types[0], reliability, durability, followed.take)
+        self._raw_subscription.subscribe(followed.topic, types[0], reliability, durability, followed.take)
 
-    def _tell(self, followed: _Followed, now: float) -> TopicNews:
+    def _tell(self, followed: _Followed, now: float) -> TopicUpdate:
         with followed.lock:
             count, timing = followed.statistics.count, followed.statistics.timing()
             lost = None if followed.several else followed.statistics.missing
@@ -148,9 +148,9 @@ class FollowedTopics:
         points = [
             (stamp, value)
             for stamp, raw in readable
-            if (value := number_at(read(followed.type, raw), followed.path)) is not None
+            if (value := number_at(deserialize(followed.type, raw), followed.path)) is not None
         ]
-        return TopicNews(
+        return TopicUpdate(
             topic=followed.topic,
             type=followed.type,
             qos=followed.qos,
@@ -172,7 +172,7 @@ class FollowedTopics:
             followed.told = newest
             return f"(a message of {len(newest) / 1e6:.0f} MB: too big to be shown here)", ()
         began = time.perf_counter()
-        message = read(followed.type, newest)
+        message = deserialize(followed.type, newest)
         text = cut(to_yaml(message), MOST_TEXT)
         fields = numeric_fields(message)
         if not followed.path and fields:
@@ -193,7 +193,7 @@ def _problem(types: tuple[str, ...]) -> str:
     if len(types) > 1:
         return f"Publishers of different types: {' and '.join(types)}. One topic has one type."
     try:
-        interface(types[0])
+        interface_class(types[0])
     except UnknownType:
         return f"This ROS does not have the type {types[0]}: build or source the package that has it."
     return ""

@@ -11,31 +11,31 @@ from tutor.live.calls import Calls, describe
 from tutor.live.facts import Graph
 from tutor.live.node_parameters import ParameterWatch
 from tutor.live.protocol import (
-    Attend,
     Call,
     Cancel,
     Clear,
-    Command,
     Describe,
     Follow,
-    News,
     Plot,
     Publish,
     Ready,
     Refresh,
     SetParameter,
+    SetVisible,
     StopPublishing,
-    Trouble,
     Unfollow,
+    Update,
+    WatcherError,
+    WatcherRequest,
 )
 from tutor.live.publishing import Publishing
 from tutor.live.topics import FollowedTopics
-from tutor.ros.by_hand import Hand
+from tutor.ros.manual_publisher import ManualPublisher
 from tutor.ros.observer import Observer
-from tutor.ros.tap import Tap
-from tutor.ros.whole_graph import quick_look, whole_graph
+from tutor.ros.raw_subscription import RawSubscription
+from tutor.ros.whole_graph import graph_fingerprint, read_whole_graph
 
-NEWS_EVERY_S = 0.2
+UPDATE_EVERY_S = 0.2
 """Topics are told about at most this often, in seconds, however fast they are."""
 
 LOOK_EVERY_S = 0.5
@@ -44,18 +44,18 @@ LOOK_CLOSELY_EVERY_S = 2.0
 
 
 class Watcher:
-    """One participant that watches. `say` is given all news, on the event loop's thread."""
+    """One participant that watches. `say` is given all updates, on the event loop's thread."""
 
-    def __init__(self, domain_id: int, say: Callable[[News], object]) -> None:
+    def __init__(self, domain_id: int, say: Callable[[Update], object]) -> None:
         self._say = say
         self._observer = Observer(domain_id)
-        self._tap = Tap(self._observer.node.context)
+        self._raw_subscription = RawSubscription(self._observer.node.context)
         self._graph = Graph()
-        self._topics = FollowedTopics(self._tap)
+        self._topics = FollowedTopics(self._raw_subscription)
         self._parameters = ParameterWatch(self._observer, say)
         self._calls = Calls(self._observer, say)
-        self._hand = Hand(self._observer.node.context)
-        self._publishing = Publishing(self._hand, self._topics.expect, say)
+        self._manual_publisher = ManualPublisher(self._observer.node.context)
+        self._publishing = Publishing(self._manual_publisher, self._topics.expect, say)
         self._seen = True
         self._tasks: set[asyncio.Task[None]] = set()
         self._known: object = None
@@ -70,18 +70,18 @@ class Watcher:
             if now >= look_at:
                 self._look(now)
                 look_at = now + LOOK_EVERY_S
-                self._parameters.ask_silent()
+                self._parameters.retry_silent()
             if self._seen:
-                for news in self._topics.news():
-                    self._say(news)
+                for update in self._topics.updates():
+                    self._say(update)
             if (fault := self._observer.fault) is not None:
                 self._observer.fault = None
-                self._say(Trouble(f"Watching broke: {type(fault).__name__}: {fault}"))
-            await asyncio.sleep(NEWS_EVERY_S)  # the pace of the news, not a wait for anything
+                self._say(WatcherError(f"Watching broke: {type(fault).__name__}: {fault}"))
+            await asyncio.sleep(UPDATE_EVERY_S)  # the pace of the updates, not a wait for anything
 
-    def do(self, command: Command) -> None:
-        """Do what the app asks for; answers come as news."""
-        match command:
+    def do(self, request: WatcherRequest) -> None:
+        """Do what the app asks for; answers come as updates."""
+        match request:
             case Follow(topic):
                 self._topics.follow(topic, self._graph)
             case Unfollow(topic):
@@ -90,29 +90,29 @@ class Watcher:
                 self._topics.clear(topic)
             case Plot(topic, field):
                 self._topics.plot(topic, field)
-            case Attend(seen):
+            case SetVisible(seen):
                 self._seen = seen
             case Refresh():
                 self._looked_closely = 0.0
                 self._look(time.monotonic())
                 self._parameters.ask_all()
             case SetParameter():
-                self._beside(self._set(command))
+                self._beside(self._set(request))
             case Publish():
-                self._beside(self._publishing.begin(command))
+                self._beside(self._publishing.begin(request))
             case StopPublishing(topic):
                 self._beside(self._publishing.end(topic))
             case Describe(type_name):
                 self._say(describe(type_name))
             case Call():
-                self._calls.begin(command)
+                self._calls.begin(request)
             case Cancel(id):
                 self._calls.cancel(id)
 
     def close(self) -> None:
         """Leave the domain."""
-        self._hand.close()
-        self._tap.close()
+        self._manual_publisher.close()
+        self._raw_subscription.close()
         self._observer.close()
 
     def _beside(self, work: Coroutine[Any, Any, None]) -> None:
@@ -125,11 +125,11 @@ class Watcher:
         self._parameters.ask(order.node)
 
     def _look(self, now: float) -> None:
-        known = quick_look(self._observer.node)
+        known = graph_fingerprint(self._observer.node)
         if known == self._known and now < self._looked_closely + LOOK_CLOSELY_EVERY_S:
             return
         self._known, self._looked_closely = known, now
-        graph = whole_graph(self._observer.node)
+        graph = read_whole_graph(self._observer.node)
         if graph != self._graph:
             self._graph = graph
             self._say(graph)

@@ -12,8 +12,8 @@ def run(workspace: Path, out: Callable[[str], None], lessons: Path | None = None
     `lessons` is a folder with further `lessons/` and `checks/`. Raises ContentError where a lesson is broken.
     """
     from tutor.content import load_course
-    from tutor.plain.dialog import talk
-    from tutor.tui.desk import Desk
+    from tutor.plain.dialog import run_dialog
+    from tutor.tui.app_services import AppServices
     from tutor.workspace import Workspace
 
-    return talk(Desk(load_course(lessons), Workspace(workspace), lessons), out)
+    return run_dialog(AppServices(load_course(lessons), Workspace(workspace), lessons), out)

@@ -5,76 +5,76 @@ from __future__ import annotations
 from tutor.judge.events import CheckStarted, CriterionJudged, Event, Progress
 from tutor.judge.result import ExerciseResult
 from tutor.plain import speech
-from tutor.plain.here import Command, Here, Refused
+from tutor.plain.conversation import CommandRefused, Conversation, DialogCommand
 from tutor.workspace import StorageError, find_submission
 
 
 class Checks:
     """Judges the lesson's files, and remembers what was found."""
 
-    def __init__(self, here: Here) -> None:
-        self._here = here
+    def __init__(self, conversation: Conversation) -> None:
+        self._conversation = conversation
         self._found: dict[str, ExerciseResult] = {}
         self._said: set[str] = set()
         self.commands = (
-            Command("check", "check your node by what it does", self.check),
-            Command("why", "read the diagnosis of a criterion again, with the evidence", self.why, "CRITERION"),
+            DialogCommand("check", "check your node by what it does", self.check),
+            DialogCommand("why", "read the diagnosis of a criterion again, with the evidence", self.why, "CRITERION"),
         )
 
     async def check(self, words: list[str]) -> None:
         """Judge, and say what each criterion came to."""
-        desk, lesson = self._here.desk, self._here.lesson
-        submission = find_submission(lesson, None, desk.workspace)
+        app_services, lesson = self._conversation.app_services, self._conversation.lesson
+        submission = find_submission(lesson, None, app_services.workspace)
         from tutor import engine  # late: nothing but a check needs ROS
 
         self._said.clear()
         try:
-            report = await engine.check([submission], desk.course, only=None, on_event=self._tell)
+            report = await engine.run_check([submission], app_services.course, only=None, on_event=self._tell)
         except engine.EngineError as error:
-            raise Refused(
-                f"The check could not be made, which is no fault of your code: {error}. {error.mend}"
+            raise CommandRefused(
+                f"The check could not be made, which is no fault of your code: {error}. {error.hint}"
             ) from error
         for result in report.exercises:
             self._found[result.id] = result
             self._sum_up(result)
             try:
-                desk.record(result)
+                app_services.record(result)
             except StorageError as error:
-                self._here.say(f"This check is not in your progress: {error}")
+                self._conversation.say(f"This check is not in your progress: {error}")
 
     def _tell(self, event: Event) -> None:
         match event:
             case CheckStarted():
                 count = speech.counted(len(event.criteria), "criterion").replace("criterions", "criteria")
-                self._here.say(f"Checking {event.exercise}, {count}. This takes some seconds.")
+                self._conversation.say(f"Checking {event.exercise}, {count}. This takes some seconds.")
             case Progress() if event.doing and event.doing not in self._said:  # one run serves many criteria
                 self._said.add(event.doing)
-                self._here.say(f"{event.doing[0].upper()}{event.doing[1:]}.")
+                self._conversation.say(f"{event.doing[0].upper()}{event.doing[1:]}.")
             case CriterionJudged():
-                self._here.say(speech.headline(event.result))
+                self._conversation.say(speech.headline(event.result))
 
     def _sum_up(self, result: ExerciseResult) -> None:
-        self._here.say(speech.outcome(result))
+        self._conversation.say(speech.outcome(result))
         missed = [criterion for criterion in result.criteria if not criterion.verdict.passed]
         for criterion in missed:
             for line in speech.diagnosis(criterion):
-                self._here.say(line)
+                self._conversation.say(line)
         if missed:
-            self._here.say(f"why {missed[0].id} reads the evidence, hint the next hint.")
-        elif self._here.lesson is not self._here.desk.lessons[-1]:
-            self._here.say("Well done. next goes to the next lesson, checklist to what you can do by now.")
+            self._conversation.say(f"why {missed[0].id} reads the evidence, hint the next hint.")
+        elif self._conversation.lesson is not self._conversation.app_services.lessons[-1]:
+            self._conversation.say("Well done. next goes to the next lesson, checklist to what you can do by now.")
         else:
-            self._here.say("Well done: this was the last lesson. checklist goes to what you can do by now.")
+            self._conversation.say("Well done: this was the last lesson. checklist goes to what you can do by now.")
 
     async def why(self, words: list[str]) -> None:
         """One criterion of the last check."""
-        result = self._found.get(self._here.lesson.id)
+        result = self._found.get(self._conversation.lesson.id)
         if result is None:
-            raise Refused("There is no check of this lesson yet: say check.")
+            raise CommandRefused("There is no check of this lesson yet: say check.")
         for criterion in result.criteria:
             if words and criterion.id == words[0].lower():
                 for line in (*speech.diagnosis(criterion), *speech.evidence(criterion)):
-                    self._here.say(line)
+                    self._conversation.say(line)
                 return
         known = speech.listed(criterion.id for criterion in result.criteria)
-        raise Refused(f"Which criterion? They are {known}.")
+        raise CommandRefused(f"Which criterion? They are {known}.")

@@ -9,16 +9,16 @@ from collections.abc import Callable
 from difflib import get_close_matches
 
 from tutor.judge.verdict import Status
-from tutor.plain.asking import Asking
-from tutor.plain.assessing import Assessing
+from tutor.plain.checklist_commands import ChecklistCommands
 from tutor.plain.checks import Checks
-from tutor.plain.here import Command, Here, Refused, short
+from tutor.plain.conversation import CommandRefused, Conversation, DialogCommand, short_path
 from tutor.plain.lessons import Lessons
 from tutor.plain.lines import Lines
 from tutor.plain.nodes import Nodes
+from tutor.plain.ros2_commands import Ros2Commands
 from tutor.plain.speech import counted
 from tutor.printable import printable
-from tutor.tui.desk import Desk
+from tutor.tui.app_services import AppServices
 from tutor.workspace import StorageError, WorkspaceError
 
 INTERRUPTED = 130
@@ -27,13 +27,13 @@ _PROMPT = "Command: "
 _STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
-def talk(desk: Desk, out: Callable[[str], None]) -> int:
+def run_dialog(app_services: AppServices, out: Callable[[str], None]) -> int:
     """Talk until the learner leaves, or their input ends: 0. Ctrl+C: 130. Nothing that was started is left."""
-    return asyncio.run(_until_stopped(desk, out))
+    return asyncio.run(_until_stopped(app_services, out))
 
 
-async def _until_stopped(desk: Desk, out: Callable[[str], None]) -> int:
-    dialog = Dialog(desk, Lines.of_stdin(), out)
+async def _until_stopped(app_services: AppServices, out: Callable[[str], None]) -> int:
+    dialog = Dialog(app_services, Lines.of_stdin(), out)
     talking = asyncio.ensure_future(dialog.run())
     stopped = False
 
@@ -57,20 +57,20 @@ async def _until_stopped(desk: Desk, out: Callable[[str], None]) -> int:
 class Dialog:
     """The commands, and who asks for them."""
 
-    def __init__(self, desk: Desk, lines: Lines, out: Callable[[str], None]) -> None:
-        self._desk, self._lines, self._out = desk, lines, out
+    def __init__(self, app_services: AppServices, lines: Lines, out: Callable[[str], None]) -> None:
+        self._app_services, self._lines, self._out = app_services, lines, out
         self._echo = sys.stdin is None or not sys.stdin.isatty()
         self._over = False
-        self._here = Here(desk, self._say, self._ask)
-        self._nodes = Nodes(self._here)
+        self._conversation = Conversation(app_services, self._say, self._ask)
+        self._nodes = Nodes(self._conversation)
         self._commands = (
-            *Lessons(self._here).commands,
+            *Lessons(self._conversation).commands,
             *self._nodes.commands,
-            *Asking(self._here).commands,
-            *Checks(self._here).commands,
-            *Assessing(self._here).commands,
-            Command("help", "say what you can do", self._help, others=("?",)),
-            Command("quit", "stop everything and leave", self._quit, others=("exit", "bye")),
+            *Ros2Commands(self._conversation).commands,
+            *Checks(self._conversation).commands,
+            *ChecklistCommands(self._conversation).commands,
+            DialogCommand("help", "say what you can do", self._help, others=("?",)),
+            DialogCommand("quit", "stop everything and leave", self._quit, others=("exit", "bye")),
         )
 
     async def run(self) -> None:
@@ -78,7 +78,7 @@ class Dialog:
         self._greet()
         try:
             while not self._over:
-                self._nodes.tell_news()
+                self._nodes.report_ended()
                 line = await self._ask(_PROMPT)
                 if line is None:
                     self._say("The input has ended.")
@@ -89,34 +89,34 @@ class Dialog:
             await self._nodes.leave()
 
     def _greet(self) -> None:
-        lessons, progress = self._desk.lessons, self._desk.progress()
+        lessons, progress = self._app_services.lessons, self._app_services.progress()
         passed = sum(progress.of(lesson.id).best is Status.PASSED for lesson in lessons)
-        root = short(self._desk.workspace.root)
+        root = short_path(self._app_services.workspace.root)
         self._say(f"ROS Tutor in plain lines. {counted(len(lessons), 'lesson')}, {passed} passed.")
-        if self._desk.workspace.exists:
-            self._say(f"Your workspace is {root}; its ROS domain is {self._desk.domain}.")
+        if self._app_services.workspace.exists:
+            self._say(f"Your workspace is {root}; its ROS domain is {self._app_services.domain}.")
         else:
             self._say(f"Your workspace will be {root}: start creates it.")
-        self._say(f"You are at {self._here.about(self._here.lesson, progress)}")
+        self._say(f"You are at {self._conversation.about(self._conversation.lesson, progress)}")
         self._say("read reads the lesson, start puts in the skeleton, check judges it; help says what else you can do.")
 
     async def _do(self, words: list[str]) -> None:
         try:
             name, *rest = words
             if name.isdecimal() or (len(name) > 1 and name[0] in "iI" and name[1].isdecimal()):
-                self._here.go_to(self._here.find(name))
+                self._conversation.open_lesson(self._conversation.find(name))
             else:
                 await self._find(name.lower()).do(rest)
-        except (Refused, WorkspaceError, StorageError) as error:
+        except (CommandRefused, WorkspaceError, StorageError) as error:
             self._say(str(error))
 
-    def _find(self, name: str) -> Command:
+    def _find(self, name: str) -> DialogCommand:
         known = {each: command for command in self._commands for each in (command.name, *command.others)}
         if name in known:
             return known[name]
         near = get_close_matches(name, known, n=1)
         guess = f" Did you mean {near[0]}?" if near else ""
-        raise Refused(f"There is no command {name}.{guess} help lists them all.")
+        raise CommandRefused(f"There is no command {name}.{guess} help lists them all.")
 
     async def _help(self, words: list[str]) -> None:
         for command in self._commands:
@@ -125,8 +125,8 @@ class Dialog:
     async def _quit(self, words: list[str]) -> None:
         self._over = True
         await self._nodes.leave()
-        self._nodes.tell_news()
-        self._say("Goodbye. Your progress is kept." if self._desk.workspace.exists else "Goodbye.")
+        self._nodes.report_ended()
+        self._say("Goodbye. Your progress is kept." if self._app_services.workspace.exists else "Goodbye.")
 
     async def _ask(self, question: str) -> str | None:
         self._out(question)

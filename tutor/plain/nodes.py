@@ -6,10 +6,10 @@ import asyncio
 from collections.abc import Callable
 from pathlib import Path
 
-from tutor.plain.here import Command, Here, Refused
+from tutor.bundled_ros.ros2.errors import CommandError
+from tutor.plain.conversation import CommandRefused, Conversation, DialogCommand
 from tutor.plain.speech import counted
 from tutor.report.plain import one_line
-from tutor.sandbox.ros2.errors import CommandError
 from tutor.tui.node import Node, NodeState, Phase
 
 FIRST_LINE_S = 5.0
@@ -21,37 +21,41 @@ _LINES = 10
 class Nodes:
     """One node for each file. What has ended is told once, before the next question."""
 
-    def __init__(self, here: Here) -> None:
-        self._here = here
+    def __init__(self, conversation: Conversation) -> None:
+        self._conversation = conversation
         self._nodes: dict[Path, Node] = {}
         self._tasks: set[asyncio.Task[None]] = set()
         self._latest: Node | None = None
         self._untold: list[Node] = []
         self._changed = asyncio.Event()
         self.commands = (
-            Command("run", "run your node; with a number, that file of the lesson", self.run, "[NUMBER]"),
-            Command("log", f"read the last {_LINES} lines that your node wrote, or so many", self.log, "[NUMBER]"),
-            Command("stop", "stop your node, as Ctrl+C does", self.stop),
+            DialogCommand("run", "run your node; with a number, that file of the lesson", self.run, "[NUMBER]"),
+            DialogCommand(
+                "log", f"read the last {_LINES} lines that your node wrote, or NUMBER of them", self.log, "[NUMBER]"
+            ),
+            DialogCommand("stop", "stop your node, as Ctrl+C does", self.stop),
         )
 
     async def run(self, words: list[str]) -> None:
         """Run a file of the lesson with the options that the app remembers."""
-        desk, lesson = self._here.desk, self._here.lesson
+        app_services, lesson = self._conversation.app_services, self._conversation.lesson
         number = int(words[0]) if words and words[0].isdecimal() else 1
         if not 1 <= number <= len(lesson.files):
-            raise Refused(f"This lesson has {counted(len(lesson.files), 'file')}.")
+            raise CommandRefused(f"This lesson has {counted(len(lesson.files), 'file')}.")
         file = lesson.files[number - 1]
-        path = desk.path(file)
+        path = app_services.path(file)
         if not path.exists():
-            raise Refused(f"{file.name} is not in your workspace yet: say start.")
+            raise CommandRefused(f"{file.name} is not in your workspace yet: say start.")
         known = self._nodes.get(path)
         if known is not None and known.state.alive:
-            raise Refused(f"{file.name} runs already: stop ends it.")
+            raise CommandRefused(f"{file.name} runs already: stop ends it.")
         try:
-            command = await asyncio.to_thread(desk.node_command, file, desk.app_state().run_of(lesson.id))
+            command = await asyncio.to_thread(
+                app_services.node_command, file, app_services.app_state().run_of(lesson.id)
+            )
         except (CommandError, OSError) as error:
-            raise Refused(f"The node cannot be started: {error}") from error
-        await self._stop_others({desk.path(each) for each in lesson.files})
+            raise CommandRefused(f"The node cannot be started: {error}") from error
+        await self._stop_others({app_services.path(each) for each in lesson.files})
         node = Node(command, self._show)
         self._nodes[path] = self._latest = node
         task = asyncio.create_task(node.run())
@@ -60,29 +64,31 @@ class Nodes:
         await self._until(lambda: node.state.phase is not Phase.STARTING, None)
         if node.state.alive:
             self._untold.append(node)
-            self._here.say(f"Running in ROS domain {self._here.desk.domain}: {command.typed}")
-            self._here.say("log reads what it writes, stop ends it.")
+            self._conversation.say(f"Running in ROS domain {self._conversation.app_services.domain}: {command.typed}")
+            self._conversation.say("log reads what it writes, stop ends it.")
         else:
-            self._here.say(f"It could not be started: {node.state.note}")
+            self._conversation.say(f"It could not be started: {node.state.note}")
 
     async def log(self, words: list[str]) -> None:
         """Read what was written last; a node that has just been started is given a moment."""
         node = self._latest
         if node is None:
-            raise Refused("No node has been run yet: say run.")
+            raise CommandRefused("No node has been run yet: say run.")
         most = int(words[0]) if words and words[0].isdecimal() and int(words[0]) else _LINES
         await self._until(lambda: bool(node.state.lines) or not node.state.alive, FIRST_LINE_S)
         lines = node.state.lines[-most:]
-        self._here.say(f"{counted(len(lines), 'line')}, the latest last:" if lines else "It has written nothing yet.")
+        self._conversation.say(
+            f"{counted(len(lines), 'line')}, the latest last:" if lines else "It has written nothing yet."
+        )
         for line in lines:
-            self._here.say(one_line(line.text, 500))
+            self._conversation.say(one_line(line.text, 500))
 
     async def stop(self, words: list[str]) -> None:
         """Stop whatever runs, and wait until it has."""
         if not self._tasks:
-            raise Refused("No node is running.")
+            raise CommandRefused("No node is running.")
         await self.leave()
-        self.tell_news()
+        self.report_ended()
 
     async def _stop_others(self, own: set[Path]) -> None:
         """Two lessons' nodes would talk into each other's topics."""
@@ -91,13 +97,13 @@ class Nodes:
             node.stop()
         for node in others:
             await node.over.wait()
-        self.tell_news()
+        self.report_ended()
 
-    def tell_news(self) -> None:
+    def report_ended(self) -> None:
         """Say which nodes have ended since this was last said."""
         for node in [node for node in self._untold if not node.state.alive]:
             self._untold.remove(node)
-            self._here.say(f"Your node {node.state.file}: {node.state.note}.")
+            self._conversation.say(f"Your node {node.state.file}: {node.state.note}.")
 
     async def leave(self) -> None:
         """Stop all of them; nothing of them is left then."""

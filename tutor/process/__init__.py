@@ -1,8 +1,8 @@
 """Start, watch and end a learner's process; nothing is ever left behind."""
 
+from tutor.process.cpu_wait import CpuMeter, CpuTime, own_cpu_time
 from tutor.process.errors import EndError, ProcessError, StartError
 from tutor.process.learner import LearnerProcess, Survivor
-from tutor.process.starvation import CpuMeter, CpuTime, cpu_time_here
 
 __all__ = [
     "CpuMeter",
@@ -12,5 +12,5 @@ __all__ = [
     "ProcessError",
     "StartError",
     "Survivor",
-    "cpu_time_here",
+    "own_cpu_time",
 ]

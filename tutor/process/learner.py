@@ -15,13 +15,13 @@ from types import TracebackType
 from typing import Self
 
 from tutor.judge.trace import Exit, OutputLine
-from tutor.process import memory, sweep
+from tutor.process import memory, orphans
 from tutor.process.errors import EndError, StartError
-from tutor.process.link import WardenLink
+from tutor.process.link import SupervisorLink
 from tutor.process.output import Output
 from tutor.process.pipe import PipeReader
 from tutor.process.stdin import Stdin
-from tutor.process.warden import pack_request
+from tutor.process.supervisor import pack_request
 
 _START_LIMIT_S = 20.0
 
@@ -59,7 +59,7 @@ class LearnerProcess:
             stderr = PipeReader(self._take_stderr)
             made.pop_all()
         self._stdout, self._stderr = stdout, stderr
-        self._link = WardenLink(self._run, frozenset((stdout.inode, stderr.inode)), self._set_exit)
+        self._link = SupervisorLink(self._run, frozenset((stdout.inode, stderr.inode)), self._set_exit)
         self._link.gone.add_done_callback(lambda _: self._finish())
 
     @classmethod
@@ -78,7 +78,7 @@ class LearnerProcess:
         It gets a session and process group of its own, default signal handling, no input, and pipes for its output.
         `terminal`: its input is a terminal where nobody types. `ros2 launch` looks there whether Ctrl+C reaches the
         nodes without its help; where it does not, each node would get two.
-        `walls`: the command behind which it runs (see `WardenLink.start`).
+        `walls`: the command behind which it runs (see `SupervisorLink.start`).
         `on_change` is called on the event loop after new output and after the exit.
         Raises StartError if it cannot be started; then nothing is left of the attempt.
         """
@@ -130,7 +130,7 @@ class LearnerProcess:
     def output(self) -> tuple[OutputLine, ...]:
         """The lines it wrote so far (bounded, see `dropped_lines`), an unfinished last line included.
 
-        Decoded anew after each change, so look when it is to be shown, not on each `on_change` of a busy process.
+        Decoded again after each change, so look when it is to be shown, not on each `on_change` of a busy process.
         """
         return self._output.lines
 
@@ -150,7 +150,7 @@ class LearnerProcess:
 
     async def survivors(self) -> list[Survivor]:
         """The living processes of the learner's, the first one included while it lives; zombies do not count."""
-        known = [Survivor(p.pid, sweep.command(p.pid)) for p in self._link.living()]
+        known = [Survivor(p.pid, orphans.command_line(p.pid)) for p in self._link.living_processes()]
         return [survivor for survivor in known if survivor.command]  # one without has ended meanwhile
 
     async def end(self) -> None:
@@ -174,7 +174,7 @@ class LearnerProcess:
             raise EndError(gone.result())
 
     async def _launch(self, argv: Sequence[str], env: Mapping[str, str], cwd: Path, walls: Sequence[str]) -> None:
-        environment = {**env, sweep.MARK: self._run}
+        environment = {**env, orphans.MARK: self._run}
         if not argv or any("\0" in text for text in (*argv, *environment.values(), str(cwd))):
             raise StartError("The program cannot be started: its command is empty or holds a NUL character.")
         if any(not name or "=" in name or "\0" in name for name in environment):
@@ -197,7 +197,7 @@ class LearnerProcess:
         if not ready.done():
             raise StartError(f"The program could not be started within {_START_LIMIT_S:.0f} s.")
         if ready.result():
-            self._drain()  # what a warden said that failed itself
+            self._drain()  # what a supervisor said that failed itself
             said = "".join(f": {line.text}" for line in self.output[-1:])
             raise StartError(f"The program cannot be started: {ready.result()}{said}.")
 
@@ -234,7 +234,7 @@ class LearnerProcess:
     def _finish(self) -> None:
         """All is over: read what is left, and close. May be called twice."""
         self._drain()
-        if self._exit is None and self.pid:  # the warden was killed and took it along
+        if self._exit is None and self.pid:  # the supervisor was killed and took it along
             self._set_exit(Exit(None, int(signal.SIGKILL), max(0.0, time.time() - self.started_at)))
         self._stdin.close()
         self._stdout.close()

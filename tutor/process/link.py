@@ -1,4 +1,4 @@
-"""Our side of a warden: starts it, passes requests to it, hears its reports, and makes up for it where it fails."""
+"""Our side of a supervisor: starts it, passes requests to it, hears its reports, and makes up for it where it fails."""
 
 from __future__ import annotations
 
@@ -13,30 +13,30 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from tutor.judge.trace import Exit
-from tutor.process import prctl, sweep
-from tutor.process.warden import Process, descendants, innermost, kill
+from tutor.process import orphans, prctl
+from tutor.process.supervisor import Process, descendants, innermost, kill
 
-_WARDEN = Path(__file__).with_name("warden.py")
-# How long the warden may take to end everything before we step in, and how long we then may take.
-_WARDEN_LIMIT_S = 3.0
-_SWEEP_LIMIT_S = 5.0
+_SUPERVISOR = Path(__file__).with_name("supervisor.py")
+# How long the supervisor may take to end everything before we step in, and how long we then may take.
+_SUPERVISOR_LIMIT_S = 3.0
+_ORPHANS_LIMIT_S = 5.0
 
 _KILLED = "the process of ros-tutor that looks after the program was killed, and the program with it"
 
 
-class WardenLink(asyncio.Protocol):
-    """The link to one warden, and through it to one process of a learner and its descendants.
+class SupervisorLink(asyncio.Protocol):
+    """The link to one supervisor, and through it to one process of a learner and its descendants.
 
     `ready` is done when the process was started (result: an empty text) or cannot be (why not). `gone` is done when the
-    warden and all its charges are gone (an empty text), or could not be ended (which).
+    supervisor and all its processes are gone (an empty text), or could not be ended (which).
     """
 
     def __init__(self, run: str, pipes: frozenset[int], on_exit: Callable[[Exit], None]) -> None:
-        """`run` and `pipes` are what the processes can be known by (see `sweep.Marks`)."""
+        """`run` and `pipes` are what the processes can be known by (see `orphans.RunMarks`)."""
         self.pid = 0
         self.started_at = 0.0
         self.fault = ""
-        """Why its end says nothing about the program: the warden was ended by others. Empty where it was not."""
+        """Why its end says nothing about the program: the supervisor was ended by others. Empty where it was not."""
         self.ending = False
         self._loop = asyncio.get_running_loop()
         self.ready: asyncio.Future[str] = self._loop.create_future()
@@ -45,21 +45,21 @@ class WardenLink(asyncio.Protocol):
         self._pipes = pipes
         self._on_exit = on_exit
         self._exited = False
-        self._warden: subprocess.Popen[bytes] | None = None
+        self._supervisor: subprocess.Popen[bytes] | None = None
         self._control: asyncio.Transport | None = None
-        self._heard = b""
-        self._last_word = False
-        self._ours: set[int] = set()  # the warden, and what is between it and us
+        self._received = b""
+        self._finished = False
+        self._ours: set[int] = set()  # the supervisor, and what is between it and us
         self._walled = False
-        self._step_in: asyncio.TimerHandle | None = None
+        self._takeover: asyncio.TimerHandle | None = None
 
     async def start(self, request: bytes, stdin: int, stdout: int, stderr: int, walls: Sequence[str]) -> None:
-        """Start the warden, with these descriptors for its charges and for itself, and hand it a request.
+        """Start the supervisor, with these descriptors for its processes and for itself, and hand it a request.
 
         `walls`: the command in front of its own that puts it into a process namespace of its own, as the child of the
         first one there; the kernel ends all of them with that one, and that one ends with us.
 
-        Raises OSError if there can be no warden.
+        Raises OSError if there can be no supervisor.
         """
         prctl.guard()
         prctl.adopt_orphans(True)
@@ -67,8 +67,8 @@ class WardenLink(asyncio.Protocol):
         owner = 1 if walls else os.getpid()
         with theirs:
             try:
-                self._warden = subprocess.Popen(
-                    [*walls, sys.executable, "-I", "-S", str(_WARDEN), str(theirs.fileno()), str(owner)],
+                self._supervisor = subprocess.Popen(
+                    [*walls, sys.executable, "-I", "-S", str(_SUPERVISOR), str(theirs.fileno()), str(owner)],
                     stdin=stdin,
                     stdout=stdout,
                     stderr=stderr,
@@ -81,13 +81,13 @@ class WardenLink(asyncio.Protocol):
             except OSError:
                 ours.close()
                 raise
-        sweep.wardens.add(self._warden.pid)
-        self._ours.add(self._warden.pid)
+        orphans.supervisors.add(self._supervisor.pid)
+        self._ours.add(self._supervisor.pid)
         self._walled = bool(walls)
         try:
             self._control, _ = await self._loop.create_unix_connection(lambda: self, sock=ours)
         except BaseException:
-            ours.close()  # tells the warden to end
+            ours.close()  # tells the supervisor to end
             self.connection_lost(None)
             raise
         self._control.write(request)
@@ -97,11 +97,11 @@ class WardenLink(asyncio.Protocol):
         if self._control is not None and not self.ending and not self._control.is_closing():
             self._control.write(b"interrupt\n")
 
-    def living(self) -> list[Process]:
-        """The living processes in the warden's charge."""
-        if self._warden is None or self.gone.done():
+    def living_processes(self) -> list[Process]:
+        """The living processes under the supervisor."""
+        if self._supervisor is None or self.gone.done():
             return []
-        found = [p for p in descendants(self._warden.pid) if p.alive] or sweep.find(self._marks())
+        found = [p for p in descendants(self._supervisor.pid) if p.alive] or orphans.find_orphans(self._marks())
         return [p for p in found if p.pid not in self._ours]
 
     def end(self) -> None:
@@ -109,33 +109,33 @@ class WardenLink(asyncio.Protocol):
         if self.ending or self.gone.done():
             return
         self.ending = True
-        if self._warden is None:
+        if self._supervisor is None:
             self.gone.set_result("")
         elif self._control is not None and not self._control.is_closing():
             for pid in self._ours:
                 with contextlib.suppress(ProcessLookupError):
                     os.kill(pid, signal.SIGCONT)  # should a learner's program have stopped it
             self._control.write_eof()
-            self._step_in = self._loop.call_later(_WARDEN_LIMIT_S, self._take_over)
+            self._takeover = self._loop.call_later(_SUPERVISOR_LIMIT_S, self._take_over)
 
-    # --- what the warden says (called by asyncio) ---
+    # --- what the supervisor says (called by asyncio) ---
 
     def data_received(self, data: bytes) -> None:
-        *lines, self._heard = (self._heard + data).split(b"\n")
+        *lines, self._received = (self._received + data).split(b"\n")
         for line in lines:
             word, _, rest = line.decode("utf-8", "replace").partition(" ")
-            self._hear(word, rest)
+            self._handle_report(word, rest)
 
     def connection_lost(self, error: Exception | None) -> None:
-        """After the warden's last word all is well; else its charges are orphans, and ours."""
+        """After the supervisor's last report all is well; else its processes are orphans, and ours."""
         if self.pid and not self.ending:
             self.fault = _KILLED
-        if self._last_word:
+        if self._finished:
             self._finish("")
         else:
-            self._sweep(self._marks(), self._loop.time() + _SWEEP_LIMIT_S, clean=0)
+            self._end_orphans(self._marks(), self._loop.time() + _ORPHANS_LIMIT_S, clean=0)
 
-    def _hear(self, word: str, rest: str) -> None:
+    def _handle_report(self, word: str, rest: str) -> None:
         if word == "started":
             pid, epoch = rest.split()
             self.pid, self.started_at = int(pid), float(epoch)
@@ -143,7 +143,7 @@ class WardenLink(asyncio.Protocol):
                 self.pid = self._seen_from_here(self.pid)
             self._set_ready("")
         elif word == "failed":
-            self._last_word = True
+            self._finished = True
             self._set_ready(rest)
         elif word == "exit":
             status, after_s = rest.split()
@@ -153,15 +153,15 @@ class WardenLink(asyncio.Protocol):
         elif word == "terminated":
             self.fault = _KILLED
         elif word == "ended":
-            self._last_word = True
+            self._finished = True
 
     def _seen_from_here(self, pid: int) -> int:
-        """The number that a charge of the warden's has here; behind walls it has another one there."""
-        assert self._warden is not None
-        found = {p.pid: p for p in descendants(self._warden.pid)}
+        """The number that a charge of the supervisor's has here; behind walls it has another one there."""
+        assert self._supervisor is not None
+        found = {p.pid: p for p in descendants(self._supervisor.pid)}
         one = next((p for p in found if innermost(p) == pid), None)
         if one is None:  # it has ended already, and been reaped
-            return self._warden.pid
+            return self._supervisor.pid
         above = found[one].parent
         while above in found:
             self._ours.add(above)
@@ -172,23 +172,27 @@ class WardenLink(asyncio.Protocol):
         if not self.ready.done():
             self.ready.set_result(why_not)
 
-    # --- where the warden fails ---
+    # --- where the supervisor fails ---
 
     def _take_over(self) -> None:
-        """The warden does not get it done: do without it. Its end then has the rest swept up."""
-        if self._warden is not None and not self.gone.done():
-            with contextlib.suppress(OSError):  # /proc cannot be read, say with no descriptor left; the sweep tries on
-                kill(descendants(self._warden.pid))
-            self._warden.kill()
+        """The supervisor does not manage: do without it. Once it is gone, the orphans are ended."""
+        if self._supervisor is not None and not self.gone.done():
+            with contextlib.suppress(
+                OSError
+            ):  # /proc cannot be read, say with no descriptor left; the search for orphans tries again
+                kill(descendants(self._supervisor.pid))
+            self._supervisor.kill()
 
-    def _marks(self) -> sweep.Marks:
+    def _marks(self) -> orphans.RunMarks:
         # After the process was reaped, the number of its session may be someone else's.
-        return sweep.Marks(self._run, self.pid if self.pid and not self._exited else None, self._pipes)
+        return orphans.RunMarks(self._run, self.pid if self.pid and not self._exited else None, self._pipes)
 
-    def _sweep(self, marks: sweep.Marks, until: float, clean: int) -> None:
+    def _end_orphans(self, marks: orphans.RunMarks, until: float, clean: int) -> None:
         try:
-            found = [p for p in sweep.find(marks) if self._warden is None or p.pid != self._warden.pid]
-            left = ", ".join(f"{p.pid} ({sweep.command(p.pid)})" for p in found)
+            found = [
+                p for p in orphans.find_orphans(marks) if self._supervisor is None or p.pid != self._supervisor.pid
+            ]
+            left = ", ".join(f"{p.pid} ({orphans.command_line(p.pid)})" for p in found)
         except OSError as error:
             found, left = [], f"those there may be, since the system does not show them ({error})"
         kill(found)
@@ -198,16 +202,16 @@ class WardenLink(asyncio.Protocol):
         elif self._loop.time() > until:
             self._finish(f"Some processes of the program could not be ended: {left}.")
         else:
-            self._loop.call_later(0.005, self._sweep, marks, until, clean)
+            self._loop.call_later(0.005, self._end_orphans, marks, until, clean)
 
     def _finish(self, left: str) -> None:
-        if self._warden is not None and self._warden.poll() is None:
+        if self._supervisor is not None and self._supervisor.poll() is None:
             self._loop.call_later(0.001, self._finish, left)  # it has closed its files, so it is about to be gone
             return
-        if self._warden is not None:
-            sweep.wardens.discard(self._warden.pid)
-        if self._step_in is not None:
-            self._step_in.cancel()
+        if self._supervisor is not None:
+            orphans.supervisors.discard(self._supervisor.pid)
+        if self._takeover is not None:
+            self._takeover.cancel()
         if not self.gone.done():
             self.gone.set_result(left)
         self._set_ready("our helper process ended at once")

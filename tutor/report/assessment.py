@@ -92,7 +92,7 @@ class ExerciseStanding:
 
 @dataclass(frozen=True, slots=True)
 class Assessment:
-    """All of it. `ready_title` and `ready_text` are for who has ticked every item."""
+    """All of it. `ready_title` and `ready_text` are for anyone who has ticked every item."""
 
     groups: tuple[GroupStanding, ...]
     exercises: tuple[ExerciseStanding, ...]

@@ -8,7 +8,7 @@ from html import escape as escape_html
 from tutor.printable import printable
 from tutor.report.assessment import Assessment, ExerciseStanding, GroupStanding, ItemStanding
 from tutor.report.checklist import TITLE
-from tutor.report.saying import calendar_day, say_evidence
+from tutor.report.phrases import calendar_day, describe_evidence
 
 # Text colours have a contrast of at least 4.5 to 1 on their ground, in light, dark and print.
 _STYLE = """\
@@ -97,7 +97,7 @@ def _group(group: GroupStanding, number: int) -> Iterator[str]:
 
 def _item(item: ItemStanding) -> str:
     box = f'<input type="checkbox" disabled{" checked" if item.ticked else ""}>'
-    said = "; ".join(say_evidence(item.evidence, calendar_day))
+    said = "; ".join(describe_evidence(item.evidence, calendar_day))
     shown = f' <span class="evidence">{_text(said)}</span>' if said else ""
     return f"<li><label>{box} {_text(item.text)}</label>{shown}</li>"
 

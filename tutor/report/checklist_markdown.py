@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from tutor.report.assessment import Assessment, ExerciseStanding, ItemStanding
 from tutor.report.checklist import TITLE
 from tutor.report.markdown import escape
-from tutor.report.saying import calendar_day, say_evidence
+from tutor.report.phrases import calendar_day, describe_evidence
 
 
 def render(assessment: Assessment, *, at: str) -> str:
@@ -40,7 +40,7 @@ def _lines(assessment: Assessment, at: str) -> Iterator[str]:
 
 
 def _task(item: ItemStanding) -> str:
-    shown = escape("; ".join(say_evidence(item.evidence, calendar_day)))
+    shown = escape("; ".join(describe_evidence(item.evidence, calendar_day)))
     return f"- [{'x' if item.ticked else ' '}] {escape(item.text)}{f' ({shown})' if shown else ''}"
 
 

@@ -75,7 +75,7 @@ def _exercise(exercise: ExerciseResult) -> Iterator[str]:
 
 
 def _diagnosis(criterion: CriterionResult) -> Iterator[str]:
-    """A block that folds: open where it is the learner's to mend and the verdict depends on it."""
+    """A block that folds: open where it is the learner's to fix and the verdict depends on it."""
     verdict = criterion.verdict
     unfolded = " open" if verdict.status in (Status.FAILED, Status.ERROR) and not criterion.bonus else ""
     bonus = " (bonus)" if criterion.bonus else ""

@@ -1,7 +1,7 @@
 """Compiled modules for learners' processes, which write none themselves.
 
 The ROS wheels bring compiled modules that are older than their sources, and some installers compile nothing; then each
-start compiles rclpy anew, and takes three times as long.
+start compiles rclpy again, and takes three times as long.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ _USED = "import example_interfaces.srv, rcl_interfaces.srv, rclpy, rclpy.executo
 _LIMIT_S = 60.0
 
 
-def ensure(ros: RosEnvironment) -> None:
+def compile_ros_modules(ros: RosEnvironment) -> None:
     """Have the modules that nodes use compiled, once, where the bundled ROS is not.
 
     Does nothing where they are, or where its folder cannot be written to: then starts are slow, but right.

@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from tutor.ros.isolation import DDS_PORTS, PORTS_OF_CHECKS, ports_of_this_process
+from tutor.ros.isolation import DDS_PORTS, PORTS_OF_CHECKS, own_ports
 
 IDS = range(235, 1230, 3)
 """The ids of checks. Their ports are below those that Linux gives away by itself (32768). A node that is told to use
@@ -26,9 +26,9 @@ _round = deque(random.SystemRandom().sample(IDS, len(IDS)))
 
 
 class NoFreeDomain(Exception):
-    """Every domain id is taken. `mend` says what to do."""
+    """Every domain id is taken. `hint` says what to do."""
 
-    mend = "Wait until other checks on this machine have ended (ps -ef shows them), and try again."
+    hint = "Wait until other checks on this machine have ended (ps -ef shows them), and try again."
 
     def __init__(self) -> None:
         super().__init__("No ROS domain id is free for a check on this machine.")
@@ -60,9 +60,9 @@ def domains_in_use() -> frozenset[int]:
 def participants_here(domain_id: int) -> int | None:
     """How many DDS participants of a domain there are on this machine, by the ports that they have bound.
 
-    A participant is a process, mostly; one that this process has counts, too. None where the ports cannot be known.
+    A participant is usually a process; one that this process has counts, too. None where the ports cannot be known.
     """
-    layout = ports_of_this_process()
+    layout = own_ports()
     if layout is None or not any(table.exists() for table in _UDP_TABLES):
         return None
     first, per_domain = layout

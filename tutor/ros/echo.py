@@ -11,8 +11,8 @@ from tutor.ros.messages import UnknownType
 from tutor.ros.observer import Observer
 
 
-async def echo(domain_id: int, topic: str, *, samples: int, limit_s: float) -> Echo:
-    """Join the domain anew, choose type and QoS, and collect `samples` messages of `topic` within `limit_s` seconds."""
+async def echo_topic(domain_id: int, topic: str, *, samples: int, limit_s: float) -> Echo:
+    """Join as a new participant, choose type and QoS, get `samples` messages of `topic` within `limit_s` seconds."""
     changed = asyncio.Event()
     observer = Observer(domain_id, changed.set)
     loop = asyncio.get_running_loop()

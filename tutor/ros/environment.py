@@ -13,15 +13,15 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
+from tutor.bundled_ros import interfaces
 from tutor.ros import prefixes
 from tutor.ros.isolation import PROFILE, isolated_discovery, loopback_multicast_works, prompt_discovery
-from tutor.sandbox import interfaces
 
 __all__ = ["RosEnvironment", "detect", "learner_env", "loopback_multicast_works", "tutor_env"]
 
 DISTRO = "jazzy"
 RMW = "rmw_fastrtps_cpp"
-# The wheels' start-up hook starts the interpreter anew to set LD_LIBRARY_PATH, unless this is set.
+# The wheels' start-up hook restarts the interpreter to set LD_LIBRARY_PATH, unless this is set.
 BOOTSTRAP_DONE = "_ROS_WHEELS_BOOTSTRAP_COMPLETE"
 NO_LOG_FILES = ("--ros-args", "--disable-external-lib-logs")
 """What our own processes init rclpy with: they log nothing, and need no home folder for it."""
@@ -72,7 +72,7 @@ class RosEnvironment:
 def detect(environ: Mapping[str, str] = os.environ) -> RosEnvironment:
     """Find out which ROS 2 to use: a sourced ROS 2 Jazzy that is whole, else the bundled one."""
     bundled = Path(sys.executable)
-    sourced = [Path(entry) for entry in prefixes.without_ours(environ, "AMENT_PREFIX_PATH")]
+    sourced = [Path(entry) for entry in prefixes.without_bundled(environ, "AMENT_PREFIX_PATH")]
     distro = environ.get("ROS_DISTRO", "")
     problems = _problems(environ, distro, sourced)
     if problems or not distro:
@@ -111,7 +111,7 @@ def learner_env(
 def tutor_env(ros: RosEnvironment, *, isolated: bool, environ: Mapping[str, str] = os.environ) -> dict[str, str]:
     """The environment for a process of ours that imports rclpy, to be run with `sys.executable`.
 
-    A process that is started with it need not start itself anew in `tutor.ros.this_process.use`.
+    A process that is started with it need not restart itself in `tutor.ros.this_process.prepare_for_rclpy`.
     """
     env = _ros_env(ros, environ, first_on_path=[])
     env.update(_discovery(ros, isolated, environ))
@@ -155,9 +155,9 @@ def _distro_of(path: Path) -> str:
 def _system_python(home: Path, environ: Mapping[str, str]) -> Path | None:
     own = [home / "bin" / "python3.12", Path("/usr/bin/python3.12"), Path("/usr/local/bin/python3.12")]
     base = Path(getattr(sys, "_base_executable", ""))
-    found = shutil.which("python3.12", path=prefixes.joined(prefixes.without_ours(environ, "PATH")))
+    found = shutil.which("python3.12", path=prefixes.joined(prefixes.without_bundled(environ, "PATH")))
     candidates = [*own, base, *([Path(found)] if found else [])]
-    return next((python for python in candidates if python.is_file() and not prefixes.is_ours(python)), None)
+    return next((python for python in candidates if python.is_file() and not prefixes.is_bundled(python)), None)
 
 
 def _ros_env(ros: RosEnvironment, environ: Mapping[str, str], first_on_path: list[Path]) -> dict[str, str]:
@@ -177,9 +177,9 @@ def _ros_env(ros: RosEnvironment, environ: Mapping[str, str], first_on_path: lis
         env["AMENT_PREFIX_PATH"] = prefixes.joined([interfaces.prefix(), sys.prefix])
         rest = {name: prefixes.without_ros(environ, name) for name in _PATHS_OF_ROS}
     else:
-        python_path = prefixes.without_ours(environ, "PYTHONPATH")
+        python_path = prefixes.without_bundled(environ, "PYTHONPATH")
         rest = {
-            name: prefixes.without_ours(environ, name)
+            name: prefixes.without_bundled(environ, name)
             for name in ("PATH", "LD_LIBRARY_PATH", "AMENT_PREFIX_PATH", *_PATHS_OF_ROS)
         }
     env["PYTHONPATH"] = prefixes.joined([*first_on_path, *python_path])

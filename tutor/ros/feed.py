@@ -14,7 +14,7 @@ from rclpy.signals import SignalHandlerOptions
 
 from tutor.judge.trace import Endpoint, Sample
 from tutor.ros.environment import NO_LOG_FILES
-from tutor.ros.messages import fill, interface
+from tutor.ros.messages import interface_class, set_fields
 from tutor.ros.observer import OUR_PREFIX
 
 DEPTH = 10
@@ -25,7 +25,7 @@ class TopicFeed:
     """The `Feed` of `tutor.judge.bench`, on real DDS. Raises UnknownType for a type that this ROS does not have."""
 
     def __init__(self, domain_id: int, topic: str, type_name: str) -> None:
-        self._type: Any = interface(type_name)
+        self._type: Any = interface_class(type_name)
         self._context = Context()
         rclpy.init(
             args=[*NO_LOG_FILES],
@@ -53,7 +53,7 @@ class TopicFeed:
         return self._publisher.get_subscription_count()
 
     def publish(self, message: Mapping[str, Any]) -> Sample:
-        filled = fill(self._type(), message)
+        filled = set_fields(self._type(), message)
         now = time.time()
         self._publisher.publish(filled)
         return Sample(self._endpoint.topic, dict(message), now, now)

@@ -22,7 +22,7 @@ def full_name(name: str, namespace: str) -> str:
     return f"{namespace.rstrip('/')}/{name}"
 
 
-def graph(node: Node) -> Graph:
+def read_graph(node: Node) -> Graph:
     """What `node` sees of the graph, without our own nodes and without the topics that every node has."""
     nodes = sorted(
         full_name(name, namespace)

@@ -42,7 +42,7 @@ def prompt_discovery() -> dict[str, str]:
     return dict.fromkeys(_PROFILE_VARIABLES, str(PROMPT_PROFILE))
 
 
-def ports_of_this_process(environ: Mapping[str, str] = os.environ) -> tuple[int, int] | None:
+def own_ports(environ: Mapping[str, str] = os.environ) -> tuple[int, int] | None:
     """As `DDS_PORTS`, for what this process joins; None where a DDS profile of the user's may say otherwise."""
     named = {environ[name] for name in _PROFILE_VARIABLES if environ.get(name)}
     if Path("DEFAULT_FASTRTPS_PROFILES.xml").exists():  # Fast DDS reads it from the current folder
@@ -64,10 +64,10 @@ def prove_loopback() -> None:
 @cache
 def loopback_multicast_works() -> bool:
     """Whether a multicast datagram sent over the loopback interface comes back; tried once, within half a second."""
-    return multicast_comes_back(_LOOPBACK)
+    return multicast_works(_LOOPBACK)
 
 
-def multicast_comes_back(interface: str, limit_s: float = 0.5) -> bool:
+def multicast_works(interface: str, limit_s: float = 0.5) -> bool:
     """Whether a multicast datagram sent over the interface with this IPv4 address is received on it."""
     token = secrets.token_bytes(16)
     try:

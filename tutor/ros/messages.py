@@ -15,7 +15,7 @@ MOST_CHARACTERS, MOST_ELEMENTS = 10_000, 100_000
 
 _EACH = 16
 _RECEIVED = 8
-"""Bytes that are received and not kept count as a byte for so many."""
+"""Bytes that are received and not kept count as a byte for this many."""
 
 
 class UnknownType(LookupError):
@@ -23,7 +23,7 @@ class UnknownType(LookupError):
 
 
 @cache
-def interface(name: str) -> Any:
+def interface_class(name: str) -> Any:
     """The class of a message or service type, from a name such as `std_msgs/msg/Float64`.
 
     Raises UnknownType where the package or the type is not installed.
@@ -70,7 +70,7 @@ def weight(text: str, kept: str) -> int:
     return _EACH + len(kept) * (1 if kept.isascii() else 4) + len(text) // _RECEIVED
 
 
-def fill(message: Any, values: Mapping[str, Any]) -> Any:
+def set_fields(message: Any, values: Mapping[str, Any]) -> Any:
     """Set the fields of `message` and return it. Raises AttributeError for an unknown field."""
     for name, value in values.items():
         setattr(message, name, value)

@@ -20,7 +20,7 @@ from rclpy.signals import SignalHandlerOptions
 
 from tutor.judge.trace import LogRecord, Sample
 from tutor.ros.environment import NO_LOG_FILES
-from tutor.ros.messages import cut, fill, interface, to_plain, weighed, weight
+from tutor.ros.messages import cut, interface_class, set_fields, to_plain, weighed, weight
 
 OUR_PREFIX = "_ros_tutor"
 """Names of our own nodes begin with this (hidden, as ros2cli's are), so that they are told from the learner's."""
@@ -32,10 +32,10 @@ MOST_SAMPLES = 20_000
 """A topic is no longer listened to after this many samples: a flood must not exhaust us."""
 
 MOST_BYTES = 8_000_000
-"""Nor after so many bytes."""
+"""Nor after this many bytes."""
 
 LINE_CHARACTERS = 2000
-"""A log message is cut at so many characters, as a line of the output is."""
+"""A log message is cut at this many characters, as a line of the output is."""
 
 _number = itertools.count(1)
 
@@ -94,11 +94,11 @@ class Observer:
             text, name, function = (
                 cut(each, LINE_CHARACTERS) for each in (message.msg, message.name, message.function)
             )
-            self._hand_over(self._log, LogRecord(level, name, text, stamp, time.time(), function))
+            self._hand_to_loop(self._log, LogRecord(level, name, text, stamp, time.time(), function))
             count(weight(message.msg, text))
 
         count = self._counter(lambda: self.node.destroy_subscription(subscription))
-        subscription = self.node.create_subscription(interface("rcl_interfaces/msg/Log"), "/rosout", take, qos)
+        subscription = self.node.create_subscription(interface_class("rcl_interfaces/msg/Log"), "/rosout", take, qos)
 
     def watch(
         self,
@@ -115,7 +115,7 @@ class Observer:
 
         Raises UnknownType.
         """
-        message_type = interface(type_name)
+        message_type = interface_class(type_name)
         self.samples[topic] = []
         if kept:
             reliability, durability = ReliabilityPolicy.RELIABLE, DurabilityPolicy.TRANSIENT_LOCAL
@@ -124,7 +124,7 @@ class Observer:
         def take(message: Any, info: Any) -> None:
             plain, cost = weighed(message)
             source = info["source_timestamp"] * 1e-9
-            self._hand_over(self._sample, Sample(topic, plain, source, time.time()))
+            self._hand_to_loop(self._sample, Sample(topic, plain, source, time.time()))
             count(cost)
 
         # rclpy gives the message's info to a callback that takes two arguments; its annotations know one only.
@@ -144,10 +144,10 @@ class Observer:
         def answer(request: Any, response: Any) -> Any:
             asked = to_plain(request)
             answered = handler(asked)
-            self._hand_over(on_served, asked, answered)
-            return fill(response, answered)
+            self._hand_to_loop(on_served, asked, answered)
+            return set_fields(response, answered)
 
-        self._servers.append(self.node.create_service(interface(type_name), service, answer))
+        self._servers.append(self.node.create_service(interface_class(type_name), service, answer))
 
     async def call(self, service: str, type_name: str, request: Mapping[str, Any], limit_s: float) -> Any | None:
         """Call a service once its server is matched; None where no answer came within the limit."""
@@ -155,10 +155,10 @@ class Observer:
         if not await self.matched(service, type_name, limit_s):
             return None
         client = self._client(service, type_name)
-        filled = fill(interface(type_name).Request(), request)
+        filled = set_fields(interface_class(type_name).Request(), request)
         answer: asyncio.Future[Any] = self._loop.create_future()
         pending = client.call_async(filled)
-        pending.add_done_callback(lambda done: self._hand_over(_settle, answer, done))
+        pending.add_done_callback(lambda done: self._hand_to_loop(_settle, answer, done))
         try:
             return await asyncio.wait_for(answer, max(0.0, deadline - self._loop.time()))
         except TimeoutError:
@@ -191,7 +191,7 @@ class Observer:
         key = (service, type_name)
         if key not in self._clients:
             self._clients[key] = self.node.create_client(
-                interface(type_name), service, qos_profile=qos_profile_services_default
+                interface_class(type_name), service, qos_profile=qos_profile_services_default
             )
             self._executor.wake()
         return self._clients[key]
@@ -216,9 +216,9 @@ class Observer:
             pass
         except Exception as error:  # the thread's boundary: whatever it is, the loop's thread must hear of it
             if not self._closed:
-                self._hand_over(self._fail, error)
+                self._hand_to_loop(self._fail, error)
 
-    def _hand_over(self, callback: Callable[..., None], *args: Any) -> None:
+    def _hand_to_loop(self, callback: Callable[..., None], *args: Any) -> None:
         try:
             self._loop.call_soon_threadsafe(callback, *args)
         except RuntimeError:  # the loop is closed: nobody is interested any more

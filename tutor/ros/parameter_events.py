@@ -9,11 +9,11 @@ from typing import Any
 
 from rclpy.qos import qos_profile_parameter_events
 
-from tutor.ros.messages import interface
+from tutor.ros.messages import interface_class
 from tutor.ros.observer import Observer
 
 
-def hear_changes(observer: Observer, on_change: Callable[[str], None]) -> None:
+def watch_changes(observer: Observer, on_change: Callable[[str], None]) -> None:
     """Call `on_change(node)`, on the event loop's thread, whenever a node says that a parameter of its changed."""
     loop = asyncio.get_running_loop()
 
@@ -21,5 +21,5 @@ def hear_changes(observer: Observer, on_change: Callable[[str], None]) -> None:
         with contextlib.suppress(RuntimeError):  # the loop is closed: nobody is interested any more
             loop.call_soon_threadsafe(on_change, event.node)
 
-    event_type = interface("rcl_interfaces/msg/ParameterEvent")
+    event_type = interface_class("rcl_interfaces/msg/ParameterEvent")
     observer.node.create_subscription(event_type, "/parameter_events", heard, qos_profile_parameter_events)

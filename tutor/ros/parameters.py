@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from tutor.judge.trace import Parameter, SetAnswer
-from tutor.ros.messages import cut, interface
+from tutor.ros.messages import cut, interface_class
 from tutor.ros.observer import Observer
 
 _TYPES = (
@@ -38,10 +38,10 @@ _FIELDS = (
 
 
 MOST_PARAMETERS, MOST_ELEMENTS = 500, 1000
-"""So many parameters of a node are asked for, and so many elements of an array are kept. Texts are cut, too."""
+"""This many parameters of a node are asked for, and this many elements of an array are kept. Texts are cut, too."""
 
 
-async def ask(observer: Observer, nodes: Iterable[str], limit_s: float) -> tuple[Parameter, ...] | None:
+async def get_parameters(observer: Observer, nodes: Iterable[str], limit_s: float) -> tuple[Parameter, ...] | None:
     """The parameters of all `nodes` that answer within `limit_s` seconds; None where none does."""
     answers = await asyncio.gather(*(_ask_one(observer, node, limit_s) for node in dict.fromkeys(nodes)))
     if all(answer is None for answer in answers):
@@ -49,7 +49,7 @@ async def ask(observer: Observer, nodes: Iterable[str], limit_s: float) -> tuple
     return tuple(parameter for answer in answers if answer is not None for parameter in answer)
 
 
-async def set_values(
+async def set_parameters(
     observer: Observer,
     node: str,
     values: Mapping[str, Any],
@@ -135,12 +135,12 @@ def _kept(value: Any) -> Any:
 
 
 def _message(name: str, value: Any, type_name: str | None = None) -> Any:
-    holder = interface("rcl_interfaces/msg/ParameterValue")()
+    holder = interface_class("rcl_interfaces/msg/ParameterValue")()
     holder.type = _kind_of(value) if type_name is None else _TYPES.index(type_name)
     if type_name == "byte array":
         value = [bytes([item]) for item in value]
     setattr(holder, str(_FIELDS[holder.type]), value)
-    parameter = interface("rcl_interfaces/msg/Parameter")()
+    parameter = interface_class("rcl_interfaces/msg/Parameter")()
     parameter.name = name
     parameter.value = holder
     return parameter

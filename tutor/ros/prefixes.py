@@ -7,7 +7,7 @@ import sys
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
-from tutor.sandbox import interfaces
+from tutor.bundled_ros import interfaces
 
 SITE_PACKAGES = Path("lib") / "python3.12" / "site-packages"
 _INDEX = Path("share") / "ament_index" / "resource_index"
@@ -23,7 +23,7 @@ def joined(parts: Iterable[str | Path]) -> str:
     return os.pathsep.join(dict.fromkeys(str(part) for part in parts))
 
 
-def is_ours(entry: str | Path) -> bool:
+def is_bundled(entry: str | Path) -> bool:
     """Whether a path is in the bundled ROS: our own environment, or the interfaces built for it."""
     path = Path(entry)
     return any(path.is_relative_to(root) for root in _own_roots())
@@ -32,7 +32,7 @@ def is_ours(entry: str | Path) -> bool:
 def is_foreign_ros(entry: str | Path) -> bool:
     """Whether a path is in an ament prefix (of ROS itself or of a workspace) that is not the bundled one."""
     path = Path(entry)
-    if is_ours(path) or not path.is_absolute():
+    if is_bundled(path) or not path.is_absolute():
         return False
     if path.is_relative_to("/opt/ros"):
         return True
@@ -42,12 +42,12 @@ def is_foreign_ros(entry: str | Path) -> bool:
 
 def without_ros(environ: Mapping[str, str], name: str) -> list[str]:
     """The entries of a PATH-like variable that belong to no ROS at all."""
-    return [entry for entry in entries(environ, name) if not is_ours(entry) and not is_foreign_ros(entry)]
+    return [entry for entry in entries(environ, name) if not is_bundled(entry) and not is_foreign_ros(entry)]
 
 
-def without_ours(environ: Mapping[str, str], name: str) -> list[str]:
+def without_bundled(environ: Mapping[str, str], name: str) -> list[str]:
     """The entries of a PATH-like variable, those of the bundled ROS left out."""
-    return [entry for entry in entries(environ, name) if not is_ours(entry)]
+    return [entry for entry in entries(environ, name) if not is_bundled(entry)]
 
 
 def bundled_libraries() -> list[Path]:

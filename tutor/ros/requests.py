@@ -8,8 +8,8 @@ from typing import Any
 
 from tutor.live.facts import Field
 from tutor.live.forms import shown
-from tutor.ros.as_yaml import is_array
-from tutor.ros.messages import interface
+from tutor.ros.messages import interface_class
+from tutor.ros.yaml_format import is_array
 
 _NESTED = re.compile(r"(\w+)/(\w+)")
 _BYTES = ("octet", "sequence<octet", "octet[")
@@ -17,12 +17,12 @@ _BYTES = ("octet", "sequence<octet", "octet[")
 
 def request_fields(type_name: str) -> tuple[Field, ...]:
     """The leaves of a service type's request, in their order. Raises UnknownType."""
-    return tuple(_leaves(interface(type_name).Request(), ""))
+    return tuple(_leaves(interface_class(type_name).Request(), ""))
 
 
 def message_fields(type_name: str) -> tuple[Field, ...]:
     """The leaves of a message type, in their order. Raises UnknownType."""
-    return tuple(_leaves(interface(type_name)(), ""))
+    return tuple(_leaves(interface_class(type_name)(), ""))
 
 
 def fill_request(type_name: str, values: Mapping[str, Any]) -> Any:
@@ -30,12 +30,12 @@ def fill_request(type_name: str, values: Mapping[str, Any]) -> Any:
 
     Raises UnknownType, and ValueError with one line where a value does not fit.
     """
-    return _fill(interface(type_name).Request(), values)
+    return _fill(interface_class(type_name).Request(), values)
 
 
 def fill_message(type_name: str, values: Mapping[str, Any]) -> Any:
     """A message with these values at the paths of its leaves; raises what `fill_request` does."""
-    return _fill(interface(type_name)(), values)
+    return _fill(interface_class(type_name)(), values)
 
 
 def _fill(request: Any, values: Mapping[str, Any]) -> Any:

@@ -22,8 +22,8 @@ def problem(place: Path = _PLACE) -> str:
     if not found.f_blocks or found.f_bavail * found.f_frsize >= _NEEDED or _has_pages(place):
         return ""
     size = found.f_blocks * found.f_frsize / 2**20
-    mend = "remove from it what nobody needs, or give the container more (docker run --shm-size=1g)"
-    return f"{place} is full ({size:.0f} MB), so that ROS cannot be loaded; {mend}"
+    hint = "remove from it what nobody needs, or give the container more (docker run --shm-size=1g)"
+    return f"{place} is full ({size:.0f} MB), so that ROS cannot be loaded; {hint}"
 
 
 def prove_enough() -> None:

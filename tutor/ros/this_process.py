@@ -23,13 +23,13 @@ _in_use: tuple[object, ...] | None = None
 """The ROS that this process was prepared for: once rclpy is imported, it can be no other."""
 
 
-def use(ros: RosEnvironment, *, isolated: bool) -> None:
+def prepare_for_rclpy(ros: RosEnvironment, *, isolated: bool) -> None:
     """Prepare this process for `import rclpy` (the observer's side). Call it before anything else.
 
-    Where this process was started with library folders of the other ROS, it starts itself anew, once, without them: the
+    Where this process was started with library folders of the other ROS, it restarts itself, once, without them: the
     loader reads LD_LIBRARY_PATH only then. It may be called again for the same ROS. Raises RuntimeError where rclpy was
     imported before the first call or for another ROS, OSError where shared memory is full, and whatever
-    `tutor.sandbox.interfaces.activate` raises where the bundled interfaces are missing.
+    `tutor.bundled_ros.interfaces.activate` raises where the bundled interfaces are missing.
     """
     global _in_use
     shared_memory.prove_enough()
@@ -50,7 +50,7 @@ def use(ros: RosEnvironment, *, isolated: bool) -> None:
             sys.meta_path.insert(0, _NoBundledRos())
         return
     sys.path[:] = [entry for entry in sys.path if not prefixes.is_foreign_ros(entry)]
-    from tutor.sandbox import interfaces
+    from tutor.bundled_ros import interfaces
 
     interfaces.activate()
 
@@ -74,7 +74,7 @@ def _identity(ros: RosEnvironment) -> tuple[object, ...]:
 
 
 def _wrong_libraries(ros: RosEnvironment) -> bool:
-    wrong = prefixes.is_ours if ros.kind == "system" else prefixes.is_foreign_ros
+    wrong = prefixes.is_bundled if ros.kind == "system" else prefixes.is_foreign_ros
     return any(wrong(entry) for entry in prefixes.entries(_started_with(), "LD_LIBRARY_PATH"))
 
 
@@ -106,7 +106,7 @@ class _NoBundledRos(MetaPathFinder):
     ) -> ModuleSpec | None:
         if path is not None or fullname not in self._bundled:
             return None
-        found = PathFinder.find_spec(fullname, [entry for entry in sys.path if not prefixes.is_ours(entry)])
+        found = PathFinder.find_spec(fullname, [entry for entry in sys.path if not prefixes.is_bundled(entry)])
         if found is None:
             raise ModuleNotFoundError(f"the sourced ROS has no module named {fullname!r}", name=fullname)
         return found

@@ -13,7 +13,7 @@ from tutor.ros.graph import finite_s, full_name
 from tutor.ros.observer import OUR_PREFIX
 
 
-def whole_graph(node: Node) -> Graph:
+def read_whole_graph(node: Node) -> Graph:
     """What `node` sees, without our own nodes and endpoints."""
     nodes = sorted(
         (name, namespace) for name, namespace in node.get_node_names_and_namespaces() if not name.startswith(OUR_PREFIX)
@@ -26,7 +26,7 @@ def whole_graph(node: Node) -> Graph:
     )
 
 
-def quick_look(node: Node) -> object:
+def graph_fingerprint(node: Node) -> object:
     """Something that differs where the graph does, but for an endpoint that was replaced: much cheaper to get."""
     topics = node.get_topic_names_and_types()
     return (
@@ -36,7 +36,7 @@ def quick_look(node: Node) -> object:
     )
 
 
-def qos_of_echo(topic: Topic) -> tuple[ReliabilityPolicy, DurabilityPolicy]:
+def echo_qos(topic: Topic) -> tuple[ReliabilityPolicy, DurabilityPolicy]:
     """What `ros2 topic echo` subscribes with: what every publisher offers, else the weaker."""
     offered = [publisher.qos for publisher in topic.publishers]
     reliable = all(qos.reliability == "reliable" for qos in offered)

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 
 class ServeError(Exception):
-    """The app cannot be served; the message is one line. `mend` says what to do about it."""
+    """The app cannot be served; the message is one line. `hint` says what to do about it."""
 
-    def __init__(self, what: str, mend: str) -> None:
+    def __init__(self, what: str, hint: str) -> None:
         super().__init__(what)
-        self.mend = mend
+        self.hint = hint
 
 
 class NoAddress(ServeError):

@@ -64,11 +64,11 @@ def _listen(host: str, port: int) -> socket.socket:
 
 def _refused(host: str, port: int, error: OSError) -> ServeError:
     if error.errno == errno.EADDRINUSE:
-        what, mend = f"port {port} of {host} is taken", "name another with --port, or leave it out to get a free one"
+        what, hint = f"port {port} of {host} is taken", "name another with --port, or leave it out to get a free one"
     elif error.errno == errno.EADDRNOTAVAIL:
         return NoAddress(f"--host {host}: this machine has no such address", "leave --host out for this machine only")
     elif error.errno == errno.EACCES:
-        what, mend = f"you may not listen on port {port}", "name one from 1024 on with --port"
+        what, hint = f"you may not listen on port {port}", "name one from 1024 on with --port"
     else:
-        what, mend = f"cannot listen on port {port} of {host}: {os.strerror(error.errno or 0)}", "try another --port"
-    return ServeError(what, mend)
+        what, hint = f"cannot listen on port {port} of {host}: {os.strerror(error.errno or 0)}", "try another --port"
+    return ServeError(what, hint)

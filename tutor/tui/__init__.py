@@ -16,9 +16,9 @@ def run(workspace: Path, lessons: Path | None = None) -> int:
     """
     from tutor.content import load_course
     from tutor.tui.app import TutorApp
-    from tutor.tui.desk import Desk
+    from tutor.tui.app_services import AppServices
     from tutor.workspace import Workspace
 
-    app = TutorApp(Desk(load_course(lessons), Workspace(workspace), lessons))
+    app = TutorApp(AppServices(load_course(lessons), Workspace(workspace), lessons))
     app.run()
     return app.return_code or 0

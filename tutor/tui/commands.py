@@ -59,7 +59,7 @@ GROUPS: tuple[tuple[str, tuple[Command, ...]], ...] = (
         (
             Command("run", ("r", "f5"), "Run", "Run your node in your own ROS domain", footer=True),
             Command("stop", ("r", "f6"), "Stop", "Stop your node, as Ctrl+C does", footer=True),
-            Command("restart", ("f5",), "Restart", "Stop your node and run it anew"),
+            Command("restart", ("f5",), "Restart", "Stop your node and run it again"),
             Command("partner", ("b",), "Partner", "Run or stop our node that goes with yours", footer=True),
             Command("other_file", ("j",), "Other file", "Run or stop the exercise's other file"),
             Command("options", ("o",), "Options", "Set parameters and remaps"),
@@ -91,7 +91,7 @@ GROUPS: tuple[tuple[str, tuple[Command, ...]], ...] = (
             Command("changes", ("d",), "Changes", "Show what you changed in the skeleton"),
             Command("solution", ("v",), "Solution", "Show our solution (asks first)"),
             Command("against", ("V",), "Compare", "Compare your file with our solution"),
-            Command("reset", ("Z",), "Reset", "Begin anew (keeps a backup)"),
+            Command("reset", ("Z",), "Reset", "Start again (keeps a backup)"),
         ),
     ),
     (
@@ -141,7 +141,7 @@ GROUPS: tuple[tuple[str, tuple[Command, ...]], ...] = (
 )
 
 
-def commands() -> Iterator[Command]:
+def all_commands() -> Iterator[Command]:
     """Every command, in the order of the help."""
     for _, group in GROUPS:
         yield from group
@@ -149,7 +149,7 @@ def commands() -> Iterator[Command]:
 
 def bindings() -> list[BindingType]:
     """The keys of the main screen."""
-    return [binding for command in commands() for binding in command.bindings()]
+    return [binding for command in all_commands() for binding in command.bindings()]
 
 
 EDITOR_KEYS = (
@@ -169,7 +169,7 @@ EDITOR_KEYS = (
 
 def local(names: str, *, shown_key: int = 0, show: bool = True) -> list[BindingType]:
     """The footer of a panel that has the focus: these commands of the screen, each by its key number `shown_key`."""
-    table = {command.name: command for command in commands()}
+    table = {command.name: command for command in all_commands()}
     found: list[BindingType] = []
     for name in names.split():
         command = table[name]

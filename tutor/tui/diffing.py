@@ -7,7 +7,7 @@ import difflib
 from tutor.tui.widgets.line_view import Piece, Row
 
 AROUND = 3
-"""So many unchanged lines are shown around a change."""
+"""This many unchanged lines are shown around a change."""
 
 
 def difference(before: str, after: str) -> tuple[list[Row], list[Piece]]:

@@ -11,7 +11,7 @@ from collections.abc import AsyncIterator, Sequence
 from pathlib import Path
 
 from tutor.judge.events import Event, decode
-from tutor.process import prctl, sweep
+from tutor.process import orphans, prctl
 
 CLEAN_UP_S = 10.0
 """How long a cancelled check may take to end the learner's processes, in seconds."""
@@ -48,7 +48,7 @@ class EngineChild:
     async def events(self) -> AsyncIterator[Event]:
         """The events as they come, until the child closes its output.
 
-        Raises ValueError for a line that is no event.
+        Raises ValueError for a line that is not an event.
         """
         assert self._process.stdout is not None
         async for line in self._process.stdout:
@@ -72,10 +72,10 @@ class EngineChild:
                     continue
         self._reader.cancel()
         if self._process.returncode is not None and self._process.returncode < 0:
-            sweep.end_orphans()  # it was killed, and could not clean up
+            orphans.end_orphans()  # it was killed, and could not clean up
 
     @property
-    def last_words(self) -> tuple[str, ...]:
+    def output_tail(self) -> tuple[str, ...]:
         """The last lines it wrote to stderr."""
         return tuple(self._stderr)
 

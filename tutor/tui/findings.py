@@ -101,9 +101,9 @@ class Findings:
         idle = tuple(f if f.verdict else replace(f, checking=False, fraction=0.0, doing="") for f in self.criteria)
         return replace(self, criteria=idle, checking=False, note=note)
 
-    def broken(self, what: str, mend: str, evidence: tuple[str, ...]) -> Findings:
+    def broken(self, what: str, hint: str, evidence: tuple[str, ...]) -> Findings:
         """The check itself failed: what has no verdict yet could not be judged, and that is a fault of ours."""
-        verdict = fault(what, mend, evidence)
+        verdict = fault(what, hint, evidence)
         judged = tuple(f if f.verdict else replace(f, checking=True, verdict=verdict) for f in self.criteria)
         return replace(self, criteria=judged, checking=False, note="could not be judged")
 

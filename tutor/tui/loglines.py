@@ -17,13 +17,13 @@ _ERROR = re.compile(r"[\w.]*(Error|Exception|Interrupt)\b")
 
 @dataclass(frozen=True, slots=True)
 class LogLine:
-    """One line. `level` is None for what is no log message; `said` is the text without what stands before it.
+    """One line. `level` is None for what is not a log message; `said` is the text without what stands before it.
 
     `stamp` is a time in seconds since the epoch; `place` is the file and line, from 1, that a traceback names.
     """
 
     text: str
-    said: str
+    message: str
     stderr: bool
     at: float
     level: Level | None = None
@@ -34,11 +34,11 @@ class LogLine:
 
     @property
     def weight(self) -> Level:
-        """How loud it is: what is written to stderr and is no log message counts as an error, a print as INFO."""
+        """How loud it is: what is written to stderr and is not a log message counts as an error, a print as INFO."""
         return self.level or (Level.ERROR if self.stderr else Level.INFO)
 
 
-def read(line: OutputLine) -> LogLine:
+def parse_line(line: OutputLine) -> LogLine:
     """What a line of output is."""
     text = plain(line.text)
     stderr = line.stream == "stderr"
@@ -51,7 +51,7 @@ def read(line: OutputLine) -> LogLine:
     return LogLine(text, text, stderr, line.at, place=place, error=error)
 
 
-def chosen(lines: Sequence[LogLine], level: Level, wanted: str, since: float) -> list[LogLine]:
+def matching_lines(lines: Sequence[LogLine], level: Level, wanted: str, since: float) -> list[LogLine]:
     """The lines that are at least of `level`, hold the text `wanted` in any case, and came after `since`."""
     text = wanted.casefold()
     return [line for line in lines if line.at > since and line.weight >= level and text in line.text.casefold()]

@@ -100,7 +100,7 @@ class ProgressRead(Message):
 
 
 @dataclass
-class Trouble(Message):
+class ErrorOccurred(Message):
     """Something that was asked for could not be done; one line that says why."""
 
     text: str

@@ -35,7 +35,7 @@ def editor_command(
         try:
             command = shlex.split(value)
         except ValueError as error:
-            raise EditorError(f"{variable} is no command ({str(error).lower()}): {value}") from error
+            raise EditorError(f"{variable} is not a command ({str(error).lower()}): {value}") from error
         if not command or which(command[0]) is None:
             name = command[0] if command else value
             raise EditorError(f"There is no program {name}: set {variable} to your editor, or press e to edit here.")

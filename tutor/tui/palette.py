@@ -11,14 +11,14 @@ from textual.command import DiscoveryHit, Hit, Hits, Provider
 from textual.content import Content
 
 from tutor.content import Lesson
-from tutor.tui import words
-from tutor.tui.commands import commands
+from tutor.tui import wording
+from tutor.tui.commands import all_commands
 
 if TYPE_CHECKING:
     from tutor.tui.screens.main import MainScreen
 
 MOST_LINES = 12
-"""So many lines of the lessons are shown for one search."""
+"""This many lines of the lessons are shown for one search."""
 
 SHORTEST = 3
 """Fewer letters than this are found everywhere."""
@@ -29,12 +29,12 @@ class Actions(Provider):
 
     def _offers(self) -> Iterator[tuple[str, str, Callable[[], object]]]:
         screen = cast("MainScreen", self.screen)
-        for command in commands():
+        for command in all_commands():
             if command.palette and screen.can(command.name):
                 about = f"Key {' or '.join(command.shown_keys)}"
                 yield command.text, about, partial(screen.action_do, command.name)
-        for lesson in screen.session.desk.lessons:
-            name = f"Go to {words.label(lesson)} {lesson.title}"
+        for lesson in screen.session.app_services.lessons:
+            name = f"Go to {wording.label(lesson)} {lesson.title}"
             yield name, f"{lesson.unit}, {lesson.difficulty}", partial(screen.go_to, lesson)
 
     async def discover(self) -> Hits:
@@ -60,11 +60,11 @@ class LessonText(Provider):
         """The lines that hold the typed text, the shown lesson's first."""
         screen = cast("MainScreen", self.screen)
         here = screen.session.lesson
-        for number, (lesson, line, text) in enumerate(found(screen.session.desk.lessons, query, here)):
+        for number, (lesson, line, text) in enumerate(found(screen.session.app_services.lessons, query, here)):
             if number >= MOST_LINES:
                 return
             shown = Content.assemble(text).highlight_regex(_plain(query), style="bold $accent")
-            about = f"{words.label(lesson)} {lesson.title}, line {line + 1}"
+            about = f"{wording.label(lesson)} {lesson.title}, line {line + 1}"
             yield Hit(0.7 - number / 100, shown, partial(screen.go_to_line, lesson, line), text=text, help=_help(about))
 
 

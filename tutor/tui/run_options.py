@@ -6,7 +6,7 @@ import re
 import shlex
 from pathlib import Path
 
-from tutor.sandbox.ros2.starting import is_launch_file
+from tutor.bundled_ros.ros2.starting import is_launch_file
 from tutor.workspace import RunOptions
 
 _PARAMETER = re.compile(r"(?:[A-Za-z_/*][\w/*]*:)?[A-Za-z_][\w.]*:=\S.*")
@@ -26,7 +26,7 @@ def problem(options: RunOptions, *, launch: bool) -> str:
     """What is wrong with the first wrong line, and how it should look; empty where all is well."""
     for line in options.parameters:
         if launch and not _ARGUMENT.fullmatch(line):
-            return f"'{line}' is no launch argument: write name:=value, as in topic:=/news"
+            return f"'{line}' is not a launch argument: write name:=value, as in topic:=/news"
         if not launch and not _PARAMETER.fullmatch(line):
             return f"'{line}' sets no parameter: write name:=value, as in publish_rate:=2.0"
     for line in options.remaps:

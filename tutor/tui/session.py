@@ -1,4 +1,4 @@
-"""What is going on at the desk: which lesson and file, what is known of them, and what is to be remembered."""
+"""What is going on in the app: which lesson and file, what is known of them, and what is to be remembered."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from tutor.content import Lesson, LessonFile
-from tutor.tui.desk import Desk
+from tutor.tui.app_services import AppServices
 from tutor.tui.findings import Findings
 from tutor.workspace import AppState, Progress, RunOptions
 
@@ -15,7 +15,7 @@ from tutor.workspace import AppState, Progress, RunOptions
 class Session:
     """Shared by the screen and its controllers; only they change it, in the app's own thread."""
 
-    desk: Desk
+    app_services: AppServices
     lesson: Lesson
     state: AppState = field(default_factory=AppState)
     file_index: int = 0
@@ -23,11 +23,11 @@ class Session:
     findings: dict[str, Findings] = field(default_factory=dict)
 
     @classmethod
-    def of(cls, desk: Desk, state: AppState) -> Session:
+    def of(cls, app_services: AppServices, state: AppState) -> Session:
         """A session that begins where the last one ended."""
-        known = {lesson.id: lesson for lesson in desk.lessons}
-        session = cls(desk, known.get(state.lesson, desk.lessons[0]), state)
-        session.findings = {lesson.id: Findings.of(lesson) for lesson in desk.lessons}
+        known = {lesson.id: lesson for lesson in app_services.lessons}
+        session = cls(app_services, known.get(state.lesson, app_services.lessons[0]), state)
+        session.findings = {lesson.id: Findings.of(lesson) for lesson in app_services.lessons}
         return session
 
     @property
@@ -38,12 +38,12 @@ class Session:
     @property
     def path(self) -> Path:
         """Where that file is."""
-        return self.desk.path(self.file)
+        return self.app_services.path(self.file)
 
     @property
     def paths(self) -> list[Path]:
         """Where the lesson's files are."""
-        return [self.desk.path(file) for file in self.lesson.files]
+        return [self.app_services.path(file) for file in self.lesson.files]
 
     @property
     def run_options(self) -> RunOptions:

@@ -33,5 +33,5 @@ class TextApp[Result](App[Result]):
         return [*super().get_line_filters(), _TEXT_ONLY]
 
     def notify(self, message: str, **options: Any) -> None:
-        """Show a note; whatever it names is no markup."""
+        """Show a note; whatever it names is not markup."""
         super().notify(message, **{**options, "markup": False})

@@ -14,7 +14,7 @@ from textual.screen import Screen
 Typed = Key | Paste
 
 ROUNDS = 2
-"""So many times the way of a key is followed: the second time behind the messages that its action has posted."""
+"""This many times the way of a key is followed: the second time behind the messages that its action has posted."""
 
 
 class Typeahead:

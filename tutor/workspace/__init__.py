@@ -4,11 +4,11 @@ from tutor.workspace.app_state import AppState, AppStateFile, RunOptions
 from tutor.workspace.atomic import write_atomically
 from tutor.workspace.domain import domain_of, given_domain
 from tutor.workspace.errors import StorageError, SubmissionError, WorkspaceError
-from tutor.workspace.place import Workspace, find_workspace
-from tutor.workspace.placing import Placed, place
+from tutor.workspace.layout import Workspace, find_workspace
+from tutor.workspace.placing_files import Placed, place_files
 from tutor.workspace.progress import Attempt, ExerciseProgress, Progress
 from tutor.workspace.progress_file import ProgressFile
-from tutor.workspace.saving import Saved, keep_aside, read_source, save_over
+from tutor.workspace.saving import Saved, back_up_file, overwrite_file, read_source
 from tutor.workspace.standing import Standing, State, last_met, standing
 from tutor.workspace.starting import TEMPLATE, Started, start, start_in
 from tutor.workspace.submissions import find_submission, is_own, is_started, solution
@@ -31,17 +31,17 @@ __all__ = [
     "SubmissionError",
     "Workspace",
     "WorkspaceError",
+    "back_up_file",
     "domain_of",
     "find_submission",
     "find_workspace",
     "given_domain",
     "is_own",
     "is_started",
-    "keep_aside",
     "last_met",
-    "place",
+    "overwrite_file",
+    "place_files",
     "read_source",
-    "save_over",
     "solution",
     "standing",
     "start",

@@ -67,7 +67,7 @@ def decode(text: str) -> AppState:
             if known.name == "side_by_side" and known.name not in document:
                 continue  # written before there was such a thing
             if known.name != "runs":
-                values[known.name] = _of_type(type(getattr(plain, known.name)), document[known.name])
+                values[known.name] = _as_type(type(getattr(plain, known.name)), document[known.name])
         runs = {str(key): _run(value) for key, value in document["runs"].items()}
         return AppState(**values, runs=runs)
     except (KeyError, TypeError, AttributeError, RecursionError, json.JSONDecodeError) as error:
@@ -78,14 +78,14 @@ def _run(value: Any) -> RunOptions:
     return RunOptions(_lines(value["parameters"]), _lines(value["remaps"]))
 
 
-def _of_type(wanted: type, value: Any) -> Any:
+def _as_type(wanted: type, value: Any) -> Any:
     if type(value) is not wanted:
         raise TypeError(f"no {wanted.__name__}: {value!r}")
     return value
 
 
 def _lines(value: Any) -> tuple[str, ...]:
-    return tuple(_of_type(str, line) for line in _of_type(list, value))
+    return tuple(_as_type(str, line) for line in _as_type(list, value))
 
 
 class AppStateFile:

@@ -12,7 +12,7 @@ from tutor.workspace.errors import StorageError
 def write_atomically(path: Path, text: str) -> None:
     """Write `text` as UTF-8 to a temporary file beside `path`, flush it to the disk, and rename it to `path`.
 
-    Something at `path` that is no regular file (a terminal, a pipe) is written to directly; where it is a symbolic
+    Something at `path` that is not a regular file (a terminal, a pipe) is written to directly; where it is a symbolic
     link, what it points to is replaced. Raises StorageError.
     """
     try:

@@ -1,7 +1,7 @@
 """Which workspace of this machine has which ROS domain: claims in a folder that all of the machine's users share.
 
 A claim is a small file that its user alone can change. The folder is never trusted: what is odd about it (a link, a
-folder that cannot be written to, a file that is no claim) is passed over, and nothing outside of it is touched.
+folder that cannot be written to, a file that is not a claim) is passed over, and nothing outside of it is touched.
 """
 
 from __future__ import annotations

@@ -13,7 +13,7 @@ from pathlib import Path
 from tutor.workspace import claims
 from tutor.workspace.atomic import write_atomically
 from tutor.workspace.errors import StorageError
-from tutor.workspace.place import MARKER, Workspace
+from tutor.workspace.layout import MARKER, Workspace
 
 VARIABLE = "ROS_DOMAIN_ID"
 _LAST = 232

@@ -84,7 +84,7 @@ class Progress:
         return self.with_exercise(result.id, replace(before, started_at=started_at, attempts=attempts, best=best))
 
     def with_hints(self, exercise: str, shown: int) -> Progress:
-        """A copy in which so many hints of `exercise` were shown."""
+        """A copy in which this many hints of `exercise` were shown."""
         return self.with_exercise(exercise, replace(self.of(exercise), hints=shown))
 
     def with_tick(self, item: str, ticked: bool = True) -> Progress:

@@ -63,7 +63,7 @@ class ProgressFile:
             return after
 
     def next_hint(self, exercise: str, of: int) -> tuple[int, bool]:
-        """Count one more hint as shown, of so many; its number from 1, and whether it had been shown before."""
+        """Count one more hint as shown, of this many; its number from 1, and whether it had been shown before."""
         seen_before: list[int] = []
 
         def count(progress: Progress) -> Progress:

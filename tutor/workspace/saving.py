@@ -8,7 +8,7 @@ from pathlib import Path
 
 from tutor.workspace.atomic import write_atomically
 from tutor.workspace.errors import StorageError
-from tutor.workspace.placing import free_name
+from tutor.workspace.placing_files import free_name
 
 LARGEST = 1 << 20
 """No file larger than this is opened for editing, in bytes."""
@@ -40,7 +40,7 @@ def read_source(path: Path) -> str | None:
         raise StorageError(f"{path} is not UTF-8: open it in your own editor") from error
 
 
-def save_over(path: Path, text: str, expected: str | None) -> Saved:
+def overwrite_file(path: Path, text: str, expected: str | None) -> Saved:
     """Write `text` to `path` if it still holds `expected` (None: if it is not there). Raises StorageError.
 
     What somebody wrote between the look and the write is kept as `name.~1~`, `name.~2~`, ...
@@ -71,7 +71,7 @@ def save_over(path: Path, text: str, expected: str | None) -> Saved:
         before.unlink(missing_ok=True)
 
 
-def keep_aside(path: Path, text: str) -> Path:
+def back_up_file(path: Path, text: str) -> Path:
     """Keep `text` beside `path`, as `name.~1~`, `name.~2~`, ...; where it is. Raises StorageError."""
     _make_folder(path.parent)
     backup = free_name(path)

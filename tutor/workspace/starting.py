@@ -8,8 +8,8 @@ from pathlib import Path
 
 from tutor.content import Lesson
 from tutor.workspace.errors import StorageError
-from tutor.workspace.place import Workspace
-from tutor.workspace.placing import Placed, place
+from tutor.workspace.layout import Workspace
+from tutor.workspace.placing_files import Placed, place_files
 
 TEMPLATE = Path(__file__).parent / "template"
 """A workspace as it is before the first exercise."""
@@ -31,7 +31,7 @@ def start(lesson: Lesson, workspace: Workspace, *, force: bool = False) -> Start
     """
     created = not workspace.exists
     skeletons = {workspace.path_of(file.name): _read(file.skeleton) for file in lesson.files}
-    placed = place({**_missing_template(workspace), **skeletons}, force=force)
+    placed = place_files({**_missing_template(workspace), **skeletons}, force=force)
     try:
         (workspace.package / "launch").mkdir(exist_ok=True)
     except OSError as error:
@@ -43,7 +43,7 @@ def start(lesson: Lesson, workspace: Workspace, *, force: bool = False) -> Start
 def start_in(lesson: Lesson, folder: Path, *, force: bool = False) -> Started:
     """Put the bare skeleton files of `lesson` into any folder. Raises what `start` raises."""
     skeletons = {folder / file.name: _read(file.skeleton) for file in lesson.files}
-    return Started(place(skeletons, force=force), created_workspace=False)
+    return Started(place_files(skeletons, force=force), created_workspace=False)
 
 
 def _missing_template(workspace: Workspace) -> dict[Path, bytes]:

@@ -11,7 +11,7 @@ from tutor.content import Lesson, LessonFile
 from tutor.invocation import command
 from tutor.judge.submission import Submission
 from tutor.workspace.errors import SubmissionError
-from tutor.workspace.place import Workspace, is_launch_file
+from tutor.workspace.layout import Workspace, is_launch_file
 
 
 def find_submission(lesson: Lesson, path: Path | None, workspace: Workspace | None) -> Submission:
@@ -22,19 +22,19 @@ def find_submission(lesson: Lesson, path: Path | None, workspace: Workspace | No
     Without `path`, the workspace's own files. Raises SubmissionError, which says in one line what is missing.
     """
     if path is None:
-        return _of_workspace(lesson, workspace)
+        return _workspace_submission(lesson, workspace)
     path = Path(os.path.abspath(path.expanduser()))
     if path.is_dir():
         if not os.access(path, os.R_OK | os.X_OK):
             raise SubmissionError(f"cannot read the folder {path}: permission denied")
         if Workspace(path).exists:
-            return _of_workspace(lesson, Workspace(path))
+            return _workspace_submission(lesson, Workspace(path))
         return _submission(lesson, {file.name: path / file.name for file in lesson.files})
     if not path.exists():
         raise SubmissionError(f"there is no file or folder {path}{_similar(path.name, path.parent)}")
     names = [file.name for file in lesson.files]
     if path.is_file() and path.suffix.lower() not in _suffixes(names):
-        raise SubmissionError(f"{path} is no Python file; {lesson.id} is judged by {' and '.join(names)}")
+        raise SubmissionError(f"{path} is not a Python file; {lesson.id} is judged by {' and '.join(names)}")
     stands_for = path.name if path.name in names else names[0]
     return _submission(lesson, {name: path if name == stands_for else path.parent / name for name in names})
 
@@ -65,7 +65,7 @@ def solution(lesson: Lesson) -> Submission:
     return Submission(lesson.id, {file.name: file.solution for file in lesson.files})
 
 
-def _of_workspace(lesson: Lesson, workspace: Workspace | None) -> Submission:
+def _workspace_submission(lesson: Lesson, workspace: Workspace | None) -> Submission:
     if workspace is None or not workspace.exists:
         where = "here" if workspace is None else f"at {workspace.root}"
         raise SubmissionError(

@@ -21,7 +21,7 @@ class CalculatorClient(Node):
         # TODO 6: for each of add, subtract, multiply and divide (and
         #         once more divide, by zero):
         #         - create a client for the service,
-        #         - wait for the service, but not for ever: log an error
+        #         - wait for the service, but not forever: log an error
         #           and return False if it does not come,
         #         - call it with call_async(),
         #         - let rclpy.spin_until_future_complete() run until the

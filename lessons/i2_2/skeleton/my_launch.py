@@ -31,6 +31,6 @@ def generate_launch_description() -> LaunchDescription:
     # TODO 1: start minimal_subscriber in the same way. Once the
     #         publisher has them, it needs TODO 3 and TODO 5, too.
 
-    # Only what is in this list is started; the arguments belong into it
+    # Only what is in this list is started; the arguments belong in it
     # as well.
     return LaunchDescription([publisher])

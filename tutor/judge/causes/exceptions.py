@@ -7,10 +7,10 @@ from dataclasses import replace
 
 from tutor.judge import exceptions
 from tutor.judge.causes import names, parameters
-from tutor.judge.following import leads_on
 from tutor.judge.rewriting.node import node_file
-from tutor.judge.rewriting.parameters import declared_once
-from tutor.judge.rewriting.syntax import readable
+from tutor.judge.rewriting.parameters import declare_once
+from tutor.judge.rewriting.syntax import make_readable
+from tutor.judge.step_parsing import is_applicable
 from tutor.judge.trace import Trace
 from tutor.judge.tracebacks import Frame, Traceback
 from tutor.judge.verdict import Cause
@@ -19,7 +19,7 @@ _UNREAD = ("SyntaxError", "IndentationError", "TabError")
 _EDITS = re.compile(r"lines? \d+|write (?:above|below) line|remove lines? \d+|at the top of the file")
 
 
-def of_traceback(found: Traceback, trace: Trace) -> Cause:
+def diagnose_traceback(found: Traceback, trace: Trace) -> Cause:
     """Name an exception, with the learner's own line; of a chain, the one that tells most, from its origin on."""
     if (cause := known(found, trace)) is not None:
         return cause
@@ -60,17 +60,17 @@ def _after(each: Traceback, last: Traceback) -> str:
 def _known(each: Traceback, last: Traceback, trace: Trace) -> Cause | None:
     own = each.own(trace.folder) or last.own(trace.folder)
     file = own.name if own and own.name in trace.sources else trace.file
-    seen = exceptions.Seen(each, trace.folder, own, file, trace.sources.get(file, ""))
+    seen = exceptions.RaisedException(each, trace.folder, own, file, trace.sources.get(file, ""))
     # Whatever the program raises itself, on account of another exception, tells less than that one.
-    table = [k for k in (*trace.exceptions, *exceptions.shipped()) if k.type != ".*" or each is last.origin]
-    found = exceptions.find(seen, table, cause=names.UNHANDLED_EXCEPTION, after=_after(each, last))
+    table = [k for k in (*trace.exceptions, *exceptions.load_shipped()) if k.type != ".*" or each is last.origin]
+    found = exceptions.explain(seen, table, cause=names.UNHANDLED_EXCEPTION, after=_after(each, last))
     if found is None and each.type.endswith("InvalidParameterTypeException"):
-        return parameters.of_types(_told(each, last, trace))
+        return parameters.diagnose_types(_told(each, last, trace))
     if found is not None and each.type.endswith("ParameterAlreadyDeclaredException") and own is not None:
         read = node_file(seen.source)
-        found = replace(found, hint=read.step(declared_once(read, own.line)) or found.hint)
-    if found is not None and each.type.endswith(_UNREAD) and not leads_on(found.hint, {file: seen.source}):
-        found = replace(found, hint=readable(seen.source) or found.hint)
+        found = replace(found, hint=read.step(declare_once(read, own.line)) or found.hint)
+    if found is not None and each.type.endswith(_UNREAD) and not is_applicable(found.hint, {file: seen.source}):
+        found = replace(found, hint=make_readable(seen.source) or found.hint)
     if found is not None and len(trace.sources) > 1 and _EDITS.match(found.hint):
         return replace(found, hint=f"in {file}, {found.hint}")
     return found

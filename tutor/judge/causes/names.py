@@ -41,7 +41,7 @@ MEANINGS: Mapping[str, str] = {
     TIMER_NOT_REPLACED: "a new rate is accepted, the timer keeps the old one",
     OLD_TIMER_KEPT: "a new timer is made beside the old one",
     RATE_AS_PERIOD: "Hz are given to a timer that takes seconds",
-    BLOCKED_EXECUTOR: "a callback that does not come to an end",
+    BLOCKED_EXECUTOR: "a callback that never returns",
     DEADLOCK: "a callback waits for an answer that only its own executor could take in",
     FLOAT_IN_INT: "the result of / in a field for whole numbers",
     HELD_BACK: "print() into a pipe waits for a full buffer",

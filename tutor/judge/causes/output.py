@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Sequence
 
 from tutor.judge import source, tracebacks
 from tutor.judge.causes import names, printing
-from tutor.judge.rewriting.node import started
+from tutor.judge.rewriting.node import started_node
 from tutor.judge.trace import OutputLine, Trace
 from tutor.judge.verdict import Cause
 
@@ -24,7 +24,7 @@ _ROS_COMPLAINS = re.compile(
 _ROS_LOGGER = re.compile(r"^(?:rcl|rclcpp|rmw_\w+)(?:\.|$)")
 
 
-def of_printed(
+def diagnose_printed(
     trace: Trace, says: Callable[[str], object], what: str, *, after: Iterable[OutputLine] = ()
 ) -> Cause | None:
     """Whether something that should have been logged was only printed; `says` knows it by its text.
@@ -35,14 +35,14 @@ def of_printed(
     printed = [text for text in _prints(trace.output) if says(text)]
     if printed:
         if (call := printing.python_logging(trace, printed[0])) is not None:
-            return _of_python_logging(trace, call, what)
-        wrote = printing.print_of(trace, printed[0])
+            return _diagnose_python_logging(trace, call, what)
+        wrote = printing.find_print(trace, printed[0])
         at = f" in line {wrote.lineno}" if wrote else ""
         reaches = "log messages reach /rosout, where others can read them, and no buffering holds them back"
         return Cause(
             "printed, not logged",
             f"{what} is written with print(){at}: {printed[0]}",
-            printing.logged(trace, wrote) if wrote else f"use self.get_logger().info(...): {reaches}",
+            printing.log_instead_of_print(trace, wrote) if wrote else f"use self.get_logger().info(...): {reaches}",
         )
     seen = {log.text for log in trace.logs}
     matches = [found for line in trace.output if (found := _LOGGED.match(line.text)) and says(line.text)]
@@ -53,7 +53,7 @@ def of_printed(
             return Cause(
                 "rosout switched off",
                 f"{what} is logged by the node, but nothing that it logs reaches /rosout: {logged[0].string}",
-                printing.audible(started(trace))
+                printing.enable_rosout(started_node(trace))
                 or "leave out enable_rosout=False, and --disable-rosout-logs among the arguments",
             )
         return Cause(
@@ -63,31 +63,31 @@ def of_printed(
         )
     late = [text for text in _prints(tuple(after)) if says(text)]
     if late:
-        wrote = printing.print_of(trace, late[0])
-        step = printing.logged(trace, wrote) if wrote else "use self.get_logger().info(...)"
+        wrote = printing.find_print(trace, late[0])
+        step = printing.log_instead_of_print(trace, wrote) if wrote else "use self.get_logger().info(...)"
         return Cause(
             names.HELD_BACK,
             f"{what} is printed, not logged, and appears only when the program ends: {late[0]}",
             f"{step}: print() into a pipe or a file waits until its buffer is full, a log message goes out at once",
         )
     unused = None if source.calls(trace, "get_logger") else printing.python_logging(trace)
-    return _of_python_logging(trace, unused, what) if unused is not None else None
+    return _diagnose_python_logging(trace, unused, what) if unused is not None else None
 
 
-def _of_python_logging(trace: Trace, call: ast.Call, what: str) -> Cause:
+def _diagnose_python_logging(trace: Trace, call: ast.Call, what: str) -> Cause:
     return Cause(
         "printed, not logged",
         f"{what} goes to Python's own logging module, which knows nothing of ROS: line {call.lineno}: "
         f"{ast.unparse(call)}",
-        printing.logged(trace, call),
+        printing.log_instead_of_print(trace, call),
     )
 
 
 def _prints(output: Sequence[OutputLine]) -> list[str]:
     """What the learner's code printed: no log messages, no exceptions, and nothing that ROS itself complains of."""
-    raised = {each.raised for each in tracebacks.find(output)}
+    raised = {each.raised for each in tracebacks.find_tracebacks(output)}
     return [
         text
-        for text in tracebacks.without(output)
+        for text in tracebacks.lines_without_tracebacks(output)
         if text not in raised and not _LOGGED.match(text) and not _ROS_COMPLAINS.search(text)
     ]

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import ast
 
-from tutor.judge.edits import instead, swapped, without
+from tutor.judge.edits import remove_statement, replace_node, replace_nodes
 from tutor.judge.rewriting import parameters
 from tutor.judge.rewriting.node import NodeFile, argument
 from tutor.judge.source import Function, where
@@ -23,10 +23,10 @@ def overridden(file: NodeFile, name: str) -> Cause | None:
 
 def _set_by_itself(file: NodeFile, name: str) -> Cause | None:
     for call in file.calls("set_parameters", "set_parameters_atomically"):
-        function = file.within(call)
+        function = file.function_around(call)
         code = ast.unparse(call) if "[" in ast.unparse(call) or function is None else ast.unparse(function)
         statement = file.statement(call)
-        step = file.step([without(file.text, statement)])
+        step = file.step([remove_statement(file.text, statement)])
         if name in code and step is not None:
             return Cause(
                 _OVERWRITTEN,
@@ -44,7 +44,7 @@ def _ignoring(file: NodeFile, name: str) -> Cause | None:
         if taken is not None and ast.unparse(taken.value) == "True":
             first = first or call if name in ast.unparse(call) else first
             found.append((taken.value, "False"))
-    step = file.step(swapped(file.text, *found)) if first is not None else None
+    step = file.step(replace_nodes(file.text, *found)) if first is not None else None
     if first is None or step is None:
         return None
     text = f"{where(first)}: with ignore_override=True, the value given at start-up is not taken"
@@ -52,15 +52,19 @@ def _ignoring(file: NodeFile, name: str) -> Cause | None:
 
 
 def _assigned_again(file: NodeFile, name: str) -> Cause | None:
-    kept = parameters.kept(file, name)
+    kept = parameters.find_kept_value(file, name)
     for node in ast.walk(file.tree):
         if kept is None or not isinstance(node, ast.Assign) or not isinstance(node.value, ast.Constant):
             continue
-        later = node.lineno > kept.lineno if file.within(node) is file.within(kept) else not _in_init(file, node)
+        later = (
+            node.lineno > kept.lineno
+            if file.function_around(node) is file.function_around(kept)
+            else not _in_init(file, node)
+        )
         target = ast.unparse(node.targets[0])
-        corrected = any(isinstance(each, ast.If) and target in ast.unparse(each.test) for each in file.outwards(node))
+        corrected = any(isinstance(each, ast.If) and target in ast.unparse(each.test) for each in file.ancestors(node))
         if target == ast.unparse(_target(kept)) and later and not corrected:  # a bad value may well be replaced
-            step = file.step([without(file.text, node)])
+            step = file.step([remove_statement(file.text, node)])
             text = f"{where(node)} overwrites what line {kept.lineno} has read of {name}"
             return Cause(_OVERWRITTEN, text, step) if step else None
     return None
@@ -71,20 +75,20 @@ def not_called(file: NodeFile) -> Cause | None:
     for call in file.calls(parameters.ON_SET, parameters.POST_SET):
         given = argument(call, 0, "callback")
         if isinstance(given, ast.Call) and file.function(given.func) is not None:
-            step = file.step([instead(file.text, given, ast.unparse(given.func))])
+            step = file.step([replace_node(file.text, given, ast.unparse(given.func))])
             text = f"{where(call)} calls the callback at once, and registers what it returns"
             return Cause("callback not registered", text, step) if step else None
         if (twice := _defined_twice(file, given)) is not None:
             return twice
-        function = file.within(call)
+        function = file.function_around(call)
         if function is not None and file.setup is not None and function not in file.reached(file.setup):
-            step = file.step([*file.adds_to_setup(ast.unparse(call))])
+            step = file.step([*file.append_to_setup(ast.unparse(call))])
             text = f"{where(call)} stands in {function.name}, which nothing calls when the node starts"
             return Cause("callback not registered", text, step) if step else None
     if file.calls(parameters.ON_SET, parameters.POST_SET, parameters.PRE_SET):
         return None
     meant = _meant(file)
-    step = file.step(parameters.registering(file, meant)) if meant is not None else None
+    step = file.step(parameters.register_on_set(file, meant)) if meant is not None else None
     if meant is None or step is None:
         return None
     return Cause("callback not registered", f"there is {_named(meant)}, but nothing ever calls it", step)
@@ -96,7 +100,7 @@ def _defined_twice(file: NodeFile, given: ast.expr | None) -> Cause | None:
     if len(same) < 2 or len({file.class_of(each) for each in same}) > 1:
         return None
     first, last = same[0], same[-1]
-    step = file.step([without(file.text, last)])
+    step = file.step([remove_statement(file.text, last)])
     text = (
         f"{name} is defined in line {first.lineno} and again in line {last.lineno}: the second replaces the first, "
         "which is never called"
@@ -119,30 +123,30 @@ def old_value_read(file: NodeFile, name: str) -> Cause | None:
 
     The step is for a callback that goes through the list; where it does not, it has to be rewritten.
     """
-    checker = parameters.registered(file, parameters.ON_SET)
+    checker = parameters.registered_callback(file, parameters.ON_SET)
     if checker is None:
         return None
     timed = [file.function(argument(each, 1, "callback")) for each in file.timers]
     inside = [each for each in file.reached(checker) if each not in timed]
-    reads = [each for each in parameters.readings(file, name) if file.within(each) in inside]
+    reads = [each for each in parameters.readings(file, name) if file.function_around(each) in inside]
     if not reads:
         return None
     text = (
         f"{where(reads[0])} still gives the old value here: an on-set callback is called before the new one is stored"
     )
     loops = [
-        each for each in file.outwards(reads[0]) if isinstance(each, ast.For) and isinstance(each.target, ast.Name)
+        each for each in file.ancestors(reads[0]) if isinstance(each, ast.For) and isinstance(each.target, ast.Name)
     ]
     target = loops[0].target if loops else None
     new = f"{target.id}.value" if isinstance(target, ast.Name) else ""
-    return Cause("old value used", text, file.step([instead(file.text, reads[0], new)] if new else None) or "")
+    return Cause("old value used", text, file.step([replace_node(file.text, reads[0], new)] if new else None) or "")
 
 
 def why_accepted(file: NodeFile, bad: float) -> str:
     """Why a bad number is not refused, as far as the parameter callbacks tell."""
-    checker = parameters.registered(file, parameters.ON_SET)
+    checker = parameters.registered_callback(file, parameters.ON_SET)
     if checker is None:
-        later = parameters.registered(file, parameters.POST_SET)
+        later = parameters.registered_callback(file, parameters.POST_SET)
         if later is not None:
             return f"{_named(later)} is called when the value is set already: it cannot reject any"
         return "nothing can reject a value: no on-set-parameters callback is registered"
@@ -160,7 +164,7 @@ def _target(assignment: ast.Assign | ast.AnnAssign) -> ast.expr:
 
 
 def _in_init(file: NodeFile, node: ast.AST) -> bool:
-    function = file.within(node)
+    function = file.function_around(node)
     return function is None or function is file.setup
 
 

@@ -32,7 +32,7 @@ _DEFAULTS = {
 _RANGE = re.compile(r"out of range Min: (?P<low>[-\d.e+]+), Max: (?P<high>[-\d.e+]+)|not close enough to a valid step")
 
 
-def of_types(said: str) -> Cause:
+def diagnose_types(said: str) -> Cause:
     """A value of one type was given to a parameter of another; `said` is rclpy's message, which names both."""
     found = list(_TYPES.finditer(said))
     given = next((m["given"] for m in found if m["given"]), "")
@@ -50,7 +50,7 @@ def of_types(said: str) -> Cause:
     )
 
 
-def of_refusal(reason: str, step: str) -> Cause:
+def diagnose_refusal(reason: str, step: str) -> Cause:
     """Why a node does not take a good value, from the `reason` that it gives; `step` lets it take the value."""
     if "invalid type" in reason:
         text = "the parameter callback does not return a SetParametersResult"
@@ -62,7 +62,7 @@ def of_refusal(reason: str, step: str) -> Cause:
         text = "a pre-set callback takes the value out of the list, and rclpy can only say that nothing is left"
         return Cause("value dropped", text, step)
     if _TYPES.search(reason):
-        return replace(of_types(reason), hint=step)
+        return replace(diagnose_types(reason), hint=step)
     if "declared" in reason:
         return Cause("parameter not declared", reason, step)
     text = f'the node rejects a good value: "{reason}"' if reason else "the node rejects a good value, without a reason"
@@ -73,7 +73,7 @@ def in_bursts(step: str) -> Cause:
     """Several messages at once: of a loop in one callback, or of two timers that run together."""
     return Cause(
         "messages in bursts",
-        "several messages are sent at once, then none for a while: that is no rate",
+        "several messages are sent at once, then none for a while: that is not a rate",
         step,
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from tutor.judge.edits import instead
+from tutor.judge.edits import replace_node
 from tutor.judge.rewriting.node import NodeFile, argument
 from tutor.judge.source import values_of
 from tutor.judge.verdict import Cause
@@ -14,7 +14,7 @@ from tutor.judge.verdict import Cause
 def whole_division(file: NodeFile) -> Cause | None:
     """Whether a timer's period is made a whole number: by //, int() or round()."""
     found = [(spot, right) for spot in _spots(file) if (right := _with_decimals(spot)) is not None]
-    step = file.step([instead(file.text, spot, right) for spot, right in found])
+    step = file.step([replace_node(file.text, spot, right) for spot, right in found])
     if not found or step is None:
         return None
     spot = found[0][0]
@@ -27,7 +27,7 @@ def other_unit(file: NodeFile) -> Cause | None:
     for spot in _spots(file):
         match spot:
             case ast.BinOp(left=ast.Constant(value=int() | float() as number) as top, op=ast.Div()) if number != 1:
-                step = file.step([instead(file.text, top, "1.0")])
+                step = file.step([replace_node(file.text, top, "1.0")])
                 text = (
                     f"line {spot.lineno}: the period {ast.unparse(spot)} is not the one of this rate: create_timer "
                     "takes seconds"

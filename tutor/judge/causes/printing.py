@@ -7,14 +7,14 @@ import re
 from collections.abc import Iterator
 
 from tutor.judge import source
-from tutor.judge.edits import swapped
+from tutor.judge.edits import replace_nodes
 from tutor.judge.rewriting.node import NodeFile
 from tutor.judge.trace import Trace
 
 _LEVELS = ("debug", "info", "warning", "warn", "error", "critical", "exception")
 
 
-def print_of(trace: Trace, text: str) -> ast.Call | None:
+def find_print(trace: Trace, text: str) -> ast.Call | None:
     """The print() that wrote this text; None where this is not known."""
     found = [call for call in source.calls(trace, "print") if _wrote(call, text)]
     return max(found, key=lambda call: sum(map(len, _words(call))), default=None)
@@ -35,7 +35,7 @@ def python_logging(trace: Trace, text: str = "") -> ast.Call | None:
     return next((call for call in calls if _wrote(call, text)), None)
 
 
-def audible(file: NodeFile) -> str | None:
+def enable_rosout(file: NodeFile) -> str | None:
     """The step after which what the node logs reaches /rosout, where its file keeps that from it."""
     off = [
         (each.value, "True")
@@ -48,14 +48,14 @@ def audible(file: NodeFile) -> str | None:
         for each in ast.walk(file.tree)
         if isinstance(each, ast.Constant) and each.value == "--disable-rosout-logs"
     ]
-    return file.step(swapped(file.text, *off))
+    return file.step(replace_nodes(file.text, *off))
 
 
-def logged(trace: Trace, call: ast.Call) -> str:
+def log_instead_of_print(trace: Trace, call: ast.Call) -> str:
     """The step: the line with the node's own logger in it."""
-    function = source.holding(trace, call).within(call)
+    function = source.file_holding(trace, call).function_around(call)
     mine = function is not None and [each.arg for each in function.args.args[:1]] == ["self"]
-    level = source.called(call)
+    level = source.called_name(call)
     level = {"print": "info", "critical": "fatal", "exception": "error", "debug": "info"}.get(level, level)
     line = f"line {call.lineno}" if call.end_lineno == call.lineno else f"lines {call.lineno} to {call.end_lineno}"
     verb = "becomes" if call.end_lineno == call.lineno else "become"
@@ -68,7 +68,7 @@ def _message(call: ast.Call) -> str:
         only = call.args[0]
         text = isinstance(only, ast.JoinedStr) or (isinstance(only, ast.Constant) and isinstance(only.value, str))
         return ast.unparse(only) if text or isinstance(only, ast.BinOp) else f"str({ast.unparse(only)})"
-    if source.called(call) != "print":
+    if source.called_name(call) != "print":
         return f"{ast.unparse(call.args[0])} % {ast.unparse(ast.Tuple(call.args[1:]))}"
     parts: list[ast.expr] = []
     for each in call.args:

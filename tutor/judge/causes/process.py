@@ -8,12 +8,12 @@ from collections.abc import Sequence
 
 from tutor.judge import tracebacks
 from tutor.judge.causes import names, spinning
-from tutor.judge.causes.blocking import of_blocked
-from tutor.judge.causes.exceptions import known, of_traceback
-from tutor.judge.edits import without
-from tutor.judge.rewriting.node import started
-from tutor.judge.rewriting.program import main_called, program, step
-from tutor.judge.source import called
+from tutor.judge.causes.blocking import diagnose_blocked
+from tutor.judge.causes.exceptions import diagnose_traceback, known
+from tutor.judge.edits import remove_statement
+from tutor.judge.rewriting.node import started_node
+from tutor.judge.rewriting.program import first_sound_step, main_called, whole_program
+from tutor.judge.source import called_name
 from tutor.judge.trace import Exit, OutputLine, Trace
 from tutor.judge.tracebacks import Frame, Traceback
 from tutor.judge.verdict import Cause
@@ -25,62 +25,65 @@ _TORN_THREAD = ("terminate called without an active exception", "FATAL: exceptio
 """What C++ and glibc write where Python, at its end, stops a thread that is inside rclpy."""
 
 
-def of_process(trace: Trace) -> Cause | None:
+def diagnose_process(trace: Trace) -> Cause | None:
     """Why the process as such did not do its work: it could not start, broke, ended, or never made a node."""
-    found = tracebacks.last(trace)
+    found = tracebacks.last_traceback(trace)
     if found is not None:
-        return of_traceback(found, trace)
+        return diagnose_traceback(found, trace)
     if trace.exit is not None:
-        return _of_exit(trace)
+        return _diagnose_exit(trace)
     if not trace.graph.nodes:
         return Cause(
             "no node",
             f"the process runs, but made no ROS node{' and prints without end' if trace.dropped_lines else ''}",
-            step(trace, program)
+            first_sound_step(trace, whole_program)
             or "call rclpy.init(), create your node, then rclpy.spin(node); a loop before that keeps it from happening",
         )
     return None
 
 
-def _of_exit(trace: Trace) -> Cause:
+def _diagnose_exit(trace: Trace) -> Cause:
     assert trace.exit is not None
     ended = f"the process ended after {trace.exit.after_s:.1f} s with {trace.exit}"
     if trace.uncalled_main:
         return Cause(
             "no main call",
             f"{ended}: main() is defined, but nothing calls it",
-            step(trace, main_called) or 'end the file with: if __name__ == "__main__": main()',
+            first_sound_step(trace, main_called) or 'end the file with: if __name__ == "__main__": main()',
         )
-    if (torn := of_torn_thread(trace.exit, trace.output)) is not None:
+    if (torn := diagnose_torn_thread(trace.exit, trace.output)) is not None:
         return torn
     if trace.exit.signal == signal.SIGKILL:
         who = "it happens on each start: look for what sends SIGKILL, os.kill in your code or a tool on this machine"
         return Cause("killed", f"{ended} (SIGKILL)", who)
     if trace.exit.signal is not None:
         return Cause("killed", f"{ended} ({_signal_name(trace.exit.signal)})", "see the last lines of its output")
-    if (refused := _of_usage(trace)) is not None:
+    if (refused := _diagnose_usage(trace)) is not None:
         return refused
-    if trace.exit.code == 0 and (unspun := spinning.ended(trace, ended)) is not None:
+    if trace.exit.code == 0 and (unspun := spinning.diagnose_early_end(trace, ended)) is not None:
         return unspun
     if trace.exit.code == 0 and trace.exit.after_s <= QUICK_S + 0.5:
         return Cause(
             names.EXIT_AT_ONCE,
             f"{ended}, without an error",
-            step(trace, program)
+            first_sound_step(trace, whole_program)
             or "a node lives as long as rclpy.spin(node) runs: is it called, and is anything ending it?",
         )
-    told = step(trace, program) or "let rclpy.spin(node) run until Ctrl+C; see the last lines of its output"
+    told = (
+        first_sound_step(trace, whole_program)
+        or "let rclpy.spin(node) run until Ctrl+C; see the last lines of its output"
+    )
     return Cause(names.EXIT_AT_ONCE, ended, told)
 
 
-def _of_usage(trace: Trace) -> Cause | None:
+def _diagnose_usage(trace: Trace) -> Cause | None:
     """Whether the program refused its command line, as argparse and others do: with a message, and exit code 2."""
     said = [line.text for line in trace.output if line.stream == "stderr" and " error: " in line.text]
     assert trace.exit is not None
     return known(Traceback("SystemExit", said[-1], ()), trace) if trace.exit.code == 2 and said else None
 
 
-def of_torn_thread(ended: Exit, output: Sequence[OutputLine]) -> Cause | None:
+def diagnose_torn_thread(ended: Exit, output: Sequence[OutputLine]) -> Cause | None:
     """Whether the program aborted because it came to its end while a daemon thread of its own was inside rclpy."""
     if ended.signal != signal.SIGABRT or not any(words in line.text for line in output for words in _TORN_THREAD):
         return None
@@ -92,7 +95,7 @@ def of_torn_thread(ended: Exit, output: Sequence[OutputLine]) -> Cause | None:
     )
 
 
-def unanswered(trace: Trace, limit_s: float) -> str:
+def describe_no_answer(trace: Trace, limit_s: float) -> str:
     """That a request got no answer: within the limit, or since the process had ended before."""
     if trace.exit is None:
         return f"no answer in {limit_s:g} s"
@@ -104,24 +107,29 @@ def no_spin(trace: Trace) -> Cause:
     return Cause(
         names.NO_SPIN,
         f"{node_names(trace)} exists, but answers no request: its callbacks are never run",
-        step(trace, program)
+        first_sound_step(trace, whole_program)
         or "call rclpy.spin(node) (or executor.spin()) after creating the node, and let no callback block",
     )
 
 
-def of_no_answer(trace: Trace, stuck: Sequence[Frame], *, spins: bool = False) -> Cause:
+def diagnose_no_answer(trace: Trace, stuck: Sequence[Frame], *, spins: bool = False) -> Cause:
     """Why a node that is up answers no request (any more).
 
-    `stuck`: where its threads were meanwhile, innermost frame first (`Run.stuck_at`). `spins`: it has answered before.
+    `stuck`: where its threads were meanwhile, innermost frame first (`Run.dump_stacks`). `spins`: it has answered
+    before.
     """
-    broken = of_process(trace)
+    broken = diagnose_process(trace)
     if broken is not None:
         return broken
-    return of_blocked(trace, stuck, spins=spins) or spinning.staying(trace, stuck, node_names(trace)) or no_spin(trace)
+    return (
+        diagnose_blocked(trace, stuck, spins=spins)
+        or spinning.diagnose_not_spinning(trace, stuck, node_names(trace))
+        or no_spin(trace)
+    )
 
 
 def same_name(trace: Trace) -> Cause | None:
-    """Two nodes under one name: both publish, and whoever asks one of them cannot tell which answers."""
+    """Two nodes under one name: both publish, and anyone who asks one of them cannot tell which answers."""
     nodes = trace.graph.nodes
     twice = sorted({node for node in nodes if nodes.count(node) > 1})
     if not twice:
@@ -135,16 +143,16 @@ def same_name(trace: Trace) -> Cause | None:
 
 def _one_only(trace: Trace) -> str | None:
     """The step where a second node is made of the same class: that line goes, and those that use the node."""
-    file = started(trace)
+    file = started_node(trace)
     made = file.calls(*file.node_classes)
-    extra = [each for at, each in enumerate(made) if called(each) in map(called, made[:at])]
-    names_of = {kept for each in extra if (kept := file.kept(each))}
+    extra = [each for at, each in enumerate(made) if called_name(each) in map(called_name, made[:at])]
+    names_of = {kept for each in extra if (kept := file.assigned_to(each))}
     used = [each for each in ast.walk(file.tree) if isinstance(each, ast.Name) and each.id in names_of]
     statements = {file.statement(each) for each in (*extra, *used)}
-    return file.step([without(file.text, each) for each in statements])
+    return file.step([remove_statement(file.text, each) for each in statements])
 
 
-def last_words(trace: Trace, most: int = 6) -> tuple[str, ...]:
+def output_tail(trace: Trace, most: int = 6) -> tuple[str, ...]:
     """The last lines that the process wrote, as evidence."""
     return tuple(line.text for line in trace.output if line.text.strip())[-most:]
 

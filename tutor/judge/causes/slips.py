@@ -10,9 +10,9 @@ from tutor.judge.trace import Trace
 _TRUTHS = {"true": True, "1": True, "on": True, "false": False, "0": False, "off": False}
 
 
-def truth_as_text(trace: Trace) -> str | None:
+def boolean_compared_with_text(trace: Trace) -> str | None:
     """The step where a parameter's value, which is True or False, is compared with a text such as 'true'."""
-    for node in source.tree(trace.sources.get(trace.file, "")):
+    for node in source.syntax_nodes(trace.sources.get(trace.file, "")):
         match node:
             case ast.Compare(left=left, ops=[ast.Eq() | ast.NotEq() as how], comparators=[right]):
                 pass
@@ -26,7 +26,9 @@ def truth_as_text(trace: Trace) -> str | None:
             continue
         text = trace.sources.get(trace.file, "")
         right_way = truth is isinstance(how, ast.Eq)
-        return edits.told(text, edits.instead(text, node, f"{'' if right_way else 'not '}{ast.unparse(value)}"))
+        return edits.describe_edits(
+            text, edits.replace_node(text, node, f"{'' if right_way else 'not '}{ast.unparse(value)}")
+        )
     return None
 
 

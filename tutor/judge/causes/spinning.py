@@ -7,8 +7,8 @@ from collections.abc import Sequence
 
 from tutor.judge import edits, source, tracebacks
 from tutor.judge.causes import names
-from tutor.judge.rewriting.callbacks import Loop, idle, outermost
-from tutor.judge.rewriting.node import NodeFile, node_file, started
+from tutor.judge.rewriting.callbacks import Loop, only_waits, outermost
+from tutor.judge.rewriting.node import NodeFile, node_file, started_node
 from tutor.judge.trace import Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Cause
@@ -17,13 +17,13 @@ _TIDYING = "destroy_node", "shutdown", "try_shutdown", "exit", "_exit"
 _SPINS = "spin", "spin_once", "spin_some", "spin_until_future_complete"
 
 
-def staying(trace: Trace, stuck: Sequence[Frame], nodes: str) -> Cause | None:
+def diagnose_not_spinning(trace: Trace, stuck: Sequence[Frame], nodes: str) -> Cause | None:
     """Where the program stays instead of spinning; `stuck`: where its threads are, `nodes` names the node.
 
     None where this is not known, or where it does spin.
     """
-    mains = [thread for thread in tracebacks.threads(stuck) if thread[-1].function == "<module>"]
-    at = tracebacks.own(mains[0] if mains else stuck, trace.folder)
+    mains = [thread for thread in tracebacks.frames_by_thread(stuck) if thread[-1].function == "<module>"]
+    at = tracebacks.own_frame(mains[0] if mains else stuck, trace.folder)
     if at is None or "spin" in at.code or any(frame.path.endswith("rclpy/executors.py") for frame in stuck):
         return None
     loop = outermost(_file(trace, at), at.line)
@@ -51,11 +51,11 @@ def _in_place(trace: Trace, at: Frame, loop: Loop | None) -> str:
         return f"take line {at.line}, {at.code}, out: what has to wait is done by a timer, while the node spins"
     lines = statement.lineno, statement.end_lineno or statement.lineno
     code = spin
-    if loop is not None and (work := [each for each in loop.body if not idle(each)]):
+    if loop is not None and (work := [each for each in loop.body if not only_waits(each)]):
         period = next((ast.unparse(nap.args[0]) for nap in source.calls_in(loop, "sleep") if nap.args), "1.0")
         callback, defined = _callback(loop, work, function)
         code = "\n".join([*defined, f"{node}.create_timer({period}, {callback})", *([spin] if spin else [])])
-    edit = edits.becomes(lines[0], code, lines[1]) if code else edits.removed(file.text, *lines)
+    edit = edits.replace_lines(lines[0], code, lines[1]) if code else edits.remove_lines(file.text, *lines)
     return file.step([edit]) or (
         f"move what lines {lines[0]} to {lines[1]} do, without the sleep, into a callback of a timer, and spin the node"
     )
@@ -78,11 +78,11 @@ def _callback(loop: Loop, work: Sequence[ast.stmt], function: source.Function | 
     return "on_timer", ["def on_timer():", *(f"    {line}" for line in (*declared, *body))]
 
 
-def ended(trace: Trace, said: str) -> Cause | None:
+def diagnose_early_end(trace: Trace, said: str) -> Cause | None:
     """Why a program ends by itself: it never spins, or spins once only. `said`: that it has ended, and how."""
     if not trace.sources or source.calls(trace, "spin"):
         return None
-    in_loops = {id(call) for loop in source.nodes(trace) if isinstance(loop, Loop) for call in ast.walk(loop)}
+    in_loops = {id(call) for loop in source.all_nodes(trace) if isinstance(loop, Loop) for call in ast.walk(loop)}
     once = source.calls(trace, "spin_once", "spin_some")
     if once and not any(id(call) in in_loops for call in once):
         code = ast.unparse(once[0])
@@ -108,7 +108,7 @@ def ended(trace: Trace, said: str) -> Cause | None:
 
 def _spinning_at_end(trace: Trace, node: str, line: int) -> str | None:
     """The step where a node is spun once all is set up: before the program tidies up, or at its end."""
-    file = started(trace)
+    file = started_node(trace)
     made = file.statement_at(line)
     bodies = [body for each in ast.walk(file.tree) if isinstance(body := getattr(each, "body", None), list)]
     body = next(
@@ -118,9 +118,9 @@ def _spinning_at_end(trace: Trace, node: str, line: int) -> str | None:
     tidying = [each for each in after if source.calls_in(each, *_TIDYING) or "__name__" in ast.unparse(each)]
     code = f"rclpy.spin({node})"
     if tidying:
-        return file.step([edits.above(tidying[0].lineno, code)])
+        return file.step([edits.insert_above(tidying[0].lineno, code)])
     last = body[-1] if body else made
-    return file.step([edits.after(last, code)]) if last is not None else None
+    return file.step([edits.insert_after(last, code)]) if last is not None else None
 
 
 def _whole(call: ast.Call) -> str:
@@ -145,8 +145,8 @@ def _node(trace: Trace) -> str:
 
 def _spun(trace: Trace, function: source.Function | None) -> bool:
     """Whether the same function spins already, outside of the loop: that line is reached once the loop is gone."""
-    inside = ast.walk(function) if function is not None else source.nodes(trace)
-    return any(isinstance(each, ast.Call) and source.called(each) == "spin" for each in inside)
+    inside = ast.walk(function) if function is not None else source.all_nodes(trace)
+    return any(isinstance(each, ast.Call) and source.called_name(each) == "spin" for each in inside)
 
 
 def _plain_call(statement: ast.stmt) -> str | None:

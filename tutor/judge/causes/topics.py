@@ -8,12 +8,20 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from tutor.judge.causes import names, period_slips
-from tutor.judge.causes.blocking import of_blocked
-from tutor.judge.causes.process import node_names, of_no_answer, of_process
-from tutor.judge.edits import Edit, above, after, at_end, in_place, instead, swapped
-from tutor.judge.qos import Policy, unmet
-from tutor.judge.rewriting.node import NodeFile, argument, node_file, started
-from tutor.judge.source import Function, called
+from tutor.judge.causes.blocking import diagnose_blocked
+from tutor.judge.causes.process import diagnose_no_answer, diagnose_process, node_names
+from tutor.judge.edits import (
+    Edit,
+    append_to_function,
+    insert_above,
+    insert_after,
+    replace_node,
+    replace_nodes,
+    replace_statement,
+)
+from tutor.judge.qos import Policy, incompatible_policies
+from tutor.judge.rewriting.node import NodeFile, argument, node_file, started_node
+from tutor.judge.source import Function, called_name
 from tutor.judge.trace import Endpoint, Service, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Cause
@@ -21,7 +29,7 @@ from tutor.judge.verdict import Cause
 _ASLEEP = "lifecycle node not activated"
 
 
-def of_silence(
+def diagnose_silence(
     trace: Trace, topic: str, type_name: str, *, answers: bool, stuck: Sequence[Frame] = (), step: str = ""
 ) -> Cause:
     """Why nothing of `type_name` came on `topic`.
@@ -29,14 +37,14 @@ def of_silence(
     `answers`: whether a node of the learner's answered a request; if not, `stuck` says where it was meanwhile. `step`:
     how publisher, timer and callback are made right as a whole, where the check knows.
     """
-    if (cause := of_process(trace) or of_lifecycle(trace)) is not None:
+    if (cause := diagnose_process(trace) or diagnose_lifecycle(trace)) is not None:
         return cause
     publishers = trace.graph.publishers
     here = [endpoint for endpoint in publishers if endpoint.topic == topic]
     if any(endpoint.type == type_name for endpoint in here):
         if not answers:
-            cause = of_no_answer(trace, stuck)
-            return replace(cause, hint=step) if step and cause == of_blocked(trace, stuck) else cause
+            cause = diagnose_no_answer(trace, stuck)
+            return replace(cause, hint=step) if step and cause == diagnose_blocked(trace, stuck) else cause
         return _idle(trace, topic, step)
     if (cause := _misplaced(trace, publishers, topic, type_name, "create_publisher")) is not None:
         return replace(cause, hint=step) if cause.name == names.WRONG_TYPE and step else cause
@@ -49,7 +57,7 @@ def of_silence(
 
 def _idle(trace: Trace, topic: str, step: str) -> Cause:
     """Why a publisher that is there never sends anything."""
-    file = started(trace)
+    file = started_node(trace)
     if file.publisher and not file.calls("publish"):
         text = f"there is a publisher on {topic}, but nothing calls publish()"
     elif file.publisher and not file.timers:
@@ -61,9 +69,9 @@ def _idle(trace: Trace, topic: str, step: str) -> Cause:
     )
 
 
-def of_deafness(trace: Trace, ours: Endpoint, *, answers: bool, stuck: Sequence[Frame] = ()) -> Cause:
-    """Why a node of the learner's took in nothing of what `ours`, a publisher, sent; see `of_silence`."""
-    if (cause := of_process(trace) or of_lifecycle(trace)) is not None:
+def diagnose_deafness(trace: Trace, ours: Endpoint, *, answers: bool, stuck: Sequence[Frame] = ()) -> Cause:
+    """Why a node of the learner's took in nothing of what `ours`, a publisher, sent; see `diagnose_silence`."""
+    if (cause := diagnose_process(trace) or diagnose_lifecycle(trace)) is not None:
         return cause
     subscriptions = trace.graph.subscriptions
     here = [each for each in subscriptions if (each.topic, each.type) == (ours.topic, ours.type)]
@@ -72,7 +80,7 @@ def of_deafness(trace: Trace, ours: Endpoint, *, answers: bool, stuck: Sequence[
         if len(mismatched) == len(here):
             return mismatched[0]
         if not answers:
-            return of_no_answer(trace, stuck)
+            return diagnose_no_answer(trace, stuck)
         return Cause(
             "callback does nothing",
             f"there is a subscription on {ours.topic}, but nothing follows from its messages",
@@ -87,7 +95,7 @@ def of_deafness(trace: Trace, ours: Endpoint, *, answers: bool, stuck: Sequence[
 
 def incompatible_qos(publisher: Endpoint, subscription: Endpoint) -> Cause | None:
     """Whether the subscription asks for more than the publisher offers: then they are not matched at all."""
-    first = next(unmet(publisher, subscription), None)
+    first = next(incompatible_policies(publisher, subscription), None)
     if first is None:
         return None
     policy, offered, asked = _values(first, publisher, subscription)
@@ -131,7 +139,7 @@ def incompatible_service(services: Iterable[Service]) -> Cause | None:
     return None
 
 
-def of_qos(trace: Trace, topic: str) -> Cause | None:
+def diagnose_qos(trace: Trace, topic: str) -> Cause | None:
     """Whether the learner's own publishers and subscriptions on a topic do not match each other."""
     offers = [each for each in trace.graph.publishers if each.topic == topic]
     asks = [each for each in trace.graph.subscriptions if each.topic == topic]
@@ -160,7 +168,7 @@ def _renamed(file: NodeFile, create: str, topic: str, name: str) -> str | None:
     written = [given for each in made if (given := argument(each, 1, "topic")) is not None]
     said = [each for each in written if isinstance(each, ast.Constant) and str(each.value).endswith(last)]
     return next(
-        (step for each in said or written if (step := file.step([instead(file.text, each, repr(topic))]))), None
+        (step for each in said or written if (step := file.step([replace_node(file.text, each, repr(topic))]))), None
     )
 
 
@@ -178,15 +186,15 @@ def _slip(name: str, wanted: str) -> str:
     return "the name is spelled differently"
 
 
-def of_lifecycle(trace: Trace) -> Cause | None:
+def diagnose_lifecycle(trace: Trace) -> Cause | None:
     """Whether there is a lifecycle node that nobody has activated."""
     asleep = [each.node for each in trace.graph.services if each.type == "lifecycle_msgs/srv/ChangeState"]
     if not asleep:
         return None
-    file = started(trace)
+    file = started_node(trace)
     own = next((each for each in file.functions if each.name == "on_activate"), None)
     bare = own is not None and not any(
-        isinstance(each, ast.Call) and called(each) == "on_activate" for each in ast.walk(own)
+        isinstance(each, ast.Call) and called_name(each) == "on_activate" for each in ast.walk(own)
     )
     activating = _activating(own) if bare and own is not None else []
     if file.calls("trigger_activate"):
@@ -208,8 +216,8 @@ def _activating(on_activate: Function) -> list[Edit]:
     code = f"return super().on_activate({on_activate.args.args[-1].arg})"
     last = on_activate.body[-1]
     if isinstance(last, ast.Return):
-        return [in_place(last, code)]
-    return [at_end(on_activate, code)]
+        return [replace_statement(last, code)]
+    return [append_to_function(on_activate, code)]
 
 
 def _woken(file: NodeFile) -> list[Edit]:
@@ -220,12 +228,12 @@ def _woken(file: NodeFile) -> list[Edit]:
         if isinstance(each, ast.ClassDef) and any("Lifecycle" in ast.unparse(base) for base in each.bases)
     ]
     for call in file.calls(*classes):
-        statement, node = file.statement(call), file.kept(call)
+        statement, node = file.statement(call), file.assigned_to(call)
         if node:
             code = f"{node}.trigger_configure()\n{node}.trigger_activate()"
-            return [after(statement, code)]
+            return [insert_after(statement, code)]
         code = f"node = {ast.unparse(call)}\nnode.trigger_configure()\nnode.trigger_activate()"
-        return [above(statement.lineno, code), instead(file.text, call, "node")]
+        return [insert_above(statement.lineno, code), replace_node(file.text, call, "node")]
     return []
 
 
@@ -235,21 +243,21 @@ def _misplaced(trace: Trace, endpoints: Sequence[Endpoint], topic: str, type_nam
         return Cause(
             names.WRONG_TYPE,
             f"{topic} has the type {here[0].type}, not {type_name}",
-            _everywhere(started(trace), _class(here[0].type), type_name)
+            _everywhere(started_node(trace), _class(here[0].type), type_name)
             or f"give {create} the type {_class(type_name)}: from {type_name.split('/')[0]}.msg import "
             f"{_class(type_name)}",
         )
     elsewhere = [endpoint for endpoint in endpoints if endpoint.type == type_name] or [
         endpoint for endpoint in endpoints if difflib.get_close_matches(endpoint.topic, [topic], cutoff=0.6)
     ]
-    return wrong_topic(elsewhere, topic, create, started(trace)) if elsewhere else None
+    return wrong_topic(elsewhere, topic, create, started_node(trace)) if elsewhere else None
 
 
 def _everywhere(file: NodeFile, wrong: str, type_name: str) -> str | None:
     """The step where another type is used throughout the file."""
     own, imported = file.own(_class(type_name), f"{type_name.split('/')[0]}.msg")
     used = [each for each in ast.walk(file.tree) if isinstance(each, ast.Name) and each.id == wrong]
-    return file.step([*imported, *swapped(file.text, *((each, own) for each in used))])
+    return file.step([*imported, *replace_nodes(file.text, *((each, own) for each in used))])
 
 
 def _class(type_name: str) -> str:

@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from tutor.judge import edits
 from tutor.judge.edits import Edit
 from tutor.judge.rewriting.syntax import slips
-from tutor.judge.source import Function, SourceFile, called, last_name, tree
+from tutor.judge.source import Function, SourceFile, called_name, last_name, syntax_nodes
 
 Words = Mapping[str, str]
 
@@ -23,11 +23,11 @@ def log(text: str, words: Words) -> Sequence[Edit]:
     there = SourceFile(text).statement_at(int(words["number"]))
     if there is None:
         return []
-    calls = [each for each in tree(text) if isinstance(each, ast.Call) and called(each) in _LEVELS]
+    calls = [each for each in syntax_nodes(text) if isinstance(each, ast.Call) and called_name(each) in _LEVELS]
     calls = [each for each in calls if len(each.args) > 1 and isinstance(each.func, ast.Attribute)]
     loggers = {_receiver(each) for each in calls if there.lineno <= each.lineno <= (there.end_lineno or 0)}
     found = [each for each in calls if _receiver(each) in loggers or _receiver(each).endswith("get_logger()")]
-    return edits.swapped(text, *((each, _one_text(text, each)) for each in found))
+    return edits.replace_nodes(text, *((each, _one_text(text, each)) for each in found))
 
 
 def _receiver(call: ast.Call) -> str:
@@ -58,16 +58,16 @@ def imported(text: str, words: Words) -> Sequence[Edit] | None:
     taken = next((each for each in there.names if each.name == name), None)
     if taken is None:
         return None
-    uses = [each for each in tree(text) if isinstance(each, ast.Name) and each.id == name and right != name]
-    swaps = [] if taken.asname else edits.swapped(text, *((each, right) for each in uses))
-    return [edits.imported_instead(there, [(taken, words["found"])]), *swaps]
+    uses = [each for each in syntax_nodes(text) if isinstance(each, ast.Name) and each.id == name and right != name]
+    swaps = [] if taken.asname else edits.replace_nodes(text, *((each, right) for each in uses))
+    return [edits.replace_imports(there, [(taken, words["found"])]), *swaps]
 
 
 def types_first(text: str, words: Words) -> Sequence[Edit]:
     """Each call that makes something of a node's, with the type in front of the name."""
     swaps: list[tuple[ast.expr, str]] = []
-    for call in tree(text):
-        if not isinstance(call, ast.Call) or not re.fullmatch(r"create_(?!timer|rate)\w+", called(call)):
+    for call in syntax_nodes(text):
+        if not isinstance(call, ast.Call) or not re.fullmatch(r"create_(?!timer|rate)\w+", called_name(call)):
             continue
         name, kind = (*call.args, None, None)[:2]
         last = ast.unparse(kind).rpartition(".")[2] if isinstance(kind, ast.Name | ast.Attribute) else ""
@@ -75,7 +75,7 @@ def types_first(text: str, words: Words) -> Sequence[Edit]:
         if name is None or kind is None or not _type(last) or _type(first):
             continue
         swaps += [(name, ast.unparse(kind)), (kind, ast.unparse(name))]
-    return edits.swapped(text, *swaps)
+    return edits.replace_nodes(text, *swaps)
 
 
 def _type(name: str) -> bool:
@@ -88,8 +88,8 @@ def without(text: str, words: Words) -> Sequence[Edit] | None:
     if there is None:
         return None
     made = ast.unparse(there.targets[0]) if isinstance(there, ast.Assign) else ""
-    uses = [each for each in tree(text) if made and isinstance(each, ast.Expr) and _uses(each, made)]
-    return [edits.without(text, each) for each in (there, *uses)]
+    uses = [each for each in syntax_nodes(text) if made and isinstance(each, ast.Expr) and _uses(each, made)]
+    return [edits.remove_statement(text, each) for each in (there, *uses)]
 
 
 def _uses(statement: ast.stmt, made: str) -> bool:
@@ -108,8 +108,8 @@ def raised(text: str, words: Words) -> Sequence[Edit] | None:
     for checks in _callbacks(text, "add_on_set_parameters_callback"):
         if checks.name == function.name:
             code = f"return SetParametersResult(successful=False, reason={what})"
-            return [*_result(text), edits.becomes(there.lineno, code, end)]
-        calls = [each for each in ast.walk(checks) if isinstance(each, ast.Call) and called(each) == function.name]
+            return [*_result(text), edits.replace_lines(there.lineno, code, end)]
+        calls = [each for each in ast.walk(checks) if isinstance(each, ast.Call) and called_name(each) == function.name]
         if calls:
             return [*_result(text), _refused(text, SourceFile(text).statement_at(calls[0].lineno))]
     me = function.args.args[0].arg if function.args.args else ""
@@ -117,12 +117,12 @@ def raised(text: str, words: Words) -> Sequence[Edit] | None:
         return None
     answers = [each for each in _callbacks(text, "create_service") if each.name == function.name]
     back = f"return {answers[0].args.args[-1].arg}" if answers else "return"
-    return [edits.becomes(there.lineno, f"self.get_logger().error({what})\n{back}", end)]
+    return [edits.replace_lines(there.lineno, f"self.get_logger().error({what})\n{back}", end)]
 
 
 def _result(text: str) -> Sequence[Edit]:
     has = re.search(r"import .*\bSetParametersResult\b|^\s*SetParametersResult,?\s*$", text, re.MULTILINE)
-    return [] if has else edits.on_top(text, "from rcl_interfaces.msg import SetParametersResult")
+    return [] if has else edits.add_import(text, "from rcl_interfaces.msg import SetParametersResult")
 
 
 def _refused(text: str, there: ast.stmt | None) -> Edit:
@@ -130,12 +130,12 @@ def _refused(text: str, there: ast.stmt | None) -> Edit:
     end = there.end_lineno or there.lineno
     code = textwrap.indent(textwrap.dedent("\n".join(text.splitlines()[there.lineno - 1 : end])), "    ")
     refuse = "return SetParametersResult(successful=False, reason=str(error))"
-    return edits.becomes(there.lineno, f"try:\n{code}\nexcept Exception as error:\n    {refuse}", end)
+    return edits.replace_lines(there.lineno, f"try:\n{code}\nexcept Exception as error:\n    {refuse}", end)
 
 
 def _callbacks(text: str, create: str) -> Iterator[Function]:
-    for call in tree(text):
-        if isinstance(call, ast.Call) and called(call) == create:
+    for call in syntax_nodes(text):
+        if isinstance(call, ast.Call) and called_name(call) == create:
             for each in (*call.args, *(given.value for given in call.keywords)):
                 yield from SourceFile(text).named(last_name(each))[-1:]
 
@@ -143,10 +143,10 @@ def _callbacks(text: str, create: str) -> Iterator[Function]:
 def optional(text: str, words: Words) -> Sequence[Edit]:
     """A command line none of whose arguments is required, and which lets those of ROS be."""
     swaps: list[tuple[ast.expr, str]] = []
-    for call in tree(text):
-        if isinstance(call, ast.Call) and called(call) == "parse_args":
+    for call in syntax_nodes(text):
+        if isinstance(call, ast.Call) and called_name(call) == "parse_args":
             swaps.append((call, f"{ast.unparse(call).replace('.parse_args(', '.parse_known_args(')}[0]"))
-        if isinstance(call, ast.Call) and called(call) == "add_argument" and call.args:
+        if isinstance(call, ast.Call) and called_name(call) == "add_argument" and call.args:
             names = [ast.unparse(each) for each in call.args]
             kept = [each for each in call.keywords if each.arg != "required"]
             if not (positional := names[0][1:2] != "-") and len(kept) == len(call.keywords):
@@ -156,7 +156,7 @@ def optional(text: str, words: Words) -> Sequence[Edit]:
             given = [f"{each.arg}={ast.unparse(each.value)}" for each in kept]
             given += [] if any(each.arg == "default" for each in kept) else ["default='1'"]
             swaps.append((call, f"{ast.unparse(call.func)}({', '.join([*names, *given])})"))
-    return edits.swapped(text, *swaps)
+    return edits.replace_nodes(text, *swaps)
 
 
 def utf8(text: str, words: Words) -> Sequence[Edit]:
@@ -164,13 +164,13 @@ def utf8(text: str, words: Words) -> Sequence[Edit]:
     there = SourceFile(text).statement_at(int(words["number"]))
     swaps: list[tuple[ast.expr, str]] = []
     for call in ast.walk(there) if there is not None else ():
-        if not isinstance(call, ast.Call) or called(call) not in ("open", "read_text", "write_text"):
+        if not isinstance(call, ast.Call) or called_name(call) not in ("open", "read_text", "write_text"):
             continue
         if not any(each.arg == "encoding" for each in call.keywords):
             whole = ast.get_source_segment(text, call) or ast.unparse(call)
             more = ", " if call.args or call.keywords else ""
             swaps.append((call, f"{whole[:-1].rstrip().rstrip(',')}{more}encoding='utf-8')"))
-    return edits.swapped(text, *swaps[:1])
+    return edits.replace_nodes(text, *swaps[:1])
 
 
 def readable(text: str, words: Words) -> Sequence[Edit] | None:

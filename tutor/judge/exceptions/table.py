@@ -108,7 +108,7 @@ class Known:
 
 
 @cache
-def shipped() -> tuple[Known, ...]:
+def load_shipped() -> tuple[Known, ...]:
     """The table that comes with the program, in the order in which it is searched."""
     return tuple(entry for name in _ORDER for entry in load(Path(__file__).parent / f"{name}.toml"))
 

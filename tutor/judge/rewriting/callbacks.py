@@ -7,9 +7,9 @@ import re
 import textwrap
 from collections.abc import Sequence
 
-from tutor.judge.edits import Edit, becomes, every, in_place, instead, removed
+from tutor.judge.edits import Edit, remove_lines, replace_lines, replace_node, replace_pattern, replace_statement
 from tutor.judge.rewriting.node import NodeFile
-from tutor.judge.source import called
+from tutor.judge.source import called_name
 
 _MADE = ("create_client", "create_service", "create_timer", "create_subscription")
 _GROUP = "callback_group"
@@ -18,31 +18,31 @@ _IDLE = ("sleep", "wait")
 Loop = ast.While | ast.For
 
 
-def awaited(file: NodeFile, line: int, code: str, last: int = 0) -> list[Edit]:
+def await_lines(file: NodeFile, line: int, code: str, last: int = 0) -> list[Edit]:
     """A line, or the lines up to `last`, that await; in a coroutine, and each callback in a reentrant group."""
     function = file.function_at(line)
     if function is None:
         return []
-    edits = [becomes(line, code, last)]
+    edits = [replace_lines(line, code, last)]
     if isinstance(function, ast.FunctionDef):
         head = file.text.splitlines()[function.lineno - 1].strip()
-        edits.append(becomes(function.lineno, f"async {head}"))
-    return [*edits, *reentrant(file)]
+        edits.append(replace_lines(function.lineno, f"async {head}"))
+    return [*edits, *make_reentrant(file)]
 
 
-def reentrant(file: NodeFile) -> list[Edit]:
+def make_reentrant(file: NodeFile) -> list[Edit]:
     """Every callback in a group in which it may run beside others."""
     name, imported = file.own("ReentrantCallbackGroup", "rclpy.callback_groups")
     exclusive = file.calls("MutuallyExclusiveCallbackGroup")
-    edits = [instead(file.text, each, f"{name}()") for each in exclusive]
+    edits = [replace_node(file.text, each, f"{name}()") for each in exclusive]
     for each in file.calls(*_MADE):
         if any(given.arg in (_GROUP, None) for given in each.keywords) or not isinstance(each.func, ast.Attribute):
             continue
-        edits.append(instead(file.text, each, f"{ast.unparse(each)[:-1]}, {_GROUP}={name}())"))
+        edits.append(replace_node(file.text, each, f"{ast.unparse(each)[:-1]}, {_GROUP}={name}())"))
     return [*imported, *edits] if edits else []
 
 
-def without_lock(file: NodeFile, line: int) -> list[Edit]:
+def remove_lock(file: NodeFile, line: int) -> list[Edit]:
     """The statement around a line that holds a lock, with what it holds in its place."""
     around = [
         each
@@ -52,22 +52,22 @@ def without_lock(file: NodeFile, line: int) -> list[Edit]:
     if not around:
         return []
     held = max(around, key=lambda each: each.lineno)
-    return [in_place(held, _code(file, held.body))]
+    return [replace_statement(held, _code(file, held.body))]
 
 
-def reentrant_lock(file: NodeFile) -> list[Edit]:
+def make_lock_reentrant(file: NodeFile) -> list[Edit]:
     """A lock that one thread may take twice."""
-    return every(file.text, r"\bLock\b", "RLock")
+    return replace_pattern(file.text, r"\bLock\b", "RLock")
 
 
-def one_round(file: NodeFile, line: int) -> list[Edit]:
+def remove_loop(file: NodeFile, line: int) -> list[Edit]:
     """What a loop around a line does, done once; without a loop, the line taken out."""
     loop = outermost(file, line)
     if loop is None:
-        return [removed(file.text, line)]
-    work = [each for each in loop.body if not idle(each)]
+        return [remove_lines(file.text, line)]
+    work = [each for each in loop.body if not only_waits(each)]
     first, last = loop.lineno, loop.end_lineno or loop.lineno
-    return [Edit(first, last, _code(file, work), like=first)] if work else [removed(file.text, first, last)]
+    return [Edit(first, last, _code(file, work), like=first)] if work else [remove_lines(file.text, first, last)]
 
 
 def outermost(file: NodeFile, line: int) -> Loop | None:
@@ -76,19 +76,19 @@ def outermost(file: NodeFile, line: int) -> Loop | None:
         each for each in ast.walk(file.tree) if isinstance(each, Loop) and each.lineno <= line <= (each.end_lineno or 0)
     ]
     return min(
-        (each for each in found if file.within(each) is file.function_at(line)),
+        (each for each in found if file.function_around(each) is file.function_at(line)),
         key=lambda each: each.lineno,
         default=None,
     )
 
 
-def idle(statement: ast.stmt) -> bool:
+def only_waits(statement: ast.stmt) -> bool:
     """Whether a statement does nothing but wait."""
     if isinstance(statement, ast.Pass | ast.Continue):
         return True
     return isinstance(statement, ast.Expr) and (
         isinstance(statement.value, ast.Constant)
-        or (isinstance(statement.value, ast.Call) and called(statement.value) in _IDLE)
+        or (isinstance(statement.value, ast.Call) and called_name(statement.value) in _IDLE)
     )
 
 

@@ -7,8 +7,17 @@ import difflib
 import re
 from collections.abc import Sequence
 
-from tutor.judge.edits import Edit, above, after, becomes, instead, removed, swapped, without
-from tutor.judge.rewriting.node import NodeFile, argument, rewritten
+from tutor.judge.edits import (
+    Edit,
+    insert_above,
+    insert_after,
+    remove_lines,
+    remove_statement,
+    replace_lines,
+    replace_node,
+    replace_nodes,
+)
+from tutor.judge.rewriting.node import NodeFile, argument, rewrite_function
 from tutor.judge.source import Function
 
 ON_SET = "add_on_set_parameters_callback"
@@ -17,26 +26,26 @@ PRE_SET = "add_pre_set_parameters_callback"
 _READING = {"get_parameter", "get_parameter_or", "declare_parameter"}
 
 
-def refusing(file: NodeFile, rate: str) -> list[Edit]:
+def refuse_bad_rates(file: NodeFile, rate: str) -> list[Edit]:
     """An on-set callback that refuses rates of 0 and less, before it does anything else."""
-    checker = registered(file, ON_SET)
+    checker = registered_callback(file, ON_SET)
     result, imported = file.own("SetParametersResult", "rcl_interfaces.msg")
     if checker is None:
         return _new_callback(file, "check_parameters", [_check("params", rate, result), _accept(result)], imported)
     given = _argument(checker)
-    return [*imported, *file.begins(checker, _check(given, rate, result))] if given else []
+    return [*imported, *file.prepend_to(checker, _check(given, rate, result))] if given else []
 
 
-def following(file: NodeFile, rate: str, *others: str) -> list[Edit]:
+def follow_parameters(file: NodeFile, rate: str, *others: str) -> list[Edit]:
     """The parameter callbacks as a whole: bad rates are refused, and every other value takes effect."""
-    checker, applier = registered(file, ON_SET), registered(file, POST_SET)
+    checker, applier = registered_callback(file, ON_SET), registered_callback(file, POST_SET)
     applier = None if applier is checker else applier
     result, edits = file.own("SetParametersResult", "rcl_interfaces.msg")
     given = (_argument(checker) if checker is not None else "") or "params"
     body = [_check(given, rate, result)]
     if applier is not None:
         into = _argument(applier) or "params"
-        edits += [rewritten(applier, _effect(file, into, rate, others), given=into)]
+        edits += [rewrite_function(applier, _effect(file, into, rate, others), given=into)]
     else:
         body.append(_effect(file, given, rate, others))
     body.append(_accept(result))
@@ -46,22 +55,28 @@ def following(file: NodeFile, rate: str, *others: str) -> list[Edit]:
     first = file.calls(ON_SET)[0]
     extra = [each for each in file.calls(ON_SET, PRE_SET) if each is not first]
     edits += [_without(file, each) for each in extra]
-    return [*edits, *keeping, rewritten(checker, "\n".join(body), given=given)]
+    return [*edits, *keeping, rewrite_function(checker, "\n".join(body), given=given)]
 
 
-def cancelling(file: NodeFile) -> list[Edit]:
+def cancel_old_timer(file: NodeFile) -> list[Edit]:
     """The timer that a parameter callback replaces is cancelled there, if that is all that is missing."""
-    callbacks = [found for kind in (ON_SET, POST_SET) if (found := registered(file, kind)) is not None]
+    callbacks = [found for kind in (ON_SET, POST_SET) if (found := registered_callback(file, kind)) is not None]
     inside = [each for callback in callbacks for each in file.reached(callback)]
-    made = [each for each in file.timers if file.within(each) in inside]
-    ended = [each for each in file.calls("cancel", "destroy_timer", "destroy") if file.within(each) in inside]
+    made = [each for each in file.timers if file.function_around(each) in inside]
+    ended = [each for each in file.calls("cancel", "destroy_timer", "destroy") if file.function_around(each) in inside]
     timer = _timer(file)
-    if len(made) != 1 or ended or file.kept(made[0]) != timer or _kept_in(file) != timer or made[0] is file.first_timer:
+    if (
+        len(made) != 1
+        or ended
+        or file.assigned_to(made[0]) != timer
+        or _kept_in(file) != timer
+        or made[0] is file.first_timer
+    ):
         return []
-    return [above(file.statement(made[0]).lineno, f"{timer}.cancel()")]
+    return [insert_above(file.statement(made[0]).lineno, f"{timer}.cancel()")]
 
 
-def registered(file: NodeFile, kind: str) -> Function | None:
+def registered_callback(file: NodeFile, kind: str) -> Function | None:
     """The function that is registered as a parameter callback of this kind."""
     for call in file.calls(kind):
         given = argument(call, 0, "callback")
@@ -70,10 +85,10 @@ def registered(file: NodeFile, kind: str) -> Function | None:
     return None
 
 
-def registering(file: NodeFile, function: Function) -> list[Edit]:
+def register_on_set(file: NodeFile, function: Function) -> list[Edit]:
     """A function, registered as on-set callback."""
     inside = file.class_of(function) is not None
-    return file.adds_to_setup(f"{file.name}.{ON_SET}({'self.' if inside else ''}{function.name})")
+    return file.append_to_setup(f"{file.name}.{ON_SET}({'self.' if inside else ''}{function.name})")
 
 
 def without_pre_set(file: NodeFile) -> list[Edit]:
@@ -81,24 +96,26 @@ def without_pre_set(file: NodeFile) -> list[Edit]:
     return [_without(file, each) for each in file.calls(PRE_SET)]
 
 
-def declared(file: NodeFile, name: str, default: object, *, plain: bool = False) -> list[Edit]:
+def declare_parameter(file: NodeFile, name: str, default: object, *, plain: bool = False) -> list[Edit]:
     """A parameter, declared with its default; `plain`: without a descriptor or anything else."""
     code = f"{file.name}.declare_parameter({name!r}, {default!r})"
     for call in file.calls("declare_parameter"):
         given = argument(call, 1, "value")
         if _is_text(argument(call, 0, "name"), name):
             return [
-                instead(file.text, call, code) if plain or given is None else instead(file.text, given, repr(default))
+                replace_node(file.text, call, code)
+                if plain or given is None
+                else replace_node(file.text, given, repr(default))
             ]
     for each in ast.walk(file.tree):
         if (given := _default_beside(each, name)) is not None:
             if plain and isinstance(each, ast.Tuple):
-                return [instead(file.text, each, f"({name!r}, {default!r})")]
-            return [instead(file.text, given, repr(default))]
+                return [replace_node(file.text, each, f"({name!r}, {default!r})")]
+            return [replace_node(file.text, given, repr(default))]
     return _below_super(file, code)
 
 
-def renamed(file: NodeFile, name: str, others: Sequence[str]) -> list[Edit]:
+def rename_parameter(file: NodeFile, name: str, others: Sequence[str]) -> list[Edit]:
     """A parameter that is declared under a name much like this one, called by this one wherever it is named."""
     declared = [argument(each, 0, "name") for each in file.calls("declare_parameter")]
     names = [str(each.value) for each in declared if isinstance(each, ast.Constant)]
@@ -108,18 +125,20 @@ def renamed(file: NodeFile, name: str, others: Sequence[str]) -> list[Edit]:
     lines = {each.lineno for each in ast.walk(file.tree) if isinstance(each, ast.Constant) and each.value == near[0]}
     texts = file.text.splitlines()
     quoted = re.compile(rf"(?<=['\"]){re.escape(near[0])}(?=['\"])")
-    return [becomes(line, quoted.sub(name, texts[line - 1].strip())) for line in sorted(lines)]
+    return [replace_lines(line, quoted.sub(name, texts[line - 1].strip())) for line in sorted(lines)]
 
 
 def _alike(one: str, other: str) -> bool:
     return one in other or other in one or difflib.SequenceMatcher(None, one, other).ratio() > 0.6
 
 
-def declared_once(file: NodeFile, line: int) -> list[Edit]:
+def declare_once(file: NodeFile, line: int) -> list[Edit]:
     """What the function of this line declares each time that it is called, declared with the node, and only read."""
     calls = file.calls("declare_parameter")
-    function = next((file.within(each) for each in calls if each.lineno <= line <= (each.end_lineno or 0)), None)
-    again = [each for each in calls if function is not None and file.within(each) is function]
+    function = next(
+        (file.function_around(each) for each in calls if each.lineno <= line <= (each.end_lineno or 0)), None
+    )
+    again = [each for each in calls if function is not None and file.function_around(each) is function]
     if function is None or function is file.setup:
         return []
     elsewhere = {ast.unparse(each.args[0]) for each in calls if each not in again and each.args}
@@ -131,8 +150,8 @@ def declared_once(file: NodeFile, line: int) -> list[Edit]:
     ]
     missing = [ast.unparse(each) for each in again if each.args and ast.unparse(each.args[0]) not in elsewhere]
     return [
-        *(without(file.text, each) for each in bare),
-        *swapped(file.text, *reads),
+        *(remove_statement(file.text, each) for each in bare),
+        *replace_nodes(file.text, *reads),
         *(_below_super(file, "\n".join(missing)) if missing else []),
     ]
 
@@ -141,12 +160,12 @@ def _below_super(file: NodeFile, code: str) -> list[Edit]:
     """Code that comes as soon as the node is there."""
     for call in file.calls("__init__", "create_node", "Node"):
         statement = file.statement(call)
-        if file.within(call) is file.setup and not isinstance(statement, ast.ClassDef | ast.FunctionDef):
-            return [after(statement, code)]
-    return file.adds_to_setup(code)
+        if file.function_around(call) is file.setup and not isinstance(statement, ast.ClassDef | ast.FunctionDef):
+            return [insert_after(statement, code)]
+    return file.append_to_setup(code)
 
 
-def checked_at_start(file: NodeFile, rate: str) -> list[Edit]:
+def check_at_start(file: NodeFile, rate: str) -> list[Edit]:
     """A bad rate that the node is started with, told by the parameter's name."""
     calls = [each for each in file.calls("declare_parameter", "declare_parameters") if rate in ast.unparse(each)]
     if not calls:
@@ -157,7 +176,7 @@ def checked_at_start(file: NodeFile, rate: str) -> list[Edit]:
         f"    {file.name}.get_logger().fatal('{rate} must be > 0')\n"
         "    raise SystemExit(1)"
     )
-    return [after(statement, code)]
+    return [insert_after(statement, code)]
 
 
 def _default_beside(node: ast.AST, name: str) -> ast.expr | None:
@@ -179,7 +198,7 @@ def _is_text(node: ast.expr | None, text: str) -> bool:
 
 def _without(file: NodeFile, call: ast.Call) -> Edit:
     statement = file.statement(call)
-    return without(file.text, statement)
+    return remove_statement(file.text, statement)
 
 
 def _argument(function: Function) -> str:
@@ -195,11 +214,11 @@ def _new_callback(file: NodeFile, name: str, body: Sequence[str], more: Sequence
     given = file.calls(ON_SET)
     callback = argument(given[0], 0, "callback") if given else None
     if not method:
-        register = file.adds_to_setup(f"def {name}(params):\n{code}\n\n{file.name}.{ON_SET}({name})")
+        register = file.append_to_setup(f"def {name}(params):\n{code}\n\n{file.name}.{ON_SET}({name})")
     elif callback is not None:
-        register = [instead(file.text, callback, f"self.{name}")]
+        register = [replace_node(file.text, callback, f"self.{name}")]
     else:
-        register = file.adds_to_setup(f"{file.name}.{ON_SET}(self.{name})")
+        register = file.append_to_setup(f"{file.name}.{ON_SET}(self.{name})")
     return [*more, *register, *file.new_method(f"def {name}(self, params):\n{code}")] if register else []
 
 
@@ -277,7 +296,7 @@ def readings(file: NodeFile, name: str) -> list[ast.expr]:
     return [each for each in ast.walk(file.tree) if isinstance(each, ast.expr) and _reads(each, name)]
 
 
-def kept(file: NodeFile, name: str) -> ast.Assign | ast.AnnAssign | None:
+def find_kept_value(file: NodeFile, name: str) -> ast.Assign | ast.AnnAssign | None:
     """Where a parameter's value is read, and kept."""
     for node in ast.walk(file.tree):
         if (
@@ -298,7 +317,7 @@ def _with_value(expression: ast.expr, reading: ast.AST, value: str) -> str:
 
 def _set_on(file: NodeFile, node: ast.AST, name: str) -> bool:
     """Whether a statement stands below `if p.name == name:`."""
-    for each in file.outwards(node):
+    for each in file.ancestors(node):
         match each:
             case ast.If(test=ast.Compare(comparators=[ast.Constant(value=str() as told)])):
                 return told == name
@@ -315,10 +334,10 @@ def _kept_in(file: NodeFile) -> str:
     made = file.first_timer
     if made is None:
         return ""
-    maker = file.within(made)
+    maker = file.function_around(made)
     if maker is None or not isinstance(file.statement(made), ast.Return):
-        return file.kept(made)
-    return next((into for call in file.calls(maker.name) if (into := file.kept(call))), "")
+        return file.assigned_to(made)
+    return next((into for call in file.calls(maker.name) if (into := file.assigned_to(call))), "")
 
 
 def _lasts(target: str) -> bool:
@@ -328,24 +347,24 @@ def _lasts(target: str) -> bool:
 def _kept_timer(file: NodeFile, without: Sequence[Function]) -> list[Edit]:
     """The first timer, kept in an attribute."""
     made = file.first_timer
-    if made is None or _lasts(_kept_in(file)) or file.within(made) in without:
+    if made is None or _lasts(_kept_in(file)) or file.function_around(made) in without:
         return []
     timer = _timer(file)
     emptied = [
-        removed(file.text, each.lineno)
+        remove_lines(file.text, each.lineno)
         for each in ast.walk(file.tree)
         if isinstance(each, ast.Assign) and ast.unparse(each) == f"{timer} = None" and each.lineno > made.lineno
     ]
-    return [instead(file.text, made, f"{timer} = {ast.unparse(made)}"), *emptied]
+    return [replace_node(file.text, made, f"{timer} = {ast.unparse(made)}"), *emptied]
 
 
 def is_followed(file: NodeFile, name: str) -> bool:
     """Whether the timer's callback reads a parameter from the node, or a parameter callback asks for its name."""
-    callbacks = [found for kind in (ON_SET, POST_SET) if (found := registered(file, kind)) is not None]
+    callbacks = [found for kind in (ON_SET, POST_SET) if (found := registered_callback(file, kind)) is not None]
     inside = [each for callback in callbacks for each in file.reached(callback)]
     ticking = file.reached(file.tick) if file.tick is not None else []
     asked = [each for function in inside for each in ast.walk(function) if isinstance(each, ast.Compare)]
-    return any(file.within(each) in ticking for each in readings(file, name)) or any(
+    return any(file.function_around(each) in ticking for each in readings(file, name)) or any(
         _is_text(each, name) for test in asked for each in (test.left, *test.comparators)
     )
 

@@ -8,9 +8,9 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import takewhile
 
-from tutor.judge.edits import Edit, after, below, in_place, on_top
+from tutor.judge.edits import Edit, add_import, insert_after, insert_below, replace_statement
 from tutor.judge.rewriting.node import NodeFile, first_line, node_file
-from tutor.judge.source import Function, called, calls_in
+from tutor.judge.source import Function, called_name, calls_in
 from tutor.judge.trace import Trace
 
 SPINS = ("spin", "spin_once", "spin_some", "spin_until_future_complete")
@@ -32,7 +32,7 @@ class _Scope:
     function: Function | None
 
 
-def program(file: NodeFile, *, threads: bool = False) -> list[Edit]:
+def whole_program(file: NodeFile, *, threads: bool = False) -> list[Edit]:
     """The whole program: what puts the node together is kept, and what spins and ends it is written as it should be.
 
     `threads`: by several threads; else by the executor that the file makes, if it makes one. Empty where there is no
@@ -69,23 +69,23 @@ def program(file: NodeFile, *, threads: bool = False) -> list[Edit]:
     edits = [*_imported(file), *edits, *imported, *_started(file, scope)]
     if not rest:
         last = scope.body[-1]
-        return [*edits, after(last, "\n".join(code))]
+        return [*edits, insert_after(last, "\n".join(code))]
     first, last = rest[0], rest[-1]
     if first.lineno == (prefix[-1].end_lineno if prefix else scope.function.lineno if scope.function else 0):
         return []
     return [*edits, Edit(first.lineno, last.end_lineno or last.lineno, "\n".join(code), like=first.lineno)]
 
 
-def ending(file: NodeFile) -> list[Edit]:
+def clean_ending(file: NodeFile) -> list[Edit]:
     """The whole program, and nothing beside it that keeps the process from ending."""
-    whole = program(file)
+    whole = whole_program(file)
     beside = [
         each for each in _free(file) if not any(one.first <= each.first and each.last <= one.last for one in whole)
     ]
     return [*beside, *whole]
 
 
-def guarded(file: NodeFile, call: ast.Call) -> list[Edit]:
+def guard_spin(file: NodeFile, call: ast.Call) -> list[Edit]:
     """A statement that spins, with what ends a spin caught around it, and rclpy shut down at last."""
     statement = file.statement(call)
     if not isinstance(statement, ast.Expr):
@@ -94,7 +94,7 @@ def guarded(file: NodeFile, call: ast.Call) -> list[Edit]:
     end = "" if file.calls("try_shutdown", "shutdown") else "\nfinally:\n    rclpy.try_shutdown()"
     body = textwrap.indent(_code(file, statement), "    ")
     code = f"try:\n{body}\n{both}:\n    pass{end}"
-    return [*imported, in_place(statement, code)]
+    return [*imported, replace_statement(statement, code)]
 
 
 def main_called(file: NodeFile) -> list[Edit]:
@@ -107,11 +107,11 @@ def _called(file: NodeFile, main: Function) -> list[Edit]:
     code = f'if __name__ == "__main__":\n    {main.name}()'
     for each in file.tree.body:
         if isinstance(each, ast.If) and "__name__" in ast.unparse(each.test):
-            return [in_place(each, code)]
+            return [replace_statement(each, code)]
         if isinstance(each, ast.Expr) and ast.unparse(each.value) == main.name:
-            return [in_place(each, f"{main.name}()")]
+            return [replace_statement(each, f"{main.name}()")]
     last = file.tree.body[-1]
-    return [below(last.end_lineno or last.lineno, f"\n\n{code}", like=main.lineno)]
+    return [insert_below(last.end_lineno or last.lineno, f"\n\n{code}", like=main.lineno)]
 
 
 def _started(file: NodeFile, scope: _Scope) -> list[Edit]:
@@ -120,8 +120,8 @@ def _started(file: NodeFile, scope: _Scope) -> list[Edit]:
     if main is None or main not in file.tree.body:
         return []
     calls = [each for each in file.calls(main.name) if not isinstance(each.func, ast.Attribute)]
-    if any(not isinstance(each, ast.While | ast.For | Function) for call in calls for each in file.outwards(call)):
-        looped = [each for call in calls for each in file.outwards(call) if isinstance(each, ast.While | ast.For)]
+    if any(not isinstance(each, ast.While | ast.For | Function) for call in calls for each in file.ancestors(call)):
+        looped = [each for call in calls for each in file.ancestors(call) if isinstance(each, ast.While | ast.For)]
         return _called(file, main) if looped else []
     return _called(file, main)
 
@@ -130,12 +130,12 @@ def _free(file: NodeFile) -> list[Edit]:
     """Nothing else keeps the process from ending: threads are daemons, and Ctrl+C and the end are left to rclpy."""
     found = []
     for each in file.calls("Thread", "Timer"):
-        if not any(given.arg == "daemon" for given in each.keywords) and called(each) == "Thread":
+        if not any(given.arg == "daemon" for given in each.keywords) and called_name(each) == "Thread":
             found.append(_with_daemon(file, each))
     for each in file.calls("signal", "register"):
         statement = file.statement(each)
         if isinstance(statement, ast.Expr) and ast.unparse(each.func) in ("signal.signal", "atexit.register"):
-            found.append(in_place(statement, "pass"))
+            found.append(replace_statement(statement, "pass"))
     return found
 
 
@@ -156,7 +156,7 @@ def _scope(file: NodeFile) -> _Scope | None:
     inits = [each for each in file.calls("init") if ast.unparse(each.func) in ("rclpy.init", "init")]
     making = file.calls(*file.node_classes, "create_node", "Node")
     for each in [*inits, *file.calls(*SPINS), *making]:
-        function = file.within(each)
+        function = file.function_around(each)
         if function is None:
             return _outside(file, each)
         if file.class_of(function) is None and not isinstance(function, ast.AsyncFunctionDef):
@@ -166,7 +166,7 @@ def _scope(file: NodeFile) -> _Scope | None:
 
 
 def _outside(file: NodeFile, call: ast.Call) -> _Scope | None:
-    around = [each for each in file.outwards(call) if isinstance(each, ast.stmt)]
+    around = [each for each in file.ancestors(call) if isinstance(each, ast.stmt)]
     if any(isinstance(each, ast.ClassDef) for each in around):
         return None
     outermost = around[-1] if around else file.statement(call)
@@ -194,7 +194,7 @@ def _kept(file: NodeFile, body: Sequence[ast.stmt]) -> Iterator[ast.stmt]:
         gone |= {
             inner.id for inner in ast.walk(each) if isinstance(inner, ast.Name) and isinstance(inner.ctx, ast.Store)
         }
-        if any(called(call) in SPINS for call in calls) and not isinstance(each, Function):
+        if any(called_name(call) in SPINS for call in calls) and not isinstance(each, Function):
             return
 
 
@@ -204,13 +204,13 @@ def _only_does(file: NodeFile, statement: ast.stmt) -> bool:
         return False
     led = file.function(call.func)
     inside = [call, *(each for one in (file.reached(led) if led else []) for each in ast.walk(one))]
-    names = [called(each) for each in inside if isinstance(each, ast.Call)]
+    names = [called_name(each) for each in inside if isinstance(each, ast.Call)]
     return not any(name.startswith(("create_", "declare_", "init", "add_on")) for name in names)
 
 
 def _ends(call: ast.Call) -> bool:
-    """Whether a call belongs to what is written anew; a thread's target is what it may spin in."""
-    return called(call) in _REPLACED or any(
+    """Whether a call belongs to what is rewritten; a thread's target is what it may spin in."""
+    return called_name(call) in _REPLACED or any(
         ast.unparse(each).rpartition(".")[2] in SPINS for each in (*call.args, *(k.value for k in call.keywords))
     )
 
@@ -231,7 +231,7 @@ def _nodes(file: NodeFile, kept: Sequence[ast.stmt]) -> tuple[list[str], list[st
         name
         for each in kept
         if isinstance(each, ast.Assign | ast.AnnAssign) and isinstance(each.value, ast.Call)
-        if called(each.value) in makers and (name := file.kept(each.value))
+        if called_name(each.value) in makers and (name := file.assigned_to(each.value))
     ]
     if names:
         return names, []
@@ -247,7 +247,7 @@ def _spinning(file: NodeFile, nodes: Sequence[str], threads: bool) -> tuple[list
     if not threads and made is None and len(nodes) == 1:
         return [f"rclpy.spin({nodes[0]})"], []
     name, edits = file.own("MultiThreadedExecutor", "rclpy.executors")
-    executor = (file.kept(made) if made is not None else "") or "executor"
+    executor = (file.assigned_to(made) if made is not None else "") or "executor"
     code = f"{name}(num_threads={_THREADS})" if threads or made is None else ast.unparse(made)
     return [f"{executor} = {code}", *(f"{executor}.add_node({each})" for each in nodes), f"{executor}.spin()"], edits
 
@@ -265,13 +265,13 @@ def _initialised(file: NodeFile, kept: Sequence[ast.stmt]) -> bool:
 
 
 def _of_class(file: NodeFile, node: ast.AST) -> bool:
-    return any(isinstance(each, ast.ClassDef) for each in file.outwards(node))
+    return any(isinstance(each, ast.ClassDef) for each in file.ancestors(node))
 
 
 def _imported(file: NodeFile) -> list[Edit]:
     """The import of rclpy itself, which try_shutdown() needs."""
     names = {alias.asname or alias.name.split(".")[0] for each, alias in file.imports if isinstance(each, ast.Import)}
-    return [] if "rclpy" in names else on_top(file.text, "import rclpy")
+    return [] if "rclpy" in names else add_import(file.text, "import rclpy")
 
 
 def _waking(file: NodeFile, scope: _Scope, call: ast.Call) -> str:
@@ -281,7 +281,7 @@ def _waking(file: NodeFile, scope: _Scope, call: ast.Call) -> str:
         return ""
     return (
         ast.unparse(statement)
-        if statement.value is call and not call.args and file.within(call) is scope.function
+        if statement.value is call and not call.args and file.function_around(call) is scope.function
         else ""
     )
 
@@ -296,8 +296,8 @@ def _code(file: NodeFile, statement: ast.stmt) -> str:
     return code if alone else ast.unparse(statement)
 
 
-def step(trace: Trace, *edits: Callable[[NodeFile], Sequence[Edit]], name: str = "") -> str | None:
-    """The first of these edits that leaves a file which Python can run, in words; of the one that was started, mostly.
+def first_sound_step(trace: Trace, *edits: Callable[[NodeFile], Sequence[Edit]], name: str = "") -> str | None:
+    """The first of these edits that leaves a file which Python can run, in words; usually of the one that was started.
 
     `name`: the file's, where it is another one.
     """

@@ -5,12 +5,12 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from tutor.judge.edits import Edit, above, in_place, instead, without
-from tutor.judge.rewriting.node import NodeFile, argument, rewritten
-from tutor.judge.source import Function, called, calls_in
+from tutor.judge.edits import Edit, insert_above, remove_statement, replace_node, replace_statement
+from tutor.judge.rewriting.node import NodeFile, argument, rewrite_function
+from tutor.judge.source import Function, called_name, calls_in
 
 
-def sending(file: NodeFile, code: str) -> list[Edit]:
+def send_data(file: NodeFile, code: str) -> list[Edit]:
     """The message that the timer's callback publishes, with this code as its `data`."""
     if file.tick is None:
         return []
@@ -18,54 +18,56 @@ def sending(file: NodeFile, code: str) -> list[Edit]:
     found = list(_data(file, within))
     if found:
         return [each for expression in found for each in _in_place(file, expression, code)]
-    sent = [each for each in file.calls("publish") if file.within(each) in within and each.args]
+    sent = [each for each in file.calls("publish") if file.function_around(each) in within and each.args]
     if not sent or not isinstance(sent[0].args[0], ast.Name | ast.Attribute):
         return []
-    return [above(file.statement(sent[0]).lineno, f"{ast.unparse(sent[0].args[0])}.data = {code}")]
+    return [insert_above(file.statement(sent[0]).lineno, f"{ast.unparse(sent[0].args[0])}.data = {code}")]
 
 
-def data_of(file: NodeFile) -> ast.expr | None:
+def published_data(file: NodeFile) -> ast.expr | None:
     """What the timer's callback puts into the message."""
     return next(_data(file, file.reached(file.tick)), None) if file.tick is not None else None
 
 
 def _data(file: NodeFile, within: list[Function]) -> Iterator[ast.expr]:
     for node in ast.walk(file.tree):
-        if file.within(node) not in within:
+        if file.function_around(node) not in within:
             continue
         match node:
             case ast.Assign(targets=[ast.Attribute(attr="data")], value=value):
                 yield value
-            case ast.Call(keywords=[ast.keyword(arg="data", value=value)]) if called(node) == file.message_class:
+            case ast.Call(keywords=[ast.keyword(arg="data", value=value)]) if called_name(node) == file.message_class:
                 yield value
 
 
 def _in_place(file: NodeFile, expression: ast.expr, code: str) -> list[Edit]:
-    """A statement of one line keeps its other parts; one of more lines is written anew where it only assigns."""
+    """A statement of one line keeps its other parts; one of more lines is rewritten where it only assigns."""
     statement = file.statement(expression)
     if isinstance(statement, ast.Assign) and statement.value is expression:
         target = ast.unparse(statement.targets[0])
-        return [in_place(statement, f"{target} = {code}")]
-    return [instead(file.text, expression, code)]
+        return [replace_statement(statement, f"{target} = {code}")]
+    return [replace_node(file.text, expression, code)]
 
 
 def waiting_while_off(file: NodeFile, enabled: str) -> list[Edit]:
     """The timer's callback, with nothing to do while a parameter is false; without a timer, only no publishing."""
     if file.first_timer is not None and file.tick is not None and file.tick is not file.setup:
-        return file.begins(file.tick, f"if not {file.value(enabled)}:\n    return")
-    return [in_place(each, f"if {file.value(enabled)}:\n    {ast.unparse(each)}") for each in _publishing(file)]
+        return file.prepend_to(file.tick, f"if not {file.value(enabled)}:\n    return")
+    return [
+        replace_statement(each, f"if {file.value(enabled)}:\n    {ast.unparse(each)}") for each in _publishing(file)
+    ]
 
 
 def logging(file: NodeFile, parameter: str) -> list[Edit]:
     """A log message with a parameter's value, for each message that is published."""
     code = f"{file.name}.get_logger().info(str({file.value(parameter)}))"
-    return [above(each.lineno, code) for each in _publishing(file)[:1]]
+    return [insert_above(each.lineno, code) for each in _publishing(file)[:1]]
 
 
 def _publishing(file: NodeFile) -> list[ast.stmt]:
     """The statements that publish: in what the timer's callback leads to, if there is one."""
     within = file.reached(file.tick) if file.tick is not None else []
-    sent = [each for each in file.calls("publish") if not within or file.within(each) in within]
+    sent = [each for each in file.calls("publish") if not within or file.function_around(each) in within]
     return [file.statement(each) for each in sent]
 
 
@@ -85,14 +87,14 @@ def _counter(file: NodeFile) -> str:
     return next(iter(counted), "")
 
 
-def ticking(file: NodeFile, data: str, *, enabled: str = "", log: str = "") -> list[Edit]:
+def whole_timer_callback(file: NodeFile, data: str, *, enabled: str = "", log: str = "") -> list[Edit]:
     """The whole callback of the timer: one message each time, and none while a parameter is false.
 
     `data` is the code of what is sent, `log` a parameter that is logged each time.
     """
     if file.tick is None or not file.publisher or not file.message_class or file.tick is file.setup:
         return []
-    return [rewritten(file.tick, _ticking(file, file.publisher, file.message_class, data, enabled, log))]
+    return [rewrite_function(file.tick, _ticking(file, file.publisher, file.message_class, data, enabled, log))]
 
 
 def _ticking(file: NodeFile, publisher: str, message_class: str, data: str, enabled: str, log: str) -> str:
@@ -109,7 +111,7 @@ def _ticking(file: NodeFile, publisher: str, message_class: str, data: str, enab
     return "\n".join(lines)
 
 
-def publishing(
+def whole_publishing(
     file: NodeFile, topic: str, type_name: str, data: str, rate: str, *, enabled: str = "", log: str = ""
 ) -> list[Edit]:
     """Publisher, timer and callback as a whole: what is missing is added, the callback is rewritten.
@@ -123,13 +125,13 @@ def publishing(
     package, _, name = type_name.partition("/msg/")
     own, edits = file.own(name, f"{package}.msg")
     made = file.calls("create_publisher", "create_lifecycle_publisher")
-    kept = next((each for each in made if file.kept(each)), None)
-    publisher = file.kept(kept) if kept is not None else f"{file.holder}.publisher"
+    kept = next((each for each in made if file.assigned_to(each)), None)
+    publisher = file.assigned_to(kept) if kept is not None else f"{file.holder}.publisher"
     create = f"{file.name}.create_publisher({own}, {topic!r}, 10)"
     given = argument(kept, 1, "topic") if kept is not None else None
     told = str(given.value) if isinstance(given, ast.Constant) else ""
     if kept is not None and (file.message_class, told.lstrip("/")) != (own, topic.lstrip("/")):
-        edits.append(instead(file.text, kept, create))
+        edits.append(replace_node(file.text, kept, create))
     missing = [f"{publisher} = {create}"] if kept is None else []
     body = _ticking(file, publisher, own, data, enabled, log)
     tick = file.tick if file.tick is not file.setup and file.tick is not None else None
@@ -137,7 +139,7 @@ def publishing(
     method = tick.name if tick is not None else "timer_callback"
     indented = "\n".join(f"    {line}" for line in body.splitlines())
     if tick is not None:
-        edits.append(rewritten(tick, body))
+        edits.append(rewrite_function(tick, body))
     elif of_class:
         edits += file.new_method(f"def {method}(self):\n{indented}")
     else:
@@ -145,12 +147,12 @@ def publishing(
     if not file.timers or tick is None:
         callback = f"{'self.' if of_class else ''}{method}"
         missing.append(f"{file.holder}.timer = {file.name}.create_timer({period}, {callback})")
-    if not of_class and not any(called(each).startswith("spin") for each in calls_in(file.tree)):
+    if not of_class and not any(called_name(each).startswith("spin") for each in calls_in(file.tree)):
         missing.append(f"rclpy.spin({file.name})")
-    return [*edits, *(file.adds_to_setup("\n".join(missing)) if missing else [])]
+    return [*edits, *(file.append_to_setup("\n".join(missing)) if missing else [])]
 
 
-def of_one_type(file: NodeFile, topic: str, type_name: str) -> list[Edit]:
+def use_one_type(file: NodeFile, topic: str, type_name: str) -> list[Edit]:
     """Publishers of another type on a topic get one of their own."""
     own, _ = file.own(type_name.rpartition("/")[2], type_name.partition("/")[0] + ".msg")
     edits = []
@@ -159,7 +161,7 @@ def of_one_type(file: NodeFile, topic: str, type_name: str) -> list[Edit]:
         if kind is None or name is None or ast.unparse(kind) == own:
             continue
         if _text(file, name) == topic.lstrip("/"):
-            edits.append(instead(file.text, name, repr(f"{topic}_{ast.unparse(kind).lower()}")))
+            edits.append(replace_node(file.text, name, repr(f"{topic}_{ast.unparse(kind).lower()}")))
     return edits
 
 
@@ -184,13 +186,13 @@ def _quoted(code: str) -> str:
     return code.replace("'", '"')
 
 
-def period(file: NodeFile, code: str) -> list[Edit]:
+def set_period(file: NodeFile, code: str) -> list[Edit]:
     """The timer's period in seconds; where a loop sleeps instead, the time it sleeps."""
     if file.first_timer is not None:
         given = argument(file.first_timer, 0, "timer_period_sec")
-        return [instead(file.text, given, code)] if given is not None else []
+        return [replace_node(file.text, given, code)] if given is not None else []
     naps = [call for call in file.calls("sleep") if call.args]
-    return [instead(file.text, naps[0].args[0], code)] if len(naps) == 1 else []
+    return [replace_node(file.text, naps[0].args[0], code)] if len(naps) == 1 else []
 
 
 def only_timer(file: NodeFile) -> list[Edit]:
@@ -202,9 +204,9 @@ def only_timer(file: NodeFile) -> list[Edit]:
         file.statement(each)
         for each in file.timers
         if each is not file.first_timer
-        and file.within(each) is file.within(file.first_timer)
+        and file.function_around(each) is file.function_around(file.first_timer)
         and same is not None
         and (other := argument(each, 1, "callback")) is not None
         and ast.unparse(other) == ast.unparse(same)
     ]
-    return [without(file.text, each) for each in others]
+    return [remove_statement(file.text, each) for each in others]

@@ -10,14 +10,14 @@ import difflib
 import re
 from collections.abc import Iterator, Sequence
 
-from tutor.judge.edits import Edit, becomes, told
+from tutor.judge.edits import Edit, describe_edits, replace_lines
 
 _NEAR = 6
-"""So many lines above the one that Python stops at may be the one at fault."""
+"""This many lines above the one that Python stops at may be the one at fault."""
 _LONGEST = 20
-"""So many lines below the one that opens a bracket may be the one that lacks its partner."""
+"""This many lines below the one that opens a bracket may be the one that lacks its partner."""
 _SLIPS = 3
-"""So many slips in one file are told in one step."""
+"""This many slips in one file are told in one step."""
 _ENDS = (")", "]", "}", ":", "):", "'", '"', "')", '")', "),", "],", "},", ",", "',", '",', "])", "))", "})", ")))")
 _KEYWORDS = ("class", "def", "elif", "else:", "except", "finally:", "for", "from", "if", "import", "return", "while")
 _OPEN = re.compile(r"'([(\[{])' was never closed")
@@ -26,10 +26,10 @@ _COMMENT = re.compile(r"\s+#[^'\"]*$")
 _QUOTES = str.maketrans("\u201c\u201d\u2018\u2019", "\"\"''")
 
 
-def readable(text: str, file: str = "") -> str | None:
+def make_readable(text: str, file: str = "") -> str | None:
     """The step after which Python can read the file; None where it can already, or where no small change helps."""
     found = slips(text)
-    return told(text, found, file=file) if found else None
+    return describe_edits(text, found, file=file) if found else None
 
 
 def slips(text: str) -> list[Edit] | None:
@@ -161,7 +161,7 @@ def _changed(before: Sequence[str], after: Sequence[str]) -> list[Edit]:
 
 def _edit(before: Sequence[str], after: Sequence[str], first: int, last: int) -> Edit:
     if all(_head(before[at]) == _head(after[at]) for at in range(first - 1, last)) and first == last:
-        return becomes(first, after[first - 1].strip())
+        return replace_lines(first, after[first - 1].strip())
     while first > 1 and (not after[first - 1].strip() or _head(before[first - 1]) != _head(after[first - 1])):
         first -= 1
     margin = len(_head(after[first - 1]))
@@ -169,7 +169,7 @@ def _edit(before: Sequence[str], after: Sequence[str], first: int, last: int) ->
     while first > 1 and (margin > shallow or not after[first - 1].strip()):
         first -= 1
         margin = len(_head(after[first - 1])) if after[first - 1].strip() else margin
-    return becomes(first, "\n".join(each[margin:] for each in after[first - 1 : last]), last)
+    return replace_lines(first, "\n".join(each[margin:] for each in after[first - 1 : last]), last)
 
 
 def _head(line: str) -> str:

@@ -9,9 +9,9 @@ from dataclasses import dataclass, replace
 from functools import wraps
 
 from tutor.judge.edits import Edit
-from tutor.judge.following import leads_on
 from tutor.judge.rewriting.node import NodeFile, first_line
 from tutor.judge.source import Function, SourceFile, calls_in
+from tutor.judge.step_parsing import is_applicable
 from tutor.judge.trace import Trace
 from tutor.judge.verdict import Status, Verdict
 
@@ -55,7 +55,7 @@ class Names:
     main: str
 
 
-def names(file: NodeFile, node: str) -> Names:
+def names_of(file: NodeFile, node: str) -> Names:
     """The learner's names; those that the file lacks, or that a node has itself, are the usual ones.
 
     `node` is the node's name, where the file has none.
@@ -91,7 +91,7 @@ def names(file: NodeFile, node: str) -> Names:
         node_class=owner.name if owner is not None and fits else usual,
         node=fitting,
         publisher=own(attribute(file.publisher), "publisher"),
-        timer=own(attribute(file.kept(made)) if made is not None else "", "timer"),
+        timer=own(attribute(file.assigned_to(made)) if made is not None else "", "timer"),
         tick=own(ticking.name if ticking is not None else "", "timer_callback"),
         counter=own(next((found for each in counted if (found := attribute(each))), ""), "count"),
         check=own(_checking(file), "check_parameters"),
@@ -117,7 +117,7 @@ def _main(file: NodeFile) -> str:
     return starting[0].name if starting else "main"
 
 
-def rewritten(file: SourceFile, code: str) -> list[Edit]:
+def rewrite_file(file: SourceFile, code: str) -> list[Edit]:
     """All of a file below its docstring, with other code in its place."""
     body = file.tree.body
     if not body:
@@ -126,7 +126,7 @@ def rewritten(file: SourceFile, code: str) -> list[Edit]:
     return [Edit(first_line(body[1 if described else 0]), len(file.text.splitlines()), code)]
 
 
-def is_plain(file: NodeFile) -> bool:
+def is_usual(file: NodeFile) -> bool:
     """Whether a node is built as usual: one class, its timer kept in an attribute, its callbacks methods.
 
     Only of such a node is it sure that its callbacks, rewritten, do what is asked for.
@@ -140,13 +140,13 @@ def is_plain(file: NodeFile) -> bool:
     return (
         file.name == "self"
         and not looping
-        and re.fullmatch(r"self\.\w+", file.kept(made)) is not None
+        and re.fullmatch(r"self\.\w+", file.assigned_to(made)) is not None
         and len([each for each in file.tree.body if isinstance(each, ast.ClassDef)]) == 1
         and not file.calls(*waits)
     )
 
 
-def followable[**P](
+def with_applicable_steps[**P](
     judge: Callable[P, Verdict], found: Callable[..., Sequence[Trace]], step: Callable[[Trace], str]
 ) -> Callable[P, Verdict]:
     """The judge, with next steps that can all be followed: where one is in words only, `step` gives another.
@@ -158,7 +158,7 @@ def followable[**P](
     def judged(*args: P.args, **kwargs: P.kwargs) -> Verdict:
         verdict = judge(*args, **kwargs)
         trace = next((each for each in found(*args, **kwargs) if each.sources), None)
-        if verdict.status is not Status.FAILED or trace is None or leads_on(verdict.hint, trace.sources):
+        if verdict.status is not Status.FAILED or trace is None or is_applicable(verdict.hint, trace.sources):
             return verdict
         told = step(trace)
         if not told:

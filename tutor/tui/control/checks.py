@@ -1,4 +1,4 @@
-"""The check of one exercise: begun, watched, cancelled, begun anew on each save."""
+"""The check of one exercise: started, watched, cancelled, restarted on each save."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from tutor.invocation import command
 from tutor.judge.events import ExerciseJudged
 from tutor.judge.verdict import Status
 from tutor.tui import messages
-from tutor.tui.checking import Checking
+from tutor.tui.check_process import CheckProcess
 from tutor.tui.control.files import Files
+from tutor.tui.control.preferences import Preferences
 from tutor.tui.control.records import Records
-from tutor.tui.control.remember import Memory
 from tutor.tui.findings import Findings
-from tutor.tui.screens.stage import Deed, Stage
+from tutor.tui.screens.host import CommandHandler, HostScreen
 
 CRASHED = (
     "This is a fault of ros-tutor or of the machine, not of your code. Check again; if it stays, run: "
@@ -28,26 +28,31 @@ class Checks:
     """At most one check runs; `show` is told the findings each time they change."""
 
     def __init__(
-        self, stage: Stage, files: Files, records: Records, memory: Memory, show: Callable[[Findings], object]
+        self,
+        host: HostScreen,
+        files: Files,
+        records: Records,
+        preferences: Preferences,
+        show: Callable[[Findings], object],
     ) -> None:
-        self._stage, self._files, self._records, self._memory, self._show = stage, files, records, memory, show
-        self.running: Checking | None = None
+        self._host, self._files, self._records, self._preferences, self._show = host, files, records, preferences, show
+        self.running: CheckProcess | None = None
         self._checked: dict[str, dict[Path, str]] = {}
         """What each exercise's files held when they were last checked."""
         self._next: Lesson | None = None
         """What is to be checked when the running check has been cancelled."""
-        self.deeds = {
-            "check": Deed(self.check, lambda: self.running is None),
-            "cancel": Deed(self.cancel, lambda: self.running is not None),
-            "watch": Deed(self.watch),
+        self.command_handlers = {
+            "check": CommandHandler(self.check, lambda: self.running is None),
+            "cancel": CommandHandler(self.cancel, lambda: self.running is not None),
+            "watch": CommandHandler(self.watch),
         }
 
     def check(self) -> None:
         """Save and check the lesson that is shown."""
         if not self._files.needed_for("check"):
-            self._begin(self._stage.session.lesson)
-            if self._stage.has_class("-folded"):
-                self._stage.show_page("criteria")
+            self._begin(self._host.session.lesson)
+            if self._host.has_class("-folded"):
+                self._host.show_page("criteria")
 
     def cancel(self) -> None:
         """Stop the running check; its processes are ended."""
@@ -56,25 +61,29 @@ class Checks:
 
     def watch(self) -> None:
         """Switch checking on save."""
-        on = not self._stage.session.state.check_on_save
-        self._memory.note(check_on_save=on)
-        self._stage.say("Each save now begins a check." if on else "A save no longer begins a check.")
-        self._stage.refresh_bindings()
+        on = not self._host.session.state.check_on_save
+        self._preferences.update(check_on_save=on)
+        self._host.say("Each save now begins a check." if on else "A save no longer begins a check.")
+        self._host.refresh_bindings()
 
     def saved(self, message: messages.FileSaved) -> None:
-        """A file was saved: check anew, where that is wanted."""
-        session = self._stage.session
-        if not session.state.check_on_save or message.path not in session.paths or session.desk.missing(session.lesson):
+        """A file was saved: check again, where that is wanted."""
+        session = self._host.session
+        if (
+            not session.state.check_on_save
+            or message.path not in session.paths
+            or session.app_services.missing(session.lesson)
+        ):
             return
         if self.running is None:
             self._begin(session.lesson)
         else:
             self._next = session.lesson
-            self._stop("begun anew: your file has changed")
+            self._stop("started again: your file has changed")
 
     def edited(self) -> None:
         """A file holds something else now: verdicts on what it held before are marked, until that is back."""
-        session = self._stage.session
+        session = self._host.session
         found = session.findings[session.lesson.id]
         checked, held = self._checked.get(session.lesson.id, {}), self._files.texts(session.lesson)
         outdated = any(held.get(path, text) != text for path, text in checked.items())
@@ -82,13 +91,15 @@ class Checks:
             self._tell(replace(found, outdated=outdated))
 
     def _begin(self, lesson: Lesson) -> None:
-        desk = self._stage.session.desk
-        self.running = Checking(lesson.id, desk.check_command(lesson), desk.workspace.root, self._stage.post_message)
-        self._tell(self._stage.session.findings[lesson.id].begun())
-        self._stage.refresh_bindings()
-        self._stage.work(self._run, lesson, self.running, group="check")
+        app_services = self._host.session.app_services
+        self.running = CheckProcess(
+            lesson.id, app_services.check_command(lesson), app_services.workspace.root, self._host.post_message
+        )
+        self._tell(self._host.session.findings[lesson.id].begun())
+        self._host.refresh_bindings()
+        self._host.work(self._run, lesson, self.running, group="check")
 
-    async def _run(self, lesson: Lesson, checking: Checking) -> None:
+    async def _run(self, lesson: Lesson, checking: CheckProcess) -> None:
         await self._files.save_all()
         self._checked[lesson.id] = self._files.texts(lesson)
         await checking.run()
@@ -96,20 +107,20 @@ class Checks:
     def _stop(self, note: str) -> None:
         if self.running is not None and not self.running.cancelled:
             self.running.cancel()
-            self._tell(self._stage.session.findings[self.running.exercise].stopped(note))
+            self._tell(self._host.session.findings[self.running.exercise].stopped(note))
 
     def event(self, message: messages.CheckEvent) -> None:
         """The running check has found something."""
         if self.running is None or self.running.cancelled:
             return
-        self._tell(self._stage.session.findings[self.running.exercise].after(message.event))
+        self._tell(self._host.session.findings[self.running.exercise].after(message.event))
         if isinstance(message.event, ExerciseJudged):
             self._records.add(message.event.result)
 
     def over(self, message: messages.CheckOver) -> None:
         """The check's process is gone."""
         self.running = None
-        session = self._stage.session
+        session = self._host.session
         found = session.findings[message.exercise]
         if message.cancelled:
             found = found.stopped("cancelled")
@@ -118,13 +129,13 @@ class Checks:
         elif found.checking:
             found = found.stopped()
         self._tell(found)
-        self._stage.refresh_bindings()
+        self._host.refresh_bindings()
         if self._next is not None:
             again, self._next = self._next, None
             self._begin(again)
         elif message.exercise != session.lesson.id and found.result is not None:
             word = "passed" if found.result.verdict is Status.PASSED else "is checked: not all criteria are met yet"
-            self._stage.say(f"{message.exercise.upper()} {word}.")
+            self._host.say(f"{message.exercise.upper()} {word}.")
 
     def leave(self) -> None:
         """End it for good."""
@@ -133,5 +144,5 @@ class Checks:
             self.running.cancel()
 
     def _tell(self, found: Findings) -> None:
-        self._stage.session.findings[found.exercise] = found
+        self._host.session.findings[found.exercise] = found
         self._show(found)

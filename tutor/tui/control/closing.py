@@ -8,31 +8,33 @@ from tutor.tui.control.checks import Checks
 from tutor.tui.control.files import Files
 from tutor.tui.control.nodes import Nodes
 from tutor.tui.control.pages import Pages
-from tutor.tui.control.remember import Memory
-from tutor.tui.screens.stage import Stage
+from tutor.tui.control.preferences import Preferences
+from tutor.tui.screens.host import HostScreen
 
 SAVE_LIMIT_S = 5.0
 """While a question on two versions of a file is open, both are on the disk, and saving waits for the answer."""
 
 
-async def close_down(stage: Stage, files: Files, nodes: Nodes, checks: Checks, memory: Memory, pages: Pages) -> None:
+async def close_down(
+    host: HostScreen, files: Files, nodes: Nodes, checks: Checks, preferences: Preferences, pages: Pages
+) -> None:
     """Save, end the check and the nodes, and wait until nothing of them is left."""
     checks.leave()
     nodes.leave()
     terminal = pages.terminal
     if terminal is not None:
         terminal.leave()
-        stage.session.desk.keep_typed_commands(terminal.typed_commands)
+        host.session.app_services.keep_typed_commands(terminal.typed_commands)
     try:
         async with asyncio.timeout(SAVE_LIMIT_S):
             await files.save_all()
     except TimeoutError:
         pass
-    await memory.flush()
+    await preferences.flush()
     if (live := pages.live) is not None:
         await live.close_down()
-    busy = [worker for worker in stage.workers if worker.group in ("check", "node", "progress", "terminal")]
+    busy = [worker for worker in host.workers if worker.group in ("check", "node", "progress", "terminal")]
     if busy:  # an empty list would mean all of them, and the one that follows the file never ends
-        await stage.app.workers.wait_for_complete(busy)
+        await host.app.workers.wait_for_complete(busy)
     files.leave()
-    stage.workers.cancel_node(stage)  # whatever still reads or follows a file would find no widget to show it in
+    host.workers.cancel_node(host)  # whatever still reads or follows a file would find no widget to show it in

@@ -10,12 +10,12 @@ from pathlib import Path
 from textual.timer import Timer
 
 from tutor.content import Lesson
-from tutor.tui import messages, words
+from tutor.tui import messages, wording
 from tutor.tui.control.records import Records
-from tutor.tui.following import follow
-from tutor.tui.screens.stage import Deed, Stage
+from tutor.tui.file_watching import watch_file
+from tutor.tui.screens.host import CommandHandler, HostScreen
 from tutor.tui.widgets.code_pane import CodePane
-from tutor.workspace import StorageError, WorkspaceError, keep_aside, read_source, save_over
+from tutor.workspace import StorageError, WorkspaceError, back_up_file, overwrite_file, read_source
 
 SAVE_AFTER_S = 0.6
 """What is typed is on the disk after this time, in seconds, and a write."""
@@ -24,48 +24,48 @@ SAVE_AFTER_S = 0.6
 class Files:
     """What the editors hold against what is on the disk. Every look and every write is made under one lock."""
 
-    def __init__(self, stage: Stage, pane: CodePane, records: Records) -> None:
-        self._stage, self._pane, self._records = stage, pane, records
+    def __init__(self, host: HostScreen, pane: CodePane, records: Records) -> None:
+        self._host, self._pane, self._records = host, pane, records
         self._disk: dict[Path, str] = {}
         """What is on the disk as far as the editors know, by file."""
         self._lock = asyncio.Lock()
         self._autosave: Timer | None = None
         self._closed = False
-        self.deeds = {
-            "start": Deed(self.start),
-            "edit": Deed(self.edit),
-            "save": Deed(self.save),
-            "find": Deed(self.find, lambda: stage.session.path in self._disk),
-            "find_next": Deed(lambda: self.find(again=True), lambda: stage.session.path in self._disk),
-            "own_editor": Deed(self.open_outside),
-            "next_file": Deed(self.next_file, lambda: len(stage.session.lesson.files) > 1),
-            "reset": Deed(self.reset),
+        self.command_handlers = {
+            "start": CommandHandler(self.start),
+            "edit": CommandHandler(self.edit),
+            "save": CommandHandler(self.save),
+            "find": CommandHandler(self.find, lambda: host.session.path in self._disk),
+            "find_next": CommandHandler(lambda: self.find(again=True), lambda: host.session.path in self._disk),
+            "own_editor": CommandHandler(self.open_outside),
+            "next_file": CommandHandler(self.next_file, lambda: len(host.session.lesson.files) > 1),
+            "reset": CommandHandler(self.reset),
         }
 
     # --- which file ---
 
     def show(self, index: int) -> None:
         """Show one of the lesson's files, and follow it on the disk."""
-        session = self._stage.session
+        session = self._host.session
         session.file_index = index
         self._pane.show_names(session.paths, index)
         path = session.path
-        tell = partial(self._stage.post_message, messages.FileTouched(path))
-        self._stage.work(follow, path, tell, group="file", exclusive=True)
+        tell = partial(self._host.post_message, messages.FileTouched(path))
+        self._host.work(watch_file, path, tell, group="file", exclusive=True)
 
     def next_file(self) -> None:
         """Show the lesson's other file."""
-        session = self._stage.session
+        session = self._host.session
         self.show((session.file_index + 1) % len(session.lesson.files))
-        self._stage.show_page("code")
+        self._host.show_page("code")
 
     def go_to(self, message: messages.GoToLine) -> None:
         """Put the cursor on a line."""
-        paths = self._stage.session.paths
+        paths = self._host.session.paths
         if message.path in paths:
             self.show(paths.index(message.path))
-            self._stage.show_page("code")
-            self._stage.work(self._go_to, message, group="show-line", exclusive=True)
+            self._host.show_page("code")
+            self._host.work(self._go_to, message, group="show-line", exclusive=True)
 
     async def _go_to(self, message: messages.GoToLine) -> None:
         await self.look(message.path)
@@ -74,8 +74,8 @@ class Files:
     # --- the disk has changed ---
 
     def touched(self, message: messages.FileTouched) -> None:
-        """Look at it anew."""
-        self._stage.work(self.look, message.path, group="look")
+        """Look at it again."""
+        self._host.work(self.look, message.path, group="look")
 
     async def look(self, path: Path) -> None:
         """Bring the editor and the disk together now."""
@@ -83,7 +83,7 @@ class Files:
             try:
                 text = await asyncio.to_thread(read_source, path)
             except StorageError as error:
-                if path == self._stage.session.path and not self._closed:
+                if path == self._host.session.path and not self._closed:
                     self._pane.show_missing(path, str(error))
                 return
             if not self._closed:
@@ -97,7 +97,7 @@ class Files:
                 await self._write(path, None)  # removed while it was being edited: what is typed counts
                 return
             self._disk.pop(path, None)
-            if path == self._stage.session.path:
+            if path == self._host.session.path:
                 self._pane.show_missing(path)
             return
         if text == known and self._pane.knows(path):
@@ -109,12 +109,12 @@ class Files:
                 return
             self._pane.mark_saved(path, text)
         else:
-            await self._pane.show_source(path, text, visible=path == self._stage.session.path)
+            await self._pane.show_source(path, text, visible=path == self._host.session.path)
         self._disk[path] = text
         if known is not None:
-            self._stage.say(f"{path.name} was changed outside: this is the new version.")
-            self._stage.post_message(messages.FileSaved(path, outside=True))
-        self._stage.refresh_bindings()
+            self._host.say(f"{path.name} was changed outside: this is the new version.")
+            self._host.post_message(messages.FileSaved(path, outside=True))
+        self._host.refresh_bindings()
 
     async def _conflict(self, path: Path, theirs: str) -> None:
         """Both sides have changed: both are on the disk before anything is asked; the lock is held."""
@@ -122,56 +122,56 @@ class Files:
 
         ours = self._pane.text(path)
         try:
-            backup = await asyncio.to_thread(keep_aside, path, ours)
+            backup = await asyncio.to_thread(back_up_file, path, ours)
         except StorageError as error:
-            self._stage.trouble(f"{path.name} was changed outside, and yours cannot be kept beside it: {error}")
+            self._host.show_error(f"{path.name} was changed outside, and yours cannot be kept beside it: {error}")
             return
-        mine = await self._stage.app.push_screen_wait(ConflictScreen(path.name, backup.name, ours, theirs))
+        mine = await self._host.app.push_screen_wait(ConflictScreen(path.name, backup.name, ours, theirs))
         if not mine:
             if (typed := self._pane.text(path)) != ours:  # while the backup was written, before the question was there
                 try:
-                    backup = await asyncio.to_thread(keep_aside, path, typed)
+                    backup = await asyncio.to_thread(back_up_file, path, typed)
                 except StorageError as error:
-                    self._stage.trouble(f"Nothing was changed: yours cannot be kept beside it: {error}")
+                    self._host.show_error(f"Nothing was changed: yours cannot be kept beside it: {error}")
                     return
             self._disk[path] = theirs
-            await self._pane.show_source(path, theirs, visible=path == self._stage.session.path)
-            self._stage.say(f"The file's version is shown. Yours is kept as {backup.name}.", warn=True)
+            await self._pane.show_source(path, theirs, visible=path == self._host.session.path)
+            self._host.say(f"The file's version is shown. Yours is kept as {backup.name}.", warn=True)
             return
         try:
-            kept = await asyncio.to_thread(keep_aside, path, theirs)
+            kept = await asyncio.to_thread(back_up_file, path, theirs)
             backup.unlink(missing_ok=True)
         except (StorageError, OSError) as error:
-            self._stage.trouble(f"Nothing was written: {error}")
+            self._host.show_error(f"Nothing was written: {error}")
             return
         self._disk[path] = theirs
         await self._write(path, theirs)
-        self._stage.say(f"Your version is saved. The other one is kept as {kept.name}.", warn=True)
+        self._host.say(f"Your version is saved. The other one is kept as {kept.name}.", warn=True)
 
     # --- the learner has changed it ---
 
     def texts(self, lesson: Lesson) -> dict[Path, str]:
         """What a lesson's files hold, those that have been read."""
-        paths = map(self._stage.session.desk.path, lesson.files)
+        paths = map(self._host.session.app_services.path, lesson.files)
         return {path: self._pane.text(path) for path in paths if self._pane.knows(path)}
 
     def typed(self) -> None:
         """Something was typed: it is saved soon."""
         self._pane.show_saved()
         if self._autosave is None and self._pane.changed():
-            self._autosave = self._stage.set_timer(SAVE_AFTER_S, self._save_soon)
+            self._autosave = self._host.set_timer(SAVE_AFTER_S, self._save_soon)
 
     def _save_soon(self) -> None:
         self._autosave = None
-        self._stage.work(self.save_all, group="save")
+        self._host.work(self.save_all, group="save")
 
     async def save(self) -> None:
         """Save by hand: what happens on each save happens now."""
         if await self.save_all():
-            path = self._stage.session.path
+            path = self._host.session.path
             if path in self._disk:
-                self._stage.post_message(messages.FileSaved(path))
-                self._stage.say(f"{path.name} is saved.")
+                self._host.post_message(messages.FileSaved(path))
+                self._host.say(f"{path.name} is saved.")
 
     async def save_all(self) -> bool:
         """Save whatever is not; whether all is saved now."""
@@ -189,9 +189,9 @@ class Files:
     async def _write(self, path: Path, expected: str | None) -> None:
         text = self._pane.text(path)
         try:
-            saved = await asyncio.to_thread(save_over, path, text, expected)
+            saved = await asyncio.to_thread(overwrite_file, path, text, expected)
         except StorageError as error:
-            self._stage.trouble(f"{path.name} is not saved: {error}")
+            self._host.show_error(f"{path.name} is not saved: {error}")
             return
         if not saved.done:
             await self._compare(path, saved.found)
@@ -199,9 +199,7 @@ class Files:
         self._disk[path] = text
         self._pane.mark_saved(path, text)
         if saved.backup is not None:
-            self._stage.say(
-                f"{path.name} was changed outside just now: that is kept as {saved.backup.name}.", warn=True
-            )
+            self._host.say(f"{path.name} was changed outside just now: that is kept as {saved.backup.name}.", warn=True)
 
     def leave(self) -> None:
         """All is saved, and the editors are about to go: look at nothing any more."""
@@ -213,62 +211,62 @@ class Files:
 
     def needed_for(self, what: str) -> bool:
         """Whether files are missing; then the start is offered."""
-        session = self._stage.session
-        if not (missing := session.desk.missing(session.lesson)):
+        session = self._host.session
+        if not (missing := session.app_services.missing(session.lesson)):
             return False
         names = " and ".join(missing)
         text = f"{names} is not in your workspace yet, so there is nothing to {what}.\n\nPut the skeleton there?"
-        self._stage.ask(f"Start {words.label(session.lesson)}", text, "Start", self.start)
+        self._host.ask(f"Start {wording.label(session.lesson)}", text, "Start", self.start)
         return True
 
     def start(self) -> None:
         """Put the skeletons there."""
-        self._stage.work(self._start, self._stage.session.lesson, group="start", exclusive=True)
+        self._host.work(self._start, self._host.session.lesson, group="start", exclusive=True)
 
     async def _start(self, lesson: Lesson) -> None:
         try:
-            placed = await asyncio.to_thread(self._stage.session.desk.start, lesson)
+            placed = await asyncio.to_thread(self._host.session.app_services.start, lesson)
         except (WorkspaceError, StorageError) as error:
-            self._stage.trouble(str(error))
+            self._host.show_error(str(error))
             return
-        self._stage.post_message(messages.Started(lesson.id, tuple(path.name for path in placed.written)))
+        self._host.post_message(messages.Started(lesson.id, tuple(path.name for path in placed.written)))
         self._records.read()
 
     def started(self, message: messages.Started) -> None:
         """The skeletons are there."""
-        if message.exercise != self._stage.session.lesson.id:
+        if message.exercise != self._host.session.lesson.id:
             return
-        self.touched(messages.FileTouched(self._stage.session.path))
-        self._stage.show_page("code")
+        self.touched(messages.FileTouched(self._host.session.path))
+        self._host.show_page("code")
         if message.written:
-            self._stage.say(f"{' and '.join(message.written)} is in your workspace: e to edit, then c to check.")
+            self._host.say(f"{' and '.join(message.written)} is in your workspace: e to edit, then c to check.")
         else:
-            self._stage.say("Your files are there already; nothing was changed.")
+            self._host.say("Your files are there already; nothing was changed.")
 
     def edit(self) -> None:
         """Put the focus into the editor."""
         if self.needed_for("edit"):
             return
-        path = self._stage.session.path
+        path = self._host.session.path
         if self._pane.knows(path):
             self._type()
         else:  # asked for before the file has been read
-            self._stage.work(self._type_soon, path, group="show-line", exclusive=True)
+            self._host.work(self._type_soon, path, group="show-line", exclusive=True)
 
     def find(self, *, again: bool = False) -> None:
         """Find a text in the file that is shown."""
-        if self._stage.page != "code":
-            self._stage.show_page("code")
+        if self._host.page != "code":
+            self._host.show_page("code")
         self._pane.find(again=again)
 
     async def _type_soon(self, path: Path) -> None:
         await self.look(path)
-        if path == self._stage.session.path:
+        if path == self._host.session.path:
             self._type()
 
     def _type(self) -> None:
         self._pane.edit()
-        self._stage.show_page("code")
+        self._host.show_page("code")
         self._pane.focus_content(typing=True)
 
     async def open_outside(self) -> None:
@@ -278,44 +276,44 @@ class Files:
         if self.needed_for("edit"):
             return
         await self.save_all()
-        session = self._stage.session
+        session = self._host.session
         # Ctrl+C in the editor reaches us too; a handler that does nothing is reset to the default in the editor itself.
         before = signal.signal(signal.SIGINT, lambda *_: None)
         try:
-            problem = await edit_outside(self._stage.app, session.path)
+            problem = await edit_outside(self._host.app, session.path)
         finally:
             signal.signal(signal.SIGINT, before)
         if problem:
-            self._stage.trouble(problem)
-        self._stage.show_page("code")
-        self._stage.refresh(layout=True)
+            self._host.show_error(problem)
+        self._host.show_page("code")
+        self._host.refresh(layout=True)
 
     def reset(self) -> None:
-        """Begin the file anew, after a question."""
+        """Put the skeleton back, after a question."""
         if self.needed_for("reset"):
             return
-        name = self._stage.session.file.name
+        name = self._host.session.file.name
         text = f"{name} becomes the skeleton again.\n\nYour version is kept beside it as a backup."
-        self._stage.ask(f"Reset {name}", text, "Reset", self._reset)
+        self._host.ask(f"Reset {name}", text, "Reset", self._reset)
 
     def _reset(self) -> None:
-        self._stage.work(self._reset_now, group="start", exclusive=True)
+        self._host.work(self._reset_now, group="start", exclusive=True)
 
     async def _reset_now(self) -> None:
-        session = self._stage.session
+        session = self._host.session
         file, path = session.file, session.path
         async with self._lock:  # nobody looks at the file between its two versions
             await self._write_changed()
             if self._pane.is_changed(path):
                 return  # it could not be saved, which was told: what was typed is nowhere else
             try:
-                placed = await asyncio.to_thread(session.desk.reset, file)
+                placed = await asyncio.to_thread(session.app_services.reset, file)
                 text = await asyncio.to_thread(read_source, path)
             except (WorkspaceError, StorageError) as error:
-                self._stage.trouble(str(error))
+                self._host.show_error(str(error))
                 return
             if text is not None:
                 self._disk[path] = text
                 await self._pane.show_source(path, text, visible=path == session.path)
-        where = f" Yours is kept as {words.short(placed.backups[0])}." if placed.backups else ""
-        self._stage.say(f"{file.name} is the skeleton again.{where}", warn=True)
+        where = f" Yours is kept as {wording.short(placed.backups[0])}." if placed.backups else ""
+        self._host.say(f"{file.name} is the skeleton again.{where}", warn=True)

@@ -9,9 +9,9 @@ from pathlib import Path
 from tutor.content import Lesson, LessonFile, Partner
 from tutor.tui import messages
 from tutor.tui.control.files import Files
-from tutor.tui.control.remember import Memory
+from tutor.tui.control.preferences import Preferences
 from tutor.tui.node import Node, NodeCommand
-from tutor.tui.screens.stage import Deed, Stage
+from tutor.tui.screens.host import CommandHandler, HostScreen
 from tutor.workspace import RunOptions
 
 
@@ -21,8 +21,8 @@ class Nodes:
     Only those of one lesson: two lessons' nodes would talk into each other's topics.
     """
 
-    def __init__(self, stage: Stage, files: Files, memory: Memory) -> None:
-        self._stage, self._files, self._memory = stage, files, memory
+    def __init__(self, host: HostScreen, files: Files, preferences: Preferences) -> None:
+        self._host, self._files, self._preferences = host, files, preferences
         self.known: dict[Path, Node] = {}
         """The latest node of each file, whether it still runs or not; one of ours by `key_of`."""
         self._chosen: tuple[Path, Path] | None = None
@@ -31,14 +31,14 @@ class Nodes:
         """The file that was run last."""
         self._turns: dict[Path, asyncio.Lock] = {}
         self._wanted: dict[Path, int] = {}
-        self.deeds = {
-            "run": Deed(self.run, lambda: not self._stoppable),
-            "stop": Deed(self.stop, lambda: bool(self._stoppable)),
-            "restart": Deed(self.restart, lambda: self._alive(stage.session.path)),
-            "partner": Deed(self.partner, lambda: self._partner is not None),
-            "other_file": Deed(self.other_file, lambda: len(stage.session.lesson.files) > 1),
-            "options": Deed(self.options),
-            "restart_on_save": Deed(self.switch_restart),
+        self.command_handlers = {
+            "run": CommandHandler(self.run, lambda: not self._stoppable),
+            "stop": CommandHandler(self.stop, lambda: bool(self._stoppable)),
+            "restart": CommandHandler(self.restart, lambda: self._alive(host.session.path)),
+            "partner": CommandHandler(self.partner, lambda: self._partner is not None),
+            "other_file": CommandHandler(self.other_file, lambda: len(host.session.lesson.files) > 1),
+            "options": CommandHandler(self.options),
+            "restart_on_save": CommandHandler(self.switch_restart),
         }
 
     @property
@@ -49,7 +49,7 @@ class Nodes:
     @property
     def shown(self) -> Path | None:
         """The node whose log is to be shown: the one chosen, else that of the file that is looked at, else the last."""
-        path = self._stage.session.path
+        path = self._host.session.path
         if self._chosen is not None and self._chosen[1] == path and self._chosen[0] in self.listed:
             return self._chosen[0]
         return path if path in self.known else self.latest
@@ -57,32 +57,32 @@ class Nodes:
     @property
     def listed(self) -> list[Path]:
         """The nodes whose logs can be chosen: those of the lesson, and all that run."""
-        own = self._own(self._stage.session.lesson)
+        own = self._own(self._host.session.lesson)
         return [path for path, node in self.known.items() if path in own or node.state.alive]
 
     def choose(self, path: Path) -> None:
         """Show the log of this node."""
-        self._chosen = (path, self._stage.session.path)
+        self._chosen = (path, self._host.session.path)
         self._tell(path)
 
     def stop_key(self, path: Path) -> str:
         """The key that stops this node."""
-        session = self._stage.session
+        session = self._host.session
         if path == session.path or path not in self._own(session.lesson):
             return "r"
         return "j" if path in session.paths else "b"
 
     def _tell(self, path: Path, *, first: bool = False, unasked: bool = False) -> None:
         state = self.known[path].state
-        self._stage.post_message(messages.NodeChanged(path, state, first=first, unasked=unasked))
+        self._host.post_message(messages.NodeChanged(path, state, first=first, unasked=unasked))
 
     def _own(self, lesson: Lesson) -> set[Path]:
-        files = {self._stage.session.desk.path(file) for file in lesson.files}
+        files = {self._host.session.app_services.path(file) for file in lesson.files}
         return files | {key_of(partner) for partner in lesson.live.partners}
 
     @property
     def _partner(self) -> Partner | None:
-        session = self._stage.session
+        session = self._host.session
         return session.lesson.live.partner_of(session.file.name)
 
     def _alive(self, path: Path) -> bool:
@@ -91,7 +91,7 @@ class Nodes:
     @property
     def _stoppable(self) -> list[Node]:
         """What Stop stops: the node of the file that is shown; where another lesson is read, what runs."""
-        session = self._stage.session
+        session = self._host.session
         if self._alive(session.path):
             return [self.known[session.path]]
         if any(path in self.known for path in session.paths):
@@ -103,11 +103,11 @@ class Nodes:
 
     def run(self) -> None:
         """Run the file that is shown."""
-        session = self._stage.session
+        session = self._host.session
         if self._files.needed_for("run"):
             return
         if not session.path.exists():
-            self._stage.trouble(f"{session.file.name} is not in your workspace yet.")
+            self._host.show_error(f"{session.file.name} is not in your workspace yet.")
             return
         self._start(session.lesson, session.file)
 
@@ -118,20 +118,20 @@ class Nodes:
 
     def other_file(self) -> None:
         """Run the lesson's other file beside the one that is shown, or stop it."""
-        session = self._stage.session
+        session = self._host.session
         files = session.lesson.files
         file = files[(session.file_index + 1) % len(files)]
-        path = session.desk.path(file)
+        path = session.app_services.path(file)
         if self._alive(path):
             self.known[path].stop()
         elif not path.exists():
-            self._stage.trouble(f"{file.name} is not in your workspace yet.")
+            self._host.show_error(f"{file.name} is not in your workspace yet.")
         else:
             self._start(session.lesson, file)
 
     def partner(self) -> None:
         """Start our node that goes with the file that is shown, or stop it."""
-        session, partner = self._stage.session, self._partner
+        session, partner = self._host.session, self._partner
         if partner is None:
             return
         key = key_of(partner)
@@ -140,42 +140,42 @@ class Nodes:
             return
         twin = [path for path in session.paths if partner.file and path.name == partner.file.name and self._alive(path)]
         if twin:
-            self._stage.trouble(f"Your {twin[0].name} runs already, and does what ours would: j stops it.")
+            self._host.show_error(f"Your {twin[0].name} runs already, and does what ours would: j stops it.")
             return
-        desk = session.desk
-        self._begin(session.lesson, key, lambda: desk.partner_command(partner))
+        app_services = session.app_services
+        self._begin(session.lesson, key, lambda: app_services.partner_command(partner))
 
     def restart(self) -> None:
-        """Stop the node of the file that is shown, and run it anew."""
-        self._start(self._stage.session.lesson, self._stage.session.file)
+        """Stop the node of the file that is shown, and run it again."""
+        self._start(self._host.session.lesson, self._host.session.file)
 
     def saved(self, message: messages.FileSaved) -> None:
-        """A file was saved: run its lesson's nodes anew, where that is wanted."""
-        session = self._stage.session
+        """A file was saved: run its lesson's nodes again, where that is wanted."""
+        session = self._host.session
         if not session.state.restart_on_save or message.path not in session.paths:
             return
         for file in session.lesson.files:
-            if self._alive(session.desk.path(file)):
+            if self._alive(session.app_services.path(file)):
                 self._start(session.lesson, file, unasked=message.outside)
 
     def switch_restart(self) -> None:
         """Switch restarting on save."""
-        on = not self._stage.session.state.restart_on_save
-        self._memory.note(restart_on_save=on)
-        self._stage.say("Each save now restarts your node." if on else "A save no longer restarts your node.")
-        self._stage.refresh_bindings()
+        on = not self._host.session.state.restart_on_save
+        self._preferences.update(restart_on_save=on)
+        self._host.say("Each save now restarts your node." if on else "A save no longer restarts your node.")
+        self._host.refresh_bindings()
 
     def _start(self, lesson: Lesson, file: LessonFile, *, unasked: bool = False) -> None:
-        desk = self._stage.session.desk
+        app_services = self._host.session.app_services
 
         def command() -> NodeCommand:
-            return desk.node_command(file, self._stage.session.state.run_of(lesson.id))
+            return app_services.node_command(file, self._host.session.state.run_of(lesson.id))
 
-        self._begin(lesson, desk.path(file), command, unasked=unasked)
+        self._begin(lesson, app_services.path(file), command, unasked=unasked)
 
     def _begin(self, lesson: Lesson, path: Path, command: Callable[[], NodeCommand], *, unasked: bool = False) -> None:
         self._wanted[path] = self._wanted.get(path, 0) + 1
-        self._stage.work(self._run, lesson, path, command, self._wanted[path], unasked, group="node")
+        self._host.work(self._run, lesson, path, command, self._wanted[path], unasked, group="node")
 
     async def _run(
         self, lesson: Lesson, path: Path, make: Callable[[], NodeCommand], number: int, unasked: bool
@@ -192,20 +192,20 @@ class Nodes:
                 await node.over.wait()
             if self._wanted[path] != number:
                 return  # asked again meanwhile: the last one counts
-            from tutor.sandbox.ros2.errors import CommandError
+            from tutor.bundled_ros.ros2.errors import CommandError
 
             try:
                 command = await asyncio.to_thread(make)
             except CommandError as error:
-                self._stage.trouble(f"The node cannot be started: {error}")
+                self._host.show_error(f"The node cannot be started: {error}")
                 return
             except OSError as error:
-                self._stage.trouble(f"The node cannot be started: {error.strerror or error}")
+                self._host.show_error(f"The node cannot be started: {error.strerror or error}")
                 return
-            node = Node(command, lambda state: self._stage.post_message(messages.NodeChanged(path, state)))
+            node = Node(command, lambda state: self._host.post_message(messages.NodeChanged(path, state)))
             self.known[path], self.latest = node, path
             if not unasked:
-                self._chosen = (path, self._stage.session.path)
+                self._chosen = (path, self._host.session.path)
             self._tell(path, first=True, unasked=unasked)
             await node.run()
 
@@ -215,19 +215,21 @@ class Nodes:
         """Ask for parameters and remaps."""
         from tutor.tui.screens.run_options import RunOptionsScreen
 
-        session = self._stage.session
+        session = self._host.session
         lesson, file = session.lesson, session.file
 
         def answered(answer: tuple[RunOptions, bool] | None) -> None:
             if answer is None:
                 return
             options, run = answer
-            self._memory.put(session.state.with_run(lesson.id, options))
+            self._preferences.replace(session.state.with_run(lesson.id, options))
             if run and session.lesson is lesson:
                 (self.restart if self._alive(session.path) else self.run)()
 
-        self._stage.app.push_screen(
-            RunOptionsScreen(file, session.run_options, lambda options: session.desk.command_line(file, options)),
+        self._host.app.push_screen(
+            RunOptionsScreen(
+                file, session.run_options, lambda options: session.app_services.command_line(file, options)
+            ),
             answered,
         )
 

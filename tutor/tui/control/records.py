@@ -11,74 +11,74 @@ from tutor.judge.result import ExerciseResult
 from tutor.judge.verdict import Status
 from tutor.tui import messages
 from tutor.tui.screens.hint import HintScreen
-from tutor.tui.screens.stage import Deed, Stage
+from tutor.tui.screens.host import CommandHandler, HostScreen
 from tutor.workspace import Progress, StorageError
 
 
 class Records:
     """Tells each new state of the progress by `ProgressRead`."""
 
-    def __init__(self, stage: Stage) -> None:
-        self._stage = stage
+    def __init__(self, host: HostScreen) -> None:
+        self._host = host
         self._lane = asyncio.Lock()
-        self.deeds = {"hint": Deed(self.hint), "attempts": Deed(self.attempts)}
+        self.command_handlers = {"hint": CommandHandler(self.hint), "attempts": CommandHandler(self.attempts)}
 
     def read(self) -> None:
         """Read it from the disk."""
-        self._work(self._stage.session.desk.progress)
+        self._work(self._host.session.app_services.progress)
 
     def add(self, result: ExerciseResult) -> None:
         """Keep one attempt."""
-        self._work(self._stage.session.desk.record, result)
+        self._work(self._host.session.app_services.record, result)
 
     def hint(self) -> None:
         """Show the hint for what has failed, and the general ones that were shown before; else the first of these."""
-        session = self._stage.session
+        session = self._host.session
         failed = self._failed()
         self._show_hints(max(0 if failed else 1, session.progress.of(session.lesson.id).hints), failed)
 
     def _failed(self) -> CriterionText | None:
         """The criterion that is chosen, if it has failed; else the first that has."""
-        session = self._stage.session
+        session = self._host.session
         failed = [
             finding.id
             for finding in sorted(session.findings[session.lesson.id].criteria, key=lambda finding: finding.bonus)
             if finding.verdict is not None and finding.verdict.status is Status.FAILED
         ]
-        wanted = self._stage.chosen_criterion if self._stage.chosen_criterion in failed else next(iter(failed), "")
+        wanted = self._host.chosen_criterion if self._host.chosen_criterion in failed else next(iter(failed), "")
         return next((each for each in session.lesson.criteria if each.id == wanted and each.hint), None)
 
     def _show_hints(self, count: int, failed: CriterionText | None) -> None:
-        session = self._stage.session
+        session = self._host.session
         lesson = session.lesson
         if count > session.progress.of(lesson.id).hints:
-            self._work(session.desk.show_hint, lesson)
+            self._work(session.app_services.show_hint, lesson)
 
         def answered(more: bool | None) -> None:
             if more:
                 self._show_hints(count + 1, failed)
 
-        self._stage.app.push_screen(HintScreen(lesson, count, failed), answered)
+        self._host.app.push_screen(HintScreen(lesson, count, failed), answered)
 
     def attempts(self) -> None:
         """Show the attempts at this exercise."""
         from tutor.tui.screens.attempts import AttemptsScreen
 
-        session = self._stage.session
-        self._stage.app.push_screen(AttemptsScreen(session.lesson, session.progress.of(session.lesson.id)))
+        session = self._host.session
+        self._host.app.push_screen(AttemptsScreen(session.lesson, session.progress.of(session.lesson.id)))
 
     def _work(self, change: Callable[..., Progress], *given: Any) -> None:
-        self._stage.work(self.change, change, *given, group="progress")
+        self._host.work(self.change, change, *given, group="progress")
 
     async def change(self, change: Callable[..., Progress], *given: Any) -> None:
         """Change the progress on the disk, and tell what it is then; where that fails, what it was."""
         try:
-            self._stage.post_message(messages.ProgressRead(await self.in_turn(change, *given)))
+            self._host.post_message(messages.ProgressRead(await self.run_in_order(change, *given)))
         except StorageError as error:
-            self._stage.trouble(f"Your progress is not kept: {error}")
-            self._stage.post_message(messages.ProgressRead(self._stage.session.progress))
+            self._host.show_error(f"Your progress is not kept: {error}")
+            self._host.post_message(messages.ProgressRead(self._host.session.progress))
 
-    async def in_turn[T](self, work: Callable[..., T], *given: Any) -> T:
+    async def run_in_order[T](self, work: Callable[..., T], *given: Any) -> T:
         """Do this in a thread, after what was asked for before it: the last that is told is then the latest."""
         async with self._lane:
             return await asyncio.to_thread(work, *given)

@@ -3,22 +3,22 @@
 from __future__ import annotations
 
 from tutor.tui.control.pages import Pages
-from tutor.tui.screens.stage import Deed, Stage
+from tutor.tui.screens.host import CommandHandler, HostScreen
 from tutor.tui.terminal.lesson_commands import commands_in
 
 
 class Terminal:
     """Runs the lesson's commands."""
 
-    def __init__(self, stage: Stage, pages: Pages) -> None:
-        self._stage, self._pages = stage, pages
-        self.deeds = {
-            "lesson_command": Deed(self.choose, lambda: bool(self._commands)),
+    def __init__(self, host: HostScreen, pages: Pages) -> None:
+        self._host, self._pages = host, pages
+        self.command_handlers = {
+            "lesson_command": CommandHandler(self.choose, lambda: bool(self._commands)),
         }
 
     @property
     def _commands(self) -> tuple[str, ...]:
-        return commands_in(self._stage.session.lesson.body)
+        return commands_in(self._host.session.lesson.body)
 
     def choose(self) -> None:
         """Ask which of the lesson's commands to run, and run it."""
@@ -28,10 +28,10 @@ class Terminal:
             if command is not None:
                 self.run(command)
 
-        self._stage.app.push_screen(ChooseCommandScreen(self._commands), chosen)
+        self._host.app.push_screen(ChooseCommandScreen(self._commands), chosen)
 
     def run(self, command: str) -> None:
         """Turn to the terminal page, and run a command there."""
-        self._stage.show_page("terminal")
+        self._host.show_page("terminal")
         pane = self._pages.open_terminal()
         pane.call_after_refresh(pane.run_line, command)

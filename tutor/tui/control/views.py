@@ -6,9 +6,9 @@ from collections.abc import Callable
 from enum import StrEnum
 
 from tutor.judge.verdict import Status
-from tutor.tui import words
+from tutor.tui import wording
 from tutor.tui.control.files import Files
-from tutor.tui.screens.stage import Deed, Stage
+from tutor.tui.screens.host import CommandHandler, HostScreen
 from tutor.tui.widgets.code_pane import CodePane
 
 
@@ -25,11 +25,13 @@ class View(StrEnum):
 class Views:
     """One view at a time; asking for it again shows the learner's own file."""
 
-    def __init__(self, stage: Stage, pane: CodePane, files: Files) -> None:
-        self._stage, self._pane, self._files = stage, pane, files
+    def __init__(self, host: HostScreen, pane: CodePane, files: Files) -> None:
+        self._host, self._pane, self._files = host, pane, files
         self._unveiled: set[str] = set()
         """Exercises whose solution was asked for."""
-        self.deeds = {view.value: Deed(self._shower(view)) for view in View if view is not View.MINE}
+        self.command_handlers = {
+            view.value: CommandHandler(self._shower(view)) for view in View if view is not View.MINE
+        }
 
     def back(self) -> None:
         """Show the learner's own file."""
@@ -40,11 +42,11 @@ class Views:
 
     def show(self, view: View) -> None:
         """Show it; the solution only after a pass, or a question."""
-        if self._stage.page == "code" and self._pane.view == view:
+        if self._host.page == "code" and self._pane.view == view:
             self.back()
             return
-        lesson = self._stage.session.lesson
-        passed = self._stage.session.progress.of(lesson.id).best is Status.PASSED
+        lesson = self._host.session.lesson
+        passed = self._host.session.progress.of(lesson.id).best is Status.PASSED
         if view in (View.SKELETON, View.CHANGES) or passed or lesson.id in self._unveiled:
             self._show(view)
             return
@@ -54,30 +56,30 @@ class Views:
             self._show(view)
 
         text = "The exercise teaches most when you find the way yourself.\n\nShow our solution all the same?"
-        self._stage.ask(f"Solution of {words.label(lesson)}", text, "Show it", unveil)
+        self._host.ask(f"Solution of {wording.label(lesson)}", text, "Show it", unveil)
 
     def _show(self, view: View) -> None:
-        self._stage.work(self._show_now, view, group="view", exclusive=True)
+        self._host.work(self._show_now, view, group="view", exclusive=True)
 
     async def _show_now(self, view: View) -> None:
         from tutor.tui.diffing import count, difference
 
-        file = self._stage.session.file
-        path = self._stage.session.path
+        file = self._host.session.file
+        path = self._host.session.path
         try:
             other = (file.skeleton if view in (View.SKELETON, View.CHANGES) else file.solution).read_text("utf-8")
         except OSError as error:
-            self._stage.trouble(f"It cannot be read: {error.strerror}")
+            self._host.show_error(f"It cannot be read: {error.strerror}")
             return
         await self._files.look(path)
-        self._stage.show_page("code")
+        self._host.show_page("code")
         if view in (View.SKELETON, View.SOLUTION):
             self._pane.show_other(
                 view, f"{'Our solution' if view is View.SOLUTION else 'The skeleton'}, to read", other
             )
             return
         if not self._pane.knows(path):
-            self._stage.trouble(f"{file.name} is not in your workspace yet: there is nothing to compare.")
+            self._host.show_error(f"{file.name} is not in your workspace yet: there is nothing to compare.")
             return
         mine = self._pane.text(path)
         against = view is View.AGAINST

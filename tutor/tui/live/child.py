@@ -9,8 +9,8 @@ from collections import deque
 from collections.abc import AsyncIterator
 from pathlib import Path
 
-from tutor.live.protocol import Command, News, decode_news, encode
-from tutor.tui.live.command import LiveCommand
+from tutor.live.protocol import Update, WatcherRequest, decode_update, encode
+from tutor.tui.live.launching import WatcherCommand
 
 END_S = 1.5
 """How long it may take to end once its input is closed; then it is killed."""
@@ -29,7 +29,7 @@ class LiveChild:
         self._reader = asyncio.create_task(self._read_stderr())
 
     @classmethod
-    async def start(cls, command: LiveCommand) -> LiveChild:
+    async def start(cls, command: WatcherCommand) -> LiveChild:
         """Start it, in a process group of its own and away from the learner's folder. Raises OSError.
 
         To be called on the app's own thread: the child is killed with the thread that started it.
@@ -52,28 +52,28 @@ class LiveChild:
         """Its process id."""
         return self._process.pid
 
-    def send(self, command: Command) -> None:
+    def send(self, command: WatcherRequest) -> None:
         """Have it do this. Never waits; what a dead or stuck child is told is lost."""
         assert self._process.stdin is not None
         transport = self._process.stdin.transport
         if not transport.is_closing() and transport.get_write_buffer_size() < _MOST_UNSENT:
             self._process.stdin.write(encode(command).encode() + b"\n")
 
-    async def news(self) -> AsyncIterator[News]:
-        """What it tells, until it ends. Raises ValueError for a line that is no news."""
+    async def updates(self) -> AsyncIterator[Update]:
+        """What it tells, until it ends. Raises ValueError for a line that is not an update."""
         assert self._process.stdout is not None
         async for line in self._process.stdout:
             if text := line.decode("utf-8", "replace").strip():
-                yield decode_news(text)
+                yield decode_update(text)
 
-    def let_go(self) -> None:
+    def detach(self) -> None:
         """Close its input: it ends soon, by itself."""
         assert self._process.stdin is not None
         self._process.stdin.close()
 
     async def stop(self) -> None:
         """End it, and wait until it is gone."""
-        self.let_go()
+        self.detach()
         try:
             await asyncio.wait_for(self._process.wait(), END_S)
         except TimeoutError:
@@ -89,7 +89,7 @@ class LiveChild:
                 self._process.send_signal(signal.SIGKILL)
 
     @property
-    def last_words(self) -> str:
+    def output_tail(self) -> str:
         """The last line that it wrote to stderr."""
         return next((line for line in reversed(self._stderr) if line.strip()), "")
 

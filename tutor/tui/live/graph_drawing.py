@@ -18,11 +18,11 @@ from rich.cells import cell_len
 
 from tutor.live.facts import Topic
 from tutor.live.mismatch import connections
-from tutor.tui.live.words import short_type
+from tutor.tui.live.wording import short_type
 from tutor.tui.widgets.line_view import Piece, Row
 
 _BOX = 3
-"""So many rows a node or a topic takes."""
+"""This many rows a node or a topic takes."""
 
 _ARROW = 4
 _NARROWEST = 14
@@ -182,7 +182,7 @@ def _split(y: int, line: int, final: int, connected: bool) -> Iterator[Piece]:
 
 
 def _fit(text: str, width: int) -> str:
-    """A text in so many cells, its middle left out where it is too long."""
+    """A text in this many cells, its middle left out where it is too long."""
     if cell_len(text) <= width:
         return text + " " * (width - cell_len(text))
     head = max(1, (width - 1) // 3)

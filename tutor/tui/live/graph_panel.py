@@ -9,7 +9,7 @@ from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import Vertical
 
-from tutor.tui.live.graph_rows import graph_rows
+from tutor.tui.live.graph_rows import rows_of_graph
 from tutor.tui.live.state import LiveState
 from tutor.tui.live.strip import ActionBar
 from tutor.tui.widgets.line_view import LineView
@@ -57,12 +57,12 @@ class GraphPanel(Vertical):
         view = self.query_one(GraphView)
         width = max(40, view.scrollable_content_region.width)
         graph = self.state.graph
-        view.show_rows(graph_rows(graph, width, self.everything) if graph else [])
+        view.show_rows(rows_of_graph(graph, width, self.everything) if graph else [])
         word = "Without /rosout and the like" if self.everything else "All (/rosout and parameter services, too)"
         self.query_one(ActionBar).actions = (("u", word, "all"),)
 
     def on_resize(self, event: events.Resize) -> None:
-        """Wrap anew."""
+        """Wrap again."""
         self.show_list()
 
     def action_all(self) -> None:

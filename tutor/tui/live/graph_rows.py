@@ -15,7 +15,7 @@ from tutor.tui.widgets.line_view import Row
 _INDENT = "  "
 
 
-def graph_rows(graph: Graph, width: int, everything: bool) -> list[Row]:
+def rows_of_graph(graph: Graph, width: int, everything: bool) -> list[Row]:
     """The whole graph; without `everything` the topics and services that every node has are left out."""
     topics = [topic for topic in graph.topics if everything or not is_plumbing(topic.name)]
     rows = list(_problems(graph, width))

@@ -11,7 +11,7 @@ from textual import events
 
 from tutor.live.facts import CallOutcome, SetOutcome
 from tutor.live.forms import shown
-from tutor.tui.live.words import period
+from tutor.tui.live.wording import period
 from tutor.tui.widgets.line_view import LineView, Row
 
 _LONGEST_VALUE = 60
@@ -42,7 +42,7 @@ class HistoryView(LineView):
         self.show_rows([folded for row in rows for folded in _folded(row, width)])
 
     def on_resize(self, event: events.Resize) -> None:
-        """Fold anew."""
+        """Fold again."""
         self.show_outcomes(self._unwrapped)
 
 

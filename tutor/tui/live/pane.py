@@ -20,14 +20,14 @@ from textual.widgets import ContentSwitcher, Static
 from textual.worker import Worker
 
 from tutor.content import Lesson
-from tutor.live.facts import CallOutcome, Graph, NodeParameters, Published, RequestForm, SetOutcome, TopicNews
-from tutor.live.protocol import Attend, Command, Follow, News, Plot, Publish, StopPublishing, Unfollow
-from tutor.live.protocol import Trouble as ChildTrouble
+from tutor.live.facts import CallOutcome, Graph, NodeParameters, Published, RequestForm, SetOutcome, TopicUpdate
+from tutor.live.protocol import Follow, Plot, Publish, SetVisible, StopPublishing, Unfollow, Update, WatcherRequest
+from tutor.live.protocol import WatcherError as ChildTrouble
 from tutor.tui import messages
-from tutor.tui.live import words
+from tutor.tui.live import wording
 from tutor.tui.live.child import LiveChild
-from tutor.tui.live.command import LiveCommand
 from tutor.tui.live.graph_panel import GraphPanel
+from tutor.tui.live.launching import WatcherCommand
 from tutor.tui.live.near_miss import near_misses
 from tutor.tui.live.parameters_panel import ParametersPanel
 from tutor.tui.live.services_panel import ServicesPanel
@@ -37,10 +37,10 @@ from tutor.tui.live.topics_panel import Order, TopicsPanel
 from tutor.tui.screens.publish import PublishScreen
 
 MOST_MISSES = 3
-"""So many near-miss names are told at once at most."""
+"""This many near-miss names are told at once at most."""
 
 MOST_OFFERED = 8
-"""So many topics of the learner's nodes are followed unasked at most."""
+"""This many topics of the learner's nodes are followed unasked at most."""
 
 SWITCH_S = 0.0005
 """How long a thread of the app may keep the others waiting."""
@@ -64,9 +64,9 @@ class LivePane(Vertical):
     - `turn_to(tab)` to show one of `TABS`.
     - `focus_content()` to put the focus where the arrow keys are of use.
 
-    It posts `tutor.tui.messages.Trouble` (bubbles up to the screen, for a toast). Keys in it: [ and ] turn its own
-    tabs, Enter chooses, Space pauses, x, y, u, + and -: each panel shows those that go in its last line. Other keys of
-    the screen go on working, except in the inputs of its forms.
+    It posts `tutor.tui.messages.ErrorOccurred` (bubbles up to the screen, for a toast). Keys in it: [ and ] turn its
+    own tabs, Enter chooses, Space pauses, x, y, u, + and -: each panel shows those that go in its last line. Other keys
+    of the screen go on working, except in the inputs of its forms.
     """
 
     DEFAULT_CSS = Path(__file__).with_name("pane.tcss").read_text("utf-8")
@@ -78,16 +78,16 @@ class LivePane(Vertical):
     class Arrived(Message):
         """The watching process has told something."""
 
-        def __init__(self, news: News) -> None:
+        def __init__(self, update: Update) -> None:
             super().__init__()
-            self.news = news
+            self.update = update
 
     def __init__(self, id: str | None = None) -> None:
         super().__init__(id=id)
         self.state = LiveState()
         self._child: LiveChild | None = None
         self._worker: Worker[None] | None = None
-        self._command: Callable[[], LiveCommand] | None = None
+        self._command: Callable[[], WatcherCommand] | None = None
         self._broken = ""
         self._left: set[str] = set()
         self._own_nodes = False
@@ -116,13 +116,13 @@ class LivePane(Vertical):
         self._show_standing()
         self._choose()
         if self._wanted_tab:
-            self.turn_to(self._wanted_tab)
+            self.open_tab(self._wanted_tab)
         if self._wants_focus:
             self.focus_content()
 
     # --- the watching process ---
 
-    def start_watching(self, command: Callable[[], LiveCommand]) -> None:
+    def start_watching(self, command: Callable[[], WatcherCommand]) -> None:
         """Start the child process that watches, unless it runs."""
         if self._worker is None:
             self._command, self._broken = command, ""
@@ -147,21 +147,21 @@ class LivePane(Vertical):
         """End it with the pane."""
         await self.close_down()
 
-    async def _watch(self, command: Callable[[], LiveCommand]) -> None:
+    async def _watch(self, command: Callable[[], WatcherCommand]) -> None:
         child: LiveChild | None = None
         fault = "ended by itself"
         try:
             found = await asyncio.to_thread(command)
             self.state.domain = found.domain
             self._child = child = await LiveChild.start(found)
-            child.send(Attend(self._seen))
+            child.send(SetVisible(self._seen))
             for view in self.state.topics.values():
                 child.send(Follow(view.topic))
                 if view.path:
                     child.send(Plot(view.topic, view.path))
-            async for news in child.news():
-                self.post_message(self.Arrived(news))
-            fault = child.last_words or fault
+            async for update in child.updates():
+                self.post_message(self.Arrived(update))
+            fault = child.output_tail or fault
         except asyncio.CancelledError:
             fault = ""
             raise
@@ -169,14 +169,14 @@ class LivePane(Vertical):
             fault = str(error)
         finally:
             if child is not None:
-                child.let_go()
+                child.detach()
             self._child = self._worker = None
             self.state.lost()
             if self.is_attached:
                 self._broken = fault
                 self._show_all()
                 if fault:
-                    self.post_message(messages.Trouble(f"The live page no longer watches: {fault}"))
+                    self.post_message(messages.ErrorOccurred(f"The live page no longer watches: {fault}"))
             if child is not None:
                 await child.stop()
 
@@ -187,7 +187,7 @@ class LivePane(Vertical):
         if isinstance(message.command, Follow | Unfollow):
             self._show_standing()
 
-    def _send(self, command: Command) -> None:
+    def _send(self, command: WatcherRequest) -> None:
         if self._child is not None:
             self._child.send(command)
 
@@ -196,11 +196,11 @@ class LivePane(Vertical):
     @on(Arrived)
     async def _arrived(self, message: Arrived) -> None:
         message.stop()
-        news = message.news
-        self.state.hear(news)
-        match news:
-            case TopicNews(topic):
-                self.query_one(TopicsPanel).show_news(topic)
+        update = message.update
+        self.state.receive(update)
+        match update:
+            case TopicUpdate(topic):
+                self.query_one(TopicsPanel).show_update(topic)
             case Graph():
                 self._drop_left()
                 self._follow_own()
@@ -216,11 +216,11 @@ class LivePane(Vertical):
             case RequestForm():
                 await self.query_one(ServicesPanel).show_form()
                 if isinstance(self.app.screen, PublishScreen):
-                    await self.app.screen.show_form(news)
+                    await self.app.screen.show_form(update)
             case Published():
                 self._show_publishing()
             case ChildTrouble(text):
-                self.post_message(messages.Trouble(text))
+                self.post_message(messages.ErrorOccurred(text))
             case _:
                 self._show_standing()
 
@@ -253,7 +253,7 @@ class LivePane(Vertical):
         if self._worker is None:
             word = "! not watching" if self._broken else "not watching"
         self.query_one("#live-standing", Static).update(word)
-        came = any(view.news is not None and view.news.count for view in state.topics.values())
+        came = any(view.update is not None and view.update.count for view in state.topics.values())
         text = self._nothing(short=came)
         was_empty = self.has_class("-empty")
         self.set_class(bool(text) and not came, "-empty")
@@ -307,7 +307,7 @@ class LivePane(Vertical):
         return found.types[0] if found is not None else next(asked, "")
 
     def _show_publishing(self) -> None:
-        text = "\n".join(words.publishing(held) for held in self.state.published.values())
+        text = "\n".join(wording.publishing(held) for held in self.state.published.values())
         self.set_class(bool(text), "-publishing")
         self.query_one("#live-publishing", Static).update(text)
 
@@ -379,7 +379,7 @@ class LivePane(Vertical):
         target = {"topics": "#topics-table", "parameters": "#parameters-table", "services": "#services-table"}
         self.query_one(target.get(self.query_one(TabStrip).active, "#graph-view")).focus()
 
-    def turn_to(self, tab: str) -> None:
+    def open_tab(self, tab: str) -> None:
         """Show one of `TABS`."""
         self._wanted_tab = tab
         if self._composed:
@@ -411,7 +411,7 @@ class LivePane(Vertical):
 
     def _attend(self, seen: bool) -> None:
         self._seen = seen
-        self._send(Attend(seen))
+        self._send(SetVisible(seen))
 
 
 def _answer_keys_sooner() -> None:

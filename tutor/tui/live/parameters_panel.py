@@ -15,7 +15,7 @@ from textual.widgets import DataTable, Input, Static
 from tutor.judge.trace import Parameter
 from tutor.live.forms import parse_parameter, shown
 from tutor.live.protocol import Refresh, SetParameter
-from tutor.tui.live import words
+from tutor.tui.live import wording
 from tutor.tui.live.history import HistoryView, set_rows
 from tutor.tui.live.row_table import RowTable
 from tutor.tui.live.state import LiveState
@@ -109,7 +109,7 @@ class ParametersPanel(Vertical):
         value = shown(each.value) if each.value is not None else "(not set)"
         if len(value) > _LONGEST_VALUE:
             value = f"{value[:_LONGEST_VALUE]}..."
-        return (Text(each.node), Text(each.name), Text(value), Text(each.type), Text(words.allowed(each)))
+        return (Text(each.node), Text(each.name), Text(value), Text(each.type), Text(wording.allowed(each)))
 
     def _under_cursor(self) -> Parameter | None:
         row = self.table.cursor_row

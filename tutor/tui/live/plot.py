@@ -20,11 +20,11 @@ _STROKES = [[[sum(dots[low : high + 1]) for high in range(4)] for low in range(4
 """The bits from a lowest to a highest dot of a column."""
 
 _HOLE = 4.0
-"""A silence of so many usual periods is left open."""
+"""A silence of this many usual periods is left open."""
 
 _MARK = "•"
 _FEW = 1.5
-"""Samples are marked where there is one for so many cells at most: else the line is all that can be seen of them."""
+"""Samples are marked where there is one for this many cells at most: else the line is all that can be seen of them."""
 
 _BAND = "╌"
 
@@ -54,7 +54,7 @@ def draw(
     end: str = "now",
     band: tuple[float, float] | None = None,
 ) -> Plot:
-    """Draw the points of the `span_s` seconds before `now` into so many cells, labels included; `end` names `now`.
+    """Draw the points of the `span_s` seconds before `now` into this many cells, labels included; `end` names `now`.
 
     `band`: the lowest and the highest value that are asked for; it is drawn, too.
     """

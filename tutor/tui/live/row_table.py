@@ -11,7 +11,7 @@ class RowTable(DataTable[Text]):
     """A table whose cursor is a whole row.
 
     The cursor takes the colours of the focus a frame later, and only where the table can be seen: a table has many
-    styles, and new ones make it draw every cell anew. What a key shows need not wait for them.
+    styles, and new ones make it redraw every cell. What a key shows need not wait for them.
     """
 
     def __init__(self, id: str) -> None:

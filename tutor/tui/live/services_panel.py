@@ -16,7 +16,7 @@ from textual.widgets import DataTable, Static
 
 from tutor.live.facts import Service
 from tutor.live.protocol import Call, Cancel, Describe
-from tutor.tui.live import words
+from tutor.tui.live import wording
 from tutor.tui.live.history import HistoryView, call_rows, waiting_row
 from tutor.tui.live.request_form import ServiceForm
 from tutor.tui.live.row_table import RowTable
@@ -82,7 +82,7 @@ class ServicesPanel(Vertical):
         table = self.table
         table.clear()
         for each in listed:
-            types = " and ".join(words.short_type(name) for name in each.types)
+            types = " and ".join(wording.short_type(name) for name in each.types)
             table.add_row(Text(each.name), Text(types), Text(", ".join(each.nodes)), key=each.name)
         if chosen in table.rows:
             table.move_cursor(row=table.get_row_index(chosen))
@@ -129,7 +129,7 @@ class ServicesPanel(Vertical):
             nothing = "The nodes here offer no services but those that every node has."
             head.update("Choose a service, and press Enter: its form comes here." if self._listed else nothing)
         else:
-            types = " and ".join(words.short_type(name) for name in self.chosen.types)
+            types = " and ".join(wording.short_type(name) for name in self.chosen.types)
             head.update(Content.assemble((self.chosen.name, "bold"), (f"  {types}", "$quiet")))
 
     # --- what is done ---

@@ -1,4 +1,4 @@
-"""What the app knows of the domain, from the news of the watching process. Pure."""
+"""What the app knows of the domain, from the updates of the watching process. Pure."""
 
 from __future__ import annotations
 
@@ -8,25 +8,25 @@ from dataclasses import dataclass, field, replace
 
 from tutor.content import LiveView
 from tutor.judge.trace import Parameter
-from tutor.live.facts import CallOutcome, Graph, NodeParameters, Published, RequestForm, SetOutcome, Topic, TopicNews
+from tutor.live.facts import CallOutcome, Graph, NodeParameters, Published, RequestForm, SetOutcome, Topic, TopicUpdate
 from tutor.live.mismatch import Connection, connections
-from tutor.live.protocol import News, Ready
+from tutor.live.protocol import Ready, Update
 
 KEEP_POINTS_S = 120.0
 """How much of a plotted field is kept, in seconds."""
 
 KEEP_LINES = 500
-"""So many lines of what has come on a topic are kept."""
+"""This many lines of what has come on a topic are kept."""
 
 _MOST_POINTS = 20_000
 _MOST_OUTCOMES = 200
 
 
 @dataclass(frozen=True, slots=True)
-class Held:
+class PausedView:
     """A topic as it stood when it was paused, at a wall-clock time in seconds."""
 
-    news: TopicNews | None
+    update: TopicUpdate | None
     lines: tuple[str, ...]
     came: int
     points: tuple[tuple[float, float], ...]
@@ -43,35 +43,35 @@ class TopicView:
 
     topic: str
     by_hand: bool = False
-    news: TopicNews | None = None
+    update: TopicUpdate | None = None
     lines: deque[str] = field(default_factory=lambda: deque(maxlen=KEEP_LINES))
     came: int = 0
     fields: tuple[str, ...] = ()
     path: str = ""
     points: deque[tuple[float, float]] = field(default_factory=lambda: deque(maxlen=_MOST_POINTS))
-    news_at: float = 0.0
+    updated_at: float = 0.0
     paused: bool = False
-    held: Held | None = None
+    held: PausedView | None = None
 
-    def hear(self, news: TopicNews, now: float) -> None:
-        """Take news of it; `now` is a wall-clock time in seconds."""
-        self.news, self.news_at = news, now
-        if news.text is not None:
-            written = [*news.text.splitlines(), "---"]
+    def receive(self, update: TopicUpdate, now: float) -> None:
+        """Take an update of it; `now` is a wall-clock time in seconds."""
+        self.update, self.updated_at = update, now
+        if update.text is not None:
+            written = [*update.text.splitlines(), "---"]
             self.lines.extend(written)
             self.came += len(written)
-        self.fields = news.fields or self.fields
-        if news.field and not self.path:
-            self.path = news.field
-        if news.field == self.path:  # points of the one before may still be on their way
-            self.points.extend(news.points)
+        self.fields = update.fields or self.fields
+        if update.field and not self.path:
+            self.path = update.field
+        if update.field == self.path:  # points of the one before may still be on their way
+            self.points.extend(update.points)
         while self.points and self.points[0][0] < self.points[-1][0] - KEEP_POINTS_S:
             self.points.popleft()
 
     def pause(self, now: float) -> None:
         """Hold what is shown, or let it go on."""
         self.paused = not self.paused
-        held = Held(self.news, tuple(self.lines), self.came, tuple(self.points), now)
+        held = PausedView(self.update, tuple(self.lines), self.came, tuple(self.points), now)
         self.held = held if self.paused else None
 
     def clear(self) -> None:
@@ -79,7 +79,7 @@ class TopicView:
         self.lines.clear()
         self.came = 0
         self.points.clear()
-        self.news = None if self.news is None else replace(self.news, count=0, timing=None, silent_s=None, lost=0)
+        self.update = None if self.update is None else replace(self.update, count=0, timing=None, silent_s=None, lost=0)
         self.paused, self.held = False, None
 
     def plot(self, path: str) -> None:
@@ -106,33 +106,33 @@ class LiveState:
     published: dict[str, Published] = field(default_factory=dict)
     """What the learner publishes from here, by topic; of what was published once, the last."""
 
-    def hear(self, news: News) -> None:
-        """Take news."""
-        match news:
+    def receive(self, update: Update) -> None:
+        """Take an update."""
+        match update:
             case Ready(domain):
                 self.domain, self.ready = domain, True
             case Graph():
-                self.graph = news
-                self.parameters = {node: held for node, held in self.parameters.items() if node in news.nodes}
-            case TopicNews():
-                if view := self.topics.get(news.topic):
-                    view.hear(news, time.time())
+                self.graph = update
+                self.parameters = {node: held for node, held in self.parameters.items() if node in update.nodes}
+            case TopicUpdate():
+                if view := self.topics.get(update.topic):
+                    view.receive(update, time.time())
             case NodeParameters():
-                self.parameters[news.node] = news
+                self.parameters[update.node] = update
             case SetOutcome():
-                self.sets.appendleft(news)
+                self.sets.appendleft(update)
             case CallOutcome():
-                self.waiting.pop(news.id, None)
-                self.calls.appendleft(news)
+                self.waiting.pop(update.id, None)
+                self.calls.appendleft(update)
             case RequestForm():
-                self.forms[news.type] = news
+                self.forms[update.type] = update
             case Published():
-                self._publishing(news)
+                self._publishing(update)
 
-    def _publishing(self, news: Published) -> None:
+    def _publishing(self, update: Published) -> None:
         self.published = {topic: held for topic, held in self.published.items() if not held.over}
-        if not news.over or news.problem or news.sent:
-            self.published[news.topic] = news
+        if not update.over or update.problem or update.sent:
+            self.published[update.topic] = update
 
     def lost(self) -> None:
         """The watching process is gone: nothing is known any more, but what was done is kept."""

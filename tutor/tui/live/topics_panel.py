@@ -16,8 +16,8 @@ from textual.widgets import DataTable, Static
 from textual.widgets.data_table import ColumnKey
 
 from tutor.live.facts import Topic
-from tutor.live.protocol import Clear, Command, Follow, Plot, Unfollow
-from tutor.tui.live import words
+from tutor.live.protocol import Clear, Follow, Plot, Unfollow, WatcherRequest
+from tutor.tui.live import wording
 from tutor.tui.live.echo_view import EchoView
 from tutor.tui.live.plot_view import PlotView
 from tutor.tui.live.row_table import RowTable
@@ -33,7 +33,7 @@ _OTHER_FIELD = ("y", "Field", "next_field")
 class Order(Message):
     """The watching process is to do this."""
 
-    def __init__(self, command: Command) -> None:
+    def __init__(self, command: WatcherRequest) -> None:
         super().__init__()
         self.command = command
 
@@ -72,7 +72,7 @@ class TopicsPanel(Vertical):
         table = self.table
         for name in _COLUMNS:
             table.add_column(name, key=name or "mark")
-        self.set_interval(1.0, self._tick)  # silence is told by the clock, not by news
+        self.set_interval(1.0, self._tick)  # silence shows by the clock, not by updates
 
     def on_show(self, _event: events.Show) -> None:
         """Follow what has come meanwhile, a frame later: what is painted already is shown at once."""
@@ -108,7 +108,7 @@ class TopicsPanel(Vertical):
         self._update_all()
         self.show_chosen()
 
-    def show_news(self, name: str) -> None:
+    def show_update(self, name: str) -> None:
         """Something has come on a topic. Where much comes, the list follows now and then: it costs more to paint."""
         if not self.display:
             return
@@ -135,7 +135,7 @@ class TopicsPanel(Vertical):
             plot.show(held.points, now, "paused", band)
             echo.show_lines(view.topic, held.lines, held.came)
         else:
-            if points and view.news and words.is_silent(view.news, max(0.0, now - view.news_at)):
+            if points and view.update and wording.is_silent(view.update, max(0.0, now - view.updated_at)):
                 plot.show(tuple(points), points[-1][0], "the last one", band)
             else:
                 plot.show(tuple(points), max(now, points[-1][0]) if points else now, band=band)
@@ -161,26 +161,26 @@ class TopicsPanel(Vertical):
         name = Content.styled(self.chosen, "bold")
         if view is None:
             return Content.assemble(name, ("\nNot followed: press Enter to see what comes.", "$quiet"))
-        news = view.held.news if view.held is not None else view.news
-        if news is None:
+        update = view.held.update if view.held is not None else view.update
+        if update is None:
             return Content.assemble(name, ("\n◐ subscribing", "$quiet"))
-        facts = f"  {words.short_type(news.type)} · {news.qos}" if news.type else ""
+        facts = f"  {wording.short_type(update.type)} · {update.qos}" if update.type else ""
         first = Content.assemble(name, (facts, "$quiet"))
-        if news.problem:
-            return Content.assemble(first, (f"\n✗ {news.problem}", "$bad"))
-        if not news.count:
+        if update.problem:
+            return Content.assemble(first, (f"\n✗ {update.problem}", "$bad"))
+        if not update.count:
             topic = self.state.graph.topic(self.chosen) if self.state.graph else None
             nobody = topic is None or not topic.publishers
             said = (
                 "nobody publishes on it: run the node that does, or press M to publish" if nobody else "no message yet"
             )
             return Content.assemble(first, (f"\n◐ {said}", "$warn" if nobody else "$quiet"))
-        since = 0.0 if view.held is not None else max(0.0, now - view.news_at)
-        numbers = words.numbers(news, since)
-        if view.held is not None and view.news is not None:
-            more = view.news.count - news.count
+        since = 0.0 if view.held is not None else max(0.0, now - view.updated_at)
+        numbers = wording.numbers(update, since)
+        if view.held is not None and view.update is not None:
+            more = view.update.count - update.count
             return Content.assemble(first, (f"\n▮▮ paused (+{more:,}) ", "bold $warn"), numbers)
-        mark, ink = ("■", "$quiet") if words.is_silent(news, since) else ("●", "$good")
+        mark, ink = ("■", "$quiet") if wording.is_silent(update, since) else ("●", "$good")
         return Content.assemble(first, "\n", (f"{mark} ", ink), numbers)
 
     def _actions(self, view: TopicView | None) -> tuple[Action, ...]:
@@ -201,18 +201,22 @@ class TopicsPanel(Vertical):
 
     def _cells(self, topic: Topic) -> tuple[Text, ...]:
         view = self.state.topics.get(topic.name)
-        news = view.news if view else None
-        silent = news is not None and view is not None and words.is_silent(news, max(0.0, time.time() - view.news_at))
-        timing = news.timing if news and not silent else None
-        types = [words.short_type(name) for name in topic.types]
-        if is_plumbing(topic.name):  # their types are long, and known to who looks for them
+        update = view.update if view else None
+        silent = (
+            update is not None
+            and view is not None
+            and wording.is_silent(update, max(0.0, time.time() - view.updated_at))
+        )
+        timing = update.timing if update and not silent else None
+        types = [wording.short_type(name) for name in topic.types]
+        if is_plumbing(topic.name):  # their types are long, and known to anyone who looks for them
             types = [name.rpartition("/")[2] for name in types]
         pub, sub = len(topic.publishers), len(topic.subscriptions)
         return (
             Text("●" if view else " "),
             Text(topic.name, style="bold" if self.state.is_asked(topic.name) else ""),
-            Text(words.rate(timing.rate_hz) if timing else "silent" if silent else "", justify="right"),
-            Text(f"{news.count:,}" if news else "", justify="right"),
+            Text(wording.rate(timing.rate_hz) if timing else "silent" if silent else "", justify="right"),
+            Text(f"{update.count:,}" if update else "", justify="right"),
             Text(str(pub), justify="right"),
             Text(str(sub), justify="right"),
             Text("✗ " + " and ".join(types) if len(types) > 1 else "".join(types)),
@@ -225,7 +229,7 @@ class TopicsPanel(Vertical):
         for name, cell in zip(_COLUMNS, self._cells(topic), strict=True):
             key = name or "mark"
             if table.get_cell(topic.name, key) != cell:
-                # A new width lays the whole page out anew: only where it must.
+                # A new width lays the whole page out again: only where it must.
                 wider = cell.cell_len > table.columns[ColumnKey(key)].content_width
                 table.update_cell(topic.name, key, cell, update_width=wider)
 

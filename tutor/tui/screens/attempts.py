@@ -11,7 +11,7 @@ from textual.content import Content
 from textual.widgets import Static
 
 from tutor.content import Lesson
-from tutor.tui import words
+from tutor.tui import wording
 from tutor.tui.screens.dialog import Dialog
 from tutor.tui.widgets.attempts import history
 from tutor.workspace import ExerciseProgress
@@ -31,6 +31,6 @@ class AttemptsScreen(Dialog[None]):
 
     def compose(self) -> ComposeResult:
         with VerticalScroll(classes="window") as window:
-            window.border_title = Content(f"{words.label(self._lesson)}: your attempts")
+            window.border_title = Content(f"{wording.label(self._lesson)}: your attempts")
             window.border_subtitle = "Esc closes"
             yield Static(history(self._lesson, self._progress, most=200), classes="dialog-text")

@@ -111,7 +111,7 @@ class ChecklistScreen(Screen[None]):
         self._welcome_on(ticked == total > 0)
 
     def _welcome_on(self, ready: bool) -> None:
-        """Who has ticked everything is told what comes next."""
+        """Anyone who has ticked everything is told what comes next."""
         found, banner = self._assessment, self.query_one("#checklist-ready", Static)
         banner.display = ready and bool(found.ready_text)
         if banner.display:
@@ -123,7 +123,7 @@ class ChecklistScreen(Screen[None]):
     # --- moving ---
 
     def action_go(self, by: int) -> None:
-        """To the item so many further down (or up), and no further than the last."""
+        """To the item this many further down (or up), and no further than the last."""
         rows = self.rows
         at = next((n for n, row in enumerate(rows) if row.has_focus), 0)
         rows[max(0, min(len(rows) - 1, at + by))].focus()
@@ -154,7 +154,7 @@ class ChecklistScreen(Screen[None]):
 
 
 def _rest(assessment: Assessment) -> str:
-    """How the exercises stand, for who has ticked everything."""
+    """How the exercises stand, for anyone who has ticked everything."""
     left = len(assessment.exercises) - assessment.passed
     if not left:
         return f"All {len(assessment.exercises)} exercises are passed, too."

@@ -36,7 +36,7 @@ KEYS = 10
 """Columns of the keys."""
 
 HALF = 3
-"""So many groups are in the left column."""
+"""This many groups are in the left column."""
 
 TWO_COLUMNS = 116
 """From this width on there are two."""

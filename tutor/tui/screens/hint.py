@@ -11,7 +11,7 @@ from textual.content import Content
 from textual.widgets import Static
 
 from tutor.content import CriterionText, Lesson
-from tutor.tui import words
+from tutor.tui import wording
 from tutor.tui.screens.dialog import Dialog
 
 
@@ -28,7 +28,7 @@ class HintScreen(Dialog[bool]):
         self._lesson, self._shown, self._failed = lesson, shown, failed
 
     def compose(self) -> ComposeResult:
-        hints, name = self._lesson.hints, words.label(self._lesson)
+        hints, name = self._lesson.hints, wording.label(self._lesson)
         more = f"h: {'next' if self._shown else 'general'} hint · " if self._shown < len(hints) else ""
         parts: list[Content | str | tuple[str, str]] = []
         if self._failed is not None:

@@ -23,7 +23,7 @@ class Layout:
 
 
 def layout_for(width: int, height: int) -> Layout:
-    """The layout for so many columns and rows."""
+    """The layout for this many columns and rows."""
     if width >= 160:
         return Layout(True, Criteria.BESIDE)
     return Layout(width >= 100, Criteria.STACKED if width >= 90 and height >= 30 else Criteria.FOLDED)

@@ -18,23 +18,23 @@ from textual.widgets import ContentSwitcher, ListView, Tab, Tabs, TextArea
 from tutor.content import Lesson
 from tutor.judge.verdict import Status
 from tutor.tui import messages
+from tutor.tui.app_services import AppServices
 from tutor.tui.commands import bindings
-from tutor.tui.control.checklist import ChecklistDesk
+from tutor.tui.control.checklist import ChecklistController
 from tutor.tui.control.checks import Checks
 from tutor.tui.control.closing import close_down
 from tutor.tui.control.files import Files
 from tutor.tui.control.logs import Logs
 from tutor.tui.control.nodes import Nodes
 from tutor.tui.control.pages import PAGES, Pages
+from tutor.tui.control.preferences import Preferences
 from tutor.tui.control.records import Records
-from tutor.tui.control.remember import Memory
 from tutor.tui.control.terminal import Terminal
 from tutor.tui.control.views import Views
-from tutor.tui.desk import Desk
 from tutor.tui.findings import Findings
 from tutor.tui.node import Phase
 from tutor.tui.palette import Actions, LessonText
-from tutor.tui.screens.stage import Deed, Stage
+from tutor.tui.screens.host import CommandHandler, HostScreen
 from tutor.tui.session import Session
 from tutor.tui.widgets.code_pane import CodePane
 from tutor.tui.widgets.criteria import CriteriaPanel
@@ -48,7 +48,7 @@ from tutor.tui.widgets.status_bar import StatusBar
 from tutor.workspace import AppState
 
 
-class MainScreen(Stage):
+class MainScreen(HostScreen):
     """What is shown, and where. What is done is in the controllers; messages come here and are handed on to them."""
 
     CSS_PATH = Path(__file__).with_name("main.tcss")
@@ -56,32 +56,32 @@ class MainScreen(Stage):
     COMMANDS: ClassVar[set[type[Provider] | Callable[[], type[Provider]]]] = {Actions, LessonText}
     AUTO_FOCUS = "#lesson"
 
-    def __init__(self, desk: Desk, state: AppState) -> None:
+    def __init__(self, app_services: AppServices, state: AppState) -> None:
         super().__init__()
-        self.session = Session.of(desk, state)
+        self.session = Session.of(app_services, state)
         code, log = CodePane(id="code"), LogPane(id="log")
         self._code, self._log = code, log
-        self.memory = Memory(self)
-        self.pages = Pages(self, self.memory, lambda: bool(self.nodes.running))
+        self.preferences = Preferences(self)
+        self.pages = Pages(self, self.preferences, lambda: bool(self.nodes.running))
         self.records = Records(self)
         self.files = Files(self, code, self.records)
         self.views = Views(self, code, self.files)
-        self.nodes = Nodes(self, self.files, self.memory)
-        self.checks = Checks(self, self.files, self.records, self.memory, self._show_findings)
-        self.checklist = ChecklistDesk(self, self.records)
+        self.nodes = Nodes(self, self.files, self.preferences)
+        self.checks = Checks(self, self.files, self.records, self.preferences, self._show_findings)
+        self.checklist = ChecklistController(self, self.records)
         logs = Logs(self, log)
         self.terminal = Terminal(self, self.pages)
         own = {
-            "next": Deed(lambda: self._step(1)),
-            "previous": Deed(lambda: self._step(-1)),
-            "theme": Deed(self._theme),
-            "help": Deed(self._help),
-            "quit": Deed(lambda: self.app.run_action("quit")),
-            "evidence": Deed(self._evidence),
+            "next": CommandHandler(lambda: self._step(1)),
+            "previous": CommandHandler(lambda: self._step(-1)),
+            "theme": CommandHandler(self._theme),
+            "help": CommandHandler(self._help),
+            "quit": CommandHandler(lambda: self.app.run_action("quit")),
+            "evidence": CommandHandler(self._evidence),
         }
         self._framed: tuple[Widget, ...] = ()
         self._phases: list[tuple[str, Phase]] = []
-        self._deeds: dict[str, Deed] = dict(own)
+        self._command_handlers: dict[str, CommandHandler] = dict(own)
         controllers = (
             self.pages,
             self.records,
@@ -94,12 +94,12 @@ class MainScreen(Stage):
             self.terminal,
         )
         for controller in controllers:
-            self._deeds |= controller.deeds
+            self._command_handlers |= controller.command_handlers
 
     def compose(self) -> ComposeResult:
         yield StatusBar()
-        with Horizontal(id="desk"):
-            yield LessonList(self.session.desk.lessons, id="lessons")
+        with Horizontal(id="columns"):
+            yield LessonList(self.session.app_services.lessons, id="lessons")
             with Container(id="work"):
                 with Vertical(id="centre"):
                     yield Tabs(*(Tab(name.capitalize(), id=f"tab-{name}") for name in PAGES), id="tabs")
@@ -116,9 +116,9 @@ class MainScreen(Stage):
         self._framed = (self.query_one("#pages"), self.query_one(CriteriaPanel))
         self.watch_focused(self.focused)
         self.query_one(LessonList).border_title = "Lessons"
-        self.query_one(StatusBar).show_nodes((), self.session.desk.domain)
+        self.query_one(StatusBar).show_nodes((), self.session.app_services.domain)
         self.query_one(StatusBar).show_check(None)
-        self.remembered()
+        self.preferences_changed()
         page = self.session.state.page
         self.pages.arrange(self.size.width, self.size.height)
         await self.go_to(self.session.lesson, page if page in PAGES else "lesson")
@@ -128,9 +128,9 @@ class MainScreen(Stage):
 
     def action_do(self, name: str) -> None:
         """Do what a command says."""
-        result = self._deeds[name].run()
+        result = self._command_handlers[name].run()
         if inspect.iscoroutine(result):
-            self.run_worker(result, group="deed")
+            self.run_worker(result, group="command")
 
     def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
         """Hide what makes no sense now: one key is Run or Stop, Check or Cancel."""
@@ -138,7 +138,7 @@ class MainScreen(Stage):
 
     def can(self, name: str) -> bool:
         """Whether a command makes sense now."""
-        return self.is_mounted and self._deeds[name].possible()
+        return self.is_mounted and self._command_handlers[name].possible()
 
     def action_show_file(self, index: int) -> None:
         """Show another file of the lesson."""
@@ -146,7 +146,7 @@ class MainScreen(Stage):
 
     def _theme(self) -> None:
         self.app.theme = "ros-tutor-light" if self.app.current_theme.dark else "ros-tutor-dark"
-        self.memory.note(theme=self.app.theme)
+        self.preferences.update(theme=self.app.theme)
 
     def _help(self) -> None:
         from tutor.tui.screens.help import HelpScreen
@@ -166,9 +166,9 @@ class MainScreen(Stage):
 
     async def go_to(self, lesson: Lesson, page: str = "lesson") -> None:
         """Show a lesson."""
-        session, lessons = self.session, self.session.desk.lessons
+        session, lessons = self.session, self.session.app_services.lessons
         session.lesson = lesson
-        self.memory.note(lesson=lesson.id)
+        self.preferences.update(lesson=lesson.id)
         self.query_one(StatusBar).show_lesson(lesson)
         self.query_one(LessonList).show_lesson(lesson)
         self.remove_class("-drawer")
@@ -186,7 +186,7 @@ class MainScreen(Stage):
 
     def _count_passed(self) -> None:
         session = self.session
-        lessons = session.desk.lessons
+        lessons = session.app_services.lessons
         passed = {each.id for each in lessons if session.progress.of(each.id).best is Status.PASSED}
         others = len(lessons) - len(passed | {session.lesson.id})
         # The last pass leads to the checklist, where the course has one.
@@ -200,7 +200,7 @@ class MainScreen(Stage):
         view.call_after_refresh(view.go_to_line, line)
 
     async def _step(self, by: int) -> None:
-        lessons = self.session.desk.lessons
+        lessons = self.session.app_services.lessons
         place = lessons.index(self.session.lesson) + by
         if 0 <= place < len(lessons):
             await self.go_to(lessons[place])
@@ -233,7 +233,7 @@ class MainScreen(Stage):
     def watch_focused(self, focused: Widget | None) -> None:
         """Frame the panel that has the focus.
 
-        `:focus-within` would say the same; with it, each step of the focus styles every widget in the panel anew, and
+        `:focus-within` would say the same; with it, each step of the focus styles every widget in the panel again, and
         a lesson's text has hundreds.
         """
         around = focused.ancestors if focused is not None else []
@@ -256,7 +256,7 @@ class MainScreen(Stage):
     def _progress_read(self, message: messages.ProgressRead) -> None:
         session = self.session
         session.progress = message.progress
-        for known in session.desk.lessons:
+        for known in session.app_services.lessons:
             session.findings[known.id] = session.findings[known.id].remembering(message.progress.of(known.id))
         self.query_one(CriteriaPanel).show_findings(session.findings[session.lesson.id])
         self._count_passed()
@@ -299,19 +299,19 @@ class MainScreen(Stage):
     @on(messages.NodeChanged)
     def _node_changed(self, message: messages.NodeChanged) -> None:
         typing = isinstance(self.focused, CodeEditor)
-        if message.first and not (message.unasked and typing):  # who types is not taken away from their line
+        if message.first and not (message.unasked and typing):  # a learner who is typing keeps their line
             self.show_page("log")
         if message.path == self.nodes.shown:
             key = self.nodes.stop_key(message.path)
-            self._log.show(message.state, self.session.desk.domain, self.session.paths, key)
-        self.pages.put_side_by_side()
+            self._log.show(message.state, self.session.app_services.domain, self.session.paths, key)
+        self.pages.arrange_side_by_side()
         self._log.show_nodes({path: self.nodes.known[path].state for path in self.nodes.listed}, self.nodes.shown)
         states = [node.state for node in self.nodes.known.values()]
-        self.query_one(StatusBar).show_nodes(states, self.session.desk.domain)
+        self.query_one(StatusBar).show_nodes(states, self.session.app_services.domain)
         if (live := self.pages.live) is not None:
             live.nodes_run(bool(self.nodes.running))
         if (phases := [(state.file, state.phase) for state in states]) != self._phases:
-            self._phases = phases  # the footer is composed anew: not for each line of a log, it would flicker
+            self._phases = phases  # the footer is composed again: not for each line of a log, it would flicker
             self.refresh_bindings()
 
     @on(messages.NodeChosen)
@@ -326,8 +326,8 @@ class MainScreen(Stage):
     def _check_over(self, message: messages.CheckOver) -> None:
         self.checks.over(message)
 
-    @on(messages.Trouble)
-    def _trouble(self, message: messages.Trouble) -> None:
+    @on(messages.ErrorOccurred)
+    def _trouble(self, message: messages.ErrorOccurred) -> None:
         self.say(message.text, warn=True)
 
     def _show_findings(self, found: Findings) -> None:
@@ -336,7 +336,7 @@ class MainScreen(Stage):
         self.query_one(StatusBar).show_check(found)
         self.query_one(Tabs).query_one("#tab-criteria").set_class(found.checking, "-busy")
 
-    def remembered(self) -> None:
+    def preferences_changed(self) -> None:
         state = self.session.state
         self.query_one(StatusBar).show_toggles(check=state.check_on_save, restart=state.restart_on_save)
 
@@ -351,4 +351,4 @@ class MainScreen(Stage):
 
     async def close_down(self) -> None:
         """Save, end the check and the nodes, and wait until nothing of them is left."""
-        await close_down(self, self.files, self.nodes, self.checks, self.memory, self.pages)
+        await close_down(self, self.files, self.nodes, self.checks, self.preferences, self.pages)

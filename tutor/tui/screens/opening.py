@@ -8,7 +8,7 @@ from textual.screen import Screen
 from textual.widgets import Static
 
 from tutor.content import Lesson
-from tutor.tui import words
+from tutor.tui import wording
 
 
 class OpeningScreen(Screen[None]):
@@ -32,7 +32,7 @@ class OpeningScreen(Screen[None]):
         if (lesson := self._lesson) is None:
             yield Static(name, id="opening-bar")
             return
-        title = Content.assemble((f" {words.label(lesson)}", "bold"), f" {lesson.title}")
-        level = Content.styled(f"  {words.LEVELS[lesson.difficulty]}", "$quiet")
+        title = Content.assemble((f" {wording.label(lesson)}", "bold"), f" {lesson.title}")
+        level = Content.styled(f"  {wording.LEVELS[lesson.difficulty]}", "$quiet")
         yield Static(Content.assemble(name, title, level), id="opening-bar")
-        yield Static(f"Opening {words.label(lesson)} {lesson.title} …", id="opening-text", markup=False)
+        yield Static(f"Opening {wording.label(lesson)} {lesson.title} …", id="opening-text", markup=False)

@@ -14,7 +14,7 @@ from textual.content import Content
 from textual.widgets import Button, Input, Static
 
 from tutor.live.facts import RequestForm
-from tutor.live.protocol import Command, Describe, Publish
+from tutor.live.protocol import Describe, Publish, WatcherRequest
 from tutor.tui.live.request_form import ServiceForm
 from tutor.tui.screens.dialog import Dialog
 
@@ -27,7 +27,7 @@ class PublishScreen(Dialog[Publish]):
 
     BINDINGS: ClassVar[list[BindingType]] = [Binding("f5", "publish", "Publish")]
 
-    def __init__(self, topic: str, types: Callable[[str], str], ask: Callable[[Command], object]) -> None:
+    def __init__(self, topic: str, types: Callable[[str], str], ask: Callable[[WatcherRequest], object]) -> None:
         super().__init__()
         self._topic, self._types, self._ask = topic, types, ask
         self._asked = ""
@@ -105,7 +105,7 @@ class PublishScreen(Dialog[Publish]):
 
 
 def _rate(text: str) -> float | None:
-    """Messages per second, 0 for once; None for what is no rate."""
+    """Messages per second, 0 for once; None for what is not a rate."""
     if not text:
         return 0.0
     try:

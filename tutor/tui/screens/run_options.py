@@ -12,8 +12,8 @@ from textual.containers import Horizontal, Vertical
 from textual.content import Content
 from textual.widgets import Button, Static, TextArea
 
+from tutor.bundled_ros.ros2.starting import is_launch_file
 from tutor.content import LessonFile
-from tutor.sandbox.ros2.starting import is_launch_file
 from tutor.tui import run_options
 from tutor.tui.screens.dialog import Dialog
 from tutor.workspace import RunOptions

@@ -73,7 +73,7 @@ class TerminalPane(Vertical):
         try:
             self._shell = await asyncio.to_thread(self._make_shell)
         except (OSError, ValueError) as error:
-            self.post_message(messages.Trouble(f"No command can be run: {error}"))
+            self.post_message(messages.ErrorOccurred(f"No command can be run: {error}"))
             return
         self._show_place()
         waiting, self._waiting = self._waiting, []

@@ -13,7 +13,7 @@ from tutor.tui.node import NodeCommand
 
 @dataclass(frozen=True, slots=True)
 class Shell:
-    """The place that commands are run in. Made by the desk, as `ros-tutor shell` has it."""
+    """The place that commands are run in. Made by `AppServices`, as `ros-tutor shell` has it."""
 
     env: Mapping[str, str]
     cwd: Path

@@ -6,7 +6,7 @@ from textual.content import Content
 
 from tutor.content import Lesson
 from tutor.judge.verdict import Status
-from tutor.tui import words
+from tutor.tui import wording
 from tutor.workspace import Attempt, ExerciseProgress
 
 BAR = 10
@@ -32,14 +32,14 @@ def _line(attempt: Attempt, required: list[str]) -> Content:
     met = sum(id in attempt.passed for id in asked)
     full = round(BAR * met / max(1, len(asked)))
     passed = attempt.verdict is Status.PASSED
-    ink = words.INKS[attempt.verdict]
+    ink = wording.INKS[attempt.verdict]
     missed = [id for id in asked if id not in attempt.passed]
     about = "" if passed or not missed else f"  not yet: {', '.join(missed)}"
     if not attempt.whole:
         about += f"  (only {', '.join(attempt.judged or asked)})"
     return Content.assemble(
-        (f"{words.when(attempt.at)}  ", "$quiet"),
-        (f"{words.MARKS[attempt.verdict]} ", f"bold {ink}"),
+        (f"{wording.when(attempt.at)}  ", "$quiet"),
+        (f"{wording.MARKS[attempt.verdict]} ", f"bold {ink}"),
         ("━" * full, ink),
         ("━" * (BAR - full), "$line"),
         f" {met} of {len(asked)}",

@@ -12,10 +12,10 @@ from textual.message import Message
 from textual.widget import Widget
 
 from tutor.report.assessment import GroupStanding, ItemStanding
-from tutor.report.saying import near_day, say_evidence, say_sources
+from tutor.report.phrases import describe_evidence, describe_sources, near_day
 
 MOST = 2
-"""So many exercises are named as evidence, or as what could give it."""
+"""This many exercises are named as evidence, or as what could give it."""
 
 _BAR = 12
 
@@ -28,9 +28,9 @@ def bar(ticked: int, total: int, width: int = _BAR) -> Content:
 
 def about(item: ItemStanding) -> str:
     """What the checks have shown of an item; else what would show it."""
-    if said := say_evidence(item.evidence, near_day, most=MOST):
+    if said := describe_evidence(item.evidence, near_day, most=MOST):
         return f"✓ {' · '.join(said)}"
-    if sources := say_sources(item.sources[:MOST]):
+    if sources := describe_sources(item.sources[:MOST]):
         more = ["others"] if len(item.sources) > MOST else []
         return f"○ not yet shown by {' or '.join([*sources, *more])}"
     return "○ no check shows this: you are the judge"

@@ -11,7 +11,7 @@ from textual.widgets import ListItem, ListView, Static
 
 from tutor.content import Lesson
 from tutor.judge.verdict import Status
-from tutor.tui import words
+from tutor.tui import wording
 from tutor.tui.findings import Finding, Findings
 from tutor.tui.widgets.attempts import history
 from tutor.tui.widgets.diagnosis import Diagnosis
@@ -41,7 +41,7 @@ class CriterionRow(ListItem):
         name = name.pad_right(max(0, self._name_width - name.cell_length))
         word, said, ink = Content(""), found.text, "$quiet"
         if found.verdict is not None:
-            mark, shade = words.MARKS[found.verdict.status], words.INKS[found.verdict.status]
+            mark, shade = wording.MARKS[found.verdict.status], wording.INKS[found.verdict.status]
             if self._outdated:
                 mark, shade, name = mark, "$quiet", name.stylize("$quiet")
             head = Content.assemble((f"{mark} ", f"bold {shade}"), name, " ")
@@ -50,12 +50,12 @@ class CriterionRow(ListItem):
             word = _bar(found.fraction, 14 if width > 50 else 8)
             said, ink = found.doing or "waiting", "$busy" if found.doing else "$quiet"
         else:
-            head = Content.assemble((f"{words.MARKS[Status.PASSED] if found.before else '○'} ", "$quiet"), name, " ")
+            head = Content.assemble((f"{wording.MARKS[Status.PASSED] if found.before else '○'} ", "$quiet"), name, " ")
         gap = "  " if word else ""
         left = width - head.cell_length - word.cell_length - len(gap)
         if left < 12:  # a stump of a sentence says nothing
             gap, said = "", ""
-        return Content.assemble(head, word, gap, (words.fitted(said, left), ink)).truncate(width, ellipsis=True)
+        return Content.assemble(head, word, gap, (wording.fitted(said, left), ink)).truncate(width, ellipsis=True)
 
 
 def _bar(fraction: float, width: int) -> Content:
@@ -246,9 +246,9 @@ def _headline(findings: Findings, *, typing: bool) -> str:
     if findings.note:
         return findings.note
     if findings.result:
-        return words.summary(findings.result)
+        return wording.summary(findings.result)
     if findings.before:
         required = [finding for finding in findings.criteria if not finding.bonus]
         met = sum(bool(finding.before) for finding in required)
-        return f"last check {words.when(findings.before)}: {met} of {len(required)} met"
+        return f"last check {wording.when(findings.before)}: {met} of {len(required)} met"
     return "not checked yet"

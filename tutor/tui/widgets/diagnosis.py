@@ -13,7 +13,7 @@ from textual.widgets import Static
 from tutor.content import Lesson
 from tutor.judge.result import ExerciseResult
 from tutor.judge.verdict import Status
-from tutor.tui import words
+from tutor.tui import wording
 from tutor.tui.findings import Finding, Findings
 
 
@@ -88,7 +88,7 @@ class Diagnosis(VerticalScroll):
         self._unfolded = False
         self._typing = False
         self._head = partial(Content)
-        """Makes the head anew, which names other keys while the editor has the focus."""
+        """Makes the head again, which names other keys while the editor has the focus."""
 
     @property
     def has_evidence(self) -> bool:
@@ -124,17 +124,19 @@ class Diagnosis(VerticalScroll):
     def _finding_head(self, finding: Finding, findings: Findings) -> Content:
         verdict = finding.verdict
         if verdict is not None:
-            mark, ink = words.MARKS[verdict.status], words.INKS[verdict.status]
+            mark, ink = wording.MARKS[verdict.status], wording.INKS[verdict.status]
             said = " error" if verdict.status is Status.ERROR else ""  # of ours: no mark that a learner knows says that
         else:
             mark, ink, said = "○", "$quiet", " being checked" if finding.checking else ""
             if finding.before is not None and not finding.checking:
-                mark = words.MARKS[Status.PASSED] if finding.before else "○"
+                mark = wording.MARKS[Status.PASSED] if finding.before else "○"
         name = Content.assemble((f"{mark}{said} ", f"bold {ink}"), (finding.id, "bold"), "  ", (finding.text, "$quiet"))
         more = "  bonus: never changes the verdict" if finding.bonus else ""
         if verdict is None and not finding.checking:
             met = "Met" if finding.before else "Not met"
-            known = f"{met} at the last check, {words.when(findings.before)}" if findings.before else "Not checked yet"
+            known = (
+                f"{met} at the last check, {wording.when(findings.before)}" if findings.before else "Not checked yet"
+            )
             more += f"\n\n{known}. Press {'F9' if self._typing else 'c'} to check."
         return Content.assemble(name, (more, "$quiet"))
 
@@ -150,7 +152,7 @@ class Diagnosis(VerticalScroll):
         if all_passed:
             command, key, where = "checklist", "6", "the checklist: what can you do by now?"
         elif following is not None:
-            command, key, where = "next", "n", f"{words.label(following)} {following.title}"
+            command, key, where = "next", "n", f"{wording.label(following)} {following.title}"
         else:
             command, key, where = "lessons", "l", "the list of lessons"
         return Content.assemble(
@@ -161,7 +163,7 @@ class Diagnosis(VerticalScroll):
             "Every exercise is passed now.\n" if all_passed else "",
             bonus,
             "\nNext: press ",
-            (words.key(key, typing=self._typing), "bold $accent"),
+            (wording.key(key, typing=self._typing), "bold $accent"),
             " for ",
             Content.from_markup(f"[@click=screen.do('{command}')]$where[/]", where=where),
             ".\n",
@@ -183,7 +185,7 @@ class Diagnosis(VerticalScroll):
     def _show_evidence(self) -> None:
         count = len(self._evidence)
         lines = f"{count} line{'' if count == 1 else 's'}"
-        key = words.key("i", typing=self._typing)
+        key = wording.key("i", typing=self._typing)
         link = Content.from_markup(
             "[@click=screen.do('evidence')]$text[/]",
             text=f"▾ {lines}, {key} hides" if self._unfolded else f"▸ {lines}, {key} shows",

@@ -12,7 +12,7 @@ from textual.content import Content
 from textual.widgets import Input, Static
 from textual.widgets.text_area import Selection
 
-from tutor.tui.finding import Place, nearest, places
+from tutor.tui.text_search import Place, find_all, nearest_index
 from tutor.tui.widgets.editor import CodeEditor
 
 
@@ -100,12 +100,12 @@ class FindBar(Horizontal):
         editor, wanted = self._editor, self.query_one(Input).value
         if editor is None:
             return
-        found = places(editor.text, wanted)
+        found = find_all(editor.text, wanted)
         count = self.query_one("#find-count", Static)
         if not found:
             count.update(Content.styled("not found", "$bad") if wanted else "")
             return
-        number = nearest(found, self._origin, by)
+        number = nearest_index(found, self._origin, by)
         row, column = found[number]
         editor.selection = Selection((row, column), (row, column + len(wanted)))
         editor.scroll_cursor_visible(center=True)

@@ -9,7 +9,7 @@ from textual.widgets import Footer
 
 
 class KeyFooter(Footer):
-    """A footer that is composed anew only where another key, or another word, is to be read.
+    """A footer that is composed again only where another key, or another word, is to be read.
 
     Textual's own is whenever the focus moves, though most moves change none of it: two more layouts of the whole
     screen between a key and what it shows.
@@ -20,7 +20,7 @@ class KeyFooter(Footer):
         self._read: list[tuple[str, str, str, bool]] = []
 
     def bindings_changed(self, screen: Screen[Any]) -> None:
-        """Compose it anew where it would read otherwise."""
+        """Compose it again where it would read otherwise."""
         if not screen.app.app_focus:
             return
         read = [

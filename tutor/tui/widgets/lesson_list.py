@@ -10,7 +10,7 @@ from textual.geometry import Size
 from textual.widgets import ListItem
 
 from tutor.content import Lesson
-from tutor.tui import words
+from tutor.tui import wording
 from tutor.tui.widgets.row_list import RowList
 from tutor.workspace import ExerciseProgress, Progress
 
@@ -38,7 +38,7 @@ class LessonRow(ListItem):
         self.progress = ExerciseProgress()
 
     def _title(self, width: int) -> list[str]:
-        return wrap(f"{words.label(self.lesson)} {self.lesson.title}", max(10, width - 2))
+        return wrap(f"{wording.label(self.lesson)} {self.lesson.title}", max(10, width - 2))
 
     def get_content_height(self, container: Size, viewport: Size, width: int) -> int:
         """The title's lines, and one."""
@@ -46,10 +46,10 @@ class LessonRow(ListItem):
 
     def render(self) -> Content:
         """The mark, the title; below it the difficulty, and how it stands in words."""
-        mark, standing = words.standing(self.lesson, self.progress)
+        mark, standing = wording.standing(self.lesson, self.progress)
         width = self.content_size.width
         title = "\n  ".join(self._title(width))
-        level = words.LEVELS[self.lesson.difficulty]
+        level = wording.LEVELS[self.lesson.difficulty]
         gap = " " * max(1, width - 2 - len(level) - len(standing))
         ink = _INK[mark]
         return Content.assemble((f"{mark} ", ink), title, "\n  ", (level, "$quiet"), gap, (standing, ink))
@@ -98,5 +98,5 @@ class LessonList(RowList):
         for row in self.lesson_rows:
             row.progress = progress.of(row.lesson.id)
             row.refresh()
-        passed = sum(words.standing(row.lesson, row.progress)[0] == "✓" for row in self.lesson_rows)
+        passed = sum(wording.standing(row.lesson, row.progress)[0] == "✓" for row in self.lesson_rows)
         self.border_subtitle = f"{passed} of {len(self.lesson_rows)} passed"

@@ -10,7 +10,7 @@ from textual.widgets import Label, Markdown, Static
 from textual.widgets.markdown import MarkdownBlock, MarkdownFence
 
 from tutor.content import Lesson
-from tutor.tui import messages, words
+from tutor.tui import messages, wording
 from tutor.tui.terminal.lesson_commands import LANGUAGES, command_at
 
 
@@ -42,15 +42,15 @@ class LessonView(VerticalScroll):
         yield Markdown(id="lesson-body", open_links=False)
 
     def watch_has_focus(self, _has_focus: bool) -> None:
-        """Style itself anew, not its hundreds of children: the focus changes nothing of the text."""
+        """Style itself again, not its hundreds of children: the focus changes nothing of the text."""
         self.app.stylesheet.update_nodes([self])
 
     async def show_lesson(self, lesson: Lesson) -> None:
         """Show another lesson from its top."""
         files = ", ".join(file.name for file in lesson.files)
         head = Content.assemble(
-            (f"{words.label(lesson)}  {lesson.title}", "bold $primary"),
-            ("   " + words.LEVELS[lesson.difficulty], "$accent"),
+            (f"{wording.label(lesson)}  {lesson.title}", "bold $primary"),
+            ("   " + wording.LEVELS[lesson.difficulty], "$accent"),
             "\n",
             (f"{lesson.unit} · {files}", "$quiet"),
         )

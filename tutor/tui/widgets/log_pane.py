@@ -176,7 +176,7 @@ class LogPane(Vertical):
     @property
     def error_place(self) -> tuple[Path, int] | None:
         """Where the last traceback points in the learner's own code."""
-        lines = [loglines.read(line) for line in self._state.lines] if self._state else []
+        lines = [loglines.parse_line(line) for line in self._state.lines] if self._state else []
         return loglines.last_place(lines, self.query_one(LogView).own)
 
     def _show(self) -> None:
@@ -187,8 +187,8 @@ class LogPane(Vertical):
             state = self._frozen = self._frozen or state
         else:
             self._frozen = None
-        every = [loglines.read(line) for line in state.lines]
-        lines = loglines.chosen(every, self.level, self.text, self._cleared_at)
+        every = [loglines.parse_line(line) for line in state.lines]
+        lines = loglines.matching_lines(every, self.level, self.text, self._cleared_at)
         head: list[Row] = []
         if state.command:
             head.append(((" $       ", "quiet"), (state.command, "name")))

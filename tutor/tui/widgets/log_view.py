@@ -23,7 +23,7 @@ UNBROKEN = 16
 
 
 NAMED_FROM = 64
-"""From so many columns on a line names its node, also where all are of one."""
+"""From this many columns on a line names its node, also where all are of one."""
 
 
 class LogView(LineView):
@@ -115,7 +115,7 @@ def _coloured(line: LogLine, *, linked: bool, named: bool) -> Row:
         loud = "" if line.level is Level.INFO else kind
         head = (f" {line.level.name:<5} ", kind)
         name = f"{line.name}  " if named else ""
-        return (head, (f" {at}  ", "quiet"), (name, "name"), (line.said, loud))
+        return (head, (f" {at}  ", "quiet"), (name, "name"), (line.message, loud))
     if not line.stderr:
         return ((" print  ", "quiet"), (line.text, ""))
     if linked:

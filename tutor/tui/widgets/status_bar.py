@@ -10,12 +10,12 @@ from textual.content import Content
 from textual.widgets import Static
 
 from tutor.content import Lesson
-from tutor.tui import words
+from tutor.tui import wording
 from tutor.tui.findings import Findings
 from tutor.tui.node import NodeState, Phase
 
 WIDE = 100
-"""From so many columns on, what runs is named."""
+"""From this many columns on, what runs is named."""
 
 
 class StatusBar(Horizontal):
@@ -51,7 +51,7 @@ class StatusBar(Horizontal):
     def show_lesson(self, lesson: Lesson) -> None:
         """Name the lesson."""
         text = Content.assemble(
-            (words.label(lesson), "bold"), f" {lesson.title}  ", (words.LEVELS[lesson.difficulty], "$quiet")
+            (wording.label(lesson), "bold"), f" {lesson.title}  ", (wording.LEVELS[lesson.difficulty], "$quiet")
         )
         self.query_one("#bar-lesson", Static).update(text)
 

@@ -1,0 +1,178 @@
+"""Runs a launch file in a process of its own, with ours or with the real launch, in a folder with a package `demo`."""
+
+from __future__ import annotations
+
+import os
+import re
+import signal
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from tests.bundled_ros.launching.case import Case, launch_file
+
+RUN = """\
+import sys
+from tutor.bundled_ros.launching import run
+options, arguments = sys.argv[2].split(), sys.argv[3:]
+sys.exit(run(sys.argv[1], arguments, "show" in options, noninteractive="terminal" not in options))
+"""
+
+SHOW = """\
+#!/bin/sh
+line=argv
+for word; do
+  case $word in
+    */launch_params_*) line="$line <params>"; files="$files $word" ;;
+    *) line="$line <$word>" ;;
+  esac
+done
+echo "$line"
+for file in $files; do sed 's/ !!python.tuple//; s/^/param /' "$file"; done
+"""
+
+LOOP = "echo ready\nwhile :; do sleep 0.05; done\n"
+
+PROGRAMS = {
+    "talker": SHOW,
+    "listener": SHOW,
+    "waiter": f"#!/bin/sh\ntrap 'echo interrupted; exit 0' INT\ntrap 'echo terminated; exit 0' TERM\n{LOOP}",
+    "stubborn": f"#!/bin/sh\ntrap '' INT\ntrap 'echo terminated; exit 0' TERM\n{LOOP}",
+    "immortal": f"#!/bin/sh\ntrap '' INT TERM\n{LOOP}",
+    "failing": "#!/bin/sh\nexit 3\n",
+}
+
+LIMIT_S = 60.0
+LEFT_AFTER_S = 5.0
+
+
+@dataclass(frozen=True)
+class Ran:
+    """All lines, those of stderr among them, with numbers and folders by their signs."""
+
+    code: int
+    lines: tuple[str, ...]
+    left: bool
+    """Whether a process that it started was still there a while after its end."""
+
+    @property
+    def says(self) -> dict[str, tuple[str, ...]]:
+        """What each process printed, by its name."""
+        said: dict[str, tuple[str, ...]] = {}
+        for line in self.lines:
+            if found := re.match(r"\[([\w.+-]+-\d+)\] (.*)", line):
+                said[found[1]] = (*said.get(found[1], ()), found[2])
+        return said
+
+    @property
+    def log(self) -> tuple[str, ...]:
+        """The launch's own messages."""
+        return tuple(line for line in self.lines if re.match(r"\[(INFO|WARNING|ERROR)\]", line))
+
+
+class Launcher:
+    """A folder with a prefix that has the package `demo`."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self.prefix = folder / "prefix"
+        for path, text in PROGRAMS.items():
+            self._write(f"prefix/lib/demo/{path}", text).chmod(0o755)
+        self._write("prefix/share/ament_index/resource_index/packages/demo", "")
+        inner = "LogInfo(msg=['in the package, ', ThisLaunchFileDir()])"
+        self._write("prefix/share/demo/launch/inner.launch.py", launch_file(inner))
+
+    def _write(self, name: str, text: str) -> Path:
+        path = self.folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+        return path
+
+    def run_case(self, case: Case, python_path: str) -> Ran:
+        """Run it; `python_path` is where the launch comes from, if it is not to be ours."""
+        path = self._write("main.launch.py", case.text)
+        for name, text in case.files.items():
+            self._write(name, text)
+        return self.run(
+            path,
+            case.arguments,
+            python_path=python_path,
+            environment=case.environment,
+            interrupt_at=case.interrupt_at,
+        )
+
+    def run(
+        self,
+        path: Path | str,
+        arguments: Sequence[str] = (),
+        *,
+        options: str = "",
+        python_path: str = "",
+        environment: Mapping[str, str] | None = None,
+        interrupt_at: str = "",
+        signals: Sequence[int] = (signal.SIGINT,),
+        to_all: bool = False,
+        ignoring_sigint: bool = False,
+    ) -> Ran:
+        """Run a launch file.
+
+        At the first line that holds `interrupt_at`, the signals are sent: to the launch alone, or `to_all` of its
+        process group, as a terminal does. `ignoring_sigint`: started as a shell starts what is in the background.
+        """
+        environ = {
+            **{name: value for name, value in os.environ.items() if not name.startswith(("ROS_", "OVERRIDE_LAUNCH"))},
+            "AMENT_PREFIX_PATH": os.pathsep.join(
+                [str(self.prefix), *filter(None, [os.environ.get("AMENT_PREFIX_PATH")])]
+            ),
+            "PYTHONPATH": python_path,
+            "ROS_LOG_DIR": str(self.folder / "log"),
+            **(environment or {}),
+        }
+        process = subprocess.Popen(
+            [sys.executable, "-P", "-c", RUN, str(path), options, *arguments],
+            env=environ,
+            cwd=self.folder,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            start_new_session=True,
+            preexec_fn=(lambda: signal.signal(signal.SIGINT, signal.SIG_IGN)) if ignoring_sigint else None,
+        )
+        give_up = threading.Timer(LIMIT_S, os.killpg, (process.pid, signal.SIGKILL))
+        give_up.start()
+        lines = []
+        assert process.stdout is not None
+        with process.stdout:
+            for line in process.stdout:
+                lines.append(line.rstrip("\n"))
+                if interrupt_at and interrupt_at in line:
+                    interrupt_at = ""
+                    for number in signals:
+                        (os.killpg if to_all else os.kill)(process.pid, number)
+        code = process.wait()
+        give_up.cancel()
+        return Ran(code, tuple(self._plain(line) for line in lines), is_left(process.pid))
+
+    def _plain(self, line: str) -> str:
+        for folder, sign in ((self.prefix, "$PREFIX"), (self.folder, "$DIR")):
+            line = line.replace(str(folder), sign)
+        line = re.sub(r"\bpid \[\d+\]", "pid [N]", line)
+        return re.sub(r"\[pid \d+", "[pid N", line)
+
+
+def is_left(group: int) -> bool:
+    """Whether a process of this group is still there, a while after the end of the first."""
+    deadline = time.monotonic() + LEFT_AFTER_S
+    while time.monotonic() < deadline:
+        try:
+            os.killpg(group, 0)
+        except ProcessLookupError:
+            return False
+        time.sleep(0.01)
+    os.killpg(group, signal.SIGKILL)
+    return True

@@ -1,0 +1,371 @@
+"""The substitutes: where they can be imported, what they refuse, and what they tell of a fault in a launch file."""
+
+from __future__ import annotations
+
+import importlib.util
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.bundled_ros.launching.case import launch_file
+from tests.bundled_ros.launching.launcher import Launcher
+
+REFUSED = "is not supported by the launch files that run without an installed ROS 2"
+
+EMPTY = "from launch import LaunchDescription\ndef generate_launch_description():\n    return LaunchDescription([])\n"
+
+
+@pytest.fixture
+def launcher(tmp_path: Path) -> Launcher:
+    return Launcher(tmp_path)
+
+
+def write(launcher: Launcher, text: str, name: str = "main.launch.py") -> Path:
+    path = launcher.folder / name
+    path.write_text(text)
+    return path
+
+
+# --- where they can be imported
+
+
+def test_nothing_of_them_can_be_imported_elsewhere() -> None:
+    code = (
+        "import importlib.util, tutor.bundled_ros.launching as l; l.runner; print(importlib.util.find_spec('launch'))"
+    )
+    ran = subprocess.run(
+        [sys.executable, "-P", "-c", code], env={"PATH": ""}, capture_output=True, text=True, timeout=60, check=True
+    )
+    assert ran.stdout.strip() == "None"
+
+
+def test_nothing_of_ours_is_imported_by_them(launcher: Launcher) -> None:
+    site = Path(importlib.util.find_spec("tutor.bundled_ros.launching").origin).parent / "site"  # type: ignore[union-attr, arg-type]
+    code = "import sys, launch, launch_ros; print({'tutor', 'rclpy'} & {name.split('.')[0] for name in sys.modules})"
+    ran = subprocess.run(
+        [sys.executable, "-P", "-c", code],
+        env={"PYTHONPATH": str(site)},
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=True,
+    )
+    assert ran.stdout.strip() == "set()"
+
+
+def test_a_real_launch_goes_first(launcher: Launcher) -> None:
+    real = launcher.folder / "real"
+    for name, text in {
+        "__init__.py": "print('the real one')\nclass LaunchDescription:\n    def __init__(self, entities): ...\n"
+        "class LaunchService:\n    def __init__(self, **kwargs): ...\n"
+        "    def include_launch_description(self, description): ...\n    def run(self): return 5\n",
+        "actions.py": "class IncludeLaunchDescription:\n    def __init__(self, source, launch_arguments): "
+        "print(launch_arguments)\n",
+        "launch_description_sources.py": "class AnyLaunchDescriptionSource:\n    def __init__(self, path): "
+        "print(path)\n",
+    }.items():
+        path = real / "launch" / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+    ran = launcher.run(write(launcher, EMPTY), ["x:=1"], python_path=str(real))
+    assert ran.code == 5
+    assert ran.lines == ("the real one", "$DIR/main.launch.py", "[('x', '1')]")
+
+
+def test_a_folder_named_launch_is_not_a_real_launch(launcher: Launcher) -> None:
+    # A package's own launch/ is often in a folder that is on the path.
+    (launcher.folder / "package" / "launch").mkdir(parents=True)
+    assert launcher.run(write(launcher, EMPTY), python_path=str(launcher.folder / "package")).code == 0
+
+
+# --- what they refuse
+
+
+NAMED_ELSEWHERE = """\
+import importlib
+from launch import _real_names
+for module, (is_package, names) in _real_names._modules().items():
+    loaded = importlib.import_module(module)
+    assert hasattr(loaded, "__path__") == is_package, module
+    for name in names:
+        if not hasattr(loaded, name):
+            print(module, name)
+"""
+
+
+def test_every_name_of_the_real_ones_can_be_imported_from_every_module_that_has_it(launcher: Launcher) -> None:
+    ran = launcher.run(write(launcher, f"{NAMED_ELSEWHERE}{EMPTY}"))
+    assert ran.lines[2:] == ()
+    assert ran.code == 0
+
+
+ALIASED = """\
+import importlib, inspect, pickle, sys
+from launch import _aliases
+import launch.actions.opaque_function as module
+from launch.actions import OpaqueFunction
+from launch.actions.opaque_function import OpaqueFunction as Same
+print(module.OpaqueFunction is OpaqueFunction is Same, sys.modules["launch.actions.opaque_function"] is module)
+print(OpaqueFunction.__module__, inspect.getmodule(OpaqueFunction) is module)
+print(inspect.getsource(OpaqueFunction).splitlines()[0])
+for home, packages in _aliases.MODULES.items():
+    for package, names in packages.items():
+        for name in names.split():
+            alias = importlib.import_module(f"{package}.{name}".lstrip("."))
+            for each in alias.__all__:
+                thing = getattr(alias, each)
+                if isinstance(thing, type) and thing.__module__.startswith("launch"):
+                    if pickle.loads(pickle.dumps(thing)) is not thing or inspect.getmodule(thing) is None:
+                        print(alias, each)
+"""
+
+
+def test_a_module_without_a_file_of_its_own_is_one_all_the_same(launcher: Launcher) -> None:
+    ran = launcher.run(write(launcher, f"{ALIASED}{EMPTY}"))
+    assert ran.lines[2:] == (
+        "True True",
+        "launch.actions.opaque_function True",
+        "class OpaqueFunction(Action):",
+    ), ran.lines
+    assert ran.code == 0
+
+
+IMPORTED = """\
+from launch.launch_description import DeclareLaunchArgument
+from launch import LaunchIntrospector
+from launch_ros.actions import ComposableNodeContainer, LifecycleNode, ROSTimer
+from launch_ros.actions.composable_node_container import ComposableNodeContainer as Same
+from launch_ros.descriptions import ComposableNode
+from launch.frontend import Parser
+from launch.substitutions import LaunchLogDir, PathSubstitution
+from launch_ros.substitutions import Parameter
+from launch_ros.event_handlers import OnStateTransition
+from launch_ros.events.lifecycle import ChangeState
+"""
+
+
+def test_a_name_is_one_thing_wherever_it_is_imported_from(launcher: Launcher) -> None:
+    says = [
+        "import launch.actions, typing",
+        "from launch.launch_context import Dict",
+        "print(DeclareLaunchArgument is launch.actions.DeclareLaunchArgument, ComposableNodeContainer is Same,"
+        " Dict is typing.Dict)",
+        "def made() -> ComposableNodeContainer | None: ...",
+    ]
+    ran = launcher.run(write(launcher, "\n".join([IMPORTED, *says, EMPTY])))
+    assert "True True True" in ran.lines, ran.lines
+    assert ran.code == 0
+
+
+@pytest.mark.parametrize(
+    ("statement", "named"),
+    [
+        (
+            "from launch.actions import OpaqueCoroutine\nOpaqueCoroutine()",
+            "launch.actions.opaque_coroutine.OpaqueCoroutine",
+        ),
+        (
+            "import launch_testing.actions\nlaunch_testing.actions.ReadyToTest()",
+            "launch_testing.actions.ready.ReadyToTest",
+        ),
+        (
+            "from launch_ros.utilities import add_node_name\nadd_node_name(None, '')",
+            "launch_ros.utilities.track_node_names.add_node_name",
+        ),
+        (
+            "from launch.frontend import Parser\nclass Mine(Parser): ...\nMine()",
+            "launch.frontend.parser.Parser",
+        ),
+    ],
+)
+def test_what_only_the_real_one_has_is_named_when_it_is_used(launcher: Launcher, statement: str, named: str) -> None:
+    ran = launcher.run(write(launcher, f"{statement}\n{EMPTY}"))
+    errors = [line for line in ran.log if line.startswith("[ERROR]")]
+    assert errors == [
+        f"[ERROR] [launch]: Caught exception in launch (see debug for traceback): {named} {REFUSED}; "
+        "it works where ROS 2 is installed and sourced"
+    ]
+    line = statement.count("\n") + 1
+    assert f'  File "$DIR/main.launch.py", line {line}, in <module>' in ran.lines
+    assert ran.code == 1
+
+
+LOAD = """<launch><load_composable_node target="c">
+<composable_node pkg="a" plugin="b" name="n"/></load_composable_node></launch>"""
+
+
+@pytest.mark.parametrize("included", [False, True])
+def test_what_a_tag_cannot_do_is_named(launcher: Launcher, included: bool) -> None:
+    path = write(launcher, LOAD, "main.launch.xml")
+    if included:
+        path = write(launcher, launch_file(f"IncludeLaunchDescription('{path}')"))
+    ran = launcher.run(path)
+    errors = [line for line in ran.log if line.startswith("[ERROR]")]
+    assert len(errors) == 1
+    assert f"loading the composable node b into a container {REFUSED}" in errors[0]
+    assert ran.code == 1
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "fault"),
+    [
+        ("a.launch.xml", '<launch><node pkg="demo"/></launch>', "AttributeError: Attribute 'exec' of type"),
+        ("a.launch.xml", "<launch><node></launch>", "ParseError: mismatched tag: line 1, column 16"),
+        ("a.launch.xml", '<launch><log message="$(arg x)"/></launch>', "RuntimeError: Unknown substitution: arg"),
+        ("a.launch.xml", '<launch><log message="$(var \'x)"/></launch>', "cannot be read: it ends too early at column"),
+        ("a.launch.xml", '<launch><group if="1" unless="1"/></launch>', "can't be used simultaneously"),
+        ("a.launch.yaml", "launch:\n- log: {message: [1]}\n", "TypeError: Attribute 'message' of Entity 'log'"),
+        ("a.launch.yaml", "launch:\n- group: {if: '1'}\n", "ValueError: Expected entity `group` to have children"),
+        ("a.launch.yaml", "- log\n", "ValueError: Expected only one root"),
+    ],
+)
+def test_a_fault_in_xml_or_yaml_is_named(launcher: Launcher, name: str, text: str, fault: str) -> None:
+    ran = launcher.run(write(launcher, text, name))
+    assert any(fault in line for line in ran.lines), ran.lines
+    assert ran.code == 1
+
+
+def test_an_included_file_that_cannot_be_read_is_told_where_arguments_are_listed(launcher: Launcher) -> None:
+    write(launcher, "import nowhere\n", "inner.launch.py")
+    actions = (
+        f"DeclareLaunchArgument('x', default_value='1'), IncludeLaunchDescription('{launcher.folder}/inner.launch.py')"
+    )
+    ran = launcher.run(write(launcher, launch_file(actions)), options="show")
+    assert "    'x':" in ran.lines
+    told = "the arguments of $DIR/inner.launch.py are missing: ModuleNotFoundError: No module named 'nowhere'"
+    assert told in ran.lines
+    assert ran.code == 0
+
+
+def test_a_name_that_the_real_one_has_not_either_is_not_a_question_of_support(launcher: Launcher) -> None:
+    ran = launcher.run(write(launcher, f"from launch_ros.actions import Nood\n{EMPTY}"))
+    shown = "\n".join(ran.lines)
+    assert "cannot import name 'Nood' from 'launch_ros.actions'" in shown
+    assert REFUSED not in shown
+    assert ran.code == 1
+
+
+# --- what they tell of a fault
+
+
+FAULTS = {
+    "in the file": ("value = missing\n" + EMPTY, 1, "NameError: name 'missing' is not defined"),
+    "in the function": (
+        "def generate_launch_description():\n    return undefined()\n",
+        2,
+        "NameError: name 'undefined' is not defined",
+    ),
+    "of syntax": ("def generate_launch_description(:\n    pass\n", 1, "SyntaxError: invalid syntax"),
+    "in a call of launch": (
+        "from launch_ros.actions import Node\n\n\ndef generate_launch_description():\n    return "
+        "Node(package='demo')\n",
+        5,
+        "TypeError: Node.__init__() missing 1 required keyword-only argument: 'executable'",
+    ),
+    "in an opaque function": (
+        "from launch import LaunchDescription\nfrom launch.actions import OpaqueFunction\n\n\ndef setup(context):\n"
+        "    return context.launch_configurations['topic']\n\n\ndef generate_launch_description():\n"
+        "    return LaunchDescription([OpaqueFunction(function=setup)])\n",
+        6,
+        "KeyError: 'topic'",
+    ),
+    "in a substitution": (
+        "from launch import LaunchDescription\nfrom launch.actions import LogInfo\n"
+        "from launch.substitutions import LaunchConfiguration\n\n\ndef generate_launch_description():\n"
+        "    return LaunchDescription([\n        LogInfo(msg=LaunchConfiguration('topic')),\n    ])\n",
+        8,
+        "launch.substitutions.substitution_failure.SubstitutionFailure: launch configuration 'topic' does not exist",
+    ),
+    "in a package's name": (
+        "from launch import LaunchDescription\nfrom launch_ros.actions import Node\n\n\ndef "
+        "generate_launch_description():\n"
+        "    node = Node(\n        package='demos',\n        executable='talker',\n    )\n    return "
+        "LaunchDescription([node])\n",
+        6,
+        "launch.substitutions.substitution_failure.SubstitutionFailure: package 'demos' not found; is it demo?",
+    ),
+}
+
+SEEN_ONLY_WHEN_IT_RUNS = ("in an opaque function", "in a substitution", "in a package's name")
+
+
+@pytest.mark.parametrize("fault", FAULTS)
+@pytest.mark.parametrize("options", ["", "show"])
+def test_a_fault_is_shown_with_the_learners_own_line(launcher: Launcher, fault: str, options: str) -> None:
+    text, line, error = FAULTS[fault]
+    ran = launcher.run(write(launcher, text), options=options)
+    if options == "show" and fault in SEEN_ONLY_WHEN_IT_RUNS:
+        assert ran.code == 0
+        return
+    shown = "\n".join(ran.lines)
+    assert f'  File "$DIR/main.launch.py", line {line}' in shown
+    assert error in ran.lines, shown
+    assert "launching/site" not in shown
+    assert ran.code == 1
+
+
+def test_a_file_without_the_function_is_told(launcher: Launcher) -> None:
+    ran = launcher.run(write(launcher, "x = 1\n"))
+    assert any(
+        line.endswith("does not contain the required function 'generate_launch_description()'") for line in ran.lines
+    )
+    assert ran.code == 1
+
+
+def test_a_missing_file_is_told(launcher: Launcher) -> None:
+    ran = launcher.run("nowhere.launch.py")
+    assert any("No such file or directory: 'nowhere.launch.py'" in line for line in ran.lines)
+    assert ran.code == 1
+
+
+@pytest.mark.parametrize("argument", ["x=1", ":=1", "x:=", "x"])
+def test_a_malformed_argument_is_told(launcher: Launcher, argument: str) -> None:
+    ran = launcher.run(write(launcher, EMPTY), [argument])
+    assert ran.lines == (f"malformed launch argument '{argument}', expected format '<name>:=<value>'",)
+    assert ran.code == 1
+
+
+# --- --show-args
+
+
+def test_show_args_lists_the_arguments(launcher: Launcher) -> None:
+    write(launcher, launch_file("DeclareLaunchArgument('inner', default_value='i')"), "inner.launch.py")
+    actions = (
+        "DeclareLaunchArgument('topic', default_value=['chat', LaunchConfiguration('x')], description='The topic'), "
+        "DeclareLaunchArgument('mode', choices=['a', 'b'], description='How'), DeclareLaunchArgument('one', "
+        "choices=['1']), "
+        "GroupAction([DeclareLaunchArgument('deep')], condition=IfCondition('true')), DeclareLaunchArgument('topic'), "
+        f"IncludeLaunchDescription(PythonLaunchDescriptionSource('{launcher.folder}/inner.launch.py')), "
+        f"LogInfo(msg='never')"
+    )
+    ran = launcher.run(write(launcher, launch_file(actions)), options="show")
+    assert ran.lines == (
+        "Arguments (pass arguments as '<name>:=<value>'):",
+        "",
+        "    'topic':",
+        "        The topic",
+        "        (default: 'chat' + LaunchConfig('x'))",
+        "",
+        "    'mode':",
+        "        How. Valid choices are: ['a', 'b']",
+        "",
+        "    'one':",
+        "        One of: ['1']",
+        "",
+        "    'deep':*",
+        "        no description given",
+        "",
+        "    'inner':",
+        "        no description given",
+        "        (default: 'i')",
+        "",
+        "* argument(s) which are only used if specific conditions occur",
+    )
+    assert ran.code == 0
+
+
+def test_show_args_without_any(launcher: Launcher) -> None:
+    ran = launcher.run(write(launcher, EMPTY), options="show")
+    assert ran.lines == ("Arguments (pass arguments as '<name>:=<value>'):", "", "  No arguments.")

@@ -1,0 +1,269 @@
+"""The ros2 command, as a process."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+import pytest
+
+from tutor.ros.domain import reserve_domain
+from tutor.ros.environment import detect, learner_env
+
+LIMIT_S = 60
+LAUNCH_FILE = """
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument, ExecuteProcess
+from launch.substitutions import LaunchConfiguration
+
+
+def generate_launch_description():
+    return LaunchDescription([
+        DeclareLaunchArgument("word", default_value="nothing", description="What to say"),
+        ExecuteProcess(cmd=["echo", "said", LaunchConfiguration("word")], output="screen"),
+    ])
+"""
+
+
+@pytest.fixture
+def env(tmp_path: Path) -> Iterator[dict[str, str]]:
+    """A learner's environment on a domain of its own; temporary files are in `tmp_path`."""
+    with reserve_domain() as domain_id:
+        made = learner_env(detect(), domain_id=domain_id, log_dir=tmp_path / "log", package_root=None, isolated=True)
+        (tmp_path / "log").mkdir()
+        yield {
+            **made,
+            "HOME": str(tmp_path),
+            "TMPDIR": str(tmp_path / "log"),
+            "ROS_TUTOR_WORKSPACE": str(tmp_path / "ws"),
+        }
+
+
+def ros2(*words: str, env: dict[str, str], cwd: Path) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-P", "-m", "tutor.bundled_ros.ros2", *words]
+    return subprocess.run(command, env=env, cwd=cwd, capture_output=True, text=True, timeout=LIMIT_S, check=False)
+
+
+@contextmanager
+def started(*words: str, env: dict[str, str], cwd: Path) -> Iterator[subprocess.Popen[str]]:
+    """`ros2` in a process group of its own, which is gone in the end."""
+    command = [sys.executable, "-P", "-m", "tutor.bundled_ros.ros2", *words]
+    process = subprocess.Popen(
+        command, env=env, cwd=cwd, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, process_group=0
+    )
+    try:
+        yield process
+    finally:
+        with suppress(ProcessLookupError):
+            os.killpg(process.pid, signal.SIGKILL)
+        process.communicate()
+
+
+def until(process: subprocess.Popen[str], *words: str) -> str:
+    """The first line that has all these words."""
+    assert process.stdout is not None
+    deadline, seen = time.monotonic() + LIMIT_S, []
+    for line in process.stdout:
+        seen.append(line)
+        if all(word in line for word in words):
+            return line
+        assert time.monotonic() < deadline, seen
+    raise AssertionError(seen)
+
+
+@pytest.mark.parametrize(
+    ("words", "code", "message"),
+    [
+        (["bag", "record"], 2, "`ros2 bag` needs an installed ROS 2; this ros2 knows: "),
+        (["run", "demo", "talker"], 1, "Package 'demo' not found\n"),
+        (["run", "demo_nodes_py", "shout"], 1, "No executable found\n"),
+        (["launch", "nowhere.py"], 1, "there is no launch file nowhere.py"),
+        (["launch", "my_package"], 1, "say which launch file of my_package"),
+        (
+            ["launch", "my_package", "nowhere.py"],
+            1,
+            "file 'nowhere.py' was not found in the share directory of package 'my_package' which is at '",
+        ),
+        (["launch", "demo", "my_launch.py"], 1, "Package 'demo' not found: \"package 'demo' not found, searching: ['"),
+        (["launch", "my_launch.py", "word=x"], 1, "malformed launch argument 'word=x'"),
+        (["launch", "my_launch.py", "word:="], 1, "malformed launch argument 'word:='"),
+    ],
+)
+def test_what_is_wrong_is_told_in_one_line(
+    tmp_path: Path, env: dict[str, str], words: list[str], code: int, message: str
+) -> None:
+    (tmp_path / "my_launch.py").write_text(LAUNCH_FILE)
+    ran = ros2(*words, env=env, cwd=tmp_path)
+    assert ran.returncode == code
+    assert message in ran.stderr
+    assert ran.stderr.count("\n") == 1
+    assert not list((tmp_path / "log").rglob("ros2-overlay*"))
+
+
+@pytest.mark.parametrize(
+    ("words", "asked"),
+    [
+        (["run", "demo_nodes_py", "taker"], "No executable found (is it talker?)"),
+        (["run", "demo_node_py", "talker"], "Package 'demo_node_py' not found (is it demo_nodes_py"),
+        (["launch", "demo_nodes_cpp", "talker_listener.py"], "(is it talker_listener_launch"),
+    ],
+)
+def test_a_name_that_is_nearly_right_is_told_what_is_there(
+    tmp_path: Path, env: dict[str, str], words: list[str], asked: str
+) -> None:
+    ran = ros2(*words, env=env, cwd=tmp_path)
+    assert (ran.returncode, ran.stderr.count("\n")) == (1, 1)
+    assert asked in ran.stderr
+
+
+@pytest.mark.parametrize("code", [0, 3, -9])
+def test_run_tells_how_a_program_has_failed(tmp_path: Path, env: dict[str, str], code: int) -> None:
+    module = tmp_path / "ws/src/birds/birds/sing.py"
+    module.parent.mkdir(parents=True)
+    (module.parent / "__init__.py").touch()
+    module.write_text(f"import os, sys\ndef main():\n    os.kill(os.getpid(), {max(-code, 0)})\n    return {code}\n")
+    (module.parents[1] / "package.xml").write_text("<package><name>birds</name></package>")
+    (module.parents[1] / "setup.cfg").write_text(
+        "[options.entry_points]\nconsole_scripts =\n  sing = birds.sing:main\n"
+    )
+    ran = ros2("run", "--prefix", "env A=b", "birds", "sing", env=env, cwd=tmp_path / "ws")
+    says = {0: "", 3: "[ros2run]: Process exited with failure 3\n", -9: "[ros2run]: Killed\n"}
+    assert (ran.stdout, ran.stderr, ran.returncode) == (says[code], "", code % 256)
+
+
+SHOWS = """
+import os
+from launch import LaunchDescription
+from launch.actions import EmitEvent, ExecuteProcess, LogInfo, RegisterEventHandler
+from launch.event_handlers import OnProcessExit
+from launch.events import Shutdown
+from launch_ros.actions import Node
+from my_package.settings import TOPIC
+
+
+def generate_launch_description():
+    said = ExecuteProcess(cmd=["printenv", "PYTHONUNBUFFERED", "A"], output="log", cwd="/")
+    return LaunchDescription([
+        LogInfo(msg=TOPIC), Node(package="my_package", executable="x"), said,
+        RegisterEventHandler(OnProcessExit(target_action=said, on_exit=[EmitEvent(event=Shutdown())])),
+    ])
+"""
+
+
+def test_what_a_launch_file_describes_is_shown_and_it_can_import_its_own_package(
+    tmp_path: Path, env: dict[str, str]
+) -> None:
+    (tmp_path / "my_launch.py").write_text(SHOWS)
+    (tmp_path / "settings.py").write_text("TOPIC = 'chatter'")
+    ran = ros2("launch", "-p", "my_launch.py", env=env, cwd=tmp_path)
+    assert [line.partition(" object at ")[0] for line in ran.stdout.splitlines()] == [
+        "<launch.launch_description.LaunchDescription",
+        "├── LogInfo('chatter')",
+        "├── ExecuteProcess(cmd=[ExecInPkg(pkg='my_package', exec='x'), '--ros-args'], cwd=None, env=None, "
+        "shell=False)",
+        "├── ExecuteProcess(cmd=['printenv', 'PYTHONUNBUFFERED', 'A'], cwd=''/'', env=None, shell=False)",
+        "└── RegisterEventHandler('<launch.event_handlers.on_process_exit.OnProcessExit",
+        "    └── OnProcessExit(matcher='event == ProcessExited and ExecuteLocal(event.action)', handler='<actions>', "
+        "handle_once=False)",
+        "        └── EmitEvent(event='launch.events.Shutdown')",
+    ]
+    assert (ran.stderr, ran.returncode) == ("", 0)
+
+
+@pytest.mark.parametrize(("value", "shown"), [("1", ["1", "b"]), ("ros-tutor", ["b"])])
+def test_output_is_held_back_unless_a_check_wants_it_otherwise(
+    tmp_path: Path, env: dict[str, str], value: str, shown: list[str]
+) -> None:
+    text = SHOWS.replace("from my_package.settings import TOPIC", "TOPIC = ''")
+    (tmp_path / "my_launch.py").write_text(text.replace('Node(package="my_package", executable="x"), ', ""))
+    words = ["launch", "-a", "--launch-prefix", "env A=b", "my_launch.py"]
+    ran = ros2(*words, env={**env, "PYTHONUNBUFFERED": value}, cwd=tmp_path)
+    assert [line.removeprefix("[env-1] ") for line in ran.stdout.splitlines() if line.startswith("[env-1]")] == shown
+
+
+def test_a_launch_file_by_its_path_takes_arguments(tmp_path: Path, env: dict[str, str]) -> None:
+    (tmp_path / "my_launch.py").write_text(LAUNCH_FILE)
+    ran = ros2("launch", "my_launch.py", "word:=one", "word:=two", env=env, cwd=tmp_path)
+    assert ran.returncode == 0, ran.stderr
+    assert "[echo-1] said two" in ran.stdout + ran.stderr
+    assert not list((tmp_path / "log").rglob("ros2-overlay*"))
+
+
+def test_a_launch_file_of_a_package_is_found(tmp_path: Path, env: dict[str, str]) -> None:
+    package = tmp_path / "ws/src/talks"
+    (package / "launch").mkdir(parents=True)
+    (package / "package.xml").write_text("<package><name>talks</name></package>")
+    (package / "launch/say_launch.py").write_text(LAUNCH_FILE)
+    ran = ros2("launch", "talks", "say_launch.py", env=env, cwd=tmp_path)
+    assert ran.returncode == 0, ran.stderr
+    assert "[echo-1] said nothing" in ran.stdout + ran.stderr
+
+
+@pytest.mark.parametrize("option", ["-s", "--show-args"])
+def test_the_arguments_are_shown(tmp_path: Path, env: dict[str, str], option: str) -> None:
+    (tmp_path / "my_launch.py").write_text(LAUNCH_FILE)
+    ran = ros2("launch", option, "my_launch.py", env=env, cwd=tmp_path)
+    assert ran.returncode == 0
+    assert "'word':" in ran.stdout
+    assert "What to say" in ran.stdout
+    assert "said" not in ran.stdout
+
+
+@pytest.mark.parametrize(
+    ("package", "first"),
+    [("demo_nodes_py", 'Publishing: "Hello World: 0"'), ("demo_nodes_cpp", "Publishing: 'Hello World: 1'")],
+)
+def test_a_talker_is_heard_under_another_name(tmp_path: Path, env: dict[str, str], package: str, first: str) -> None:
+    names = ("--ros-args", "-r", "chatter:=news", "-r", "__ns:=/robot1")
+    with (
+        started("run", package, "listener", *names, env=env, cwd=tmp_path) as listener,
+        started("run", package, "talker", *names, env=env, cwd=tmp_path) as talker,
+    ):
+        assert "[robot1.talker]" in until(talker, first)
+        assert "[robot1.listener]" in until(listener, "I heard: [Hello World: ")
+        for process in (talker, listener):
+            os.killpg(process.pid, signal.SIGINT)
+            assert process.wait(LIMIT_S) == 0
+    assert not list((tmp_path / "log").rglob("ros2-overlay*"))
+
+
+def test_an_exit_code_is_passed_on(tmp_path: Path, env: dict[str, str]) -> None:
+    package = tmp_path / "ws/src/ends"
+    (package / "ends").mkdir(parents=True)
+    (package / "package.xml").write_text("<package><name>ends</name></package>")
+    (package / "setup.py").write_text("setup(entry_points={'console_scripts': ['five = ends.five:main']})")
+    (package / "ends/__init__.py").touch()
+    (package / "ends/five.py").write_text("import sys\ndef main():\n    print(sys.argv[1:])\n    return 5\n")
+    ran = ros2("run", "ends", "five", "--ros-args", "-s", env=env, cwd=tmp_path)
+    assert (ran.returncode, ran.stdout) == (5, "['--ros-args', '-s']\n[ros2run]: Process exited with failure 5\n")
+
+
+def test_ctrl_c_ends_the_whole_launch(tmp_path: Path, env: dict[str, str]) -> None:
+    solution = Path(__file__).parents[2] / "lessons/i2_2/solution/my_launch.py"
+    with started("launch", str(solution), "topic:=news", env=env, cwd=tmp_path) as process:
+        until(process, "[minimal_subscriber]: I heard")
+        os.killpg(process.pid, signal.SIGINT)
+        assert process.wait(LIMIT_S) == 0
+        with pytest.raises(ProcessLookupError):
+            os.killpg(process.pid, 0)
+
+
+def test_the_tutors_own_command_becomes_it(tmp_path: Path, env: dict[str, str]) -> None:
+    command = [sys.executable, "-P", "-c", "import sys, tutor.cli; sys.exit(tutor.cli.main())", "ros2"]
+
+    def tutor(*words: str) -> subprocess.CompletedProcess[str]:
+        return subprocess.run(
+            [*command, *words], env=env, cwd=tmp_path, capture_output=True, text=True, timeout=LIMIT_S, check=False
+        )
+
+    (tmp_path / "my_launch.py").write_text(LAUNCH_FILE)
+    assert "said here" in (ran := tutor("launch", "my_launch.py", "word:=here")).stdout + ran.stderr
+    assert "'word':" in tutor("launch", "my_launch.py", "--show-args").stdout
+    assert tutor("topik").returncode == 2
+    assert tutor().stdout.startswith("usage: ros2")

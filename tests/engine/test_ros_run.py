@@ -1,0 +1,357 @@
+"""What can be done to a live node, and what is seen of it."""
+
+from __future__ import annotations
+
+import asyncio
+import time
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+import pytest
+
+from tests.engine.made import FILE, PUBLISHES, WAITS, Scene, node
+from tutor.engine.errors import EngineError
+from tutor.judge import tracebacks
+from tutor.judge.bench import Run
+from tutor.judge.causes import diagnose_process
+from tutor.judge.exceptions import parse
+
+CHATTER = {"/chatter": "std_msgs/msg/String"}
+ADD = "example_interfaces/srv/AddTwoInts"
+UP_S = 20.0
+"""A node on a busy machine may take this long to be seen."""
+
+SERVES = """
+def add(request, response):
+    response.sum = request.a + request.b
+    return response
+
+def stuck(request, response):
+    while True:
+        time.sleep(0.01)
+
+node.create_service(AddTwoInts, "add", add)
+node.create_service(AddTwoInts, "stuck", stuck)
+"""
+DECLARES = """
+from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor, SetParametersResult
+
+positive = FloatingPointRange(from_value=0.5, to_value=9.0)
+node.declare_parameter("rate", 1.0, ParameterDescriptor(floating_point_range=[positive]))
+node.declare_parameter("name", "thermometer")
+node.declare_parameter("count", 3)
+node.declare_parameter("loud", True)
+node.declare_parameter("fixed", 1, ParameterDescriptor(read_only=True))
+node.declare_parameter("unset", rclpy.Parameter.Type.STRING)
+
+def judge(parameters):
+    bad = any(p.name == "count" and p.value < 0 for p in parameters)
+    return SetParametersResult(successful=not bad, reason="count must not be negative" if bad else "")
+
+node.add_on_set_parameters_callback(judge)
+"""
+
+
+# Tells of each Ctrl+C, and ends at the first one a moment later: a second one would be told, too.
+COUNTS = """
+import signal, sys, threading
+def count(*_):
+    print("interrupted", flush=True)
+    threading.Timer(0.5, over.set).start()
+over = threading.Event()
+signal.signal(signal.SIGINT, count)
+print("up", flush=True)
+while not over.wait(0.05):
+    pass
+"""
+LAUNCHES = """
+import sys
+from launch import LaunchDescription
+from launch.actions import ExecuteProcess
+def generate_launch_description():
+    return LaunchDescription([ExecuteProcess(cmd=[sys.executable, "counts.py"], output="screen")])
+"""
+
+
+async def publishing(run: Run, topic: str = "/chatter") -> None:
+    assert await run.until(lambda: bool(run.samples_on(topic)), UP_S), run.trace()
+
+
+async def there(run: Run, service: str) -> None:
+    assert await run.until(lambda: any(s.name == service for s in run.graph.services), UP_S), run.trace()
+
+
+async def test_a_node_is_watched_from_its_first_message_to_its_end(scene: Scene) -> None:
+    source = node(
+        PUBLISHES,
+        "node.get_logger().warning('hot')",
+        "print('printed')",
+        "node.create_subscription(Float64, 'in', print, 10)",
+    )
+    async with scene.bench(source).start(FILE, watch=CHATTER, parameters={"a": 1, "b": True, "c": "x"}) as run:
+        await publishing(run)
+        assert await run.until(lambda: bool(run.logs) and bool(run.output), UP_S)
+        echo = await run.echo("/chatter", samples=2, limit_s=10)
+        nothing = await run.echo("/nothing", samples=1, limit_s=0.2)
+        before = run.trace()
+        ending = await run.interrupt()
+        after = run.trace()
+    sample = before.samples_on("/chatter")[0]
+    assert sample.message == {"data": "learner"}
+    assert before.started_at <= sample.source_time <= sample.received_at + 0.05 <= time.time() + 0.05
+    (log,) = before.logs
+    assert (log.text, log.level, log.name) == ("hot", 30, "learner")
+    assert before.started_at <= log.stamp <= log.received_at + 0.05
+    assert "printed" in [line.text for line in before.output if line.stream == "stdout"]
+    assert before.graph.nodes == ("/learner",)
+    assert [(p.topic, p.type, p.node, p.reliability) for p in before.graph.publishers] == [
+        ("/chatter", CHATTER["/chatter"], "/learner", "reliable")
+    ]
+    assert [(s.topic, s.node) for s in before.graph.subscriptions] == [("/in", "/learner")]
+    assert before.parameters == {"a": 1, "b": True, "c": "x"}
+    assert before.exit is None
+    assert (echo.types, echo.reliability, echo.durability) == ((CHATTER["/chatter"],), "reliable", "volatile")
+    assert [each.message for each in echo.samples[:2]] == [{"data": "learner"}] * 2
+    assert (nothing.types, nothing.samples) == ((), ())
+    assert ending.exit is not None
+    assert (ending.exit.code, ending.exit.signal) == (0, None)
+    assert 0 < ending.took_s < 5
+    assert after.exit == ending.exit
+    assert after.graph.nodes == ("/learner",), "the last that was seen of it"
+
+
+async def test_parameters_are_read_and_set(scene: Scene) -> None:
+    async with scene.bench(node(DECLARES)).start(FILE, parameters={"name": "mine"}) as run:
+        await there(run, "/learner/set_parameters_atomically")
+        declared = await run.parameters(10)
+        assert declared is not None
+        mine = {p.name: p for p in declared if p.name in ("rate", "name", "count", "loud", "fixed", "unset")}
+        assert {name: (p.type, p.value) for name, p in mine.items()} == {
+            "rate": ("double", 1.0),
+            "name": ("string", "mine"),
+            "count": ("integer", 3),
+            "loud": ("boolean", True),
+            "fixed": ("integer", 1),
+            "unset": ("string", None),
+        }
+        assert (mine["rate"].minimum, mine["rate"].maximum, mine["name"].minimum) == (0.5, 9.0, None)
+        assert [p.name for p in mine.values() if p.read_only] == ["fixed"]
+        assert {p.node for p in mine.values()} == {"/learner"}
+
+        good = await run.set_parameters("/learner", {"rate": 2.0, "loud": False, "name": "other"})
+        assert (good.answered, good.successful, good.reason) == (True, True, "")
+        assert run.started_at < good.asked_at <= good.answered_at
+        bad = await run.set_parameters("/learner", {"count": -1})
+        assert (bad.answered, bad.successful, bad.reason) == (True, False, "count must not be negative")
+        wrong_type = await run.set_parameters("/learner", {"rate": 2})
+        assert (wrong_type.answered, wrong_type.successful) == (True, False)
+        half = await run.set_parameters("/learner", {"name": "half", "count": -1})
+        assert not half.successful
+        whole = await run.set_parameters("/learner", {"name": "whole", "count": -1}, atomic=True)
+        assert (whole.successful, whole.reason) == (False, "count must not be negative")
+        held = {p.name: p.value for p in await run.parameters(10) or ()}
+        assert (held["rate"], held["loud"], held["name"], held["count"]) == (2.0, False, "half", 3)
+        nobody = await run.set_parameters("/nobody", {"rate": 2.0}, limit_s=0.2)
+        assert (nobody.answered, nobody.successful) == (False, False)
+
+
+async def test_of_two_nodes_the_one_that_answers_is_heard(scene: Scene) -> None:
+    source = node("node.declare_parameter('rate', 1.0)", "other = Node('deaf')  # nobody spins it")
+    async with scene.bench(source).start(FILE) as run:
+        await there(run, "/learner/list_parameters")
+        await there(run, "/deaf/list_parameters")
+        declared = await run.parameters(1.0)
+    assert declared is not None
+    assert {p.node for p in declared} == {"/learner"}
+    assert "rate" in {p.name for p in declared}
+
+
+async def test_a_node_that_never_answers(scene: Scene) -> None:
+    async with scene.bench(node("while True: time.sleep(1)")).start(FILE) as run:
+        await there(run, "/learner/list_parameters")
+        assert await run.parameters(0.3) is None
+        assert not (await run.set_parameters("/learner", {"rate": 2.0}, limit_s=0.3)).answered
+
+
+async def test_services_are_called_and_a_stuck_one_is_located(scene: Scene) -> None:
+    async with scene.bench(node(SERVES)).start(FILE) as run:
+        await there(run, "/stuck")
+        answer = await run.call("/add", ADD, {"a": 2, "b": -5}, limit_s=10)
+        assert (answer.response, answer.request) == ({"sum": -3}, {"a": 2, "b": -5})
+        assert 0 < answer.took_s < 10
+        assert (await run.call("/nothing", ADD, {"a": 1, "b": 1}, limit_s=0.2)).response is None
+        assert (await run.call("/stuck", ADD, {"a": 1, "b": 1}, limit_s=0.5)).response is None
+        folder = run.trace().folder
+        frame = tracebacks.own_frame(await run.dump_stacks(), folder)
+        assert frame is not None
+        assert (frame.function, frame.path.rpartition("/")[2]) == ("stuck", FILE)
+        assert "while True" in frame.code or "sleep" in frame.code
+        assert run.exit is not None
+        assert await run.dump_stacks() == ()
+
+
+async def test_an_answer_is_not_waited_for_when_the_node_is_gone(scene: Scene) -> None:
+    source = node("import os", "node.create_service(AddTwoInts, 'die', lambda request, response: os._exit(3))")
+    async with scene.bench(source).start(FILE) as run:
+        await there(run, "/die")
+        asked = time.monotonic()
+        answer = await run.call("/die", ADD, {"a": 1, "b": 1}, limit_s=60)
+        assert answer.response is None
+        assert time.monotonic() - asked < 20
+        assert run.exit is not None
+        assert run.exit.code == 3
+        assert not await run.until(lambda: False, 60)
+        assert time.monotonic() - asked < 25
+
+
+CALLS = """
+client = node.create_client(AddTwoInts, "add")
+assert client.wait_for_service(20)
+future = client.call_async(AddTwoInts.Request(a=4, b=5))
+rclpy.spin_until_future_complete(node, future, timeout_sec=20)
+print("sum", future.result().sum)
+sys.exit(0)
+"""
+
+
+async def test_our_servers_answer_a_client_and_remember_it(scene: Scene) -> None:
+    def add(request: Mapping[str, Any]) -> Mapping[str, Any]:
+        return {"sum": request["a"] + request["b"]}
+
+    async with scene.bench(node(CALLS)).start(FILE) as run:
+        run.serve("/add", ADD, add)
+        assert await run.until(lambda: run.exit is not None, UP_S)
+        trace, served = run.trace(), tuple(run.served)
+    assert [line.text for line in trace.output if line.stream == "stdout"] == ["sum 9"]
+    assert [(s.service, s.request, s.response) for s in served] == [("/add", {"a": 4, "b": 5}, {"sum": 9})]
+    assert trace.graph.services == () or all(s.node == "/learner" for s in trace.graph.services)
+
+
+async def test_a_server_of_ours_that_breaks_is_our_fault(scene: Scene) -> None:
+    def broken(request: Mapping[str, Any]) -> Mapping[str, Any]:
+        raise ZeroDivisionError("ours")
+
+    async with scene.bench(node(CALLS)).start(FILE) as run:
+        run.serve("/add", ADD, broken)
+        with pytest.raises(EngineError, match="ours"):
+            await run.until(lambda: run.exit is not None, UP_S)
+
+
+async def test_a_process_that_ignores_ctrl_c_is_still_there_and_then_gone(scene: Scene) -> None:
+    source = "import signal, time\nsignal.signal(2, signal.SIG_IGN)\nprint('up', flush=True)\ntime.sleep(1000)"
+    async with scene.bench(source).start(FILE) as run:
+        assert await run.until(lambda: bool(run.output), UP_S)
+        ending = await run.interrupt(0.3)
+        assert (ending.exit, ending.limit_s) == (None, 0.3)
+        assert scene.left()
+    assert not scene.left()
+
+
+async def test_two_runs_at_once_never_see_each_other(scene: Scene) -> None:
+    bench = scene.bench(node(PUBLISHES.replace("node.get_name()", "sys.argv[-1]")))
+    async with (
+        bench.start(FILE, watch=CHATTER, parameters={"me": 1}) as one,
+        bench.start(FILE, watch=CHATTER, parameters={"me": 2}) as two,
+    ):
+        await asyncio.gather(publishing(one), publishing(two))
+        seen = [len(one.samples_on("/chatter")), len(two.samples_on("/chatter"))]
+        assert await one.until(lambda: len(one.samples_on("/chatter")) >= seen[0] + 10, UP_S)
+        assert await two.until(lambda: len(two.samples_on("/chatter")) >= seen[1] + 10, UP_S)
+        for run, me in ((one, "me:=1"), (two, "me:=2")):
+            assert {sample.message["data"] for sample in run.samples_on("/chatter")} == {me}
+            assert run.graph.nodes == ("/learner",)
+
+
+FLOODS = """
+publisher = node.create_publisher(String, "chatter", 10)
+def flood():
+    while rclpy.ok():
+        publisher.publish(String(data="x" * 100))
+        print("y" * 100)
+        node.get_logger().info("z")
+threading.Thread(target=flood, daemon=True).start()
+"""
+
+
+async def test_a_flood_neither_hangs_nor_grows_without_bound(scene: Scene, monkeypatch: pytest.MonkeyPatch) -> None:
+    from tutor.ros import observer
+
+    most = 500
+    monkeypatch.setattr(observer, "MOST_SAMPLES", most)
+    async with scene.bench(node(FLOODS)).start(FILE, watch=CHATTER) as run:
+        assert await run.until(lambda: len(run.samples_on("/chatter")) >= most and len(run.logs) >= most, UP_S)
+        assert await run.until(lambda: run.trace().dropped_lines > 3000, UP_S)
+        # What has been sent already may come in still, and is not kept either.
+        declared = await run.parameters(10)
+        ending = await run.interrupt()
+        trace = run.trace()
+    assert declared is not None
+    assert ending.exit is not None
+    assert len(trace.samples_on("/chatter")) == most
+    assert len(trace.logs) == most
+    assert len(trace.output) <= 2002
+
+
+BIG = """
+publisher = node.create_publisher(String, "chatter", 10)
+node.declare_parameter("name", "x" * 100_000)
+def big():
+    publisher.publish(String(data="x" * 1_000_000))
+    node.get_logger().info("y" * 1_000_000)
+node.create_timer(0.02, big)
+"""
+
+
+async def test_big_messages_are_cut_and_no_more_is_taken_than_can_be_kept(
+    scene: Scene, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from tutor.ros import messages, observer
+
+    monkeypatch.setattr(observer, "MOST_BYTES", 1_000_000)
+    async with scene.bench(node(BIG)).start(FILE, watch=CHATTER) as run:
+        assert await run.until(lambda: len(run.samples_on("/chatter")) >= 5 and len(run.logs) >= 6, UP_S)
+        declared = await run.parameters(10)
+        trace = run.trace()
+    assert {len(sample.message["data"]) for sample in trace.samples_on("/chatter")} == {messages.MOST_CHARACTERS}
+    assert max(len(log.text) for log in trace.logs) == observer.LINE_CHARACTERS
+    assert len(trace.samples_on("/chatter")) <= 10
+    assert len(trace.logs) <= 10
+    assert [len(p.value) for p in declared or () if p.name == "name"] == [messages.MOST_CHARACTERS]
+
+
+async def test_ctrl_c_reaches_what_a_launch_started_once(scene: Scene) -> None:
+    (scene.folder / "counts.py").write_text(COUNTS)
+    async with scene.bench(LAUNCHES).launch(FILE) as run:
+        assert await run.until(lambda: any(line.text.endswith("] up") for line in run.output), UP_S), run.output
+        ending = await run.interrupt()
+        assert ending.exit is not None, run.output
+        assert sum(line.text.endswith("] interrupted") for line in run.output) == 1, run.output
+
+
+async def test_of_those_that_wait_the_one_that_asks_for_longer_starts_first(scene: Scene) -> None:
+    from tutor.engine.admission import Admission
+
+    began: list[float] = []
+    bench = replace(scene.bench(WAITS), admission=Admission(slots=1), expected_s=2.0)
+
+    async def start(expected_s: float | None) -> None:
+        async with bench.start(FILE, expected_s=expected_s):
+            began.append(bench.expected_s if expected_s is None else expected_s)
+
+    async with bench.admission.start(0.0) as up:
+        waiting = [asyncio.create_task(start(expected_s)) for expected_s in (0.5, None, 7.0)]
+        await asyncio.sleep(0)  # all three ask for their turn
+        up()
+        await asyncio.gather(*waiting)
+    assert began == [7.0, 2.0, 0.5]
+
+
+async def test_the_known_exceptions_of_a_check_reach_its_judges(scene: Scene) -> None:
+    known = parse('[[known]]\ntype = "ValueError"\nsays = "x"\nstep = "in line {number}: our own words"')
+    bench = replace(scene.bench("raise ValueError('no')"), exceptions=known)
+    async with bench.start(FILE) as run:
+        await run.wait_for_exit(UP_S)
+        cause = diagnose_process(run.trace())
+    assert cause is not None
+    assert cause.hint == "in line 1: our own words"

@@ -1,0 +1,115 @@
+"""The step for a process that does not end well on Ctrl+C fits the lines that the learner's file has."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from tests.checks.made import FOLDER, trace
+from tutor.judge import shutdown_steps
+from tutor.judge.trace import Trace
+from tutor.judge.tracebacks import Frame
+
+
+def node(source: str) -> Trace:
+    return replace(trace(), sources={"node.py": source})
+
+
+BOTH = "except (KeyboardInterrupt, ExternalShutdownException):"
+IMPORT = "at the top of the file: from rclpy.executors import ExternalShutdownException"
+MAIN = """\
+import rclpy
+from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
+
+
+class Talker(Node):
+    pass
+
+
+def main():
+    rclpy.init()
+    node = Talker("talker")
+    try:
+        rclpy.spin(node)
+    except (KeyboardInterrupt, ExternalShutdownException):
+        pass
+    finally:
+        rclpy.try_shutdown()
+
+
+main()
+"""
+
+
+def changed(*pairs: tuple[str, str]) -> Trace:
+    code = MAIN
+    for old, new in pairs:
+        assert old in code
+        code = code.replace(old, new)
+    return node(code)
+
+
+@pytest.mark.parametrize(
+    ("pairs", "steps"),
+    [
+        ((("rclpy.try_shutdown", "rclpy.shutdown"),), ("line 18 becomes: rclpy.try_shutdown()",)),
+        (
+            ((BOTH, "except KeyboardInterrupt:"), ("from rclpy.executors import ExternalShutdownException\n", "")),
+            (f"line 14 becomes: {BOTH}", IMPORT),
+        ),
+        (((BOTH, "except ExternalShutdownException as end:"),), (f"line 15 becomes: {BOTH[:-1]} as end:",)),
+        (
+            (
+                (
+                    "    try:\n        rclpy.spin(node)\n    " + BOTH + "\n        pass\n    finally:\n        ",
+                    "    rclpy.spin(node)\n    ",
+                ),
+            ),
+            (f"line 13 becomes:\n    try:\n        rclpy.spin(node)\n    {BOTH}\n        pass",),
+        ),
+        (((BOTH, "except ValueError:"),), (BOTH,)),
+    ],
+)
+def test_catching_what_ends_a_spin(pairs: tuple[tuple[str, str], ...], steps: tuple[str, ...]) -> None:
+    told = shutdown_steps.catch_interrupt(changed(*pairs))
+    assert all(each in told for each in steps)
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("        rclpy.try_shutdown()\n", "        rclpy.try_shutdown()\n        time.sleep(9)\n"),
+        ("        pass\n    finally", "        os.abort()\n    finally"),
+        ("        rclpy.try_shutdown()\n", "        rclpy.try_shutdown()\n    sys.exit(3)\n"),
+        ("    try:\n", "    signal.signal(signal.SIGINT, signal.SIG_IGN)\n    try:\n"),
+        ("    try:\n", "    Thread(target=watch).start()\n    try:\n"),
+        ("        rclpy.spin(node)\n", "        while True:\n            rclpy.spin_once(node)\n"),
+    ],
+)
+def test_the_program_as_a_whole(old: str, new: str) -> None:
+    told = shutdown_steps.allow_interrupt(changed((old, new)))
+    assert told.endswith(
+        f"    try:\n        rclpy.spin(node)\n    {BOTH}\n        pass\n    finally:\n        rclpy.try_shutdown()"
+    )
+    assert not any(each in told for each in ("sleep", "abort", "exit", "signal", "Thread", "while"))
+
+
+def test_what_is_beside_the_program() -> None:
+    kept = changed(("    pass\n\n\ndef", "    def __init__(self):\n        Thread(target=self.watch).start()\n\n\ndef"))
+    assert "line 8 becomes: Thread(target=self.watch, daemon=True).start()" in shutdown_steps.allow_interrupt(kept)
+
+
+def test_a_right_program_is_not_written_again() -> None:
+    assert shutdown_steps.allow_interrupt(node(MAIN)).startswith("let KeyboardInterrupt end the program")
+    assert shutdown_steps.exit_with_zero(node("def broken(")).startswith("return normally")
+
+
+def test_leaving_out_what_raises() -> None:
+    broken = Frame(f"{FOLDER}/node.py", 7, "slow_add", "raise RuntimeError('interrupted')")
+    raising = changed(
+        ("    pass\n\n\ndef", "    def slow_add(self):\n        raise RuntimeError('interrupted')\n\n\ndef")
+    )
+    assert shutdown_steps.remove_line(raising, replace(broken, line=8)) == "line 8 becomes: return"
+    assert "stop before that" in shutdown_steps.remove_line(node(MAIN), None)

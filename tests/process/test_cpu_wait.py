@@ -1,0 +1,72 @@
+import os
+import subprocess
+import sys
+import time
+
+from tutor.process import CpuMeter, own_cpu_time
+
+BUSY = "while True: pass"
+
+
+def test_a_busy_process_is_seen_to_run_and_what_it_had_is_kept_when_it_has_ended() -> None:
+    with subprocess.Popen([sys.executable, "-c", BUSY], start_new_session=True) as process:
+        meter = CpuMeter(process.pid)
+        try:
+            deadline = time.monotonic() + 30
+            while meter.read().ran_s < 0.2 and time.monotonic() < deadline:
+                time.sleep(0.01)
+            had = meter.read()
+            assert had.ran_s >= 0.2
+        finally:
+            process.kill()
+    after = meter.read()
+    assert after.ran_s >= had.ran_s
+    assert after.waited_s >= had.waited_s
+    assert CpuMeter(process.pid).read().ran_s == 0.0
+
+
+def test_two_on_one_cpu_wait_for_each_other() -> None:
+    cpu = min(os.sched_getaffinity(0))
+    code = f"import os; os.sched_setaffinity(0, {{{cpu}}})\n{BUSY}"
+    both = [subprocess.Popen([sys.executable, "-c", code], start_new_session=True) for _ in range(2)]
+    try:
+        meters = [CpuMeter(each.pid) for each in both]
+        deadline = time.monotonic() + 30
+        while min(meter.read().waited_s for meter in meters) < 0.2 and time.monotonic() < deadline:
+            time.sleep(0.01)
+        assert min(meter.read().waited_s for meter in meters) >= 0.2
+    finally:
+        for each in both:
+            each.kill()
+            each.wait()
+
+
+def test_a_main_thread_that_sleeps_is_not_kept_waiting() -> None:
+    cpu = min(os.sched_getaffinity(0))
+    pinned = f"import os, threading, time; os.sched_setaffinity(0, {{{cpu}}})\n"
+    rest = (
+        f"threading.Thread(target=exec, args=({BUSY!r},), daemon=True).start()\n"
+        "print('up', flush=True)\ntime.sleep(1000)"
+    )
+    both = [
+        subprocess.Popen([sys.executable, "-c", pinned + code], start_new_session=True, stdout=subprocess.PIPE)
+        for code in (BUSY, rest)
+    ]
+    try:
+        assert both[1].stdout is not None
+        assert both[1].stdout.readline() == b"up\n"
+        meter, deadline = CpuMeter(both[1].pid), time.monotonic() + 30
+        before = meter.read()
+        while meter.read().waited_s < before.main_waited_s + 1.0 and time.monotonic() < deadline:
+            time.sleep(0.01)
+        had = meter.read()
+        assert had.waited_s >= before.main_waited_s + 1.0
+        assert had.main_waited_s < before.main_waited_s + 0.5
+    finally:
+        for each in both:
+            each.kill()
+            each.communicate()
+
+
+def test_our_own_process_has_run() -> None:
+    assert own_cpu_time().ran_s > 0.0

@@ -1,0 +1,11 @@
+"""`python -m tutor.bundled_ros.ros2`."""
+
+import signal
+import sys
+
+try:
+    from tutor.bundled_ros.ros2.command import main
+
+    sys.exit(main(sys.argv[1:]))
+except KeyboardInterrupt:  # while it was being imported
+    sys.exit(int(signal.SIGINT))

@@ -1,0 +1,33 @@
+"""Actions by name, and what Tab offers for them."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+
+from tutor.bundled_ros.ros2.domain import Domain, join_domain
+from tutor.bundled_ros.ros2.interfaces import types_by_package
+
+
+def actions(domain: Domain) -> list[tuple[str, Sequence[str]]]:
+    """All actions that are seen, with their types."""
+    from rclpy.action.graph import get_action_names_and_types
+
+    return list(get_action_names_and_types(domain.node))
+
+
+def action_names(parsed_args: argparse.Namespace, **_: object) -> list[str]:
+    """The actions that Tab offers."""
+    with join_domain(parsed_args) as domain:
+        domain.complete()
+        return [name for name, _ in actions(domain)]
+
+
+def action_types(parsed_args: argparse.Namespace, **_: object) -> list[str]:
+    """The types that Tab offers: those of the action that was named, else all."""
+    if name := getattr(parsed_args, "action_name", None):
+        with join_domain(parsed_args) as domain:
+            if types := domain.find(lambda: dict(actions(domain)).get(name)):
+                return list(types)
+    every = types_by_package().items()
+    return [f"{package}/{name}" for package, names in every for name in names if name.startswith("action/")]

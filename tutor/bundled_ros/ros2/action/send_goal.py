@@ -1,0 +1,65 @@
+"""`ros2 action send_goal`. The wheels on PyPI have no action type, so that it is proved for wrong input only."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from typing import Any
+
+from tutor.bundled_ros.ros2.action.names import action_names, action_types
+from tutor.bundled_ros.ros2.calling import wait_for_answer, wait_until
+from tutor.bundled_ros.ros2.domain import join_domain
+from tutor.bundled_ros.ros2.errors import CommandError
+from tutor.bundled_ros.ros2.interfaces import UnknownInterface, find_interface
+from tutor.bundled_ros.ros2.message_values import message_from_yaml
+from tutor.bundled_ros.ros2.parsing import complete_with
+from tutor.ros.yaml_format import to_yaml
+
+STATUS = ("UNKNOWN", "ACCEPTED", "EXECUTING", "CANCELING", "SUCCEEDED", "CANCELED", "ABORTED")
+"""The names of action_msgs/msg/GoalStatus, by number."""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """[--stdin] [-f] ACTION TYPE [GOAL]."""
+    complete_with(parser.add_argument("action_name", help="the action, such as /fibonacci"), action_names)
+    complete_with(parser.add_argument("action_type", help="its type"), action_types)
+    group = parser.add_mutually_exclusive_group()
+    group.add_argument("goal", nargs="?", default="{}", help="the goal as YAML, such as '{order: 10}'")
+    group.add_argument("--stdin", action="store_true", help="read the goal from standard input")
+    parser.add_argument("-f", "--feedback", action="store_true", help="print the feedback as well")
+
+
+def main(arguments: argparse.Namespace) -> None:
+    """Send the goal and print what becomes of it; Ctrl+C cancels it. Raises CommandError."""
+    from rclpy.action.client import ActionClient
+
+    try:
+        action_class = find_interface(arguments.action_type, "action")
+    except UnknownInterface as error:
+        raise CommandError("The passed action type is invalid") from error
+    text = sys.stdin.read() if arguments.stdin else arguments.goal
+    goal = message_from_yaml(action_class.Goal, text, failed="Failed to populate message fields: {!r}")
+    with join_domain(arguments) as domain:
+        client = ActionClient(domain.node, action_class, arguments.action_name)
+        print("Waiting for an action server to become available...")
+        wait_until(client.server_is_ready)
+        print(f"Sending goal:\n     {to_yaml(goal)}")
+        handle = wait_for_answer(domain, client.send_goal_async(goal, _tell if arguments.feedback else None))
+        if not handle.accepted:
+            print("Goal was rejected.")
+            return
+        print(f"Goal accepted with ID: {bytes(handle.goal_id.uuid).hex()}\n")
+        try:
+            result = wait_for_answer(domain, handle.get_result_async())
+        except KeyboardInterrupt:
+            print("Canceling goal...")
+            if not wait_for_answer(domain, handle.cancel_goal_async()).goals_canceling:
+                raise CommandError("Failed to cancel goal") from None
+            print("Goal canceled.")
+            raise
+        print(f"Result:\n    {to_yaml(result.result)}")
+        print(f"Goal finished with status: {STATUS[result.status]}")
+
+
+def _tell(message: Any) -> None:
+    print(f"Feedback:\n    {to_yaml(message.feedback)}")

@@ -1,0 +1,128 @@
+"""`ros2 interface show`."""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from tutor.bundled_ros import packages
+from tutor.bundled_ros.ros2.errors import CommandError
+from tutor.bundled_ros.ros2.interface.kinds import type_names
+from tutor.bundled_ros.ros2.parsing import complete_with
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """[--all-comments | --no-comments] TYPE."""
+    group = parser.add_mutually_exclusive_group()
+    group.add_argument("--all-comments", action="store_true", help="the comments of nested types as well")
+    group.add_argument("--no-comments", action="store_true", help="neither comments nor empty lines")
+    complete_with(
+        parser.add_argument(
+            "type", action=_TypeOrStdin, help="the type, such as std_msgs/msg/String; - reads it from standard input"
+        ),
+        type_names,
+    )
+
+
+def main(arguments: argparse.Namespace) -> None:
+    """Print the definition, that of nested types set in below their field. Raises CommandError where there is none."""
+    _show(arguments.type, comments=not arguments.no_comments, nested_comments=arguments.all_comments, depth=0)
+
+
+def _show(name: str, *, comments: bool, nested_comments: bool, depth: int) -> None:
+    for text in _definition(name).splitlines():
+        line = _Line.of(name, text.rstrip())
+        shown = line.text if comments else line.without_comment()
+        if shown is not None:
+            print("\t" * depth + shown if shown else "")
+        if line.nested is not None:
+            _show(line.nested, comments=nested_comments, nested_comments=nested_comments, depth=depth + 1)
+
+
+@dataclass(frozen=True, slots=True)
+class _Line:
+    """A line of a definition, as rosidl's own parser reads it: by itself, so that it finds few kinds of comments."""
+
+    text: str
+    is_comment: bool = False
+    trailing_comment: str | None = None
+    nested: str | None = None
+
+    @classmethod
+    def of(cls, name: str, text: str) -> _Line:
+        """Raises CommandError where it is not one."""
+        from rosidl_adapter.parser import InvalidSpecification, parse_message_string
+
+        if text == "---":
+            return cls(text)
+        package, _, last = name.split("/")
+        try:
+            with contextlib.redirect_stderr(None):  # the parser prints there what it raises as well
+                read = parse_message_string(package, last, text)
+        except (InvalidSpecification, ValueError, TypeError) as error:
+            raise CommandError(f"{name} has a line that is not a field: {text}") from error
+        element = next(iter([*read.fields, *read.constants]), None)
+        comments = element.annotations.get("comment") if element is not None else None
+        nested = read.fields[0].type if read.fields and not read.fields[0].type.is_primitive_type() else None
+        return cls(
+            text,
+            is_comment=bool(read.annotations["comment"]),
+            trailing_comment=comments[0] if comments else None,
+            nested=f"{nested.pkg_name}/msg/{nested.type}" if nested is not None else None,
+        )
+
+    def without_comment(self) -> str | None:
+        """What is left of it where comments are left out; None where nothing is."""
+        if not self.text or self.is_comment:
+            return None
+        if self.trailing_comment is None:
+            return self.text
+        return self.text[: self.text.find(self.trailing_comment) - 1].strip()
+
+
+def _definition(name: str) -> str:
+    parts = name.split("/")
+    if len(parts) == 3 and not all(parts):
+        raise CommandError(f"Invalid name '{name}'. Must not contain empty parts")
+    if len(parts) != 3:
+        raise CommandError(f"Invalid name '{name}'. Expected three parts separated by '/'")
+    try:
+        share = packages.find_share(parts[0])
+    except packages.PackageNotFound as error:
+        raise CommandError(f"Unknown package '{parts[0]}'") from error
+    if not (share / parts[1] / f"{parts[2]}.{parts[1]}").is_file() and (found := _in_another_prefix(name)) is not None:
+        share = found
+    file = share / parts[1] / f"{parts[2]}.{parts[1]}"
+    try:
+        return file.read_text(encoding="utf-8")
+    except OSError as error:
+        raise CommandError(f"Could not find the interface '{file.with_suffix('.idl')}'") from error
+
+
+def _in_another_prefix(name: str) -> Path | None:
+    """The share folder that has this definition, where the first prefix with the package has only part of it."""
+    import os
+
+    package, kind, last = name.split("/")
+    for prefix in os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep):
+        share = Path(prefix) / "share" / package
+        if prefix and (share / kind / f"{last}.{kind}").is_file():
+            return share
+    return None
+
+
+class _TypeOrStdin(argparse.Action):
+    """Reads the type from standard input where it is given as `-`."""
+
+    def __call__(self, parser: argparse.ArgumentParser, namespace: argparse.Namespace, values: Any, *_: Any) -> None:
+        if values == "-":
+            if sys.stdin.isatty():
+                parser.error("expected stdin pipe")
+            values = sys.stdin.readline().strip()
+        if not values:
+            parser.error("the passed value is empty")
+        setattr(namespace, self.dest, values)

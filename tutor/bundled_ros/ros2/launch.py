@@ -1,0 +1,162 @@
+"""`ros2 launch`: runs a launch file, named by its path or by a package and its file name."""
+
+from __future__ import annotations
+
+import argparse
+import os
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from tutor.bundled_ros import packages
+from tutor.bundled_ros.ros2 import overlaying
+from tutor.bundled_ros.ros2.errors import CommandError
+from tutor.bundled_ros.ros2.parsing import complete_with
+from tutor.bundled_ros.ros2.pkg.names import all_packages
+
+_LAUNCH_FILES = ("launch.py", "launch.xml", "launch.yaml", "launch.yml", ".launch")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """PACKAGE FILE [NAME:=VALUE ...], or PATH [NAME:=VALUE ...]."""
+    parser.add_argument(
+        "-n", "--noninteractive", action="store_true", help="no terminal is there that passes Ctrl+C on to the nodes"
+    )
+    parser.add_argument("-d", "--debug", action="store_true", help="tell more of what launch does")
+    instead = parser.add_mutually_exclusive_group()
+    instead.add_argument(
+        "-p", "--print", "--print-description", action="store_true", help="show what the file describes, start nothing"
+    )
+    instead.add_argument(
+        "-s", "--show-args", "--show-arguments", action="store_true", help="show the arguments that the file takes"
+    )
+    parser.add_argument(
+        "-a",
+        "--show-all-subprocesses-output",
+        action="store_true",
+        help="show the output of all processes, and log it as well",
+    )
+    parser.add_argument("--launch-prefix", help="start every process with this command, in quotes")
+    parser.add_argument("--launch-prefix-filter", help="only those whose name this regular expression matches")
+    first = parser.add_argument("package", metavar="package_name", help="a package, or the path of a launch file")
+    complete_with(first, _packages_and_files)
+    second = parser.add_argument(
+        "file", metavar="launch_file_name", nargs="?", help="the launch file's name in the package"
+    )
+    complete_with(second, _files_of_package)
+    rest = parser.add_argument(
+        "arguments", metavar="launch_arguments", nargs="*", help="name:=value (of two of one name, the last counts)"
+    )
+    complete_with(rest, _nothing)
+
+
+def main(arguments: argparse.Namespace) -> int:
+    """Launch, and give launch's own exit code. Raises CommandError."""
+    overlaying.overlay_workspace(_place(arguments))
+    given = list(arguments.arguments)
+    if _by_path(arguments):
+        path = Path(arguments.package)
+        if arguments.file is not None:
+            given.insert(0, arguments.file)
+    else:
+        path = _in_package(arguments.package, arguments.file)
+    check_arguments(given)
+    if arguments.launch_prefix_filter is not None and arguments.launch_prefix is None:
+        raise CommandError("--launch-prefix must be specified if --launch-prefix-filter is provided")
+    for name in ("launch-prefix", "launch-prefix-filter"):
+        if value := getattr(arguments, name.replace("-", "_")):
+            given.append(f"{name}:={value}")
+    if arguments.show_all_subprocesses_output:
+        os.environ["OVERRIDE_LAUNCH_PROCESS_OUTPUT"] = "both"
+    overlaying.restore_buffering()
+    from tutor.bundled_ros import launching  # late: whoever only asks for help, or is wrong, needs none of it
+
+    code: int = launching.run(
+        path,
+        given,
+        show_args=arguments.show_args,
+        show_description=arguments.print,
+        noninteractive=arguments.noninteractive or None,
+        debug=arguments.debug,
+        resolver=packages,
+    )
+    return code
+
+
+def check_arguments(given: Sequence[str]) -> None:
+    """Raise CommandError where something is not a launch argument."""
+    for argument in given:
+        name, sign, value = argument.partition(":=")
+        if not (name and sign and value):
+            raise CommandError(f"malformed launch argument '{argument}', expected format '<name>:=<value>'")
+
+
+def _place(arguments: argparse.Namespace) -> Path:
+    """Where to look for packages: the launch file, where one is named by its path; else the current folder."""
+    named = Path(arguments.package)
+    return Path(os.path.abspath(named)) if named.is_file() else Path.cwd()
+
+
+def _by_path(arguments: argparse.Namespace) -> bool:
+    """Whether the first word is a path: it is the only one that is not an argument, or no package and there."""
+    if arguments.file is not None and packages.has_package(arguments.package):
+        return False
+    if Path(arguments.package).is_file():
+        return True
+    if arguments.file is None or ":=" in arguments.file:
+        if packages.has_package(arguments.package):
+            raise CommandError(f"say which launch file of {arguments.package}: ros2 launch {arguments.package} FILE")
+        raise CommandError(f"there is no launch file {arguments.package}")
+    return False
+
+
+def _in_package(package: str, name: str) -> Path:
+    try:
+        share = packages.find_share(package)
+    except packages.PackageNotFound as error:
+        searched = [entry for entry in os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep) if entry]
+        message = f"Package '{package}' not found: \"package '{package}' not found, searching: {searched}\""
+        raise CommandError(f"{message}{error.hint}") from error
+    files = list(_files_below(share))
+    found = [path for path in files if path.name == name]
+    if not found:
+        raise CommandError(
+            f"file '{name}' was not found in the share directory of package '{package}' which is at '{share}'"
+            + packages.hint(name, {path.name for path in files})
+        )
+    if len({path.resolve() for path in found}) > 1:
+        listed = [str(path) for path in found]
+        raise CommandError(
+            f"file '{name}' was found more than once in the share directory of package '{package}': {listed}"
+        )
+    return found[0].resolve()
+
+
+def _files_below(share: Path) -> Iterator[Path]:
+    for folder, below, files in os.walk(share, followlinks=True):  # of a package that is not built, they are links
+        below[:] = [each for each in below if not each.startswith((".", "__"))]
+        yield from (Path(folder) / name for name in files)
+
+
+def _packages_and_files(prefix: str, **_: object) -> list[str]:
+    """For Tab: the packages, and what there is below the path that was begun: launch files, and folders to go into."""
+    where, slash, _begun = prefix.rpartition("/")
+    start = where + slash
+    there = [] if start and not Path(start).is_dir() else sorted(Path(start or ".").iterdir())
+    folders = [f"{start}{path.name}/" for path in there if path.is_dir() and not path.name.startswith(".")]
+    files = [f"{start}{path.name}" for path in there if path.name.endswith(_LAUNCH_FILES)]
+    return [*([] if slash else all_packages()), *files, *folders]
+
+
+def _files_of_package(parsed_args: argparse.Namespace, **_: object) -> list[str]:
+    """For Tab: the launch files of the package that was typed."""
+    all_packages()
+    try:
+        share = packages.find_share(parsed_args.package)
+    except packages.PackageNotFound:
+        return []
+    return sorted({path.name for path in _files_below(share) if path.name.endswith(_LAUNCH_FILES)})
+
+
+def _nothing(**_: object) -> list[str]:
+    """For Tab: no file names where launch arguments belong."""
+    return []

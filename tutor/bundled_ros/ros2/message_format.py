@@ -1,0 +1,56 @@
+"""The options of verbs that print messages: what is cut, left out and how lists are written."""
+
+from __future__ import annotations
+
+import argparse
+from dataclasses import dataclass
+from typing import Any
+
+from tutor.bundled_ros.ros2.parsing import unsigned_int
+from tutor.ros.yaml_format import LONGEST, to_csv, to_yaml
+
+
+def add_format_arguments(parser: argparse.ArgumentParser) -> None:
+    """--full-length, --truncate-length, --no-arr, --no-str and --flow-style."""
+    add = parser.add_argument
+    add("--full-length", "-f", action="store_true", help="long arrays and texts in full")
+    add(
+        "--truncate-length",
+        "-l",
+        type=unsigned_int,
+        default=LONGEST,
+        help=f"after how many elements arrays and texts are cut (default: {LONGEST})",
+    )
+    add("--no-arr", action="store_true", help="only type and length of arrays")
+    add("--no-str", action="store_true", help="only the length of texts")
+    add("--flow-style", action="store_true", help="lists in one line")
+
+
+@dataclass(frozen=True, slots=True)
+class MessageFormat:
+    """What the options ask for."""
+
+    longest: int | None
+    no_arrays: bool
+    no_texts: bool
+    flow_style: bool
+
+    @classmethod
+    def of(cls, arguments: argparse.Namespace) -> MessageFormat:
+        """As the options say."""
+        longest = None if arguments.full_length else arguments.truncate_length
+        return cls(longest, arguments.no_arr, arguments.no_str, arguments.flow_style)
+
+    def yaml(self, message: Any) -> str:
+        """The message as YAML."""
+        return to_yaml(
+            message,
+            longest=self.longest,
+            no_arrays=self.no_arrays,
+            no_texts=self.no_texts,
+            flow_style=self.flow_style,
+        )
+
+    def csv(self, message: Any) -> str:
+        """The message's values, separated by commas."""
+        return to_csv(message, longest=self.longest, no_arrays=self.no_arrays, no_texts=self.no_texts)

@@ -1,0 +1,152 @@
+"""An ament prefix made on the spot, with the packages that are not built, as if they were and its setup were sourced.
+
+What looks packages up (launch's `Node`, `FindPackageShare`, `ament_index_python`, the real `ros2`) finds them there.
+Real packages go first: only what no prefix has is added, at the end of AMENT_PREFIX_PATH.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Iterator, Mapping, MutableMapping
+from pathlib import Path
+
+from tutor.bundled_ros.packages import INDEX
+from tutor.bundled_ros.ros2 import sources
+from tutor.bundled_ros.ros2.sources import SourcePackage
+
+_DEMO = Path(__file__).resolve().parents[1] / "demo"
+_MODULES = Path("lib") / "python3" / "site-packages"
+_DEMO_PACKAGES = ("demo_nodes_cpp", "demo_nodes_py")
+
+_OF_PACKAGE = """\
+#!{python} -P
+import importlib
+import sys
+import types
+
+name, folders = {name!r}, {folders!r}
+if len(folders) == 1:
+    sys.path.insert(0, folders[0].rpartition("/")[0])
+else:
+    package = types.ModuleType(name)
+    package.__path__ = folders
+    sys.modules[name] = package
+    sys.path.append(folders[0])
+module, _, function = {target!r}.partition(":")
+program = importlib.import_module(name + "." + module)
+for part in function.split("."):
+    program = getattr(program, part)
+sys.exit(program())
+"""
+
+_OF_DEMO = """\
+#!{python} -P
+import runpy
+import sys
+
+sys.argv[1:1] = [{name!r}, {program!r}]
+runpy.run_path({nodes!r}, run_name="__main__")
+"""
+
+_ROS2 = """\
+#!{python} -P
+import sys
+
+from tutor.bundled_ros.ros2.command import main
+
+sys.exit(main(sys.argv[1:]))
+"""
+
+
+def make_overlay(
+    prefix: Path, near: Path | None, environ: MutableMapping[str, str], *, python: str = sys.executable
+) -> None:
+    """Make the prefix, a folder that is not there yet, and change `environ` so that it is used.
+
+    `near`: the launch file (or folder) whose workspace's packages are added; a launch file outside any workspace has
+    the modules beside it in `my_package`. `python`: the interpreter that the programs are to run with. Where there is
+    no real `ros2`, the prefix has one.
+    """
+    there = [Path(entry) for entry in environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep) if entry]
+    made: set[str] = set()
+    for package in _packages(near, environ):
+        if package.name in made or any((each / INDEX / package.name).is_file() for each in there):
+            continue
+        if package.name in _DEMO_PACKAGES and not package.programs:
+            continue  # its programs are C++ that is not built; ours do the same
+        made.add(package.name)
+        for program, target in package.programs.items():
+            folders = [str(folder) for folder in package.modules]
+            script = _OF_PACKAGE.format(python=python, name=package.name, folders=folders, target=target)
+            _write_program(prefix / "lib" / package.name / program, script)
+        _add_package(prefix, package.name, package.share)
+        if len(package.modules) > 1:
+            _add_modules(prefix / _MODULES, package)
+            _append(environ, "PYTHONPATH", prefix / _MODULES)
+        elif (package.modules[0] / "__init__.py").is_file():
+            _append(environ, "PYTHONPATH", package.modules[0].parent)
+    for name in _DEMO_PACKAGES:
+        if name not in made and not any((each / INDEX / name).is_file() for each in there):
+            for program in ("talker", "listener"):
+                script = _OF_DEMO.format(python=python, name=name, program=program, nodes=str(_DEMO / "nodes.py"))
+                _write_program(prefix / "lib" / name / program, script)
+            share = _DEMO / "share" / name
+            _add_package(prefix, name, {entry.name: entry for entry in share.iterdir()} if share.is_dir() else {})
+    if not _has_ros2(environ):
+        _write_program(prefix / "bin" / "ros2", _ROS2.format(python=python))
+        _append(environ, "PATH", prefix / "bin")
+    _append(environ, "AMENT_PREFIX_PATH", prefix)
+
+
+def _packages(near: Path | None, environ: Mapping[str, str]) -> Iterator[SourcePackage]:
+    """All packages that there are as sources; of two with one name, the first counts."""
+    around = list(sources.around(near)) if near is not None else []
+    yield from around
+    if near is not None and near.is_file() and not any(package.name == sources.TEMPLATE.name for package in around):
+        yield sources.bare(near.parent)
+    workspace = _workspace(environ)
+    if workspace.is_dir():
+        yield from sources.below(workspace)
+    yield sources.template()
+
+
+def _workspace(environ: Mapping[str, str]) -> Path:
+    if named := environ.get("ROS_TUTOR_WORKSPACE"):
+        return Path(named).expanduser()
+    from tutor.workspace import find_workspace  # late: most launch files are in a workspace, or beside their modules
+
+    return find_workspace()
+
+
+def _add_package(prefix: Path, name: str, share: Mapping[str, Path]) -> None:
+    folder = prefix / "share" / name
+    folder.mkdir(parents=True)
+    for entry, target in share.items():
+        (folder / entry).symlink_to(target)
+    marker = prefix / INDEX / name
+    marker.parent.mkdir(parents=True, exist_ok=True)
+    marker.touch()
+
+
+def _add_modules(folder: Path, package: SourcePackage) -> None:
+    """A package whose modules are in several folders, importable by its name."""
+    init = folder / package.name / "__init__.py"
+    init.parent.mkdir(parents=True, exist_ok=True)
+    init.write_text(f"__path__ = {[str(each) for each in package.modules]!r}\n", encoding="utf-8")
+
+
+def _write_program(path: Path, text: str) -> None:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(text, encoding="utf-8")
+    path.chmod(0o755)
+
+
+def _append(environ: MutableMapping[str, str], name: str, entry: Path) -> None:
+    entries = [each for each in environ.get(name, "").split(os.pathsep) if each]
+    environ[name] = os.pathsep.join(dict.fromkeys([*entries, str(entry)]))
+
+
+def _has_ros2(environ: Mapping[str, str]) -> bool:
+    folders = (Path(entry) for entry in environ.get("PATH", "").split(os.pathsep) if entry)
+    return any(os.access(folder / "ros2", os.X_OK) for folder in folders)

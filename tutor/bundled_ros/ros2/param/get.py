@@ -1,0 +1,39 @@
+"""`ros2 param get`."""
+
+from __future__ import annotations
+
+import argparse
+
+from tutor.bundled_ros.ros2.errors import CommandError
+from tutor.bundled_ros.ros2.param.client import (
+    TYPES,
+    add_node_arguments,
+    add_timeout,
+    parameter_client,
+    parameter_names,
+    plain_value,
+)
+from tutor.bundled_ros.ros2.parsing import complete_with
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """[--hide-type] NODE PARAMETER."""
+    add_node_arguments(parser)
+    complete_with(parser.add_argument("parameter_name", help="the parameter"), parameter_names)
+    parser.add_argument("--hide-type", action="store_true", help="the value only")
+    add_timeout(parser)
+
+
+def main(arguments: argparse.Namespace) -> None:
+    """Print the value. Raises CommandError where the node or the parameter is not there."""
+    with parameter_client(arguments) as node:
+        values = node.values([arguments.parameter_name])
+    if not values:
+        raise CommandError("Parameter not set")
+    value, kind = plain_value(values[0]), TYPES[values[0].type]
+    if arguments.hide_type:
+        print(value)
+    elif value is None:
+        print("Parameter not set.")
+    else:
+        print(f"{kind.removesuffix(' array').capitalize()} {'values are' if 'array' in kind else 'value is'}: {value}")

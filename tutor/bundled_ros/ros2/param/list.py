@@ -1,0 +1,61 @@
+"""`ros2 param list`."""
+
+from __future__ import annotations
+
+import argparse
+import re
+import sys
+
+from tutor.bundled_ros.ros2.domain import Domain, add_strategy_arguments, join_domain
+from tutor.bundled_ros.ros2.errors import CommandError
+from tutor.bundled_ros.ros2.node.names import absolute, node_names, nodes
+from tutor.bundled_ros.ros2.param.client import TYPES, ParameterClient
+from tutor.bundled_ros.ros2.parsing import complete_with
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """[--filter REGEX] [--param-prefixes PREFIX ...] [--param-type] [NODE]."""
+    add_strategy_arguments(parser)
+    complete_with(parser.add_argument("node_name", nargs="?", help="only of this node"), node_names)
+    parser.add_argument("--filter", nargs=1, help="only parameters that match this regular expression")
+    parser.add_argument("--include-hidden-nodes", action="store_true", help="hidden nodes as well")
+    parser.add_argument("--param-prefixes", nargs="+", default=[], help="only parameters below these prefixes")
+    parser.add_argument("--param-type", action="store_true", help="the types as well")
+
+
+def main(arguments: argparse.Namespace) -> None:
+    """Print the parameters of a node, or of all. Raises CommandError where the named one is not there."""
+    pattern = _pattern(arguments.filter)
+    with join_domain(arguments) as domain:
+        domain.complete()
+        found = sorted(nodes(domain, hidden=arguments.include_hidden_nodes))
+        if arguments.node_name:
+            wanted = absolute(arguments.node_name)
+            found = [node for node in found if node.full == wanted][:1]
+            if not found:
+                raise CommandError("Node not found")
+        for node in found:
+            _print(domain, node.full, pattern, arguments)
+
+
+def _pattern(given: list[str] | None) -> re.Pattern[str]:
+    try:
+        return re.compile(given[0] if given else "")
+    except re.error as error:
+        raise CommandError(f"'{given[0] if given else ''}' is not a regular expression: {error}") from error
+
+
+def _print(domain: Domain, node: str, pattern: re.Pattern[str], arguments: argparse.Namespace) -> None:
+    try:
+        asked = ParameterClient(domain, node)
+        names = [name for name in asked.names(arguments.param_prefixes) if pattern.match(name)]
+        types = {each.name: TYPES[each.type] for each in asked.descriptors(names)} if arguments.param_type else {}
+    except CommandError as error:
+        if arguments.node_name:
+            raise
+        print(error, file=sys.stderr)  # the others' parameters are shown all the same
+        return
+    if not arguments.node_name and names:
+        print(f"{node}:")
+    for name in names:
+        print(f"  {name} (type: {types[name]})" if arguments.param_type else f"  {name}")

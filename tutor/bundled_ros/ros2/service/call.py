@@ -1,0 +1,63 @@
+"""`ros2 service call`."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+
+from tutor.bundled_ros.ros2.calling import wait_for_answer, wait_until
+from tutor.bundled_ros.ros2.domain import Domain, join_domain
+from tutor.bundled_ros.ros2.errors import CommandError
+from tutor.bundled_ros.ros2.interfaces import OfAnotherKind, UnknownInterface, find_interface
+from tutor.bundled_ros.ros2.message_values import message_from_yaml
+from tutor.bundled_ros.ros2.parsing import complete_with
+from tutor.bundled_ros.ros2.service.names import service_names, service_types, services
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """[--stdin] [-r N] SERVICE TYPE [VALUES]."""
+    complete_with(parser.add_argument("service_name", help="the service, such as /add"), service_names)
+    complete_with(parser.add_argument("service_type", help="its type, such as std_srvs/srv/Trigger"), service_types)
+    group = parser.add_mutually_exclusive_group()
+    group.add_argument("values", nargs="?", default="{}", help="the request as YAML, such as '{a: 1, b: 2}'")
+    group.add_argument("--stdin", action="store_true", help="read the request from standard input")
+    parser.add_argument("-r", "--rate", metavar="N", type=float, help="call again and again, N times a second")
+
+
+def main(arguments: argparse.Namespace) -> None:
+    """Call the service, and print request and answer. Raises CommandError where something is wrong with them."""
+    if arguments.rate is not None and arguments.rate <= 0:
+        raise CommandError("rate must be greater than zero")
+    try:
+        service_class = find_interface(arguments.service_type, "srv")
+    except OfAnotherKind as error:
+        raise CommandError("The passed type is not a service") from error
+    except UnknownInterface as error:
+        raise CommandError("The passed service type is invalid") from error
+    text = sys.stdin.read() if arguments.stdin else arguments.values
+    request = message_from_yaml(service_class.Request, text, failed="Failed to populate field: {}")
+    with join_domain(arguments) as domain:
+        client = domain.node.create_client(service_class, arguments.service_name)
+        print("waiting for service to become available...")
+        wait_until(client.service_is_ready, remark=lambda: _what_is_there(domain, arguments))
+        while True:
+            called = time.monotonic()
+            print(f"requester: making request: {request!r}\n")
+            answer = wait_for_answer(
+                domain, client.call_async(request), remark=lambda: f"no answer from {arguments.service_name} yet"
+            )
+            print(f"response:\n{answer!r}\n")
+            if arguments.rate is None:
+                return
+            time.sleep(max(0.0, called + 1 / arguments.rate - time.monotonic()))
+
+
+def _what_is_there(domain: Domain, arguments: argparse.Namespace) -> str:
+    """Why the service is not there, as far as the graph tells."""
+    name = arguments.service_name if arguments.service_name.startswith("/") else f"/{arguments.service_name}"
+    package, *_, last = arguments.service_type.split("/")
+    others = [kind for kind in dict(services(domain, hidden=True)).get(name, ()) if kind != f"{package}/srv/{last}"]
+    if others and domain.node.count_services(name):  # a client is enough for a service to be listed: ours is one
+        return f"{name} is there, but its type is {', '.join(others)}"
+    return f"no node offers {name} yet; Ctrl+C ends the wait"

@@ -1,0 +1,45 @@
+"""Services by name, and what Tab offers for them."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+
+from tutor.bundled_ros.ros2.domain import Domain, join_domain
+from tutor.bundled_ros.ros2.interfaces import types_by_package
+
+
+def services(domain: Domain, *, hidden: bool) -> list[tuple[str, Sequence[str]]]:
+    """All services that are seen, with their types; `hidden`: also those with a part that starts with `_`."""
+    from rclpy.topic_or_service_is_hidden import topic_or_service_is_hidden
+
+    found = domain.node.get_service_names_and_types()
+    return [(name, types) for name, types in found if hidden or not topic_or_service_is_hidden(name)]
+
+
+def service_names(parsed_args: argparse.Namespace, **_: object) -> list[str]:
+    """The services that Tab offers."""
+    with join_domain(parsed_args) as domain:
+        domain.complete()
+        return [name for name, _ in services(domain, hidden=getattr(parsed_args, "include_hidden_services", False))]
+
+
+def service_types(parsed_args: argparse.Namespace, **_: object) -> list[str]:
+    """The types that Tab offers: those of the service that was named, else all."""
+    if name := getattr(parsed_args, "service_name", None):
+        with join_domain(parsed_args) as domain:
+            if types := domain.find(lambda: dict(services(domain, hidden=True)).get(name)):
+                return list(types)
+    return [
+        f"{package}/{name}"
+        for package, names in types_by_package().items()
+        for name in names
+        if name.startswith("srv/")
+    ]
+
+
+def add_hidden(parser: argparse.ArgumentParser) -> None:
+    """The option that `ros2 service` itself has, too."""
+    parser.add_argument(
+        "--include-hidden-services", action="store_true", default=argparse.SUPPRESS, help="hidden services as well"
+    )

@@ -1,0 +1,100 @@
+"""How a shell of the user's own becomes a sourced terminal: after their own rc file, which is read and left alone."""
+
+from __future__ import annotations
+
+import os
+import shlex
+import shutil
+from collections.abc import Mapping
+from pathlib import Path
+
+from tutor.bundled_ros.ros2.completing import registration
+
+SHELLS = ("bash", "zsh")
+# What another ROS may have set in an rc file: with ours, it would be half of each.
+_OF_ANOTHER_ROS = ("ROS_DISTRO", "ROS_VERSION", "ROS_PYTHON_VERSION", "COLCON_PREFIX_PATH", "CMAKE_PREFIX_PATH")
+
+_PROMPT = {
+    "bash": """\
+__ros_tutor_prompt() { case "$PS1" in *"$__ros_tutor_mark"*) ;; *) PS1="$__ros_tutor_mark$PS1" ;; esac; }
+PROMPT_COMMAND="${PROMPT_COMMAND:+$PROMPT_COMMAND
+}__ros_tutor_prompt"
+""",
+    "zsh": """\
+__ros_tutor_prompt() { case "$PROMPT" in *"$__ros_tutor_mark"*) ;; *) PROMPT="$__ros_tutor_mark$PROMPT" ;; esac; }
+typeset -ga precmd_functions
+precmd_functions+=(__ros_tutor_prompt)
+""",
+}
+_ZSH_COMPLETION = "(( $+functions[compdef] )) || {{ autoload -Uz compinit && compinit -u -d {dump}; }}\n"
+_ZSHENV = """\
+ZDOTDIR={users}
+[[ -f "$ZDOTDIR/.zshenv" ]] && source "$ZDOTDIR/.zshenv"
+__ros_tutor_users="$ZDOTDIR"
+ZDOTDIR={ours}
+"""
+_ZSHRC = """\
+ZDOTDIR="$__ros_tutor_users"
+unset __ros_tutor_users
+[[ -f "$ZDOTDIR/.zshrc" ]] && source "$ZDOTDIR/.zshrc"
+{unset}\
+"""
+
+
+def users_shell(environ: Mapping[str, str] = os.environ) -> tuple[str, Path]:
+    """The user's own shell, `bash` or `zsh`, and where it is; bash where theirs is another. Raises LookupError."""
+    own = Path(environ.get("SHELL", ""))
+    if own.name in SHELLS and os.access(own, os.X_OK):
+        return own.name, own
+    for name in SHELLS:
+        if found := shutil.which(name, path=environ.get("PATH", os.defpath)):
+            return name, Path(found)
+    raise LookupError("neither bash nor zsh is installed")
+
+
+def interactive(
+    shell: str,
+    path: Path,
+    *,
+    env: dict[str, str],
+    changed: Mapping[str, str],
+    dropped: list[str],
+    tools: Path,
+    mark: str,
+    setup: Path | None,
+) -> list[str]:
+    """The command of an interactive shell; its rc files are written into `tools`, and `env` is added to.
+
+    `changed` and `dropped` are said again after the user's own rc file, which may have set them for another ROS; the
+    programs in `tools` go first on PATH. `setup` is sourced last. `mark` is put before the prompt. Raises OSError.
+    """
+    lines = _again(changed, dropped, tools)
+    if setup is not None:
+        lines += f"source {shlex.quote(str(setup))}\n"
+    lines += f"__ros_tutor_mark={shlex.quote(mark)}\n{_PROMPT[shell]}"
+    if shell == "bash":
+        rc = tools / "bashrc"
+        rc.write_text(f"[ -f ~/.bashrc ] && . ~/.bashrc\n{lines}{registration('bash')}", encoding="utf-8")
+        return [str(path), "--rcfile", str(rc), "-i"]
+    folder = tools / "zsh"
+    folder.mkdir(exist_ok=True)
+    users = env.get("ZDOTDIR") or env.get("HOME", "")
+    unset = "" if env.get("ZDOTDIR") else '[[ "$ZDOTDIR" == "$HOME" ]] && unset ZDOTDIR\n'
+    zshenv = _ZSHENV.format(users=shlex.quote(users), ours=shlex.quote(str(folder)))
+    completion = _ZSH_COMPLETION.format(dump=shlex.quote(str(folder / "zcompdump"))) + registration("zsh")
+    (folder / ".zshenv").write_text(zshenv, encoding="utf-8")
+    (folder / ".zshrc").write_text(f"{_ZSHRC.format(unset=unset)}{lines}{completion}", encoding="utf-8")
+    env["ZDOTDIR"] = str(folder)
+    return [str(path), "-i"]
+
+
+def _again(changed: Mapping[str, str], dropped: list[str], tools: Path) -> str:
+    exports = [
+        f"export {name}={shlex.quote(value)}\n"
+        for name, value in sorted(changed.items())
+        if name not in ("PATH", "SHLVL")
+    ]
+    if (tools / "bin").is_dir():
+        exports.append(f'export PATH={shlex.quote(str(tools / "bin"))}:"$PATH"\n')
+        dropped = sorted({*dropped, *_OF_ANOTHER_ROS})
+    return "".join(exports) + (f"unset {' '.join(dropped)}\n" if dropped else "")

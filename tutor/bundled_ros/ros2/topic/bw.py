@@ -1,0 +1,46 @@
+"""`ros2 topic bw`."""
+
+from __future__ import annotations
+
+import argparse
+import time
+from collections import deque
+
+from tutor.bundled_ros.ros2.domain import add_direct_arguments, join_domain
+from tutor.bundled_ros.ros2.topic.measuring import add_topic, add_window, arrival, receive_measured
+from tutor.bundled_ros.ros2.topic.names import wait_for_class
+from tutor.bundled_ros.ros2.topic.statistics import size
+
+_PRINT_EVERY_S = 1.0
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """TOPIC [-w N]."""
+    add_topic(parser, "topic")
+    add_window(parser, 100)
+    add_direct_arguments(parser)
+
+
+def main(arguments: argparse.Namespace) -> None:
+    """Print the bytes per second once a second until Ctrl+C. Raises CommandError."""
+    with join_domain(arguments) as domain:
+        message_type = wait_for_class(domain, arguments.topic)
+        time_of = arrival(domain, simulated=arguments.use_sim_time)
+        clock = domain.node.get_clock()
+        arrived: deque[tuple[int, int]] = deque(maxlen=arguments.window)
+        print(f"Subscribed to [{arguments.topic}]")
+        print_at = time.monotonic() + _PRINT_EVERY_S
+        for batch in receive_measured(domain, arguments.topic, message_type, raw=True):
+            arrived.extend((time_of(one), len(one[0])) for one in batch)
+            if time.monotonic() >= print_at:
+                print_at += _PRINT_EVERY_S
+                _print(arrived, clock.now().nanoseconds)
+
+
+def _print(arrived: deque[tuple[int, int]], now_ns: int) -> None:
+    if len(arrived) < 2 or now_ns <= arrived[0][0]:
+        return
+    sizes = [each for _, each in arrived]
+    per_s = sum(sizes) / ((now_ns - arrived[0][0]) * 1e-9)
+    mean, least, most = (size(each, per_s) for each in (sum(sizes) / len(sizes), min(sizes), max(sizes)))
+    print(f"{size(per_s, per_s)}/s from {len(sizes)} messages\n\tMessage size mean: {mean} min: {least} max: {most}")

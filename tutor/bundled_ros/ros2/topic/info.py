@@ -1,0 +1,38 @@
+"""`ros2 topic info`."""
+
+from __future__ import annotations
+
+import argparse
+
+from tutor.bundled_ros.ros2.domain import Domain, add_strategy_arguments, join_domain
+from tutor.bundled_ros.ros2.errors import CommandError
+from tutor.bundled_ros.ros2.parsing import complete_with
+from tutor.bundled_ros.ros2.topic.names import topic_names, topics
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """[-v] TOPIC."""
+    add_strategy_arguments(parser)
+    complete_with(parser.add_argument("topic_name", help="the topic, such as /chatter"), topic_names)
+    parser.add_argument("--verbose", "-v", action="store_true", help="each endpoint's node, type hash, id and QoS")
+
+
+def main(arguments: argparse.Namespace) -> None:
+    """Print what is known about the topic. Raises CommandError where there is none of this very name."""
+    with join_domain(arguments) as domain:
+        types = domain.find(lambda: dict(topics(domain, hidden=True)).get(arguments.topic_name))
+        if types is None:
+            raise CommandError(f"Unknown topic '{arguments.topic_name}'")
+        domain.complete()
+        _print(domain, arguments.topic_name, types[0] if len(types) == 1 else types, arguments.verbose)
+
+
+def _print(domain: Domain, topic: str, types: object, verbose: bool) -> None:
+    node, end = domain.node, "\n\n" if verbose else "\n"
+    print(f"Type: {types}", end=end)
+    print(f"Publisher count: {node.count_publishers(topic)}", end=end)
+    for info in node.get_publishers_info_by_topic(topic) if verbose else ():
+        print(info, end=end)
+    print(f"Subscription count: {node.count_subscribers(topic)}", end=end)
+    for info in node.get_subscriptions_info_by_topic(topic) if verbose else ():
+        print(info, end=end)

@@ -1,0 +1,56 @@
+"""What `hz`, `bw` and `delay` have in common: a topic, its messages as they arrive, and a window of them."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING, Any
+
+from tutor.bundled_ros.ros2.domain import Domain
+from tutor.bundled_ros.ros2.parsing import complete_with, positive_int
+from tutor.bundled_ros.ros2.receiving import DEPTH, Received, receive
+from tutor.bundled_ros.ros2.topic.names import topic_names
+
+if TYPE_CHECKING:
+    from rclpy.qos import QoSProfile
+
+GATHER_S = 0.05
+
+
+def add_topic(parser: argparse.ArgumentParser, name: str) -> None:
+    """The topic, as argument `name`."""
+    complete_with(parser.add_argument(name, help="the topic, such as /chatter"), topic_names)
+
+
+def add_window(parser: argparse.ArgumentParser, default: int, dest: str = "window") -> None:
+    """--window."""
+    parser.add_argument(
+        "--window",
+        "-w",
+        dest=dest,
+        type=positive_int,
+        default=default,
+        metavar="WINDOW",
+        help=f"how many of the last messages count (default: {default})",
+    )
+
+
+def receive_measured(domain: Domain, topic: str, message_type: Any, *, raw: bool) -> Iterator[list[Received]]:
+    """The messages as they arrive, batch by batch, with the QoS of ros2cli's measurements and a longer queue."""
+    return receive(domain, topic, message_type, _qos(), raw=raw, gather_s=GATHER_S)
+
+
+def arrival(domain: Domain, *, simulated: bool) -> Callable[[Received], int]:
+    """Gives a message's time of arrival in ns; 0 as long as a simulation's clock has not been heard."""
+    clock = domain.node.get_clock()
+    if simulated:
+        return lambda _: int(clock.now().nanoseconds)
+    return lambda one: int(one[1]["received_timestamp"])
+
+
+def _qos() -> QoSProfile:
+    from rclpy.qos import QoSPresetProfiles
+
+    profile: QoSProfile = QoSPresetProfiles.get_from_short_key("sensor_data")
+    profile.depth = DEPTH
+    return profile

@@ -1,0 +1,79 @@
+"""The next step for a process that does not end well on Ctrl+C, as edits of the learner's own file."""
+
+from __future__ import annotations
+
+import ast
+import re
+
+from tutor.judge.edits import Edit, replace_lines, replace_pattern
+from tutor.judge.rewriting.node import NodeFile
+from tutor.judge.rewriting.program import SPINS, clean_ending, first_sound_step, guard_spin
+from tutor.judge.trace import Trace
+from tutor.judge.tracebacks import Frame
+
+_ENDS_A_SPIN = ("KeyboardInterrupt", "ExternalShutdownException")
+
+
+def catch_interrupt(trace: Trace) -> str:
+    """How what ends a spin is caught, and rclpy is shut down once."""
+    return first_sound_step(trace, _with_interrupt_caught, clean_ending) or (
+        "write around spin(): try, and except (KeyboardInterrupt, ExternalShutdownException): pass, with from "
+        "rclpy.executors import ExternalShutdownException at the top; and rclpy.try_shutdown() in place of "
+        "rclpy.shutdown()"
+    )
+
+
+def allow_interrupt(trace: Trace) -> str:
+    """What keeps Ctrl+C from ending the program."""
+    return first_sound_step(trace, clean_ending) or (
+        "let KeyboardInterrupt end the program: no bare `except:` around spin, no loop without rclpy.ok()"
+    )
+
+
+def exit_with_zero(trace: Trace) -> str:
+    """How the program ends with exit code 0."""
+    return first_sound_step(trace, clean_ending) or (
+        "return normally from main() after Ctrl+C; call no sys.exit() with another code, and end what uses the node, "
+        "such as threads, before you destroy it"
+    )
+
+
+def is_raise(own: Frame | None) -> bool:
+    """Whether the line raises an exception by itself."""
+    return own is not None and own.code.startswith("raise")
+
+
+def remove_line(trace: Trace, own: Frame | None) -> str:
+    """What to do about a line that raises, or that needs ROS when it is shut down already."""
+    if own is not None and is_raise(own):
+        instead = first_sound_step(
+            trace, lambda file: [replace_lines(own.line, "return")] if own.name == trace.file else []
+        )
+        return instead or f"write return in place of line {own.line}, {own.code}: Ctrl+C is a normal end, and no error"
+    return first_sound_step(trace, clean_ending) or (
+        "after Ctrl+C the node can neither publish nor log over ROS: stop before that, or catch the exception; print() "
+        "still works"
+    )
+
+
+def _with_interrupt_caught(file: NodeFile) -> list[Edit]:
+    """What the file has, with both exceptions caught around a spin, and try_shutdown() in place of shutdown()."""
+    found = replace_pattern(file.text, r"\brclpy\.shutdown\b", "rclpy.try_shutdown")
+    spins = [each for each in file.calls(*SPINS) if ast.unparse(each.func) != "self.spin"]
+    tries = [each for each in ast.walk(file.tree) if isinstance(each, ast.Try)]
+    for call in spins:
+        around = [each for each in tries if any(call in ast.walk(one) for one in each.body)]
+        handlers = [handler for each in around for handler in each.handlers]
+        if not around:
+            found += guard_spin(file, call)
+        for handler in handlers:
+            caught = ast.unparse(handler.type) if handler.type is not None else ""
+            if any(name in caught for name in _ENDS_A_SPIN) and not all(name in caught for name in _ENDS_A_SPIN):
+                name, imported = file.own("ExternalShutdownException", "rclpy.executors")
+                line = file.text.splitlines()[handler.lineno - 1].strip()
+                both = f"except (KeyboardInterrupt, {name})"
+                found += [
+                    *imported,
+                    replace_lines(handler.lineno, re.sub(r"except\b.*?(?= as |:)", both, line, count=1)),
+                ]
+    return list(dict.fromkeys(found))

@@ -1,0 +1,92 @@
+"""A next step followed word for word, as a beginner would: what becomes of the learner's files."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+
+from tutor.judge import edits
+
+_PLACES = (
+    ("become", re.compile(r"lines? (?P<first>\d+)(?: (?:to|and) (?P<last>\d+))?(?: becomes?)?:(?P<code>.*)")),
+    ("remove", re.compile(r"remove lines? (?P<first>\d+)(?: (?:to|and) (?P<last>\d+))?(?P<code>\b.*)")),
+    ("above", re.compile(r"write above line (?P<first>\d+), with the same indentation:(?P<code>.*)")),
+    ("deeper", re.compile(r"write below line (?P<first>\d+), four spaces deeper:(?P<code>.*)")),
+    ("below", re.compile(r"write below line (?P<first>\d+), with the same indentation:(?P<last>)(?P<code>.*)")),
+    ("below", re.compile(r"write below line (?P<first>\d+), with the indentation of line (?P<last>\d+):(?P<code>.*)")),
+    ("top", re.compile(r"at the top of the file:(?P<code>.*)")),
+)
+
+
+class NotAnEdit(Exception):
+    """A step, or a part of it, that is not an edit of a line."""
+
+
+def apply_step(step: str, files: Mapping[str, str]) -> dict[str, str]:
+    """The files after the step, done word for word; line numbers are those of the files as they are.
+
+    Raises InWords where a part of the step names no place, or no file.
+    """
+    changed = {name: list(enumerate(text.splitlines(), start=1)) for name, text in files.items()}
+    originals = {name: text.splitlines() for name, text in files.items()}
+    file = next(iter(files)) if len(files) == 1 else ""
+    for part in _parts(step):
+        if named := re.match(r"in (?P<file>[\w./-]+\.\w+)[,:] ", part):
+            file, part = named["file"], part[named.end() :]
+        if file not in changed:
+            raise NotAnEdit(part)
+        _do(part, changed[file], originals[file])
+    return {name: "".join(f"{line}\n" for _, line in lines) for name, lines in changed.items()}
+
+
+def is_applicable(step: str, files: Mapping[str, str]) -> bool:
+    """Whether anyone can follow the step word for word, and has files then that Python can read, and not the same."""
+    try:
+        after = apply_step(step, files)
+    except NotAnEdit:
+        return False
+    changed = [(text, after[name]) for name, text in files.items() if edits.differs_in_words(text, after[name])]
+    return bool(changed) and all(edits.is_sound_change(text, edited) for text, edited in changed)
+
+
+def _parts(step: str) -> list[str]:
+    """The step's parts: each begins a line; code on lines of its own is indented."""
+    parts: list[str] = []
+    for line in step.splitlines():
+        if parts and (line.startswith(" ") or not line):
+            parts[-1] += f"\n{line}"
+        else:
+            parts.append(line)
+    return parts
+
+
+def _do(part: str, lines: list[tuple[int, str]], original: Sequence[str]) -> None:
+    head = part.split("\n")[0]
+    what, found = next(((what, found) for what, each in _PLACES if (found := re.fullmatch(each, head))), ("", None))
+    if found is None:
+        raise NotAnEdit(part)
+    below = [line[4:] for line in part.split("\n")[1:]]
+    code = below if below else [found["code"].strip()]
+    if what == "top":
+        lines[:0] = [(0, line) for line in code]
+        return
+    first = int(found["first"])
+    last = int(found["last"] or first) if what in ("become", "remove") else first
+    if not 1 <= first <= last <= len(original):
+        raise NotAnEdit(part)
+    like = original[int(found["last"] or first) - 1 if what == "below" else first - 1]
+    margin = like[: len(like) - len(like.lstrip())] + ("    " if what == "deeper" else "")
+    new = [(0, f"{margin}{line}" if line else "") for line in code]
+    place = next((at for at, (number, _) in enumerate(lines) if number == first), None)
+    if place is None:  # it has become something else already
+        raise NotAnEdit(part)
+    end = next(at for at, (number, _) in enumerate(lines) if number == last) + 1
+    match what:
+        case "become":
+            lines[place:end] = new
+        case "remove":
+            del lines[place:end]
+        case "above":
+            lines[place:place] = new
+        case _:
+            lines[end:end] = new

@@ -1,0 +1,104 @@
+"""The self-assessment checklist: read, ticked, exported."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from tutor.plain.conversation import CommandRefused, Conversation, DialogCommand, short_path
+from tutor.report.assessment import Assessment, ItemStanding, assess
+from tutor.report.checklist import FORMATS, SUFFIXES
+from tutor.report.phrases import describe_evidence, near_day
+
+_MOST_EVIDENCE = 2
+_FORMATS = f"{', '.join(FORMATS[:-1])} or {FORMATS[-1]}"
+
+
+class ChecklistCommands:
+    """What the learner can do by now, in their own judgement."""
+
+    def __init__(self, conversation: Conversation) -> None:
+        self._conversation = conversation
+        self.commands = (
+            DialogCommand("checklist", "read the self-assessment checklist", self.read),
+            DialogCommand("tick", "tick an item of the checklist", self.tick, "NUMBER"),
+            DialogCommand("untick", "take a tick away", self.untick, "NUMBER"),
+            DialogCommand(
+                "export",
+                f"write checklist and progress to a file in your workspace, as {_FORMATS}",
+                self.export,
+                "[FORMAT]",
+            ),
+        )
+
+    def _now(self) -> Assessment:
+        return assess(self._conversation.app_services.course, self._conversation.app_services.progress())
+
+    async def read(self, words: list[str]) -> None:
+        """A line for each item, numbered through the groups."""
+        standing = self._now()
+        number = 0
+        for group in standing.groups:
+            self._conversation.say(f"{group.title}, {group.ticked} of {len(group.items)} ticked:")
+            for item in group.items:
+                number += 1
+                self._conversation.say(f"{number}: {_about(item)}")
+        if standing.ready:
+            self._conversation.say(f"{standing.ready_title} {' '.join(standing.ready_text.split())}")
+        self._conversation.say(
+            f"{standing.ticked} of {number} ticked. tick 1 ticks the first, untick 1 takes that away."
+        )
+
+    async def tick(self, words: list[str]) -> None:
+        """Tick these."""
+        self._change(words, True)
+
+    async def untick(self, words: list[str]) -> None:
+        """Take these ticks away."""
+        self._change(words, False)
+
+    def _change(self, words: list[str], ticked: bool) -> None:
+        items = self._now().items
+        if not words:
+            raise CommandRefused("Which item? Give its number, as in: tick 1. checklist lists them.")
+        chosen = [_find(word, items) for word in words]
+        if not self._conversation.app_services.workspace.exists:
+            raise CommandRefused("Ticks are kept in your workspace, and there is none yet: say start.")
+        for item in chosen:
+            self._conversation.app_services.tick(item.id, ticked)
+            self._conversation.say(f"{'Ticked' if ticked else 'No longer ticked'}: {item.text}.")
+        standing = self._now()
+        self._conversation.say(f"{standing.ticked} of {len(items)} ticked.")
+        if standing.ready:
+            self._conversation.say(standing.ready_title)
+
+    async def export(self, words: list[str]) -> None:
+        """Write it; a file that is there is replaced only where the learner says so."""
+        format = words[0].lower() if words else FORMATS[0]
+        if format not in FORMATS:
+            raise CommandRefused(f"There is no format {format}: it is {_FORMATS}.")
+        root: Path = self._conversation.app_services.workspace.root
+        if not self._conversation.app_services.workspace.exists:
+            raise CommandRefused("There is no workspace yet to write to: say start.")
+        path = root / f"checklist{SUFFIXES[format]}"
+        if not self._conversation.app_services.export(format, path, replace=False):
+            answer = await self._conversation.ask(f"{short_path(path)} is there already. Type yes to replace it: ")
+            if (answer or "").strip().lower() not in ("yes", "y"):
+                self._conversation.say("Not written.")
+                return
+            self._conversation.app_services.export(format, path, replace=True)
+        self._conversation.say(f"Written: {short_path(path)}")
+
+
+def _about(item: ItemStanding) -> str:
+    shown = "; ".join(describe_evidence(item.evidence, near_day, most=_MOST_EVIDENCE))
+    return f"{'ticked' if item.ticked else 'not ticked'}: {item.text}.{f' Evidence: {shown}.' if shown else ''}"
+
+
+def _find(word: str, items: tuple[ItemStanding, ...]) -> ItemStanding:
+    """An item by its number or its id. Raises Refused."""
+    if word.isdecimal() and 1 <= int(word) <= len(items):
+        return items[int(word) - 1]
+    for item in items:
+        if item.id == word.lower():
+            return item
+    raise CommandRefused(f"There is no item {word}: they go from 1 to {len(items)}. checklist lists them.")

@@ -1,0 +1,86 @@
+"""What a learner publishes by hand: from a node that can be seen on the graph, as that of `ros2 topic pub` can."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import rclpy
+from rclpy.context import Context
+from rclpy.node import Node
+from rclpy.publisher import Publisher
+
+from tutor.ros.messages import interface_class
+from tutor.ros.observer import OUR_PREFIX
+from tutor.ros.requests import fill_message
+
+NODE_NAME = "published_by_hand"
+"""The node's name."""
+
+_DEPTH = 10
+
+
+class ManualPublisher:
+    """Publishers of one node, which is there as long as one of them is."""
+
+    def __init__(self, context: Context) -> None:
+        self._context = context
+        self._node: Node | None = None
+        self._publishers: dict[str, tuple[Publisher, Any]] = {}
+
+    def add(self, topic: str, type_name: str, values: Mapping[str, Any]) -> None:
+        """Get ready to publish this message, reliably; `values` are by the paths of its fields.
+
+        Raises UnknownType, and ValueError with one line where a value or the topic's name does not fit.
+        """
+        message = fill_message(type_name, values)
+        self.remove(topic)
+        if self._node is None:
+            self._node = rclpy.create_node(
+                NODE_NAME,
+                context=self._context,
+                use_global_arguments=False,
+                enable_rosout=False,
+                start_parameter_services=False,
+            )
+        try:
+            publisher = self._node.create_publisher(interface_class(type_name), topic, _DEPTH)
+        except Exception as error:  # rclpy has exceptions of several kinds for a bad name
+            self._leave()
+            raise ValueError(f"{topic} is not a valid topic name: {str(error).splitlines()[0]}") from error
+        self._publishers[topic] = (publisher, message)
+
+    def publish(self, topic: str) -> None:
+        """Publish the message that this topic was opened with."""
+        publisher, message = self._publishers[topic]
+        publisher.publish(message)
+
+    def listeners(self, topic: str) -> int:
+        """How many subscriptions there are, but for our own."""
+        if self._node is None:
+            return 0
+        found = self._node.get_subscriptions_info_by_topic(topic)
+        return sum(not each.node_name.startswith(OUR_PREFIX) for each in found)
+
+    def is_connected(self, topic: str, ours: bool) -> bool:
+        """Whether every subscription that is there is matched; `ours`: and one of our own is among them."""
+        publisher, _ = self._publishers[topic]
+        there = self._node.get_subscriptions_info_by_topic(topic) if self._node is not None else []
+        found = any(each.node_name.startswith(OUR_PREFIX) for each in there)
+        return 0 < len(there) <= publisher.get_subscription_count() and (found or not ours)
+
+    def remove(self, topic: str) -> None:
+        """Leave a topic."""
+        if (found := self._publishers.pop(topic, None)) is not None and self._node is not None:
+            self._node.destroy_publisher(found[0])
+        self._leave()
+
+    def _leave(self) -> None:
+        if not self._publishers and self._node is not None:
+            self._node.destroy_node()
+            self._node = None
+
+    def close(self) -> None:
+        """Leave all."""
+        for topic in list(self._publishers):
+            self.remove(topic)

@@ -1,0 +1,85 @@
+"""Where the workspace is, and where things are in it."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from tutor.workspace.app_state import AppStateFile
+from tutor.workspace.errors import WorkspaceError
+from tutor.workspace.progress_file import ProgressFile, to_stderr
+
+MARKER = ".ros-tutor"
+"""The folder that makes a folder a workspace; it holds the progress."""
+
+PACKAGE = "my_package"
+
+
+@dataclass(frozen=True, slots=True)
+class Workspace:
+    """A learner's colcon workspace. `root` need not exist yet."""
+
+    root: Path
+
+    @property
+    def exists(self) -> bool:
+        """Whether `root` is a workspace (and not merely a folder, or nothing at all)."""
+        return (self.root / MARKER).is_dir()
+
+    @property
+    def package(self) -> Path:
+        """The folder of the learner's ROS package."""
+        return self.root / "src" / PACKAGE
+
+    def path_of(self, name: str) -> Path:
+        """Where the exercise file `name` belongs: launch files in `launch/`, everything else among the modules."""
+        return self.package / ("launch" if is_launch_file(name) else PACKAGE) / name
+
+    def data_file(self, name: str) -> Path:
+        """Where a file of ours is kept that is none of the learner's."""
+        return self.root / MARKER / name
+
+    def progress(self, notify: Callable[[str], None] = to_stderr) -> ProgressFile:
+        """The progress file; `notify` is told in one line if a damaged one had to be set aside."""
+        return ProgressFile(self.root / MARKER / "progress.json", notify)
+
+    def app_state(self, notify: Callable[[str], None] = to_stderr) -> AppStateFile:
+        """What the app remembers; `notify` is told in one line if a damaged file had to be set aside."""
+        return AppStateFile(self.root / MARKER / "app.json", notify)
+
+
+def is_launch_file(name: str) -> bool:
+    """Whether an exercise's file is a launch file, by its name."""
+    return name.endswith(("_launch.py", ".launch.py"))
+
+
+def find_workspace(explicit: Path | None = None) -> Path:
+    """The folder of the workspace to use, whether it exists or not.
+
+    In this order: `explicit`, `ROS_TUTOR_WORKSPACE`, the workspace around the current folder, `~/ros_tutor_ws`. Raises
+    WorkspaceError where nobody knows the home.
+    """
+    if explicit is not None:
+        return _absolute(explicit)
+    if named := os.environ.get("ROS_TUTOR_WORKSPACE"):
+        return _absolute(Path(named))
+    try:
+        return _around() or Path.home() / "ros_tutor_ws"
+    except RuntimeError:
+        raise WorkspaceError(
+            "HOME is not set, and you have no home folder: name a folder with --workspace DIR"
+        ) from None
+
+
+def _around() -> Path | None:
+    try:
+        here = Path.cwd()
+    except FileNotFoundError:  # the current folder was deleted
+        return None
+    return next((folder for folder in (here, *here.parents) if Workspace(folder).exists), None)
+
+
+def _absolute(path: Path) -> Path:
+    return Path(os.path.abspath(path.expanduser()))
