@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from tests.ros.users_domain import users_domain
 from tests.ros2cli.bench import TALKER, Bench, Ran, command
 from tests.ros2cli.typing_at import terminal
 
@@ -173,8 +174,10 @@ def test_actions_of_which_there_are_none(bench: Bench) -> None:
 
 
 def test_the_doctor_names_a_topic_that_nobody_hears(bench: Bench) -> None:
-    with bench.node(TALKER):
-        told = bench.ros2("doctor")
+    with users_domain() as domain:
+        bench.env["ROS_DOMAIN_ID"] = str(domain)
+        with bench.node(TALKER):
+            told = bench.ros2("doctor")
     assert told == Ran(
         "UserWarning: Publisher without subscriber detected on /chatter.\n\nAll 3 checks passed\n\n", "", 0
     )

@@ -15,6 +15,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.ros.users_domain import users_domain
 from tests.ros2cli.bench import Bench
 from tests.ros2cli.lesson_commands import Command, commands
 from tutor.content import load_course
@@ -34,7 +35,7 @@ class Shell:
     def __init__(self, bench: Bench, workspace: Workspace) -> None:
         profile = bench.folder / "profile.xml"
         profile.write_bytes(PROFILE.read_bytes())
-        names = ("PATH", "LANG", "ROS_DOMAIN_ID", "HOME", "TMPDIR", "ROS_AUTOMATIC_DISCOVERY_RANGE")
+        names = ("PATH", "LANG", "ROS_DOMAIN_ID", "HOME", "TMPDIR", "ROS_AUTOMATIC_DISCOVERY_RANGE", "ROS_TUTOR_GROUP")
         users = {name: bench.env[name] for name in names if name in bench.env}
         users |= {name: str(profile) for name, value in bench.env.items() if value == str(PROFILE)}
         self._workspace = workspace
@@ -132,8 +133,9 @@ class Started:
 @pytest.mark.parametrize("lesson", LESSONS.values(), ids=str)
 def test_each_command_of_a_lesson_does_what_it_shows(bench: Bench, lesson: Lesson) -> None:
     workspace = Workspace(bench.folder / "ws")
-    shell = Shell(bench, workspace)
     with ExitStack() as nodes:
+        bench.env["ROS_DOMAIN_ID"] = str(nodes.enter_context(users_domain()))
+        shell = Shell(bench, workspace)
         nodes.enter_context(shell.open())
         running: list[Started] = []
         for command in commands(lesson.body):
