@@ -49,7 +49,7 @@ class Person[A: App[Any]]:
         if screen._compositor.size != (width, height):  # just opened, or just resized: not laid out yet
             return ""
         # A widget that has just been mounted has no styles yet, and the app does not draw it before it has.
-        if any(each.get_component_names() and not each._component_styles for each in screen.query("TextArea")):
+        if not all(area._component_styles for area in screen.query("TextArea")):
             return ""
         lines = screen._compositor.render_strips()
         assert len(lines) == height
