@@ -17,20 +17,19 @@ CONTRACT = frozenset(name.casefold() for name in MEANINGS)
 
 
 def sample(cases: Sequence[Case]) -> list[Case]:
-    """Every sixth right one; so many wrong ones that each criterion of each exercise, and each cause, is there twice.
+    """Every sixth right one; so many wrong ones that each criterion of each exercise, and each cause, is there.
 
     Always the same ones, whatever order they come in: by name, and those that show most first.
     """
     right = sorted((case for case in cases if case.kind == RIGHT), key=str)[::6]
     wrong = sorted((case for case in cases if case.kind == WRONG), key=str)
     chosen: list[Case] = []
-    for _ in range(2):
-        missing = set().union(*map(shows, wrong))
-        while missing:
-            best = max(wrong, key=lambda case: len(shows(case) & missing))
-            chosen.append(best)
-            wrong.remove(best)
-            missing -= shows(best)
+    missing = set().union(*map(shows, wrong))
+    while missing:
+        best = max(wrong, key=lambda case: len(shows(case) & missing))
+        chosen.append(best)
+        wrong.remove(best)
+        missing -= shows(best)
     return [case for case in cases if case in right or case in chosen]
 
 

@@ -23,7 +23,7 @@ async def main():
             await asyncio.sleep(0.05)
             under_way -= 1
     await asyncio.gather(*(check() for _ in range(10)))
-    assert most == len(os.sched_getaffinity(0)) + 1, most
+    assert most == min(10, 2 * len(os.sched_getaffinity(0))), most
     async with asyncio.timeout(20):
         async with asyncio.TaskGroup() as group:
             for _ in range(10):
@@ -38,7 +38,7 @@ asyncio.run(main())
 
 
 @needs_own_network
-def test_as_many_at_once_as_there_are_cores_and_one_more_but_nobody_waits_for_ever() -> None:
+def test_two_at_once_for_each_core_but_nobody_waits_for_ever() -> None:
     subprocess.run(
         [sys.executable, "-c", OWN_NETWORK + TEN], check=True, timeout=60, env={**os.environ, "PYTHONPATH": os.getcwd()}
     )

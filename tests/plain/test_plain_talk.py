@@ -36,7 +36,7 @@ class Slow(FakeEngine):
                 print("cleaned up", flush=True)
         return await super().__call__(submissions, course, only=only, on_event=on_event)
 
-tutor.engine.check = Slow({"rate": FAILURE})
+tutor.engine.run_check = Slow({"rate": FAILURE})
 sys.exit(main([argument for argument in sys.argv[1:] if argument != "--slow"]))
 """
 

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import asyncio
+import importlib
 import time
 from collections.abc import Callable, Sequence
-from contextlib import nullcontext
+from contextlib import nullcontext, suppress
 
 from tutor import __version__
 from tutor.content import Course
@@ -17,6 +18,8 @@ from tutor.judge.check import Check
 from tutor.judge.events import CheckFinished, Event
 from tutor.judge.result import Environment, ExerciseResult, Report
 from tutor.judge.submission import Submission
+
+_LATE = ("rclpy.serialization", "rosidl_generator_py", "std_msgs.msg", "rcl_interfaces.srv", "example_interfaces.srv")
 
 
 async def run_check(
@@ -54,6 +57,17 @@ async def run_check(
     except (ImportError, OSError, RuntimeError) as error:
         raise EngineError(f"ROS 2 cannot be used here: {error}") from error
 
+    # What would be imported at the first message. It is refused later where its file changes meanwhile, even if only because
+    # uv links another environment to the same file.
+    for name in (
+        "rclpy.serialization",
+        "rosidl_generator_py",
+        "std_msgs.msg",
+        "rcl_interfaces.srv",
+        "example_interfaces.srv",
+    ):
+        with suppress(ImportError):
+            importlib.import_module(name)
     unchanged.refuse_changed_modules()
 
     async def one(submission: Submission) -> ExerciseResult:

@@ -50,6 +50,9 @@ MOST_EXTENSIONS = 5
 
 TOO_BUSY = "this machine is too busy: the node, or what watches it, was not let run"
 
+LITTLE_CPU_S = 0.5
+"""A node that had less CPU time than this while it was waited for may not have been let run."""
+
 ENOUGH_CPU_S = 2.0
 """No wait is for something that takes a node more CPU time than this: its start takes 0.3 s."""
 
@@ -206,7 +209,8 @@ class RosRun:
                 late_s, most_s = lost_s() - before_s, MOST_EXTENSIONS * limit_s
                 owed_s = min(late_s, most_s) - granted_s
                 if owed_s < LOOK_EVERY_S:
-                    if late_s > most_s and limit_s >= 1.0:  # a shorter wait is a look, from which nothing follows
+                    # A shorter wait is a look, from which nothing follows; a node that has had CPU time was let run.
+                    if late_s > most_s and limit_s >= 1.0 and self._cpu().ran_s - ran_s < LITTLE_CPU_S:
                         raise EngineError(TOO_BUSY, "close what keeps it busy, then check again")
                     return False
                 deadline, granted_s = deadline + owed_s, granted_s + owed_s

@@ -1,4 +1,4 @@
-"""Checks of one machine take turns: as many at once as it has cores, and one more.
+"""Checks of one machine take turns: two at once for each core.
 
 A dozen at once on two cores would keep each other from running for so long that none could be judged.
 """
@@ -37,7 +37,7 @@ async def turn(own: socket.socket | None = None, limit_s: float = LIMIT_S) -> As
 
 
 def _taken(held: socket.socket) -> bool:
-    for number in range(len(os.sched_getaffinity(0)) + 1):
+    for number in range(2 * len(os.sched_getaffinity(0))):
         try:
             held.bind(f"\0ros-tutor-check-{number}")  # a name in the kernel alone, as that of a domain is
         except OSError:
