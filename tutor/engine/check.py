@@ -57,8 +57,8 @@ async def run_check(
     except (ImportError, OSError, RuntimeError) as error:
         raise EngineError(f"ROS 2 cannot be used here: {error}") from error
 
-    # What would be imported at the first message. It is refused later where its file changes meanwhile, even if only because
-    # uv links another environment to the same file.
+    # What the first message only would import: it is refused where its file changes meanwhile, even if only because
+    # uv links another environment to it.
     for name in (
         "rclpy.serialization",
         "rosidl_generator_py",
