@@ -12,7 +12,7 @@ from pathlib import Path
 from tutor.content.submissions import RIGHT, WRONG, Case
 from tutor.judge.causes.names import MEANINGS
 
-SHARED = tuple(f"tutor/{package}/" for package in ("engine", "judge", "process", "ros", "sandbox"))
+SHARED = tuple(f"tutor/{package}/" for package in ("engine", "judge", "process", "ros", "bundled_ros"))
 CONTRACT = frozenset(name.casefold() for name in MEANINGS)
 
 
