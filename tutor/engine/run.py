@@ -210,7 +210,9 @@ class RosRun:
                 owed_s = min(late_s, most_s) - granted_s
                 if owed_s < LOOK_EVERY_S:
                     # A shorter wait is a look, from which nothing follows; a node that has had CPU time was let run.
-                    if late_s > most_s and limit_s >= 1.0 and self._cpu().ran_s - ran_s < LITTLE_CPU_S:
+                    # One that prints without end keeps the machine busy itself.
+                    starved = late_s > most_s and self._cpu().ran_s - ran_s < LITTLE_CPU_S
+                    if starved and limit_s >= 1.0 and not self._process.dropped_lines:
                         raise EngineError(TOO_BUSY, "close what keeps it busy, then check again")
                     return False
                 deadline, granted_s = deadline + owed_s, granted_s + owed_s
