@@ -9,7 +9,6 @@ anything is not as expected: the verdict, the exit code, memory, the report's si
 from __future__ import annotations
 
 import argparse
-import ctypes
 import json
 import os
 import shutil
@@ -29,6 +28,7 @@ from tutor.content.submissions import Case, Expected
 from tutor.interpreter import module_command
 from tutor.judge.result import CriterionResult, ExerciseResult
 from tutor.judge.verdict import Status, Verdict
+from tutor.process import prctl
 from tutor.process.supervisor import descendants
 
 LIMIT_S = 180.0
@@ -36,7 +36,6 @@ LOOK_EVERY_S = 0.02
 MOST_ABOVE_ORDINARY_MB = 150.0
 MOST_REPORT_KB = 1024.0
 OURS = (b"tutor", b"tutor.engine", b"supervisor.py")
-_PR_SET_CHILD_SUBREAPER = 36
 EXERCISES = ("i1.1", "i1.2", "i1.3", "i2.1", "i2.2", "i2.3")
 
 
@@ -197,7 +196,7 @@ def main() -> int:
     if not cases:
         print(f"no hostile submission is called {' or '.join(wanted) or 'anything'}", file=sys.stderr)
         return 2
-    ctypes.CDLL(None).prctl(_PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
+    prctl.adopt_orphans(True)
     rows: list[Checked] = []
     ordinary: dict[str, float] = {}
     for exercise in sorted({case.exercise for case in cases}):

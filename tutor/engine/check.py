@@ -20,6 +20,8 @@ from tutor.judge.result import Environment, ExerciseResult, Report
 from tutor.judge.submission import Submission
 
 _LATE = ("rclpy.serialization", "rosidl_generator_py", "std_msgs.msg", "rcl_interfaces.srv", "example_interfaces.srv")
+"""What would else be imported with the first message: a module whose file changes during a check is refused, even if
+only uv has linked another environment to it."""
 
 
 async def run_check(
@@ -57,15 +59,7 @@ async def run_check(
     except (ImportError, OSError, RuntimeError) as error:
         raise EngineError(f"ROS 2 cannot be used here: {error}") from error
 
-    # What the first message only would import: it is refused where its file changes meanwhile, even if only because
-    # uv links another environment to it.
-    for name in (
-        "rclpy.serialization",
-        "rosidl_generator_py",
-        "std_msgs.msg",
-        "rcl_interfaces.srv",
-        "example_interfaces.srv",
-    ):
+    for name in _LATE:
         with suppress(ImportError):
             importlib.import_module(name)
     unchanged.refuse_changed_modules()

@@ -177,9 +177,8 @@ class SupervisorLink(asyncio.Protocol):
     def _take_over(self) -> None:
         """The supervisor does not manage: do without it. Once it is gone, the orphans are ended."""
         if self._supervisor is not None and not self.gone.done():
-            with contextlib.suppress(
-                OSError
-            ):  # /proc cannot be read, say with no descriptor left; the search for orphans tries again
+            # Where /proc cannot be read, say with no descriptor left, the search for orphans tries again.
+            with contextlib.suppress(OSError):
                 kill(descendants(self._supervisor.pid))
             self._supervisor.kill()
 
