@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 import signal
+import sys
+from collections.abc import Iterator
+from pathlib import Path
 
+import pytest
 from hypothesis import settings
 
 # On a loaded machine, how long one example takes says nothing of the code.
@@ -15,3 +19,15 @@ def pytest_configure() -> None:
     # The processes among which pytest-xdist divides the tests ignore Ctrl+C, as does what a script starts with `&`;
     # what they start themselves would inherit that.
     signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+PREPARES_FOR_RCLPY = Path(__file__).with_name("engine")
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_call(item: pytest.Item) -> Iterator[None]:
+    """No test but those of the engine imports rclpy here: unprepared, Fast DDS ends the process of whoever is next."""
+    before = "rclpy" in sys.modules
+    yield
+    if "rclpy" in sys.modules and not before:
+        assert PREPARES_FOR_RCLPY in item.path.parents, "rclpy is imported: run the test's code in another process"

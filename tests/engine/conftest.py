@@ -21,8 +21,7 @@ def ros() -> Iterator[RosEnvironment]:
     """ROS, chosen and isolated as for a check; `import rclpy` works from here on."""
     environ, path = dict(os.environ), list(sys.path)
     chosen = detect()
-    if "rclpy" not in sys.modules:
-        this_process.prepare_for_rclpy(chosen, isolated=True)
+    this_process.prepare_for_rclpy(chosen, isolated=True)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # of what ROS itself imports
         importlib.import_module("rosidl_generator_py")

@@ -71,6 +71,6 @@ class Subscription:
 def test_a_batch_of_big_messages_is_small(size: int) -> None:
     from tutor.bundled_ros.ros2 import receiving
 
-    found, told = receiving._all_of(Subscription(size), True)  # type: ignore[arg-type]
+    found, told = receiving._all_of(Subscription(size), True, lambda *_: None)  # type: ignore[arg-type]
     assert told == size
     assert len(found) == min(5000, max(1, receiving.MOST_BYTES // size))

@@ -9,6 +9,7 @@ import pytest
 from textual.app import App
 from textual.pilot import Pilot
 from textual.screen import Screen
+from textual.widgets import TextArea
 
 from tests.patience import seen_within
 
@@ -48,8 +49,9 @@ class Person[A: App[Any]]:
         screen: Screen[object] = self.app.screen
         if screen._compositor.size != (width, height):  # just opened, or just resized: not laid out yet
             return ""
-        # A widget that has just been mounted has no styles yet, and the app does not draw it before it has.
-        if not all(area._component_styles for area in screen.query("TextArea")):
+        # A widget that has just been mounted or removed has no styles, and the app does not draw it then.
+        drawn = screen._compositor.visible_widgets
+        if not all(widget._component_styles for widget in drawn if isinstance(widget, TextArea)):
             return ""
         lines = screen._compositor.render_strips()
         assert len(lines) == height

@@ -44,6 +44,7 @@ def receive(
     import rclpy
     from rclpy.event_handler import SubscriptionEventCallbacks
     from rclpy.impl.implementation_singleton import rclpy_implementation as implementation
+    from rclpy.serialization import deserialize_message
 
     node = domain.node
     group = _only_events()
@@ -64,7 +65,7 @@ def receive(
         waiting.clear_entities()
         waiting.add_subscription(subscription.handle)
         waiting.wait(_WAIT_NS)
-        found, size = _all_of(subscription, raw)
+        found, size = _all_of(subscription, raw, deserialize_message)
         if qos.depth == DEPTH and size > BIG:
             qos.depth = max(1, MOST_BYTES // size)
             node.destroy_subscription(subscription)
@@ -76,17 +77,17 @@ def receive(
         time.sleep(gather_s)
 
 
-def _all_of(subscription: Subscription, raw: bool) -> tuple[list[Received], int]:
+def _all_of(
+    subscription: Subscription, raw: bool, deserialize: Callable[[bytes, Any], Any]
+) -> tuple[list[Received], int]:
     """What waits, or some of it where it is big; and the size of the first message, in bytes."""
-    from rclpy.serialization import deserialize_message
-
     found: list[Received] = []
     take, message_type = subscription.handle.take_message, subscription.msg_type
     with subscription.handle:
         if (first := take(message_type, True)) is None:
             return [], 0
         size = len(first[0])
-        found.append(first if raw else (deserialize_message(first[0], message_type), first[1]))
+        found.append(first if raw else (deserialize(first[0], message_type), first[1]))
         most = min(_MOST_AT_ONCE, max(1, MOST_BYTES // size))
         while len(found) < most and (one := take(message_type, raw)) is not None:
             found.append(one)
