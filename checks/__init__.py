@@ -1,1 +1,1 @@
-"""What is done to a learner's node, and what must be seen: one module for each exercise, named after it."""
+"""What is done to a learner's node, and what must be seen: one package for each exercise, named after it."""

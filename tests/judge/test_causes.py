@@ -15,9 +15,9 @@ from tutor.judge.causes import (
     diagnose_no_answer,
     diagnose_printed,
     diagnose_process,
-    diagnose_qos,
     diagnose_refusal,
     diagnose_silence,
+    incompatible_qos,
     incompatible_service,
     output_tail,
     same_name,
@@ -206,13 +206,9 @@ def test_why_a_subscriber_took_in_nothing(seen: Trace, answers: bool, cause: str
     ],
 )
 def test_qos_of_the_learners_own_endpoints(offered: tuple[Any, ...], asked: tuple[Any, ...], policy: str) -> None:
-    both = Graph(
-        publishers=(Endpoint("/a", "T", "/one", *offered),), subscriptions=(Endpoint("/a", "T", "/two", *asked),)
-    )
-    found = diagnose_qos(trace(graph=both), "/a")
+    found = incompatible_qos(Endpoint("/a", "T", "/one", *offered), Endpoint("/a", "T", "/two", *asked))
     assert (found.name if found else "") == ("incompatible QoS" if policy else "")
     assert found is None or policy in found.text
-    assert diagnose_qos(trace(graph=both), "/b") is None
 
 
 def test_a_service_with_best_effort_is_not_connected() -> None:

@@ -6,7 +6,7 @@ A folder of them holds `<exercise>/<right|wrong>/<name>/` with the learner's fil
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -96,15 +96,6 @@ def read_expected(file: Path) -> Expected:
     )
     fields.done()
     return expected
-
-
-def find_cases(root: Path) -> Iterator[Case]:
-    """The submissions below `root`, in order.
-
-    Raises ContentError at the first whose `expect.yaml` is broken.
-    """
-    for file in sorted(root.glob(f"*/*/*/{EXPECT}")):
-        yield read_case(file.parent)
 
 
 def read_case(folder: Path) -> Case:

@@ -40,10 +40,6 @@ LINE_CHARACTERS = 2000
 _number = itertools.count(1)
 
 
-class ObserverError(RuntimeError):
-    """The observer failed: a fault of the tool or the machine, never of the learner."""
-
-
 class Observer:
     """A participant of ours. Every method is called on the event loop's thread; facts arrive there too.
 

@@ -1,4 +1,4 @@
-"""Two texts side by side in one: lines that went (-), lines that came (+), and what is around them. Pure."""
+"""Two texts side by side in one: lines that went (-), lines that came (+), and what is around them."""
 
 from __future__ import annotations
 

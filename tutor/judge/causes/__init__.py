@@ -31,7 +31,6 @@ from tutor.judge.causes.process import (
 from tutor.judge.causes.topics import (
     diagnose_deafness,
     diagnose_lifecycle,
-    diagnose_qos,
     diagnose_silence,
     incompatible_qos,
     incompatible_service,
@@ -48,7 +47,6 @@ __all__ = [
     "diagnose_no_answer",
     "diagnose_printed",
     "diagnose_process",
-    "diagnose_qos",
     "diagnose_refusal",
     "diagnose_silence",
     "diagnose_torn_thread",

@@ -139,13 +139,6 @@ def incompatible_service(services: Iterable[Service]) -> Cause | None:
     return None
 
 
-def diagnose_qos(trace: Trace, topic: str) -> Cause | None:
-    """Whether the learner's own publishers and subscriptions on a topic do not match each other."""
-    offers = [each for each in trace.graph.publishers if each.topic == topic]
-    asks = [each for each in trace.graph.subscriptions if each.topic == topic]
-    return next((cause for one in offers for other in asks if (cause := incompatible_qos(one, other))), None)
-
-
 def wrong_topic(
     endpoints: Iterable[Endpoint], topic: str, create: str = "create_publisher", file: NodeFile | None = None
 ) -> Cause:

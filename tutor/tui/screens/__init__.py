@@ -1,1 +1,1 @@
-"""What fills the terminal: one module and one .tcss file for each screen."""
+"""What fills the terminal: a module for each screen and dialog. Screens have a .tcss file, dialogs share one."""
