@@ -23,7 +23,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Become `ros2`, in the user's own ROS domain; comes back only where that cannot be."""
-    from tutor import private
+    from tutor import interpreter, private
     from tutor.bundled_ros.ros2.errors import CommandError
     from tutor.bundled_ros.ros2.starting import ros2_command
     from tutor.ros.environment import detect, learner_env
@@ -48,6 +48,8 @@ def run(arguments: argparse.Namespace) -> int:
         raise UsageError(str(error)) from error
     sys.stdout.flush()
     try:
+        if ros.kind == "bundled":
+            interpreter.become(command, env)
         os.execve(command[0], command, env)
     except OSError as error:
         raise UsageError(f"{shlex.join(command)} cannot be started: {error.strerror}") from error

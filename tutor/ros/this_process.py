@@ -32,13 +32,14 @@ def prepare_for_rclpy(ros: RosEnvironment, *, isolated: bool) -> None:
     `tutor.bundled_ros.interfaces.activate` raises where the bundled interfaces are missing.
     """
     global _in_use
+    interpreter.answer_ctrl_c()  # where this process has restarted itself
     shared_memory.prove_enough()
     env = tutor_env(ros, isolated=isolated)
     if "rclpy" in sys.modules and _in_use != _identity(ros):
         raise RuntimeError("rclpy is imported already: choose the ROS before")
     _in_use = _identity(ros)
     if _wrong_libraries(ros) and os.environ.get(_NOT_ANEW) != ros.kind:
-        os.execve(sys.executable, sys.orig_argv, {**env, _NOT_ANEW: ros.kind})
+        interpreter.become([sys.executable, *sys.orig_argv[1:]], {**env, _NOT_ANEW: ros.kind})
     for name in set(os.environ) - set(env):
         if name.startswith(_OF_ROS):
             del os.environ[name]

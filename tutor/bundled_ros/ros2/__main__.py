@@ -4,6 +4,9 @@ import signal
 import sys
 
 try:
+    from tutor.interpreter import answer_ctrl_c
+
+    answer_ctrl_c()
     from tutor.bundled_ros.ros2.command import main
 
     sys.exit(main(sys.argv[1:]))

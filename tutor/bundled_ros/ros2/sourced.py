@@ -71,8 +71,8 @@ def _write_programs(folder: Path, ros: RosEnvironment, *, with_ros2: bool) -> No
     programs = {"python3": f"{python}", "python": f"{python}"}
     if with_ros2:
         # -P: a module in the learner's folder must not take the place of one of ours.
-        programs["ros2"] = f"{python} -P -m tutor.bundled_ros.ros2"
-    programs["ros-tutor"] = shlex.join(interpreter.module_command("tutor"))
+        programs["ros2"] = f"{interpreter.CTRL_C_LATER} {python} -P -m tutor.bundled_ros.ros2"
+    programs["ros-tutor"] = f"{interpreter.CTRL_C_LATER} {shlex.join(interpreter.module_command('tutor'))}"
     for name, command in programs.items():
         path = folder / name
         path.write_text(f'#!/bin/sh\nexec {command} "$@"\n', encoding="utf-8")
