@@ -6,9 +6,10 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 from tutor.judge.rates import Rate, describe
-from tutor.judge.trace import Echo, Ending, OutputLine, Parameter, Trace
+from tutor.judge.trace import Echo, Ending, OutputLine, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.waiting import window_s
+from tutor.ros_model import Parameter
 
 FILE = "temperature_publisher.py"
 TOPIC = "/sensor/temperature"

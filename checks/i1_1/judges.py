@@ -30,8 +30,9 @@ from checks.i1_1.facts import (
 from tutor.judge import causes, ending, randomness, tracebacks
 from tutor.judge.rates import TOLERANCE
 from tutor.judge.rewriting.whole import with_applicable_steps
-from tutor.judge.trace import Parameter, Trace
+from tutor.judge.trace import Trace
 from tutor.judge.verdict import Cause, Verdict, failed, passed
+from tutor.ros_model import Parameter
 
 
 def _diagnose_exception(trace: Trace | None) -> Cause | None:
@@ -153,7 +154,7 @@ def judge_echo(seen: PlainStart) -> Verdict:
     if echo.samples and len(echo.types) == 1:
         return passed(
             expected,
-            f"shown with {echo.reliability}, {echo.durability} QoS",
+            f"shown with {echo.qos.reliability}, {echo.qos.durability} QoS",
             [f"data: {echo.samples[0].message['data']}"],
         )
     if len(echo.types) > 1:
@@ -169,7 +170,7 @@ def judge_echo(seen: PlainStart) -> Verdict:
     else:
         cause = Cause(
             "no messages",
-            f"a new subscriber got nothing in {echo.limit_s:g} s ({echo.reliability}, {echo.durability})",
+            f"a new subscriber got nothing in {echo.limit_s:g} s ({echo.qos.reliability}, {echo.qos.durability})",
             steps.add_publisher(seen.trace)
             or "publish again and again from a timer, and set no short lifespan in the QoS",
         )

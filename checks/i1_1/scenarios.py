@@ -35,7 +35,7 @@ from tutor.judge import randomness
 from tutor.judge.bench import Bench, MachineTooBusy, Run
 from tutor.judge.ending import repeat_if_doubtful
 from tutor.judge.rates import measure
-from tutor.judge.trace import Parameter, Trace
+from tutor.judge.trace import Trace
 from tutor.judge.waiting import (
     START_S,
     TRIES,
@@ -45,6 +45,7 @@ from tutor.judge.waiting import (
     wait_until_seen,
     window_s,
 )
+from tutor.ros_model import Parameter
 
 
 @repeat_if_doubtful
@@ -120,7 +121,7 @@ async def parameters(bench: Bench) -> tuple[Parameter, ...] | None:
     """Which parameters does it declare? None where it never answers."""
     async with bench.start(FILE, watch={TOPIC: TYPE}, expected_s=7.0) as run:  # the rates wait for it
         bench.report_progress(0.1, "asking for its parameters")
-        if not await run.until(lambda: any(s.name.endswith("/list_parameters") for s in run.graph.services), START_S):
+        if not await run.until(lambda: bool(run.graph.parameter_nodes), START_S):
             return None
         declared = await run.parameters(4.0)
         if declared is not None and not numeric_parameters(declared):

@@ -9,12 +9,13 @@ from itertools import pairwise
 from statistics import median
 
 from checks.i1_2.reading import Line, read
-from tutor.judge.trace import Ending, Endpoint, Trace
+from tutor.judge.trace import Ending, Trace
 from tutor.judge.tracebacks import Frame
+from tutor.ros_model import TopicEndpoint
 
 FILE = "message_stats.py"
 TOPIC, TYPE = "/chatter", "std_msgs/msg/String"
-OURS = Endpoint(TOPIC, TYPE, "/talker", "reliable", "volatile")
+OURS = TopicEndpoint(TOPIC, TYPE, "/talker")
 EVERY = 10
 """A summary is asked for after this many messages."""
 

@@ -187,16 +187,10 @@ async def _wait_for_match(run: Run, feed: Feed, settled_s: float) -> bool:
     met_at = run.now()
     if run.exit is not None:
         return True
-    await run.until(lambda: any(_is_parameters(each.type) for each in run.graph.services), 1.0)
-    answered = await run.parameters(SPIN_S) is not None or not any(
-        _is_parameters(each.type) for each in run.graph.services
-    )
+    await run.until(lambda: bool(run.graph.parameter_nodes), 1.0)
+    answered = await run.parameters(SPIN_S) is not None or not run.graph.parameter_nodes
     await _pause(run, met_at + settled_s - run.now())
     return answered
-
-
-def _is_parameters(type_name: str) -> bool:
-    return type_name == "rcl_interfaces/srv/ListParameters"
 
 
 async def _send(bench: Bench, run: Run, feed: Feed, sent: list[Sent], numbers: Iterable[int], hz: float) -> None:

@@ -6,9 +6,10 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from tutor.judge.trace import CallAnswer, Ending, Exit, Level, LogRecord, OutputLine, Served, Service, Trace
+from tutor.judge.trace import CallAnswer, Ending, Exit, Level, LogRecord, OutputLine, Served, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.wording import shape
+from tutor.ros_model import ServiceEndpoint
 
 SERVER, CLIENT = "calculator_server.py", "calculator_client.py"
 TYPE = "example_interfaces/srv/AddTwoInts"
@@ -113,7 +114,7 @@ class ClientRun:
     served: tuple[Served, ...] = ()
     exit: Exit | None = None
     stuck: tuple[Frame, ...] = ()
-    clients: tuple[Service, ...] = ()
+    clients: tuple[ServiceEndpoint, ...] = ()
     up_s: float | None = None
 
 
@@ -122,7 +123,7 @@ def right_result(service: str, a: int, b: int) -> int:
     return {"/add": a + b, "/subtract": a - b, "/multiply": a * b, "/divide": a // b if b else 0}[service]
 
 
-def missing_services(services: Sequence[Service]) -> list[str]:
+def missing_services(services: Sequence[ServiceEndpoint]) -> list[str]:
     """The required services that are not there with the required type."""
     there = {service.name for service in services if service.type == TYPE}
     return [name for name in SIGNS if name not in there]

@@ -22,7 +22,7 @@ from checks.i1_3.facts import (
 from checks.i1_3.whole import with_applicable_steps
 from tutor.judge import causes, ending, tracebacks
 from tutor.judge.causes import names
-from tutor.judge.trace import CallAnswer, Service, Trace
+from tutor.judge.trace import CallAnswer, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped
 
@@ -31,13 +31,13 @@ from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped
 def judge_services(seen: ServiceCalls) -> Verdict:
     expected = f"/add, /subtract, /multiply and /divide with type {TYPE}, answering a call"
     unanswered = next((answer for answer in seen.answers if answer.response is None), None)
-    missing = missing_services(seen.trace.graph.services) or ([] if unanswered else _never_called(seen))
+    missing = missing_services(seen.trace.graph.servers) or ([] if unanswered else _never_called(seen))
     if missing:
         cause = _why_missing(seen.trace, missing)
         return failed(expected, f"missing: {', '.join(missing)}", cause, causes.output_tail(seen.trace))
     if unanswered is not None:
         observed = f"{unanswered.service}: {causes.describe_no_answer(seen.trace, ANSWER_S)}"
-        silent = [service for service in seen.trace.graph.services if service.name == unanswered.service]
+        silent = [service for service in seen.trace.graph.servers if service.name == unanswered.service]
         cause = causes.incompatible_service(silent) or causes.diagnose_no_answer(
             seen.trace, seen.stuck, spins=seen.spins
         )
@@ -56,7 +56,7 @@ def _why_missing(trace: Trace, missing: Sequence[str]) -> Cause:
     if broken is not None:
         asks = broken.name == names.UNHANDLED_EXCEPTION and "EOFError" in broken.text
         return with_applicable_step(broken, trace, lambda: _first(trace, programs.remove_input) if asks else None)
-    offered = [s for s in trace.graph.services if not _is_standard_service(s)]
+    offered = [s for s in trace.graph.servers if not s.is_standard]
     typed = [service for service in offered if service.name in missing and service.type != TYPE]
     if typed:
         cause = Cause(
@@ -106,14 +106,10 @@ def _unanswered(cause: Cause, trace: Trace, service: str, stuck: Sequence[Frame]
     return with_applicable_step(cause, trace, lambda: services.compute_results(trace, [service], whole=True))
 
 
-def _is_standard_service(service: Service) -> bool:
-    return service.type.startswith(("rcl_interfaces/", "type_description_interfaces/"))
-
-
 @with_applicable_steps
 def judge_operations(seen: ServiceCalls) -> Verdict:
     expected = "right results, negative operands included"
-    if missing_services(seen.trace.graph.services):
+    if missing_services(seen.trace.graph.servers):
         return skipped("not judged, because `services` did not pass")
     for answer in seen.answers:
         a, b = answer.request["a"], answer.request["b"]

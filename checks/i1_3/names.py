@@ -11,15 +11,16 @@ from checks.i1_3 import offers
 from checks.i1_3.code import Code, learner_files, with_applicable_step
 from checks.i1_3.facts import SIGNS, TYPE, ClientRun
 from checks.i1_3.services import Changes
-from tutor.judge.trace import Service, Trace
+from tutor.judge.trace import Trace
 from tutor.judge.verdict import Cause
+from tutor.ros_model import ServiceEndpoint
 
 
 def diagnose_client(seen: ClientRun, missing: Sequence[str]) -> Cause | None:
     """Whether a service client asks for a name, or a type, that no service of ours has; some are `missing` calls."""
     if seen.trace is None or not missing:
         return None
-    asked = sorted((each for each in seen.clients if "rcl_interfaces/" not in each.type), key=lambda each: each.name)
+    asked = sorted((each for each in seen.clients if not each.is_standard), key=lambda each: each.name)
     strange = [each.name for each in asked if each.name not in SIGNS]
     if strange:
         offered = ", ".join(SIGNS)
@@ -48,7 +49,7 @@ def _step(trace: Trace, strange: Sequence[str], missing: Sequence[str]) -> str:
     )
 
 
-def _diagnose_type(trace: Trace, client: Service) -> Cause:
+def _diagnose_type(trace: Trace, client: ServiceEndpoint) -> Cause:
     wrong = client.type.rpartition("/")[2]
     cause = Cause(
         "wrong type",

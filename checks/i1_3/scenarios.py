@@ -32,9 +32,10 @@ from checks.i1_3.facts import (
 )
 from tutor.judge.bench import Bench, Run
 from tutor.judge.ending import repeat_if_doubtful
-from tutor.judge.trace import CallAnswer, Graph, Service, Trace
+from tutor.judge.trace import CallAnswer, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.waiting import wait_until_log_quiet, wait_until_seen
+from tutor.ros_model import Graph, ServiceEndpoint
 
 TRIES = 3
 ROUGH_S = 0.15
@@ -58,7 +59,7 @@ async def call_each_service(bench: Bench) -> ServiceCalls:
         known = await _services(run)
         spins = await run.parameters(2.0) is not None
         met = run.graph
-        there = [name for name in SIGNS if name not in missing_services(met.services)]
+        there = [name for name in SIGNS if name not in missing_services(met.servers)]
         bench.report_progress(0.4, "calling each service")
         answers = await _ask(run, [(name, *EASY) for name in there])
         unanswered = next((answer for answer in answers if answer.response is None), None)
@@ -76,7 +77,7 @@ async def _services(run: Run) -> bool:
     def all_there() -> bool:
         nonlocal known
         known = known or bool(run.graph.nodes)
-        return not missing_services(run.graph.services)
+        return not missing_services(run.graph.servers)
 
     await wait_until_seen(run, all_there)
     return known
@@ -88,7 +89,7 @@ async def _as_met(run: Run, met: Graph, known: bool) -> Trace:
     A node that goes takes its services along, one by one. `known`: there was one, even if it was gone when we looked.
     """
     trace = run.trace()
-    gone = set(missing_services(trace.graph.services)) - set(missing_services(met.services))
+    gone = set(missing_services(trace.graph.servers)) - set(missing_services(met.servers))
     if trace.exit is None and not gone and (trace.graph.nodes or not (known or met.nodes)):
         return trace
     await run.wait_for_exit(DYING_S)
@@ -99,7 +100,7 @@ async def _stuck(bench: Bench, unanswered: CallAnswer) -> tuple[Frame, ...]:
     """Ask the same once more, only to see where the node is while it does not answer."""
     async with bench.start(SERVER) as run:
         bench.report_progress(0.9, "looking where the node is stuck")
-        await wait_until_seen(run, lambda: any(service.name == unanswered.service for service in run.graph.services))
+        await wait_until_seen(run, lambda: any(service.name == unanswered.service for service in run.graph.servers))
         await run.call(unanswered.service, TYPE, unanswered.request, limit_s=STUCK_S)
         return await run.dump_stacks()
 
@@ -109,7 +110,7 @@ async def call_with_random_operands(bench: Bench) -> ServiceCalls:
     async with bench.start(SERVER) as run:
         known = await _services(run)
         met = run.graph
-        there = [name for name in SIGNS if name not in missing_services(met.services)]
+        there = [name for name in SIGNS if name not in missing_services(met.servers)]
         bench.report_progress(0.3, "calculating with positive and negative numbers")
         chosen = operands()
         a, b = chosen[0]  # in the other order, too, which makes no whole quotient
@@ -132,7 +133,7 @@ async def divide_by_zero(bench: Bench) -> Division:
     """Divide by zero, listen to what the node says, and go on calling."""
     async with bench.start(SERVER) as run:
         bench.report_progress(0.1, "waiting for /divide")
-        if not await wait_until_seen(run, lambda: "/divide" not in missing_services(run.graph.services)):
+        if not await wait_until_seen(run, lambda: "/divide" not in missing_services(run.graph.servers)):
             return Division(run.trace())
 
         async def divide(a: int, b: int) -> CallAnswer:
@@ -169,7 +170,7 @@ async def _demonstrated(bench: Bench) -> tuple[ClientRun, float]:
     """One run of the client; and how long the machine kept it, or us, from running until our servers were up."""
     async with bench.start(CLIENT) as run:
         bench.report_progress(0.2, "running the client, before there is a server")
-        clients: set[Service] = set()  # what it had while it ran: afterwards, the graph no longer knows
+        clients: set[ServiceEndpoint] = set()  # what it had while it ran: afterwards, the graph no longer knows
         due_at = inf
         up_at: float | None = None
         lost_s = 0.0

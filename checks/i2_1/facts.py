@@ -8,8 +8,9 @@ from typing import Any
 
 from tutor.judge import tracebacks
 from tutor.judge.rates import Rate
-from tutor.judge.trace import Ending, Parameter, Sample, SetAnswer, Trace
+from tutor.judge.trace import Ending, Sample, SetAnswer, Trace
 from tutor.judge.tracebacks import Frame
+from tutor.ros_model import Parameter
 
 FILE = "parameterized_publisher.py"
 TOPIC = "/chatter"

@@ -38,10 +38,11 @@ from tutor.judge.causes import names, parameter_slips, period_slips, slips
 from tutor.judge.rates import TOLERANCE, Rate, describe
 from tutor.judge.rewriting.node import started_node
 from tutor.judge.rewriting.whole import with_applicable_steps
-from tutor.judge.trace import Level, Parameter, SetAnswer, Trace
+from tutor.judge.trace import Level, SetAnswer, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Cause, Verdict, failed, passed
 from tutor.judge.wording import shape
+from tutor.ros_model import Parameter
 
 
 def _runs(*facts: object) -> list[Trace]:

@@ -37,9 +37,10 @@ from checks.i2_1.facts import (
 from tutor.judge.bench import Bench, Run
 from tutor.judge.ending import repeat_if_doubtful
 from tutor.judge.rates import Rate, measure
-from tutor.judge.trace import Parameter, Sample, SetAnswer, Trace
+from tutor.judge.trace import Sample, SetAnswer, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.waiting import START_S, find_stuck_frames, measure_steady_rate, wait_for_message, wait_until_seen
+from tutor.ros_model import Parameter
 
 
 @repeat_if_doubtful
@@ -292,19 +293,13 @@ async def _stuck(bench: Bench, trace: Trace, answering: bool = False) -> tuple[F
 
 async def _node(run: Run) -> str | None:
     """The node to talk to: the one that has most of the parameters. None where no node answers."""
-
-    def offers() -> list[str]:
-        return [
-            s.name.removesuffix("/set_parameters") for s in run.graph.services if s.name.endswith("/set_parameters")
-        ]
-
-    if not await run.until(lambda: bool(offers()), START_S):
+    if not await run.until(lambda: bool(run.graph.parameter_nodes), START_S):
         return None
     declared = await run.parameters(ANSWER_S)
     if declared is None:
         return None
-    holders = [parameter.node for parameter in declared if parameter.name in DEFAULTS] or offers()
-    return max(holders, key=holders.count) if holders else None
+    holders = [parameter.node for parameter in declared if parameter.name in DEFAULTS]
+    return max(holders or run.graph.parameter_nodes, key=holders.count, default=None)
 
 
 async def _publishing(run: Run) -> tuple[str | None, bool]:

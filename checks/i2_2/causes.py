@@ -23,8 +23,9 @@ from checks.i2_2.processes import EndedProcess, by_stream, ended_processes, writ
 from checks.i2_2.rewriting import PACKAGES, PROGRAMS, Launch, launch, nearest
 from tutor.judge import causes, tracebacks
 from tutor.judge.bench import OnlyWithRos
-from tutor.judge.trace import Endpoint, Graph, Trace
+from tutor.judge.trace import Trace
 from tutor.judge.verdict import Cause
+from tutor.ros_model import Graph, TopicEndpoint
 
 _NO_PACKAGE = re.compile(r"package '(?P<name>[^']*)' not found", re.IGNORECASE)
 _NO_PROGRAM = re.compile(r"executable '(?P<name>[^']*)' not found (?:in|on)[^\n]*")
@@ -430,13 +431,13 @@ def diagnose_pair(seen: LaunchRun) -> Cause:
     )
 
 
-def _both(ends: Sequence[Endpoint]) -> bool:
+def _both(ends: Sequence[TopicEndpoint]) -> bool:
     return len({each.node for each in ends}) > 1
 
 
-def _nodes(ends: Sequence[Endpoint]) -> str:
+def _nodes(ends: Sequence[TopicEndpoint]) -> str:
     return ", ".join(sorted({each.node for each in ends})) or "no node"
 
 
-def _uses(ends: Sequence[Endpoint], verb: str = "publishes on") -> str:
+def _uses(ends: Sequence[TopicEndpoint], verb: str = "publishes on") -> str:
     return ", ".join(sorted({f"{each.node} {verb} {each.topic}" for each in ends}))

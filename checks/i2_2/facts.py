@@ -7,7 +7,8 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from tutor.judge.trace import Ending, Endpoint, Graph, LogRecord, Sample, Trace
+from tutor.judge.trace import Ending, LogRecord, Sample, Trace
+from tutor.ros_model import Graph, TopicEndpoint
 
 FILE = "my_launch.py"
 NAMESPACE = "robot1"
@@ -21,7 +22,7 @@ _TELLING = 4
 
 _NUMBER = re.compile(r"[-+\d.,e]+")
 
-Pair = tuple[Endpoint, Endpoint]
+Pair = tuple[TopicEndpoint, TopicEndpoint]
 """A publisher and a subscription on one topic, of two nodes."""
 
 
@@ -48,12 +49,12 @@ class LaunchRun:
         return " ".join(f"{name}:={value}" for name, value in self.arguments.items()) or "no arguments"
 
 
-def publishers(graph: Graph) -> list[Endpoint]:
+def publishers(graph: Graph) -> list[TopicEndpoint]:
     """The publishers, but for those that ROS makes by itself."""
     return [each for each in graph.publishers if not _plumbing(each.topic)]
 
 
-def subscriptions(graph: Graph) -> list[Endpoint]:
+def subscriptions(graph: Graph) -> list[TopicEndpoint]:
     """The subscriptions, but for those that ROS makes by itself."""
     return [each for each in graph.subscriptions if not _plumbing(each.topic)]
 

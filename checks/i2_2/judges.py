@@ -124,9 +124,7 @@ def _why_not(seen: LaunchRun, pair: Pair) -> Cause | None:
             "no messages", f"{one.node} publishes nothing on {one.topic}", "start it alone, and see what it says"
         )
     alive = other.node in seen.answering
-    mute = not any(
-        service.node == other.node and service.type.endswith("/ListParameters") for service in seen.trace.graph.services
-    )
+    mute = other.node not in seen.trace.graph.parameter_nodes
     logged = logs_of_messages(pair, seen.trace.logs, seen.trace.samples_on(one.topic))
     if seen.parted:
         return diagnose_launch(seen.trace) or Cause(

@@ -23,8 +23,9 @@ from checks.i2_2.facts import (
 )
 from checks.i2_2.processes import ended_processes
 from tutor.judge.bench import Bench, Run
-from tutor.judge.trace import Graph, Trace
+from tutor.judge.trace import Trace
 from tutor.judge.waiting import RARE_S, START_S
+from tutor.ros_model import Graph
 
 DELAYED_S = 12.0
 """A node may be started this much later than the first one, by a timer say."""
@@ -122,7 +123,7 @@ async def _varied(bench: Bench, arguments: Mapping[str, str], wanted: Callable[[
 
 async def _answering(run: Run) -> frozenset[str]:
     """The nodes of the pairs that answer a request."""
-    able = {service.node for service in run.graph.services if service.type == LIST_PARAMETERS}
+    able = set(run.graph.parameter_nodes)
     asked = sorted(able & {end.node for pair in pairs(run.graph) for end in pair})
     answers = await asyncio.gather(
         *(run.call(f"{node}/list_parameters", LIST_PARAMETERS, {}, limit_s=ANSWERS_S) for node in asked)

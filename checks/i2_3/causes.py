@@ -12,10 +12,11 @@ from checks.i2_3.pace import Fault, TimerDuring
 from checks.i2_3.ticks import HZ, Series
 from tutor.judge import causes, tracebacks
 from tutor.judge.rewriting.node import NodeFile, started_node
-from tutor.judge.trace import CallAnswer, Service, Trace
+from tutor.judge.trace import CallAnswer, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Cause
 from tutor.judge.wording import shape
+from tutor.ros_model import ServiceEndpoint
 
 WHOLE = 0.75
 """A timer that stands still for less than this share of a call is not held up by the call as a whole."""
@@ -28,7 +29,7 @@ def diagnose_no_service(trace: Trace) -> Cause:
     """Why the service is not there."""
     if (broken := causes.diagnose_process(trace) or causes.diagnose_lifecycle(trace)) is not None:
         return broken
-    offered = [s for s in trace.graph.services if not s.type.startswith(("rcl_interfaces/", "type_description_"))]
+    offered = [s for s in trace.graph.servers if not s.is_standard]
     for service in offered:
         if service.name == SERVICE:
             return Cause(
@@ -88,8 +89,8 @@ def _fixed(cause: Cause, file: NodeFile) -> Cause:
     return replace(cause, hint=steps.fix_answer(file) or cause.hint)
 
 
-def _here(trace: Trace) -> list[Service]:
-    return [service for service in trace.graph.services if service.name == SERVICE]
+def _here(trace: Trace) -> list[ServiceEndpoint]:
+    return [service for service in trace.graph.servers if service.name == SERVICE]
 
 
 def diagnose_wrong_sum(answer: CallAnswer, trace: Trace) -> Cause:

@@ -7,9 +7,10 @@ from dataclasses import dataclass, replace
 
 from checks.i2_3.pace import TimerDuring, timer_during
 from checks.i2_3.ticks import Series
-from tutor.judge.trace import CallAnswer, Ending, LogRecord, Service, Trace
+from tutor.judge.trace import CallAnswer, Ending, LogRecord, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.waiting import CPU_WAIT_SHARE
+from tutor.ros_model import ServiceEndpoint
 
 FILE = "concurrent_service.py"
 SERVICE, TYPE = "/slow_add", "example_interfaces/srv/AddTwoInts"
@@ -158,7 +159,7 @@ class Interrupted:
     ending: Ending | None = None
 
 
-def has_service(services: Sequence[Service]) -> bool:
+def has_service(services: Sequence[ServiceEndpoint]) -> bool:
     """Whether the service is there, with its type."""
     return any(service.name == SERVICE and service.type == TYPE for service in services)
 

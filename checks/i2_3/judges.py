@@ -206,7 +206,7 @@ def judge_shutdown(seen: IdleRun) -> Verdict:
 
 
 def judge_shutdown_busy(seen: Interrupted, single_calls: SingleCalls) -> Verdict:
-    if not seen.called and seen.ending is not None and has_service(seen.trace.graph.services) is False:
+    if not seen.called and seen.ending is not None and has_service(seen.trace.graph.servers) is False:
         return skipped(f"not judged, because there is no {SERVICE} to call: `blocks` did not pass")
     verdict = ending.judge_ending(seen.trace, seen.ending)
     if verdict.passed and single_calls.quickest is None:

@@ -58,7 +58,7 @@ async def run_idle(bench: Bench) -> IdleRun:
         await wait_until_seen(run, lambda: bool(logs_since(run.logs, since)))
         listened_at, cpu_wait_s = run.now(), run.node_cpu_wait_s()
         bench.report_progress(0.3, "listening to the timer")
-        await listen(run, since, lambda: has_service(run.graph.services))
+        await listen(run, since, lambda: has_service(run.graph.servers))
         share = (run.node_cpu_wait_s() - cpu_wait_s) / max(0.1, run.now() - listened_at)
         series = likely(all_series(logs_since(run.logs, since)))
         trace = run.trace()
@@ -107,7 +107,7 @@ async def _call(
 
 async def _serves(run: Run) -> bool:
     """Wait for the service, and for the node to answer anything: it may be in the graph long before it spins."""
-    there = await wait_until_seen(run, lambda: has_service(run.graph.services))
+    there = await wait_until_seen(run, lambda: has_service(run.graph.servers))
     if there:
         await _spins(run)
     return there
@@ -115,11 +115,7 @@ async def _serves(run: Run) -> bool:
 
 async def _spins(run: Run) -> None:
     """Wait until the node answers what every node does, unless it never will."""
-
-    def can_be_asked() -> bool:
-        return any(service.type == "rcl_interfaces/srv/ListParameters" for service in run.graph.services)
-
-    if await run.until(can_be_asked, IN_GRAPH_S):
+    if await run.until(lambda: bool(run.graph.parameter_nodes), IN_GRAPH_S):
         await run.parameters(SPINS_S)
 
 
@@ -131,7 +127,7 @@ async def _stuck(bench: Bench, before: CallAnswer) -> tuple[tuple[Frame, ...], b
     """Call once more, only to see where the node is while it works on the call, and whether it spins at all."""
     async with bench.start(FILE) as run:
         bench.report_progress(0.9, "looking where the node is during a call")
-        await wait_until_seen(run, lambda: has_service(run.graph.services))
+        await wait_until_seen(run, lambda: has_service(run.graph.servers))
         spins = await run.parameters(2.0) is not None
         # A callback that answers is in the middle of its work; one that does not may come to a halt after it.
         into_s = WORK_S / 2 if before.response is not None else WORK_S + 0.5

@@ -5,22 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-from tutor.judge.trace import (
-    CallAnswer,
-    Ending,
-    Endpoint,
-    Exit,
-    Graph,
-    LogRecord,
-    OutputLine,
-    Parameter,
-    Sample,
-    Service,
-    SetAnswer,
-    Trace,
-)
+from tutor.judge.trace import CallAnswer, Ending, Exit, LogRecord, OutputLine, Sample, SetAnswer, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Status, Verdict
+from tutor.ros_model import Graph, Parameter, ServiceEndpoint, TopicEndpoint
 
 FOLDER = "/home/me/ws"
 START = 1000.0
@@ -61,8 +49,8 @@ def log(text: str, level: int = 20) -> LogRecord:
     return LogRecord(level, "node", text, START, START)
 
 
-def publisher(topic: str, type_name: str) -> Endpoint:
-    return Endpoint(topic, type_name, "/node", "reliable", "volatile")
+def publisher(topic: str, type_name: str) -> TopicEndpoint:
+    return TopicEndpoint(topic, type_name, "/node")
 
 
 def graph(
@@ -74,7 +62,7 @@ def graph(
     return Graph(
         nodes=tuple(nodes),
         publishers=tuple(publisher(*each) for each in (publishers or {}).items()),
-        services=tuple(Service(name, type_name, "/node") for name, type_name in (services or {}).items()),
+        servers=tuple(ServiceEndpoint(name, type_name, "/node") for name, type_name in (services or {}).items()),
     )
 
 

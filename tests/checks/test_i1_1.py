@@ -46,14 +46,15 @@ from tests.checks.made import (
     trace,
 )
 from tutor.judge.rates import Rate
-from tutor.judge.trace import Echo, Parameter, Trace
+from tutor.judge.trace import Echo, Trace
+from tutor.ros_model import Parameter, QoS
 
 PUBLISHING = graph(publishers={TOPIC: TYPE})
 MESSAGES = samples(TOPIC, 2.0, data=23.5)
 
 
 def echo(*types: str, shown: bool = True) -> Echo:
-    return Echo(TOPIC, types, "reliable", "volatile", MESSAGES[:1] if shown else (), 14.0)
+    return Echo(TOPIC, types, QoS(), MESSAGES[:1] if shown else (), 14.0)
 
 
 def plain_start(seen: Trace, **more: Any) -> PlainStart:

@@ -27,10 +27,11 @@ from checks.i1_2.reading import read, values
 from checks.i1_2.reports import find_reports
 from tests.checks.made import CRASH, NO_NODE, START, UP, assert_failed, assert_passed, ending, exited, trace
 from tutor.judge.bench import MachineTooBusy
-from tutor.judge.trace import Endpoint, LogRecord, Trace
+from tutor.judge.trace import LogRecord, Trace
 from tutor.judge.verdict import Status, Verdict
+from tutor.ros_model import TopicEndpoint
 
-LISTENING = replace(UP, subscriptions=(Endpoint("/chatter", "std_msgs/msg/String", "/node", "reliable", "volatile"),))
+LISTENING = replace(UP, subscriptions=(TopicEndpoint("/chatter", "std_msgs/msg/String", "/node"),))
 Log = tuple[int, str]
 """A level and a text."""
 
@@ -1190,7 +1191,7 @@ def test_why_there_is_no_summary() -> None:
     assert_failed(silent(trace(graph=LISTENING, err=CRASH, exit=exited(1))), "unhandled exception", "line 12")
     written = "[INFO] [17.1] [stats]: 10 from Hello World: 0 to Hello World: 9"
     assert_failed(silent(trace(graph=LISTENING, err=written)), "not the node's logger")
-    elsewhere = Endpoint("/chatters", "std_msgs/msg/String", "/node", "reliable", "volatile")
+    elsewhere = TopicEndpoint("/chatters", "std_msgs/msg/String", "/node")
     assert_failed(silent(trace(graph=replace(UP, subscriptions=(elsewhere,))), sent=()), "wrong topic")
 
 

@@ -38,9 +38,10 @@ from tests.checks.made import (
     log,
     trace,
 )
-from tutor.judge.trace import CallAnswer, Graph, LogRecord, Served, Service, Trace
+from tutor.judge.trace import CallAnswer, LogRecord, Served, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Status
+from tutor.ros_model import Graph, ServiceEndpoint
 
 ALL = graph(services=dict.fromkeys(SIGNS, TYPE))
 SERVING = trace(graph=ALL)
@@ -61,8 +62,8 @@ def services(**types: str) -> Graph:
 
 def without(service: str, more: Graph) -> Graph:
     """The three other services, and those of `more`."""
-    kept = tuple(each for each in ALL.services if each.name != service)
-    return Graph(ALL.nodes, services=(*kept, *more.services))
+    kept = tuple(each for each in ALL.servers if each.name != service)
+    return Graph(ALL.nodes, servers=(*kept, *more.servers))
 
 
 def test_services() -> None:
@@ -153,8 +154,8 @@ def test_a_service_of_another_name_is_told_the_line(text: str, offered: str, ste
 
 
 def test_a_service_of_another_type_is_missing() -> None:
-    assert missing_services(ALL.services) == []
-    assert missing_services(services(add=TYPE, subtract="a/srv/B").services) == ["/subtract", "/multiply", "/divide"]
+    assert missing_services(ALL.servers) == []
+    assert missing_services(services(add=TYPE, subtract="a/srv/B").servers) == ["/subtract", "/multiply", "/divide"]
 
 
 operands = st.tuples(st.sampled_from(list(SIGNS)), st.integers(-1000, 1000), st.integers(-20, 20).filter(bool)).map(
@@ -487,7 +488,7 @@ client = node.create_client(AddTwoInts, 'add')
 future = client.call_async(AddTwoInts.Request(a=1, b=2))
 """
 WAITS = ASKS.replace("future =", "client.wait_for_service(timeout_sec=0.1)\nfuture =")
-MADE = (Service("/add", TYPE, "/client"),)
+MADE = (ServiceEndpoint("/add", TYPE, "/client"),)
 SPINNING = (frame("spin_once", "/venv/rclpy/executors.py"), frame("main"))
 NO_ANSWER = CRASH.replace("'Sensor' object has no attribute 'nothing'", "'NoneType' object has no attribute 'sum'")
 
@@ -527,14 +528,14 @@ for name in ('add', 'subtract', 'multiply', 'div'):
 """
 
 
-def wrongly_named(text: str, *clients: Service, code: int | None = None) -> ClientRun:
+def wrongly_named(text: str, *clients: ServiceEndpoint, code: int | None = None) -> ClientRun:
     seen = demonstration(SERVED[:3], code, stuck=SPINNING, sources={"node.py": text + WAITS})
     return replace(seen, clients=(*MADE, *clients))
 
 
 @pytest.mark.parametrize("code", [None, 0, 1])
 def test_a_client_that_asks_for_a_service_that_nobody_offers_is_told_both_names(code: int | None) -> None:
-    seen = wrongly_named(NAMED, Service("/div", TYPE, "/client"), code=code)
+    seen = wrongly_named(NAMED, ServiceEndpoint("/div", TYPE, "/client"), code=code)
     assert_failed(
         judge_client(seen),
         "wrong service name",
@@ -579,18 +580,18 @@ NAMES = [
     ],
 )
 def test_the_step_names_the_line_with_the_wrong_service(text: str, name: str, step: str) -> None:
-    assert_failed(judge_client(wrongly_named(text, Service(name, TYPE, "/client"))), "wrong service name", step)
+    assert_failed(judge_client(wrongly_named(text, ServiceEndpoint(name, TYPE, "/client"))), "wrong service name", step)
 
 
 def test_a_client_for_parameters_is_not_a_wrong_name() -> None:
-    more = Service("/server/get_parameters", "rcl_interfaces/srv/GetParameters", "/client")
+    more = ServiceEndpoint("/server/get_parameters", "rcl_interfaces/srv/GetParameters", "/client")
     assert_failed(judge_client(wrongly_named(NAMED, more)), "did not end")
-    assert_passed(judge_client(replace(demonstration(), clients=(*MADE, Service("/power", TYPE, "/client")))))
+    assert_passed(judge_client(replace(demonstration(), clients=(*MADE, ServiceEndpoint("/power", TYPE, "/client")))))
 
 
 def test_a_client_with_another_type_is_told_both_types() -> None:
     text = "\nclient = node.create_client(Trigger, 'divide')\nclient.call_async(Trigger.Request())"
-    seen = wrongly_named(text, Service("/divide", "std_srvs/srv/Trigger", "/client"))
+    seen = wrongly_named(text, ServiceEndpoint("/divide", "std_srvs/srv/Trigger", "/client"))
     assert_failed(
         judge_client(seen), "wrong type", "std_srvs/srv/Trigger", TYPE, "node.create_client(AddTwoInts, 'divide')"
     )

@@ -60,8 +60,9 @@ from tests.checks.made import (
 )
 from tests.judge.real import crash
 from tutor.judge.rates import Rate
-from tutor.judge.trace import Parameter, Sample, SetAnswer, Trace
+from tutor.judge.trace import Sample, SetAnswer, Trace
 from tutor.judge.verdict import Verdict
+from tutor.ros_model import Parameter
 
 PUBLISHING = graph(publishers={TOPIC: TYPE})
 RUNNING = trace(*samples(TOPIC, 1.0), graph=PUBLISHING)

@@ -11,8 +11,9 @@ from checks.i2_2 import facts, judges, processes
 from checks.i2_2.facts import LaunchRun
 from tests.checks.made import FOLDER, START, assert_failed, assert_passed, ending, exited, lines
 from tutor.judge.bench import OnlyWithRos
-from tutor.judge.trace import Endpoint, Graph, LogRecord, Sample, Service, Trace
+from tutor.judge.trace import LogRecord, Sample, Trace
 from tutor.judge.verdict import Status
+from tutor.ros_model import Graph, QoS, ServiceEndpoint, TopicEndpoint
 
 STRING = "std_msgs/msg/String"
 TALKS, HEARS = "/talker", "/listener"
@@ -20,15 +21,17 @@ TALKS, HEARS = "/talker", "/listener"
 
 def end(
     topic: str, node: str, *, type: str = STRING, reliability: str = "reliable", durability: str = "volatile"
-) -> Endpoint:
-    return Endpoint(topic, type, node, reliability, durability)
+) -> TopicEndpoint:
+    return TopicEndpoint(topic, type, node, QoS(reliability, durability))
 
 
-def graph(sends: Sequence[Endpoint], takes: Sequence[Endpoint], more: Sequence[str] = ()) -> Graph:
+def graph(sends: Sequence[TopicEndpoint], takes: Sequence[TopicEndpoint], more: Sequence[str] = ()) -> Graph:
     """A graph of these endpoints; each node has parameter services."""
     nodes = sorted({each.node for each in (*sends, *takes)} | set(more))
-    services = tuple(Service(f"{node}/list_parameters", "rcl_interfaces/srv/ListParameters", node) for node in nodes)
-    return Graph(tuple(nodes), tuple(sends), tuple(takes), services)
+    servers = tuple(
+        ServiceEndpoint(f"{node}/list_parameters", "rcl_interfaces/srv/ListParameters", node) for node in nodes
+    )
+    return Graph(tuple(nodes), tuple(sends), tuple(takes), servers)
 
 
 def pair(topic: str, other: str | None = None, *, namespace: str = "") -> Graph:
@@ -391,7 +394,7 @@ def test_a_log_of_another_node_is_no_proof() -> None:
         (end("/chatter", TALKS), end("/chater", HEARS), "wrong topic"),
     ],
 )
-def test_what_is_sent_does_not_arrive(sends: Endpoint, takes: Endpoint, cause: str) -> None:
+def test_what_is_sent_does_not_arrive(sends: TopicEndpoint, takes: TopicEndpoint, cause: str) -> None:
     seen = launched(graph([sends], [takes]), logs=(heard("I heard: [Hello World: 1]"),))
     assert_failed(judges.judge_communicates(seen), cause)
 

@@ -6,6 +6,7 @@ import time
 
 from tests.engine.made import FILE, Scene, node
 from tutor.judge.bench import Feed, Run
+from tutor.ros_model import QoS
 
 CHATTER, STRING = "/chatter", "std_msgs/msg/String"
 UP_S = 20.0
@@ -68,4 +69,4 @@ node.create_subscription(String, "chatter", print, QoSProfile(depth=1, reliabili
         assert run.graph.publishers == ()
         assert await run.until(lambda: bool(run.graph.nodes), UP_S)  # DDS tells of a node's endpoints before it
         assert run.graph.nodes == ("/learner",)
-        assert (feed.endpoint.reliability, feed.endpoint.durability) == ("reliable", "volatile")
+        assert feed.endpoint.qos == QoS("reliable", "volatile")

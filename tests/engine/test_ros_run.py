@@ -16,6 +16,7 @@ from tutor.judge import tracebacks
 from tutor.judge.bench import Run
 from tutor.judge.causes import diagnose_process
 from tutor.judge.exceptions import parse
+from tutor.ros_model import QoS
 
 CHATTER = {"/chatter": "std_msgs/msg/String"}
 ADD = "example_interfaces/srv/AddTwoInts"
@@ -79,7 +80,7 @@ async def publishing(run: Run, topic: str = "/chatter") -> None:
 
 
 async def there(run: Run, service: str) -> None:
-    assert await run.until(lambda: any(s.name == service for s in run.graph.services), UP_S), run.trace()
+    assert await run.until(lambda: any(s.name == service for s in run.graph.servers), UP_S), run.trace()
 
 
 async def test_a_node_is_watched_from_its_first_message_to_its_end(scene: Scene) -> None:
@@ -105,13 +106,13 @@ async def test_a_node_is_watched_from_its_first_message_to_its_end(scene: Scene)
     assert before.started_at <= log.stamp <= log.received_at + 0.05
     assert "printed" in [line.text for line in before.output if line.stream == "stdout"]
     assert before.graph.nodes == ("/learner",)
-    assert [(p.topic, p.type, p.node, p.reliability) for p in before.graph.publishers] == [
+    assert [(p.topic, p.type, p.node, p.qos.reliability) for p in before.graph.publishers] == [
         ("/chatter", CHATTER["/chatter"], "/learner", "reliable")
     ]
     assert [(s.topic, s.node) for s in before.graph.subscriptions] == [("/in", "/learner")]
     assert before.parameters == {"a": 1, "b": True, "c": "x"}
     assert before.exit is None
-    assert (echo.types, echo.reliability, echo.durability) == ((CHATTER["/chatter"],), "reliable", "volatile")
+    assert (echo.types, echo.qos) == ((CHATTER["/chatter"],), QoS("reliable", "volatile"))
     assert [each.message for each in echo.samples[:2]] == [{"data": "learner"}] * 2
     assert (nothing.types, nothing.samples) == ((), ())
     assert ending.exit is not None
@@ -225,7 +226,7 @@ async def test_our_servers_answer_a_client_and_remember_it(scene: Scene) -> None
         trace, served = run.trace(), tuple(run.served)
     assert [line.text for line in trace.output if line.stream == "stdout"] == ["sum 9"]
     assert [(s.service, s.request, s.response) for s in served] == [("/add", {"a": 4, "b": 5}, {"sum": 9})]
-    assert trace.graph.services == () or all(s.node == "/learner" for s in trace.graph.services)
+    assert trace.graph.servers == () or all(s.node == "/learner" for s in trace.graph.servers)
 
 
 async def test_a_server_of_ours_that_breaks_is_our_fault(scene: Scene) -> None:

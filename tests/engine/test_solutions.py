@@ -24,7 +24,7 @@ async def test_the_calculator_answers_what_no_int64_can_hold(scene: Scene) -> No
     files = solution(load_course().find("i1.3")).files
     bench = RosBench(Submission("i1.3", files), scene.ros, nothing_shared, lambda fraction, text: None)
     async with bench.start(file) as run:
-        assert await run.until(lambda: "/divide" in [each.name for each in run.graph.services], UP_S)
+        assert await run.until(lambda: "/divide" in [each.name for each in run.graph.servers], UP_S)
         for service, a, b, nearest in (
             ("/add", MOST, 1, MOST),
             ("/add", LEAST, -1, LEAST),
@@ -50,7 +50,7 @@ async def test_the_slow_service_answers_what_no_int64_can_hold(scene: Scene) -> 
     bench = RosBench(Submission("i2.3", files), scene.ros, nothing_shared, lambda fraction, text: None)
     questions = ((MOST, 1, MOST), (LEAST, -1, LEAST), (1, 2, 3))
     async with bench.start(file) as run:
-        assert await run.until(lambda: "/slow_add" in [each.name for each in run.graph.services], UP_S)
+        assert await run.until(lambda: "/slow_add" in [each.name for each in run.graph.servers], UP_S)
         answers = await asyncio.gather(
             *(run.call("/slow_add", ADD, {"a": a, "b": b}, limit_s=ANSWER_S) for a, b, _ in questions)
         )

@@ -23,8 +23,9 @@ from tutor.judge.causes import (
     same_name,
     wrong_topic,
 )
-from tutor.judge.trace import Endpoint, Graph, Service, Trace
+from tutor.judge.trace import Trace
 from tutor.judge.tracebacks import Frame, Traceback, find_tracebacks
+from tutor.ros_model import Graph, QoS, ServiceEndpoint, TopicEndpoint
 
 TOPIC, TYPE = "/sensor/temperature", "std_msgs/msg/Float64"
 NOWHERE = Graph()
@@ -116,9 +117,7 @@ def test_why_nothing_came(seen: Trace, answers: bool, cause: str, word: str) -> 
 
 
 def test_the_nearest_of_several_wrong_topics_is_explained() -> None:
-    endpoints = [
-        Endpoint(name, TYPE, "/node", "reliable", "volatile") for name in ("/zzz", "/me/sensor/temperature", "/a")
-    ]
+    endpoints = [TopicEndpoint(name, TYPE, "/node") for name in ("/zzz", "/me/sensor/temperature", "/a")]
     assert "namespace" in wrong_topic(endpoints, TOPIC).text
 
 
@@ -159,12 +158,11 @@ def test_a_second_node_of_the_same_class_is_taken_out(made: str, step: str) -> N
 
 
 PLAIN = ("reliable", "volatile")
-OURS = Endpoint("/chatter", "std_msgs/msg/String", "/ours", "reliable", "volatile")
+OURS = TopicEndpoint("/chatter", "std_msgs/msg/String", "/ours")
 
 
-def subscribed(topic: str = OURS.topic, type_name: str = OURS.type, *qos: str) -> Trace:
-    reliability, durability = qos or PLAIN
-    asked = Endpoint(topic, type_name, "/node", reliability, durability)
+def subscribed(topic: str = OURS.topic, type_name: str = OURS.type, qos: QoS = OURS.qos) -> Trace:
+    asked = TopicEndpoint(topic, type_name, "/node", qos)
     return trace(graph=Graph(nodes=("/node",), subscriptions=(asked,)))
 
 
@@ -172,7 +170,7 @@ def subscribed(topic: str = OURS.topic, type_name: str = OURS.type, *qos: str) -
     ("seen", "answers", "cause", "word"),
     [
         (CRASHED, True, "unhandled exception", ""),
-        (subscribed(OURS.topic, OURS.type, "reliable", "transient_local"), True, "incompatible QoS", "durability"),
+        (subscribed(OURS.topic, OURS.type, QoS("reliable", "transient_local")), True, "incompatible QoS", "durability"),
         (subscribed("/chater"), True, "wrong topic", "are taken from /chater, not from /chatter"),
         (subscribed("/Chatter"), True, "wrong topic", "capital"),
         (subscribed(OURS.topic, "std_msgs/msg/Int32"), True, "wrong type", "Int32"),
@@ -206,13 +204,16 @@ def test_why_a_subscriber_took_in_nothing(seen: Trace, answers: bool, cause: str
     ],
 )
 def test_qos_of_the_learners_own_endpoints(offered: tuple[Any, ...], asked: tuple[Any, ...], policy: str) -> None:
-    found = incompatible_qos(Endpoint("/a", "T", "/one", *offered), Endpoint("/a", "T", "/two", *asked))
+    publisher, subscription = (
+        TopicEndpoint("/a", "T", node, QoS(*qos)) for node, qos in (("/one", offered), ("/two", asked))
+    )
+    found = incompatible_qos(publisher, subscription)
     assert (found.name if found else "") == ("incompatible QoS" if policy else "")
     assert found is None or policy in found.text
 
 
 def test_a_service_with_best_effort_is_not_connected() -> None:
-    services = [Service("/add", "T", "/node"), Service("/divide", "T", "/node", "best_effort")]
+    services = [ServiceEndpoint("/add", "T", "/node"), ServiceEndpoint("/divide", "T", "/node", "best_effort")]
     found = incompatible_service(services)
     assert found is not None
     assert (found.name, "/divide" in found.text) == ("incompatible QoS", True)

@@ -2,22 +2,7 @@ from __future__ import annotations
 
 import pytest
 
-from tutor.judge.trace import Parameter
-from tutor.live.facts import (
-    CallOutcome,
-    Endpoint,
-    Field,
-    Graph,
-    NodeParameters,
-    Published,
-    Qos,
-    RequestForm,
-    Service,
-    SetOutcome,
-    Timing,
-    Topic,
-    TopicUpdate,
-)
+from tutor.live.facts import CallOutcome, NodeParameters, Published, RequestForm, SetOutcome, Timing, TopicUpdate
 from tutor.live.protocol import (
     Call,
     Follow,
@@ -32,8 +17,9 @@ from tutor.live.protocol import (
     decode_update,
     encode,
 )
+from tutor.ros_model import Field, Graph, Parameter, QoS, ServiceEndpoint, TopicEndpoint
 
-END = Endpoint("/n", "std_msgs/msg/String", Qos("best_effort", deadline_s=0.5))
+END = TopicEndpoint("/t", "std_msgs/msg/String", "/n", QoS("best_effort", deadline_s=0.5))
 
 
 @pytest.mark.parametrize(
@@ -41,9 +27,9 @@ END = Endpoint("/n", "std_msgs/msg/String", Qos("best_effort", deadline_s=0.5))
     [
         Ready(3),
         WatcherError("é\u2028"),
-        Graph(("/n", "/n"), (Topic("/t", (END,), (END, END)),), (Service("/s", ("a/srv/B",), ("/n",)),)),
-        TopicUpdate("/t", "x", Qos(), 3, None, None, None),
-        TopicUpdate("/t", "x", Qos(), 3, 1, Timing(2, 0.1, 0.0, 0.1, 0.1), 0.5, "a: 1\n", ("a",), "a", ((1.0, 2.0),)),
+        Graph(("/n", "/n"), (END,), (END, END), (ServiceEndpoint("/s", "a/srv/B", "/n", "best_effort"),)),
+        TopicUpdate("/t", "x", QoS(), 3, None, None, None),
+        TopicUpdate("/t", "x", QoS(), 3, 1, Timing(2, 0.1, 0.0, 0.1, 0.1), 0.5, "a: 1\n", ("a",), "a", ((1.0, 2.0),)),
         NodeParameters("/n", True, (Parameter("/n", "p", "double array", [1.0], minimum=0.0),)),
         SetOutcome(1, "/n", "p", [1.0], True, False, "no", 1.0, 0.1),
         RequestForm("a/srv/B", (Field("x.y", "int64", "0"),)),

@@ -11,23 +11,10 @@ from rich.cells import cell_len
 
 from tests.tui import made
 from tutor.content import LessonFile
-from tutor.judge.trace import Parameter
 from tutor.judge.verdict import Cause, failed
-from tutor.live.facts import (
-    CallOutcome,
-    Endpoint,
-    Field,
-    Graph,
-    NodeParameters,
-    Published,
-    Qos,
-    RequestForm,
-    Service,
-    SetOutcome,
-    Topic,
-    TopicUpdate,
-)
+from tutor.live.facts import CallOutcome, NodeParameters, Published, RequestForm, SetOutcome, TopicUpdate
 from tutor.live.protocol import Ready, Update, WatcherError
+from tutor.ros_model import Field, Graph, Parameter, QoS, ServiceEndpoint, TopicEndpoint
 from tutor.tui import messages
 from tutor.tui.live.pane import TABS, LivePane
 from tutor.tui.screens.confirm import ConfirmScreen
@@ -62,12 +49,12 @@ def prove_harmless(me: Any) -> None:
 
 def everything(name: str) -> tuple[Update, ...]:
     node, topic = f"/{name}", f"/t/{name}"
-    ends = (Endpoint(node, name), Endpoint(node, "std_msgs/msg/String"))
+    ends = (TopicEndpoint(topic, name, node), TopicEndpoint(topic, "std_msgs/msg/String", node))
     return (
         Ready(1),
-        Graph((node,), (Topic(topic, ends, ends),), (Service(f"/s/{name}", (name,), (node,)),)),
-        TopicUpdate(topic, name, Qos(), 1, 0, None, 0.1, f"data: {name}", (name,), name, ((1.0, 2.0), (2.0, 3.0))),
-        TopicUpdate(topic, name, Qos(), 0, 0, None, None, problem=name),
+        Graph((node,), ends, ends, (ServiceEndpoint(f"/s/{name}", name, node),)),
+        TopicUpdate(topic, name, QoS(), 1, 0, None, 0.1, f"data: {name}", (name,), name, ((1.0, 2.0), (2.0, 3.0))),
+        TopicUpdate(topic, name, QoS(), 0, 0, None, None, problem=name),
         NodeParameters(node, True, (Parameter(node, name, "string", name), Parameter(node, f"z{name}", name, [name]))),
         NodeParameters(f"{node}2", False),
         SetOutcome(1, node, name, name, True, False, name, 1.0, 0.1),

@@ -259,7 +259,7 @@ async def test_the_graph_says_in_words_why_two_are_not_connected(warm: World, si
     async with watching(warm, size) as me:
         await me.sees("Graph ✗ 1")
         await me.open_tab("Graph")
-        await me.sees("──✗", "not connected", "publisher is best effort, the subscriber wants", "──▶")
+        await me.sees("──✗", "not connected", "reliability best_effort", "──▶")
 
 
 async def test_where_nothing_runs_the_page_says_what_to_do_and_nodes_come_and_go(cold: World) -> None:

@@ -19,26 +19,14 @@ from tutor.engine.source import launch_arguments, sources, uncalled_main, with_c
 from tutor.judge import tracebacks
 from tutor.judge.bench import Handler
 from tutor.judge.exceptions import Known
-from tutor.judge.trace import (
-    CallAnswer,
-    Echo,
-    Ending,
-    Exit,
-    Graph,
-    LogRecord,
-    OutputLine,
-    Parameter,
-    Sample,
-    Served,
-    SetAnswer,
-    Trace,
-)
+from tutor.judge.trace import CallAnswer, Echo, Ending, Exit, LogRecord, OutputLine, Sample, Served, SetAnswer, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.process import CpuMeter, CpuTime, LearnerProcess, own_cpu_time
 from tutor.ros import echo, graph, parameters
 from tutor.ros.feed import TopicFeed
 from tutor.ros.messages import UnknownType, to_plain
-from tutor.ros.observer import MOST_SAMPLES, Observer
+from tutor.ros.observer import ANY_PUBLISHER, MOST_SAMPLES, Observer
+from tutor.ros_model import Graph, Parameter, echo_qos
 
 T = TypeVar("T")
 
@@ -141,10 +129,11 @@ class RosRun:
     def watch(self, topic: str, type: str) -> bool:
         if topic in self._observer.samples:
             return True
-        offered = [each for each in self.graph.publishers if each.topic == topic]
-        kept = bool(offered) and all(each.durability == "transient_local" for each in offered)
+        offered = echo_qos(each.qos for each in self.graph.publishers if each.topic == topic)
+        # What was published before we came is got only from a publisher that keeps it.
+        requested = offered if offered.durability == "transient_local" else ANY_PUBLISHER
         try:
-            self._observer.watch(topic, type, kept=kept)
+            self._observer.watch(topic, type, requested)
         except UnknownType:
             return False
         return True
@@ -224,16 +213,11 @@ class RosRun:
                 await asyncio.wait_for(self._facts.changed.wait(), min(LOOK_EVERY_S, deadline - now))
 
     async def parameters(self, limit_s: float) -> tuple[Parameter, ...] | None:
-        nodes = [
-            service.name.removesuffix("/list_parameters")
-            for service in self.graph.services
-            if service.type == "rcl_interfaces/srv/ListParameters"
-        ]
         # Each for itself, that one which never answers does not hide the others; up to three requests, in turn.
         answers = await asyncio.gather(
             *(
                 self._while_alive(parameters.get_parameters(self._observer, [node], NEVER_S), 2 * limit_s, None)
-                for node in dict.fromkeys(nodes)
+                for node in self.graph.parameter_nodes
             )
         )
         answered = [answer for answer in answers if answer is not None]

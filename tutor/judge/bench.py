@@ -10,22 +10,9 @@ from collections.abc import Awaitable, Callable, Mapping, Sequence
 from contextlib import AbstractAsyncContextManager
 from typing import Any, Protocol, TypeVar
 
-from tutor.judge.trace import (
-    CallAnswer,
-    Echo,
-    Ending,
-    Endpoint,
-    Exit,
-    Graph,
-    LogRecord,
-    OutputLine,
-    Parameter,
-    Sample,
-    Served,
-    SetAnswer,
-    Trace,
-)
+from tutor.judge.trace import CallAnswer, Echo, Ending, Exit, LogRecord, OutputLine, Sample, Served, SetAnswer, Trace
 from tutor.judge.tracebacks import Frame
+from tutor.ros_model import Graph, Parameter, TopicEndpoint
 
 T = TypeVar("T")
 
@@ -46,7 +33,7 @@ class Feed(Protocol):
     """A publisher of ours on the learner's domain, with a talker's QoS: reliable, volatile, a queue of 10."""
 
     @property
-    def endpoint(self) -> Endpoint:
+    def endpoint(self) -> TopicEndpoint:
         """What the learner's node sees of it."""
 
     @property

@@ -11,6 +11,8 @@ from dataclasses import dataclass, field
 from enum import IntEnum
 from typing import TYPE_CHECKING, Any
 
+from tutor.ros_model import Graph, QoS
+
 if TYPE_CHECKING:
     from tutor.judge.exceptions.table import Known
 
@@ -52,44 +54,6 @@ class LogRecord:
 
 
 @dataclass(frozen=True, slots=True)
-class Endpoint:
-    """A publisher or subscription in the graph. `node` is the full name; QoS values are the policies' short names.
-
-    `deadline_s` and `lease_s` (of liveliness), in seconds, are None where infinite.
-    """
-
-    topic: str
-    type: str
-    node: str
-    reliability: str
-    durability: str
-    deadline_s: float | None = None
-    liveliness: str = "automatic"
-    lease_s: float | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class Service:
-    """A service server or client in the graph. `reliability` is that of what it sends: answers, or requests."""
-
-    name: str
-    type: str
-    node: str
-    reliability: str = "reliable"
-
-
-@dataclass(frozen=True, slots=True)
-class Graph:
-    """The learner's part of the ROS graph; our own nodes are left out. `nodes` holds full names, one for each node."""
-
-    nodes: tuple[str, ...] = ()
-    publishers: tuple[Endpoint, ...] = ()
-    subscriptions: tuple[Endpoint, ...] = ()
-    services: tuple[Service, ...] = ()
-    clients: tuple[Service, ...] = ()
-
-
-@dataclass(frozen=True, slots=True)
 class Exit:
     """How a process ended. Exactly one of `code` and `signal` is set. `after_s`: seconds since it was started."""
 
@@ -123,19 +87,6 @@ class Ending:
     limit_s: float
     output: tuple[OutputLine, ...] = ()
     left: tuple[str, ...] = ()
-
-
-@dataclass(frozen=True, slots=True)
-class Parameter:
-    """One parameter of a node. `type` is named as `ros2 param describe` does ("double", "integer", "string", ...)."""
-
-    node: str
-    name: str
-    type: str
-    value: Any
-    read_only: bool = False
-    minimum: float | None = None
-    maximum: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -183,8 +134,7 @@ class Echo:
 
     topic: str
     types: tuple[str, ...]
-    reliability: str
-    durability: str
+    qos: QoS
     samples: tuple[Sample, ...]
     limit_s: float
 
@@ -210,7 +160,7 @@ class Trace:
     started_at: float = 0.0
     samples: Mapping[str, tuple[Sample, ...]] = field(default_factory=dict)
     logs: tuple[LogRecord, ...] = ()
-    graph: Graph = Graph()
+    graph: Graph = field(default_factory=Graph)
     output: tuple[OutputLine, ...] = ()
     dropped_lines: int = 0
     exit: Exit | None = None

@@ -6,71 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from tutor.judge.trace import Parameter
-
-
-@dataclass(frozen=True, slots=True)
-class Qos:
-    """The policies that decide whether two endpoints match. `deadline_s` and `lease_s` are None where infinite."""
-
-    reliability: str = "reliable"
-    durability: str = "volatile"
-    deadline_s: float | None = None
-    liveliness: str = "automatic"
-    lease_s: float | None = None
-
-    def __str__(self) -> str:
-        words = [self.reliability.replace("_", " "), self.durability.replace("_", " ")]
-        if self.deadline_s is not None:
-            words.append(f"deadline {self.deadline_s:g} s")
-        if self.liveliness != "automatic":
-            words.append(f"liveliness {self.liveliness.replace('_', ' ')}")
-        return ", ".join(words)
-
-
-@dataclass(frozen=True, slots=True)
-class Endpoint:
-    """A publisher or a subscription of a node (its full name)."""
-
-    node: str
-    type: str
-    qos: Qos = Qos()
-
-
-@dataclass(frozen=True, slots=True)
-class Topic:
-    """A topic with its endpoints; our own are left out."""
-
-    name: str
-    publishers: tuple[Endpoint, ...] = ()
-    subscriptions: tuple[Endpoint, ...] = ()
-
-    @property
-    def types(self) -> tuple[str, ...]:
-        """Every type that somebody uses on it, each once; more than one is a mistake."""
-        return tuple(dict.fromkeys(end.type for end in (*self.publishers, *self.subscriptions)))
-
-
-@dataclass(frozen=True, slots=True)
-class Service:
-    """A service, its types, and the nodes that offer it."""
-
-    name: str
-    types: tuple[str, ...]
-    nodes: tuple[str, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class Graph:
-    """The whole domain but ourselves. A name stands in `nodes` once for each node that has it."""
-
-    nodes: tuple[str, ...] = ()
-    topics: tuple[Topic, ...] = ()
-    services: tuple[Service, ...] = ()
-
-    def topic(self, name: str) -> Topic | None:
-        """The topic of this name, if it is there."""
-        return next((topic for topic in self.topics if topic.name == name), None)
+from tutor.ros_model import Field, Parameter, QoS
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,7 +37,7 @@ class TopicUpdate:
 
     topic: str
     type: str
-    qos: Qos
+    qos: QoS
     count: int
     lost: int | None
     timing: Timing | None
@@ -135,15 +71,6 @@ class SetOutcome:
     reason: str
     at: float
     took_s: float
-
-
-@dataclass(frozen=True, slots=True)
-class Field:
-    """One leaf of a request: its path with dots, its type as ROS names it, and its default as text."""
-
-    path: str
-    type: str
-    default: str
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,11 +9,12 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
-from tutor.live.facts import Graph, NodeParameters, SetOutcome
+from tutor.live.facts import NodeParameters, SetOutcome
 from tutor.live.protocol import SetParameter
 from tutor.ros.observer import Observer
 from tutor.ros.parameter_events import watch_changes
 from tutor.ros.parameters import get_parameters, set_parameters
+from tutor.ros_model import Graph
 
 LIMIT_S = 3.0
 """How long a node may take to answer, in seconds."""
@@ -36,8 +37,7 @@ class ParameterWatch:
 
     def look(self, graph: Graph) -> None:
         """The graph has changed: ask the nodes that are new."""
-        offered = {service.name for service in graph.services}
-        nodes = frozenset(node for node in graph.nodes if f"{node}/list_parameters" in offered)
+        nodes = frozenset(graph.parameter_nodes)
         new, self._nodes = nodes - self._nodes, nodes
         self._again = {node: due for node, due in self._again.items() if node in nodes}
         for node in new:

@@ -9,7 +9,8 @@ from dataclasses import asdict, dataclass, fields, is_dataclass
 from functools import cache
 from typing import Any, Union, get_args, get_origin, get_type_hints
 
-from tutor.live.facts import CallOutcome, Graph, NodeParameters, Published, RequestForm, SetOutcome, TopicUpdate
+from tutor.live.facts import CallOutcome, NodeParameters, Published, RequestForm, SetOutcome, TopicUpdate
+from tutor.ros_model import Graph
 
 # --- requests: from the app ---
 

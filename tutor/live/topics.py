@@ -7,12 +7,12 @@ import time
 from collections import deque
 from dataclasses import dataclass, field
 
-from tutor.live.facts import Endpoint, Graph, Qos, Topic, TopicUpdate
+from tutor.live.facts import TopicUpdate
 from tutor.live.statistics import Statistics
 from tutor.ros.messages import UnknownType, cut, interface_class
 from tutor.ros.raw_subscription import Batch, RawSubscription, deserialize
-from tutor.ros.whole_graph import echo_qos
 from tutor.ros.yaml_format import number_at, numeric_fields, to_yaml
+from tutor.ros_model import Graph, QoS, Topic, TopicEndpoint, echo_qos
 
 POINTS_PER_NEWS = 10
 """Values sampled for a plot between two updates: a hundred a second, whatever the topic's rate."""
@@ -37,7 +37,7 @@ _SHARE_OF_TEXT = 0.2
 class _Followed:
     topic: str
     type: str = ""
-    qos: Qos = field(default_factory=Qos)
+    qos: QoS = field(default_factory=QoS)
     opened: object = None
     problem: str = ""
     several: bool = False
@@ -82,7 +82,7 @@ class FollowedTopics:
         """A message of this type is about to be published: subscribe now. Returns whether the topic is followed."""
         followed = self._all.get(topic)
         if followed is not None and followed.opened is None:
-            self._settle(followed, Topic(topic, (Endpoint("", type_name),)))
+            self._settle(followed, Topic(topic, (TopicEndpoint(topic, type_name, ""),)))
         return followed is not None
 
     def unfollow(self, topic: str) -> None:
@@ -124,15 +124,15 @@ class FollowedTopics:
         followed.stale = followed.stale or followed.problem != before
         if followed.problem:
             return
-        reliability, durability = echo_qos(topic)
-        wanted = (types[0], reliability, durability)
+        qos = echo_qos(publisher.qos for publisher in topic.publishers)
+        wanted = (types[0], qos)
         if wanted == followed.opened:
             return
         followed.opened = wanted
         followed.type = types[0]
-        followed.qos = Qos(reliability.short_key, durability.short_key)
+        followed.qos = qos
         followed.stale = True
-        self._raw_subscription.subscribe(followed.topic, types[0], reliability, durability, followed.take)
+        self._raw_subscription.subscribe(followed.topic, types[0], qos, followed.take)
 
     def _tell(self, followed: _Followed, now: float) -> TopicUpdate:
         with followed.lock:

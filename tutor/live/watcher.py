@@ -8,7 +8,6 @@ from collections.abc import Callable, Coroutine
 from typing import Any
 
 from tutor.live.calls import Calls, describe
-from tutor.live.facts import Graph
 from tutor.live.node_parameters import ParameterWatch
 from tutor.live.protocol import (
     Call,
@@ -30,10 +29,11 @@ from tutor.live.protocol import (
 )
 from tutor.live.publishing import Publishing
 from tutor.live.topics import FollowedTopics
+from tutor.ros.graph import graph_fingerprint, read_graph
 from tutor.ros.manual_publisher import ManualPublisher
 from tutor.ros.observer import Observer
 from tutor.ros.raw_subscription import RawSubscription
-from tutor.ros.whole_graph import graph_fingerprint, read_whole_graph
+from tutor.ros_model import Graph
 
 UPDATE_EVERY_S = 0.2
 """Topics are told about at most this often, in seconds, however fast they are."""
@@ -129,7 +129,7 @@ class Watcher:
         if known == self._known and now < self._looked_closely + LOOK_CLOSELY_EVERY_S:
             return
         self._known, self._looked_closely = known, now
-        graph = read_whole_graph(self._observer.node)
+        graph = read_graph(self._observer.node, standard_topics=True)
         if graph != self._graph:
             self._graph = graph
             self._say(graph)

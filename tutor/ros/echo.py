@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import asyncio
 
-from rclpy.qos import DurabilityPolicy, ReliabilityPolicy
-
 from tutor.judge.trace import Echo
 from tutor.ros.messages import UnknownType
 from tutor.ros.observer import Observer
+from tutor.ros.qos import from_rclpy
+from tutor.ros_model import QoS, echo_qos
 
 
 async def echo_topic(domain_id: int, topic: str, *, samples: int, limit_s: float) -> Echo:
@@ -19,21 +19,17 @@ async def echo_topic(domain_id: int, topic: str, *, samples: int, limit_s: float
     deadline = loop.time() + limit_s
     try:
         types: tuple[str, ...] = ()
-        reliability, durability = ReliabilityPolicy.RELIABLE, DurabilityPolicy.VOLATILE
+        qos = QoS()
         while loop.time() < deadline:
             publishers = observer.node.get_publishers_info_by_topic(topic)
             types = tuple(sorted({info.topic_type for info in publishers}))
             if publishers:
-                profiles = [info.qos_profile for info in publishers]
-                if any(profile.reliability != ReliabilityPolicy.RELIABLE for profile in profiles):
-                    reliability = ReliabilityPolicy.BEST_EFFORT
-                if all(profile.durability == DurabilityPolicy.TRANSIENT_LOCAL for profile in profiles):
-                    durability = DurabilityPolicy.TRANSIENT_LOCAL
+                qos = echo_qos(from_rclpy(info.qos_profile) for info in publishers)
                 break
             await asyncio.sleep(0.02)
         if len(types) == 1:
             try:
-                observer.watch(topic, types[0], reliability=reliability, durability=durability)
+                observer.watch(topic, types[0], qos)
             except UnknownType:
                 types = ()
         while topic in observer.samples and len(observer.samples[topic]) < samples and loop.time() < deadline:
@@ -45,8 +41,7 @@ async def echo_topic(domain_id: int, topic: str, *, samples: int, limit_s: float
         return Echo(
             topic=topic,
             types=types,
-            reliability=reliability.short_key,
-            durability=durability.short_key,
+            qos=qos,
             samples=tuple(observer.samples.get(topic, ())),
             limit_s=limit_s,
         )

@@ -6,16 +6,12 @@ import time
 from collections.abc import Mapping
 from typing import Any
 
-import rclpy
-from rclpy.context import Context
-from rclpy.node import Node
 from rclpy.publisher import Publisher
-from rclpy.signals import SignalHandlerOptions
 
-from tutor.judge.trace import Endpoint, Sample
-from tutor.ros.environment import NO_LOG_FILES
+from tutor.judge.trace import Sample
 from tutor.ros.messages import interface_class, set_fields
-from tutor.ros.observer import OUR_PREFIX
+from tutor.ros.participant import OUR_PREFIX, create_node, join_domain
+from tutor.ros_model import TopicEndpoint
 
 DEPTH = 10
 """The queue depth of the talkers that ROS brings along; their QoS is the default one, reliable and volatile."""
@@ -26,26 +22,14 @@ class TopicFeed:
 
     def __init__(self, domain_id: int, topic: str, type_name: str) -> None:
         self._type: Any = interface_class(type_name)
-        self._context = Context()
-        rclpy.init(
-            args=[*NO_LOG_FILES],
-            context=self._context,
-            domain_id=domain_id,
-            signal_handler_options=SignalHandlerOptions.NO,
-        )
+        self._context = join_domain(domain_id)
         name = f"{OUR_PREFIX}_feed"
-        self._node: Node = rclpy.create_node(
-            name,
-            context=self._context,
-            use_global_arguments=False,
-            enable_rosout=False,
-            start_parameter_services=False,
-        )
+        self._node = create_node(self._context, name)
         self._publisher: Publisher = self._node.create_publisher(self._type, topic, DEPTH)
-        self._endpoint = Endpoint(topic, type_name, f"/{name}", "reliable", "volatile")
+        self._endpoint = TopicEndpoint(topic, type_name, f"/{name}")
 
     @property
-    def endpoint(self) -> Endpoint:
+    def endpoint(self) -> TopicEndpoint:
         return self._endpoint
 
     @property

@@ -1,90 +1,81 @@
-"""The learner's part of the ROS graph, as plain facts."""
+"""The ROS graph as a node of ours sees it, as plain data."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 
-from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 
-from tutor.judge.trace import Endpoint, Graph, Service
-from tutor.ros.observer import OUR_PREFIX
+from tutor.ros.participant import OUR_PREFIX
+from tutor.ros.qos import from_rclpy
+from tutor.ros_model import Graph, NodeName, ServiceEndpoint, TopicEndpoint, is_standard_topic
 
-_AskByNode = Callable[[str, str], Sequence[tuple[str, Sequence[str]]]]
-
-_PLUMBING = ("/rosout", "/parameter_events")
-_INFINITE_S = 1e9
+_NamesAndTypes = Sequence[tuple[str, Sequence[str]]]
 
 
-def full_name(name: str, namespace: str) -> str:
-    """A node's full name, from its name and namespace."""
-    return f"{namespace.rstrip('/')}/{name}"
-
-
-def read_graph(node: Node) -> Graph:
-    """What `node` sees of the graph, without our own nodes and without the topics that every node has."""
+def read_graph(node: Node, *, standard_topics: bool = False) -> Graph:
+    """What `node` sees of the graph, without our own nodes; `standard_topics`: with those that every node has."""
     nodes = sorted(
-        full_name(name, namespace)
+        NodeName(name, namespace).full
         for name, namespace in node.get_node_names_and_namespaces()
         if not name.startswith(OUR_PREFIX)
     )
-    topics = [topic for topic, _ in node.get_topic_names_and_types() if topic not in _PLUMBING]
+    topics = [name for name, _ in node.get_topic_names_and_types() if standard_topics or not is_standard_topic(name)]
     return Graph(
         nodes=tuple(nodes),
-        publishers=_endpoints(topics, node.get_publishers_info_by_topic),
-        subscriptions=_endpoints(topics, node.get_subscriptions_info_by_topic),
-        services=_services(node, set(nodes), node.get_service_names_and_types_by_node, "rr{}Reply"),
-        clients=_services(node, set(nodes), node.get_client_names_and_types_by_node, "rq{}Request"),
+        publishers=_topic_endpoints(topics, node.get_publishers_info_by_topic),
+        subscriptions=_topic_endpoints(topics, node.get_subscriptions_info_by_topic),
+        servers=_service_endpoints(node, nodes, node.get_service_names_and_types_by_node, "rr{}Reply"),
+        clients=_service_endpoints(node, nodes, node.get_client_names_and_types_by_node, "rq{}Request"),
     )
 
 
-def _endpoints(topics: Iterable[str], ask: object) -> tuple[Endpoint, ...]:
-    assert callable(ask)
-    return tuple(
-        _endpoint(topic, info) for topic in topics for info in ask(topic) if not info.node_name.startswith(OUR_PREFIX)
+def graph_fingerprint(node: Node) -> object:
+    """Something that differs where the graph does, but for an endpoint that was replaced: much cheaper to get."""
+    return (
+        node.get_node_names_and_namespaces(),
+        [
+            (name, types, node.count_publishers(name), node.count_subscribers(name))
+            for name, types in node.get_topic_names_and_types()
+        ],
+        node.get_service_names_and_types(),
     )
 
 
-def _endpoint(topic: str, info: TopicEndpointInfo) -> Endpoint:
-    return Endpoint(
-        topic=topic,
-        type=info.topic_type,
-        node=full_name(info.node_name, info.node_namespace),
-        reliability=info.qos_profile.reliability.short_key,
-        durability=info.qos_profile.durability.short_key,
-        deadline_s=finite_s(info.qos_profile.deadline),
-        liveliness=info.qos_profile.liveliness.short_key,
-        lease_s=finite_s(info.qos_profile.liveliness_lease_duration),
-    )
+def _topic_endpoints(topics: Iterable[str], ask: Callable[[str], list[TopicEndpointInfo]]) -> tuple[TopicEndpoint, ...]:
+    found = [
+        TopicEndpoint(topic, info.topic_type, _node_of(info), from_rclpy(info.qos_profile))
+        for topic in topics
+        for info in ask(topic)
+        if not info.node_name.startswith(OUR_PREFIX)
+    ]
+    return tuple(sorted(found, key=lambda end: (end.topic, end.node, end.type, str(end.qos))))
 
 
-def finite_s(duration: Duration) -> float | None:
-    """A duration of a QoS policy in seconds; None where it is infinite, or was left to the default."""
-    seconds = duration.nanoseconds * 1e-9
-    return seconds if 0 < seconds < _INFINITE_S else None
-
-
-def _services(node: Node, nodes: set[str], ask: _AskByNode, sends_on: str) -> tuple[Service, ...]:
-    """The service servers or clients; `sends_on` is the DDS topic of what they send, with {} for the service's name."""
-    found: list[Service] = []
-    for full in sorted(nodes):
-        namespace, _, name = full.rpartition("/")
+def _service_endpoints(
+    node: Node, nodes: Iterable[str], ask: Callable[[str, str], _NamesAndTypes], dds_topic: str
+) -> tuple[ServiceEndpoint, ...]:
+    """The servers or clients of `nodes`. They send on `dds_topic`, with {} for the service's name."""
+    found: list[ServiceEndpoint] = []
+    for full in dict.fromkeys(nodes):
         try:
-            offered = ask(name, namespace or "/")
+            offered = ask(*NodeName.parse(full))
         except RuntimeError:  # the node left between the two questions
             continue
         for service, types in offered:
-            reliability = _reliability(node, sends_on.format(service), full) if _is_own(types) else "reliable"
-            found += [Service(service, type_name, full, reliability) for type_name in types]
+            ends = [ServiceEndpoint(service, type_name, full) for type_name in types]
+            if not any(end.is_standard for end in ends):
+                reliability = _reliability(node, dds_topic.format(service), full)
+                ends = [ServiceEndpoint(service, type_name, full, reliability) for type_name in types]
+            found += ends
     return tuple(found)
-
-
-def _is_own(types: Iterable[str]) -> bool:
-    return not any(each.startswith(("rcl_interfaces/", "type_description_interfaces/")) for each in types)
 
 
 def _reliability(node: Node, dds_topic: str, full: str) -> str:
     senders = node.get_publishers_info_by_topic(dds_topic, no_mangle=True)
-    mine = [info for info in senders if full_name(info.node_name, info.node_namespace) == full]
-    return mine[0].qos_profile.reliability.short_key if mine else "reliable"
+    return next((from_rclpy(info.qos_profile).reliability for info in senders if _node_of(info) == full), "reliable")
+
+
+def _node_of(info: TopicEndpointInfo) -> str:
+    return NodeName(info.node_name, info.node_namespace).full

@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-import rclpy
 from rclpy.context import Context
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 
 from tutor.ros.messages import interface_class
-from tutor.ros.observer import OUR_PREFIX
+from tutor.ros.participant import OUR_PREFIX, create_node
 from tutor.ros.requests import fill_message
 
 NODE_NAME = "published_by_hand"
@@ -36,13 +35,7 @@ class ManualPublisher:
         message = fill_message(type_name, values)
         self.remove(topic)
         if self._node is None:
-            self._node = rclpy.create_node(
-                NODE_NAME,
-                context=self._context,
-                use_global_arguments=False,
-                enable_rosout=False,
-                start_parameter_services=False,
-            )
+            self._node = create_node(self._context, NODE_NAME)
         try:
             publisher = self._node.create_publisher(interface_class(type_name), topic, _DEPTH)
         except Exception as error:  # rclpy has exceptions of several kinds for a bad name

@@ -9,21 +9,19 @@ import time
 from collections.abc import Callable, Mapping
 from typing import Any
 
-import rclpy
 from rclpy.client import Client
-from rclpy.context import Context
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
-from rclpy.node import Node
-from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy, qos_profile_services_default
+from rclpy.qos import qos_profile_services_default
 from rclpy.service import Service as ServiceServer
-from rclpy.signals import SignalHandlerOptions
 
 from tutor.judge.trace import LogRecord, Sample
-from tutor.ros.environment import NO_LOG_FILES
 from tutor.ros.messages import cut, interface_class, set_fields, to_plain, weighed, weight
+from tutor.ros.participant import OUR_PREFIX, create_node, join_domain
+from tutor.ros.qos import subscription_profile
+from tutor.ros_model import QoS
 
-OUR_PREFIX = "_ros_tutor"
-"""Names of our own nodes begin with this (hidden, as ros2cli's are), so that they are told from the learner's."""
+ANY_PUBLISHER = QoS("best_effort", "volatile")
+"""What every publisher offers at least."""
 
 DEEP = 1000
 """Queue depth of our subscriptions: a default-QoS subscriber can lose a burst that this one gets whole."""
@@ -56,20 +54,8 @@ class Observer:
         self._clients: dict[tuple[str, str], Client] = {}
         self._servers: list[ServiceServer] = []
         self._closed = False
-        self._context = Context()
-        rclpy.init(
-            args=[*NO_LOG_FILES],
-            context=self._context,
-            domain_id=domain_id,
-            signal_handler_options=SignalHandlerOptions.NO,
-        )
-        self.node: Node = rclpy.create_node(
-            f"{OUR_PREFIX}_{next(_number)}",
-            context=self._context,
-            use_global_arguments=False,
-            enable_rosout=False,
-            start_parameter_services=False,
-        )
+        self._context = join_domain(domain_id)
+        self.node = create_node(self._context, f"{OUR_PREFIX}_{next(_number)}")
         self._executor = SingleThreadedExecutor(context=self._context)
         self._executor.add_node(self.node)
         self._thread = threading.Thread(target=self._spin, name=f"observer-{domain_id}", daemon=True)
@@ -77,12 +63,7 @@ class Observer:
 
     def watch_logs(self) -> None:
         """Subscribe to `/rosout`, with what was logged before (it is transient local)."""
-        qos = QoSProfile(
-            history=HistoryPolicy.KEEP_LAST,
-            depth=DEEP,
-            reliability=ReliabilityPolicy.RELIABLE,
-            durability=DurabilityPolicy.TRANSIENT_LOCAL,
-        )
+        qos = subscription_profile(QoS("reliable", "transient_local"), DEEP)
 
         def take(message: Any) -> None:
             stamp = message.stamp.sec + message.stamp.nanosec * 1e-9
@@ -96,26 +77,11 @@ class Observer:
         count = self._counter(lambda: self.node.destroy_subscription(subscription))
         subscription = self.node.create_subscription(interface_class("rcl_interfaces/msg/Log"), "/rosout", take, qos)
 
-    def watch(
-        self,
-        topic: str,
-        type_name: str,
-        *,
-        reliability: ReliabilityPolicy = ReliabilityPolicy.BEST_EFFORT,
-        durability: DurabilityPolicy = DurabilityPolicy.VOLATILE,
-        kept: bool = False,
-    ) -> None:
-        """Collect the samples of a topic. The default QoS matches every publisher.
-
-        `kept`: those, too, that transient local publishers keep for whoever comes late; it matches no other publisher.
-
-        Raises UnknownType.
-        """
+    def watch(self, topic: str, type_name: str, requested: QoS = ANY_PUBLISHER) -> None:
+        """Collect the samples of a topic. Raises UnknownType."""
         message_type = interface_class(type_name)
         self.samples[topic] = []
-        if kept:
-            reliability, durability = ReliabilityPolicy.RELIABLE, DurabilityPolicy.TRANSIENT_LOCAL
-        qos = QoSProfile(history=HistoryPolicy.KEEP_LAST, depth=DEEP, reliability=reliability, durability=durability)
+        qos = subscription_profile(requested, DEEP)
 
         def take(message: Any, info: Any) -> None:
             plain, cost = weighed(message)

@@ -7,22 +7,11 @@ import time
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from tutor.judge.trace import Parameter, SetAnswer
+from tutor.judge.trace import SetAnswer
 from tutor.ros.messages import cut, interface_class
 from tutor.ros.observer import Observer
+from tutor.ros_model import PARAMETER_TYPES, Parameter
 
-_TYPES = (
-    "not set",
-    "boolean",
-    "integer",
-    "double",
-    "string",
-    "byte array",
-    "boolean array",
-    "integer array",
-    "double array",
-    "string array",
-)
 _FIELDS = (
     None,
     "bool_value",
@@ -120,7 +109,7 @@ def _parameter(node: str, name: str, value: Any, descriptor: Any) -> Parameter:
     return Parameter(
         node=node,
         name=name,
-        type=_TYPES[kind],
+        type=PARAMETER_TYPES[kind],
         value=_kept(getattr(value, field)) if field else None,
         read_only=descriptor.read_only,
         minimum=float(ranges[0].from_value) if ranges else None,
@@ -136,7 +125,7 @@ def _kept(value: Any) -> Any:
 
 def _message(name: str, value: Any, type_name: str | None = None) -> Any:
     holder = interface_class("rcl_interfaces/msg/ParameterValue")()
-    holder.type = _kind_of(value) if type_name is None else _TYPES.index(type_name)
+    holder.type = _kind_of(value) if type_name is None else PARAMETER_TYPES.index(type_name)
     if type_name == "byte array":
         value = [bytes([item]) for item in value]
     setattr(holder, str(_FIELDS[holder.type]), value)

@@ -13,15 +13,15 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-import rclpy
 from rclpy.context import Context
 from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
-from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.serialization import deserialize_message
 from rclpy.subscription import Subscription
 
 from tutor.ros.messages import interface_class
-from tutor.ros.observer import OUR_PREFIX
+from tutor.ros.participant import OUR_PREFIX, create_node
+from tutor.ros.qos import subscription_profile
+from tutor.ros_model import QoS
 
 DEPTH = 10_000
 """Messages that may wait until we take them: a second of a 10 kHz topic."""
@@ -48,13 +48,7 @@ class RawSubscription:
     def __init__(self, context: Context) -> None:
         self._context = context
         # In no executor: nobody else takes its messages.
-        self._node = rclpy.create_node(
-            f"{OUR_PREFIX}_raw_subscription",
-            context=context,
-            use_global_arguments=False,
-            enable_rosout=False,
-            start_parameter_services=False,
-        )
+        self._node = create_node(context, f"{OUR_PREFIX}_raw_subscription")
         self._subscriptions: dict[str, tuple[Subscription, Callable[[Batch], None]]] = {}
         self._requests: deque[Callable[[], None]] = deque()
         self._guard = _rclpy.GuardCondition(context.handle)
@@ -62,21 +56,14 @@ class RawSubscription:
         self._thread = threading.Thread(target=self._run, name="raw_subscription", daemon=True)
         self._thread.start()
 
-    def subscribe(
-        self,
-        topic: str,
-        type_name: str,
-        reliability: ReliabilityPolicy,
-        durability: DurabilityPolicy,
-        on_batch: Callable[[Batch], None],
-    ) -> None:
+    def subscribe(self, topic: str, type_name: str, qos: QoS, on_batch: Callable[[Batch], None]) -> None:
         """Take the messages of a topic; `on_batch` is called in the subscription's thread. Raises UnknownType."""
         message_type = interface_class(type_name)
-        qos = QoSProfile(history=HistoryPolicy.KEEP_LAST, depth=DEPTH, reliability=reliability, durability=durability)
+        profile = subscription_profile(qos, DEPTH)
 
         def order() -> None:
             self._destroy(topic)
-            subscription = self._node.create_subscription(message_type, topic, _unused_callback, qos, raw=True)
+            subscription = self._node.create_subscription(message_type, topic, _unused_callback, profile, raw=True)
             self._subscriptions[topic] = (subscription, on_batch)
 
         self._do(order)

@@ -6,10 +6,10 @@ import re
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from tutor.live.facts import Field
-from tutor.live.forms import shown
 from tutor.ros.messages import interface_class
 from tutor.ros.yaml_format import is_array
+from tutor.ros_model import Field
+from tutor.ros_model.values import format_value
 
 _NESTED = re.compile(r"(\w+)/(\w+)")
 _BYTES = ("octet", "sequence<octet", "octet[")
@@ -59,7 +59,7 @@ def _leaves(message: Any, path: str) -> Iterator[Field]:
         if _NESTED.fullmatch(type_name) and hasattr(value, "get_fields_and_field_types"):
             yield from _leaves(value, here)
         else:
-            yield Field(here, type_name, shown(_plain(value)))
+            yield Field(here, type_name, format_value(_plain(value)))
 
 
 def _plain(value: Any) -> Any:

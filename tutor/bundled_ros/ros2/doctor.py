@@ -11,6 +11,7 @@ from importlib.metadata import PackageNotFoundError, version
 
 from tutor.bundled_ros.ros2.domain import Domain, join_domain
 from tutor.bundled_ros.ros2.errors import CommandError
+from tutor.ros_model import is_standard_topic
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -91,7 +92,7 @@ def _topics(domain: Domain) -> list[tuple[str, list[str], int, int]]:
     return [
         (name, types, domain.node.count_publishers(name), domain.node.count_subscribers(name))
         for name, types in domain.node.get_topic_names_and_types()
-        if name not in ("/rosout", "/parameter_events")
+        if not is_standard_topic(name)
     ]
 
 

@@ -108,8 +108,10 @@ class Domain:
         return self._until(look, _SURE_QUIET_S)
 
     def _until(self, look: Callable[[], T | None], least_quiet_s: float) -> T | None:
+        from tutor.ros.graph import graph_fingerprint
+
         start = changed = polled = time.monotonic()
-        seen = self._view()
+        seen = graph_fingerprint(self.node)
         slowest_s, late_s = _POLL_S, 0.0
         while True:
             if (found := look()) is not None:
@@ -118,7 +120,7 @@ class Domain:
             # Where we are kept from running, so are those threads of ours to which the others talk.
             late_s += max(0.0, now - polled - 2 * _POLL_S)
             slowest_s, polled = max(slowest_s, now - polled), now
-            if (sees := self._view()) != seen:
+            if (sees := graph_fingerprint(self.node)) != seen:
                 slowest_s = max(slowest_s, now - changed)  # what comes slowly may have more to come
                 seen, changed = sees, now
             quiet_s = now - changed
@@ -127,16 +129,6 @@ class Domain:
             if now - start - late_s >= self.limit_s:
                 return look()
             time.sleep(_POLL_S)
-
-    def _view(self) -> object:
-        return (
-            self.node.get_node_names_and_namespaces(),
-            [
-                (name, types, self.node.count_publishers(name), self.node.count_subscribers(name))
-                for name, types in self.node.get_topic_names_and_types()
-            ],
-            self.node.get_service_names_and_types(),
-        )
 
     def _all_are_met(self, quiet_s: float) -> bool:
         met = self._participants()

@@ -19,12 +19,12 @@ from tutor.judge.edits import (
     replace_nodes,
     replace_statement,
 )
-from tutor.judge.qos import Policy, incompatible_policies
 from tutor.judge.rewriting.node import NodeFile, argument, node_file, started_node
 from tutor.judge.source import Function, called_name
-from tutor.judge.trace import Endpoint, Service, Trace
+from tutor.judge.trace import Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Cause
+from tutor.ros_model import ServiceEndpoint, TopicEndpoint, incompatible_policies
 
 _ASLEEP = "lifecycle node not activated"
 
@@ -69,7 +69,7 @@ def _idle(trace: Trace, topic: str, step: str) -> Cause:
     )
 
 
-def diagnose_deafness(trace: Trace, ours: Endpoint, *, answers: bool, stuck: Sequence[Frame] = ()) -> Cause:
+def diagnose_deafness(trace: Trace, ours: TopicEndpoint, *, answers: bool, stuck: Sequence[Frame] = ()) -> Cause:
     """Why a node of the learner's took in nothing of what `ours`, a publisher, sent; see `diagnose_silence`."""
     if (cause := diagnose_process(trace) or diagnose_lifecycle(trace)) is not None:
         return cause
@@ -93,40 +93,15 @@ def diagnose_deafness(trace: Trace, ours: Endpoint, *, answers: bool, stuck: Seq
     )
 
 
-def incompatible_qos(publisher: Endpoint, subscription: Endpoint) -> Cause | None:
+def incompatible_qos(publisher: TopicEndpoint, subscription: TopicEndpoint) -> Cause | None:
     """Whether the subscription asks for more than the publisher offers: then they are not matched at all."""
-    first = next(incompatible_policies(publisher, subscription), None)
-    if first is None:
+    mismatch = next(incompatible_policies(publisher.qos, subscription.qos), None)
+    if mismatch is None:
         return None
-    policy, offered, asked = _values(first, publisher, subscription)
-    return Cause(
-        names.INCOMPATIBLE_QOS,
-        f"on {publisher.topic} the publisher offers {policy} {offered}, the subscription asks for {asked}: "
-        "they are not connected",
-        f"give both the same {policy}: with a plain depth, such as 10, instead of a QoSProfile they match",
-    )
+    return Cause(names.INCOMPATIBLE_QOS, f"on {publisher.topic} {mismatch}", mismatch.hint)
 
 
-def _values(policy: Policy, offered: Endpoint, asked: Endpoint) -> tuple[str, str, str]:
-    """The policy and both values, in words."""
-    match policy:
-        case "reliability":
-            return policy, offered.reliability, asked.reliability
-        case "durability":
-            return policy, offered.durability, asked.durability
-        case "liveliness":
-            return policy, offered.liveliness, asked.liveliness
-        case "deadline":
-            return policy, _duration(offered.deadline_s), _duration(asked.deadline_s)
-        case "lease":
-            return "liveliness lease duration", _duration(offered.lease_s), _duration(asked.lease_s)
-
-
-def _duration(seconds: float | None) -> str:
-    return "without end" if seconds is None else f"{seconds:g} s"
-
-
-def incompatible_service(services: Iterable[Service]) -> Cause | None:
+def incompatible_service(services: Iterable[ServiceEndpoint]) -> Cause | None:
     """Whether one of the learner's service servers or clients sends best effort, where the other side is reliable."""
     for service in services:
         if service.reliability == "best_effort":
@@ -140,7 +115,7 @@ def incompatible_service(services: Iterable[Service]) -> Cause | None:
 
 
 def wrong_topic(
-    endpoints: Iterable[Endpoint], topic: str, create: str = "create_publisher", file: NodeFile | None = None
+    endpoints: Iterable[TopicEndpoint], topic: str, create: str = "create_publisher", file: NodeFile | None = None
 ) -> Cause:
     """The endpoint is there, under another name; what kind of slip it is follows from the name."""
     file = file or node_file("")
@@ -181,7 +156,7 @@ def _slip(name: str, wanted: str) -> str:
 
 def diagnose_lifecycle(trace: Trace) -> Cause | None:
     """Whether there is a lifecycle node that nobody has activated."""
-    asleep = [each.node for each in trace.graph.services if each.type == "lifecycle_msgs/srv/ChangeState"]
+    asleep = [each.node for each in trace.graph.servers if each.type == "lifecycle_msgs/srv/ChangeState"]
     if not asleep:
         return None
     file = started_node(trace)
@@ -230,7 +205,9 @@ def _woken(file: NodeFile) -> list[Edit]:
     return []
 
 
-def _misplaced(trace: Trace, endpoints: Sequence[Endpoint], topic: str, type_name: str, create: str) -> Cause | None:
+def _misplaced(
+    trace: Trace, endpoints: Sequence[TopicEndpoint], topic: str, type_name: str, create: str
+) -> Cause | None:
     here = [endpoint for endpoint in endpoints if endpoint.topic == topic]
     if here:
         return Cause(

@@ -16,8 +16,7 @@ from dataclasses import dataclass
 
 from rich.cells import cell_len
 
-from tutor.live.facts import Topic
-from tutor.live.mismatch import connections
+from tutor.ros_model import Topic, connections
 from tutor.tui.live.wording import short_type
 from tutor.tui.widgets.line_view import Piece, Row
 

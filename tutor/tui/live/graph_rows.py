@@ -6,8 +6,7 @@ import textwrap
 from collections import Counter
 from collections.abc import Iterator, Sequence
 
-from tutor.live.facts import Graph, Topic
-from tutor.live.mismatch import connections
+from tutor.ros_model import Graph, Topic, connections
 from tutor.tui.live.graph_drawing import drawing
 from tutor.tui.live.state import is_plumbing, is_plumbing_service
 from tutor.tui.widgets.line_view import Row

@@ -10,7 +10,7 @@ from rich.cells import cell_len, chop_cells
 from textual import events
 
 from tutor.live.facts import CallOutcome, SetOutcome
-from tutor.live.forms import shown
+from tutor.ros_model.values import format_value
 from tutor.tui.live.wording import period
 from tutor.tui.widgets.line_view import LineView, Row
 
@@ -115,7 +115,7 @@ def _clock(at: float) -> str:
 
 
 def _value(value: object) -> str:
-    text = shown(value)
+    text = format_value(value)
     if isinstance(value, str) and (not text or text != text.strip()):
         text = f"'{text}'"
     return text if len(text) <= _LONGEST_VALUE else f"{text[:_LONGEST_VALUE]}..."

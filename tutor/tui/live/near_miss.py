@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from tutor.content import LiveView
-from tutor.live.facts import Graph
+from tutor.ros_model import Graph
 from tutor.tui.live.state import is_plumbing, is_plumbing_service
 
 _ALIKE = 0.8

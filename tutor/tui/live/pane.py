@@ -20,9 +20,10 @@ from textual.widgets import ContentSwitcher, Static
 from textual.worker import Worker
 
 from tutor.content import Lesson
-from tutor.live.facts import CallOutcome, Graph, NodeParameters, Published, RequestForm, SetOutcome, TopicUpdate
+from tutor.live.facts import CallOutcome, NodeParameters, Published, RequestForm, SetOutcome, TopicUpdate
 from tutor.live.protocol import Follow, Plot, Publish, SetVisible, StopPublishing, Unfollow, Update, WatcherRequest
 from tutor.live.protocol import WatcherError as ChildTrouble
+from tutor.ros_model import Graph
 from tutor.tui import messages
 from tutor.tui.live import wording
 from tutor.tui.live.child import LiveChild

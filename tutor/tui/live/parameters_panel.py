@@ -12,9 +12,9 @@ from textual.binding import Binding, BindingType
 from textual.containers import Horizontal, Vertical
 from textual.widgets import DataTable, Input, Static
 
-from tutor.judge.trace import Parameter
-from tutor.live.forms import parse_parameter, shown
 from tutor.live.protocol import Refresh, SetParameter
+from tutor.ros_model import Parameter
+from tutor.ros_model.values import format_value, parse_parameter
 from tutor.tui.live import wording
 from tutor.tui.live.history import HistoryView, set_rows
 from tutor.tui.live.row_table import RowTable
@@ -106,7 +106,7 @@ class ParametersPanel(Vertical):
         self.query_one("#parameter-actions", ActionBar).actions = at_rest if self.editing is None else _EDITING
 
     def _cells(self, each: Parameter) -> tuple[Text, ...]:
-        value = shown(each.value) if each.value is not None else "(not set)"
+        value = format_value(each.value) if each.value is not None else "(not set)"
         if len(value) > _LONGEST_VALUE:
             value = f"{value[:_LONGEST_VALUE]}..."
         return (Text(each.node), Text(each.name), Text(value), Text(each.type), Text(wording.allowed(each)))
@@ -137,7 +137,7 @@ class ParametersPanel(Vertical):
         self.editing = chosen
         self.query_one("#parameter-name", Static).update(f"Set {chosen.node} {chosen.name} ({chosen.type})")
         field = self.query_one("#parameter-value", Input)
-        field.value = shown(chosen.value)
+        field.value = format_value(chosen.value)
         self.query_one("#parameter-problem", Static).update("")
         self.add_class("-editing")
         self._show_actions()

@@ -11,8 +11,9 @@ from textual.content import Content
 from textual.message import Message
 from textual.widgets import Input, Static
 
-from tutor.live.facts import Field, RequestForm
-from tutor.live.forms import parse
+from tutor.live.facts import RequestForm
+from tutor.ros_model import Field
+from tutor.ros_model.values import parse_value
 
 
 class FieldRow(Vertical):
@@ -36,7 +37,7 @@ class FieldRow(Vertical):
     def read(self) -> Any:
         """The value. Raises ValueError where the text is none; then the row says so."""
         try:
-            value = parse(self.field.type, self.input.value)
+            value = parse_value(self.field.type, self.input.value)
         except ValueError as error:
             self.query_one(".problem", Static).update(f"✗ {error}")
             self.add_class("-problem")

@@ -14,8 +14,8 @@ from textual.containers import Horizontal, Vertical
 from textual.content import Content
 from textual.widgets import DataTable, Static
 
-from tutor.live.facts import Service
 from tutor.live.protocol import Call, Cancel, Describe
+from tutor.ros_model import Service
 from tutor.tui.live import wording
 from tutor.tui.live.history import HistoryView, call_rows, waiting_row
 from tutor.tui.live.request_form import ServiceForm

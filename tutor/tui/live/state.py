@@ -7,10 +7,9 @@ from collections import deque
 from dataclasses import dataclass, field, replace
 
 from tutor.content import LiveView
-from tutor.judge.trace import Parameter
-from tutor.live.facts import CallOutcome, Graph, NodeParameters, Published, RequestForm, SetOutcome, Topic, TopicUpdate
-from tutor.live.mismatch import Connection, connections
+from tutor.live.facts import CallOutcome, NodeParameters, Published, RequestForm, SetOutcome, TopicUpdate
 from tutor.live.protocol import Ready, Update
+from tutor.ros_model import Connection, Graph, Parameter, Topic, connections
 
 KEEP_POINTS_S = 120.0
 """How much of a plotted field is kept, in seconds."""

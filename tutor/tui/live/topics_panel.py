@@ -15,8 +15,8 @@ from textual.message import Message
 from textual.widgets import DataTable, Static
 from textual.widgets.data_table import ColumnKey
 
-from tutor.live.facts import Topic
 from tutor.live.protocol import Clear, Follow, Plot, Unfollow, WatcherRequest
+from tutor.ros_model import Topic
 from tutor.tui.live import wording
 from tutor.tui.live.echo_view import EchoView
 from tutor.tui.live.plot_view import PlotView

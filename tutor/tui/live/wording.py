@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from tutor.judge.trace import Parameter
 from tutor.live.facts import Published, TopicUpdate
+from tutor.ros_model import Parameter
 
 
 def short_type(name: str) -> str:

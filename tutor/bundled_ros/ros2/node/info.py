@@ -9,8 +9,9 @@ from typing import Any
 
 from tutor.bundled_ros.ros2.domain import add_strategy_arguments, join_domain
 from tutor.bundled_ros.ros2.errors import CommandError
-from tutor.bundled_ros.ros2.node.names import node_names, nodes, split
+from tutor.bundled_ros.ros2.node.names import node_names, nodes
 from tutor.bundled_ros.ros2.parsing import complete_with
+from tutor.ros_model import NodeName
 
 NamesAndTypes = Callable[[str, str], Sequence[tuple[str, Sequence[str]]]]
 
@@ -39,7 +40,7 @@ def main(arguments: argparse.Namespace) -> None:
         print(wanted)
         for title, ask in _parts(domain.node):
             print(f"  {title}:")
-            found = [(name, types) for name, types in ask(*split(wanted)) if hidden or not _is_hidden(name)]
+            found = [(name, types) for name, types in ask(*NodeName.parse(wanted)) if hidden or not _is_hidden(name)]
             print("\n".join(f"    {name}: {', '.join(types)}" for name, types in found))
 
 

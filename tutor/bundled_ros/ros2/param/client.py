@@ -11,24 +11,11 @@ from typing import Any
 from tutor.bundled_ros.ros2.calling import wait_for_answer, wait_until
 from tutor.bundled_ros.ros2.domain import Domain, add_strategy_arguments, join_domain
 from tutor.bundled_ros.ros2.errors import CommandError
-from tutor.bundled_ros.ros2.node.names import absolute, node_names, nodes
+from tutor.bundled_ros.ros2.node.names import node_names, nodes
 from tutor.bundled_ros.ros2.parsing import complete_with
+from tutor.ros_model import NodeName
 
 SERVICES_LIMIT_S = 5.0
-
-TYPES = (
-    "not set",
-    "boolean",
-    "integer",
-    "double",
-    "string",
-    "byte array",
-    "boolean array",
-    "integer array",
-    "double array",
-    "string array",
-)
-"""The names of rcl_interfaces/msg/ParameterType, by number."""
 
 
 def add_node_arguments(parser: argparse.ArgumentParser) -> None:
@@ -83,7 +70,7 @@ class ParameterClient:
 @contextmanager
 def parameter_client(arguments: argparse.Namespace) -> Iterator[ParameterClient]:
     """Join the domain, and find the node that was named. Raises CommandError where it is not there."""
-    name = absolute(arguments.node_name)
+    name = NodeName.parse(arguments.node_name).full
     with join_domain(arguments) as domain:
         find_node(domain, name, hidden=arguments.include_hidden_nodes, limit_s=arguments.timeout)
         yield ParameterClient(domain, name)
@@ -102,7 +89,7 @@ def find_node(domain: Domain, name: str, *, hidden: bool, limit_s: float | None)
 def parameter_names(parsed_args: argparse.Namespace, **_: object) -> list[str]:
     """The parameters that Tab offers, of the node that was named."""
     with join_domain(parsed_args) as domain:
-        name = absolute(parsed_args.node_name)
+        name = NodeName.parse(parsed_args.node_name).full
         find_node(domain, name, hidden=True, limit_s=None)
         return ParameterClient(domain, name).names()
 

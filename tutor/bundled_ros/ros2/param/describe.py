@@ -6,13 +6,13 @@ import argparse
 from typing import Any
 
 from tutor.bundled_ros.ros2.param.client import (
-    TYPES,
     add_node_arguments,
     add_timeout,
     parameter_client,
     parameter_names,
 )
 from tutor.bundled_ros.ros2.parsing import complete_with
+from tutor.ros_model import PARAMETER_TYPES
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -31,7 +31,7 @@ def main(arguments: argparse.Namespace) -> None:
 
 def _print(descriptor: Any) -> None:
     print(f"Parameter name: {descriptor.name}")
-    print(f"  Type: {TYPES[descriptor.type]}")
+    print(f"  Type: {PARAMETER_TYPES[descriptor.type]}")
     if descriptor.description:
         print(f"  Description: {descriptor.description}")
     print("  Constraints:")

@@ -6,7 +6,6 @@ import argparse
 
 from tutor.bundled_ros.ros2.errors import CommandError
 from tutor.bundled_ros.ros2.param.client import (
-    TYPES,
     add_node_arguments,
     add_timeout,
     parameter_client,
@@ -14,6 +13,7 @@ from tutor.bundled_ros.ros2.param.client import (
     plain_value,
 )
 from tutor.bundled_ros.ros2.parsing import complete_with
+from tutor.ros_model import PARAMETER_TYPES
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -30,7 +30,7 @@ def main(arguments: argparse.Namespace) -> None:
         values = node.values([arguments.parameter_name])
     if not values:
         raise CommandError("Parameter not set")
-    value, kind = plain_value(values[0]), TYPES[values[0].type]
+    value, kind = plain_value(values[0]), PARAMETER_TYPES[values[0].type]
     if arguments.hide_type:
         print(value)
     elif value is None:

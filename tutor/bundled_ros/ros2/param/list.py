@@ -8,9 +8,10 @@ import sys
 
 from tutor.bundled_ros.ros2.domain import Domain, add_strategy_arguments, join_domain
 from tutor.bundled_ros.ros2.errors import CommandError
-from tutor.bundled_ros.ros2.node.names import absolute, node_names, nodes
-from tutor.bundled_ros.ros2.param.client import TYPES, ParameterClient
+from tutor.bundled_ros.ros2.node.names import node_names, nodes
+from tutor.bundled_ros.ros2.param.client import ParameterClient
 from tutor.bundled_ros.ros2.parsing import complete_with
+from tutor.ros_model import PARAMETER_TYPES, NodeName
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -30,7 +31,7 @@ def main(arguments: argparse.Namespace) -> None:
         domain.complete()
         found = sorted(nodes(domain, hidden=arguments.include_hidden_nodes))
         if arguments.node_name:
-            wanted = absolute(arguments.node_name)
+            wanted = NodeName.parse(arguments.node_name).full
             found = [node for node in found if node.full == wanted][:1]
             if not found:
                 raise CommandError("Node not found")
@@ -49,7 +50,9 @@ def _print(domain: Domain, node: str, pattern: re.Pattern[str], arguments: argpa
     try:
         asked = ParameterClient(domain, node)
         names = [name for name in asked.names(arguments.param_prefixes) if pattern.match(name)]
-        types = {each.name: TYPES[each.type] for each in asked.descriptors(names)} if arguments.param_type else {}
+        types = (
+            {each.name: PARAMETER_TYPES[each.type] for each in asked.descriptors(names)} if arguments.param_type else {}
+        )
     except CommandError as error:
         if arguments.node_name:
             raise

@@ -19,6 +19,7 @@ from tutor.bundled_ros.ros2.qos import add_qos_arguments, asks_for_qos, qos_of
 from tutor.bundled_ros.ros2.receiving import DEPTH, Received, receive
 from tutor.bundled_ros.ros2.topic.expressions import expression
 from tutor.bundled_ros.ros2.topic.names import full_name, message_class, topic_names, warn_of_no_publisher
+from tutor.ros_model import echo_qos
 
 if TYPE_CHECKING:
     from rclpy.qos import QoSProfile
@@ -126,28 +127,30 @@ def _qos(domain: Domain, arguments: argparse.Namespace) -> QoSProfile:
     """What the options ask for, else what all publishers offer."""
     from rclpy.qos import DurabilityPolicy, ReliabilityPolicy
 
+    from tutor.ros.qos import from_rclpy
+
     profile = qos_of(arguments)
     if not asks_for_qos(arguments):
         domain.complete()  # one publisher more may offer less
-        offered = [info.qos_profile for info in domain.node.get_publishers_info_by_topic(arguments.topic_name)]
-        reliable = [each.reliability == ReliabilityPolicy.RELIABLE for each in offered]
-        kept = [each.durability == DurabilityPolicy.TRANSIENT_LOCAL for each in offered]
-        if offered:
-            profile.reliability = ReliabilityPolicy.RELIABLE if all(reliable) else ReliabilityPolicy.BEST_EFFORT
-            profile.durability = DurabilityPolicy.TRANSIENT_LOCAL if all(kept) else DurabilityPolicy.VOLATILE
-        _tell_fallback(reliable, "QoSReliabilityPolicy.RELIABLE", "QoSReliabilityPolicy.BEST_EFFORT")
-        _tell_fallback(kept, "QoSDurabilityPolicy.TRANSIENT_LOCAL", "QoSDurabilityPolicy.VOLATILE")
+        publishers = domain.node.get_publishers_info_by_topic(arguments.topic_name)
+        if offered := [from_rclpy(info.qos_profile) for info in publishers]:
+            chosen = echo_qos(offered)
+            profile.reliability = ReliabilityPolicy.get_from_short_key(chosen.reliability)
+            profile.durability = DurabilityPolicy.get_from_short_key(chosen.durability)
+            if chosen.reliability == "best_effort" and any(each.reliability == "reliable" for each in offered):
+                _tell_fallback("QoSReliabilityPolicy.RELIABLE", "QoSReliabilityPolicy.BEST_EFFORT")
+            if chosen.durability == "volatile" and any(each.durability == "transient_local" for each in offered):
+                _tell_fallback("QoSDurabilityPolicy.TRANSIENT_LOCAL", "QoSDurabilityPolicy.VOLATILE")
     if arguments.qos_depth is None and profile.durability != DurabilityPolicy.TRANSIENT_LOCAL:
         profile.depth = DEPTH  # nothing is lost in a burst
     return profile
 
 
-def _tell_fallback(offers: list[bool], best: str, other: str) -> None:
-    if any(offers) and not all(offers):
-        print(
-            f"Some, but not all, publishers are offering {best}. "
-            f"Falling back to {other} as it will connect to all publishers"
-        )
+def _tell_fallback(best: str, other: str) -> None:
+    print(
+        f"Some, but not all, publishers are offering {best}. "
+        f"Falling back to {other} as it will connect to all publishers"
+    )
 
 
 def _tell_lost(status: Any) -> None:

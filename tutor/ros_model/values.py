@@ -8,7 +8,7 @@ from typing import Any
 
 import yaml
 
-from tutor.judge.trace import Parameter
+from tutor.ros_model.parameter import Parameter
 
 _INTEGER = re.compile(r"(u?)int(8|16|32|64)")
 _ARRAY = re.compile(r"sequence<(?P<of>.+?)(, (?P<most>\d+))?>|(?P<fixed>.+)\[(?P<length>\d+)\]")
@@ -30,7 +30,7 @@ _OF_PARAMETERS = {
 }
 
 
-def parse(type_name: str, text: str) -> Any:
+def parse_value(type_name: str, text: str) -> Any:
     """The value that a text means for a field of this type, such as `int64`, `sequence<double, 3>` or `string`.
 
     Raises ValueError with one line that says what is wrong.
@@ -55,7 +55,7 @@ def parse_parameter(parameter: Parameter, text: str) -> tuple[str, Any]:
     Raises ValueError with one line. A range is not looked at: the node itself is to say what it thinks of the value.
     """
     if parameter.type in _OF_PARAMETERS:
-        return parameter.type, parse(_OF_PARAMETERS[parameter.type], text)
+        return parameter.type, parse_value(_OF_PARAMETERS[parameter.type], text)
     try:
         value = yaml.safe_load(text)
     except yaml.YAMLError:
@@ -66,14 +66,14 @@ def parse_parameter(parameter: Parameter, text: str) -> tuple[str, Any]:
     return "string", text
 
 
-def shown(value: Any) -> str:
+def format_value(value: Any) -> str:
     """A value as a learner would type it."""
     if value is None:
         return ""
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, (list, tuple)):
-        return f"[{', '.join(_quoted(item) if isinstance(item, str) else shown(item) for item in value)}]"
+        return f"[{', '.join(_quoted(item) if isinstance(item, str) else format_value(item) for item in value)}]"
     return str(value)
 
 
@@ -122,7 +122,7 @@ def _array(found: re.Match[str], text: str) -> list[Any]:
     if not isinstance(given, list):
         raise ValueError("Write a list in brackets, such as [1, 2, 3].")
     of = found["of"] or found["fixed"]
-    values = [parse(of, item if isinstance(item, str) else shown(item)) for item in given]
+    values = [parse_value(of, item if isinstance(item, str) else format_value(item)) for item in given]
     if found["length"] and len(values) != int(found["length"]):
         raise ValueError(f"Exactly {found['length']} values: these are {len(values)}.")
     if found["most"] and len(values) > int(found["most"]):

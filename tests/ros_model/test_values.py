@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tutor.judge.trace import Parameter
-from tutor.live.forms import parse, parse_parameter, shown
+from tutor.ros_model import Parameter
+from tutor.ros_model.values import format_value, parse_parameter, parse_value
 
 
 @pytest.mark.parametrize(
@@ -28,7 +28,7 @@ from tutor.live.forms import parse, parse_parameter, shown
     ],
 )
 def test_a_text_becomes_a_value(type_name: str, text: str, value: Any) -> None:
-    made = parse(type_name, text)
+    made = parse_value(type_name, text)
     assert made == value
     assert type(made) is type(value)
 
@@ -52,18 +52,18 @@ def test_a_text_becomes_a_value(type_name: str, text: str, value: Any) -> None:
 )
 def test_what_is_wrong_is_said_plainly(type_name: str, text: str, words: str) -> None:
     with pytest.raises(ValueError, match=words):
-        parse(type_name, text)
+        parse_value(type_name, text)
 
 
 @given(st.lists(st.text(st.characters(codec="utf-8", exclude_categories=["Cc", "Cs", "Zl", "Zp"]))))
 def test_a_shown_list_of_texts_reads_back(values: list[str]) -> None:
-    assert parse("sequence<string>", shown(values)) == values
+    assert parse_value("sequence<string>", format_value(values)) == values
 
 
 @given(st.one_of(st.integers(-(2**63), 2**63 - 1), st.booleans(), st.floats(allow_nan=False)))
 def test_a_shown_value_reads_back(value: int | float | bool) -> None:
     kind = {bool: "boolean", int: "int64", float: "double"}[type(value)]
-    assert parse(kind, shown(value)) == value
+    assert parse_value(kind, format_value(value)) == value
 
 
 def test_a_parameter_keeps_its_type_and_one_without_takes_the_texts() -> None:

@@ -1,0 +1,37 @@
+"""QoS between rclpy and our model of it."""
+
+from __future__ import annotations
+
+from rclpy.duration import Duration
+from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
+
+from tutor.ros_model import QoS
+
+_INFINITE_S = 1e9
+
+
+def from_rclpy(profile: QoSProfile) -> QoS:
+    """The policies of an endpoint that decide whether it connects."""
+    return QoS(
+        reliability=profile.reliability.short_key,
+        durability=profile.durability.short_key,
+        deadline_s=_finite_s(profile.deadline),
+        liveliness=profile.liveliness.short_key,
+        lease_s=_finite_s(profile.liveliness_lease_duration),
+    )
+
+
+def subscription_profile(qos: QoS, depth: int) -> QoSProfile:
+    """What a subscription of ours is made with: it requests this reliability and durability, and nothing else."""
+    return QoSProfile(
+        history=HistoryPolicy.KEEP_LAST,
+        depth=depth,
+        reliability=ReliabilityPolicy.get_from_short_key(qos.reliability),
+        durability=DurabilityPolicy.get_from_short_key(qos.durability),
+    )
+
+
+def _finite_s(duration: Duration) -> float | None:
+    """A policy's duration in seconds; None where it is infinite, or left to the default."""
+    seconds = duration.nanoseconds * 1e-9
+    return seconds if 0 < seconds < _INFINITE_S else None

@@ -1,0 +1,35 @@
+"""ROS 2 as plain data: the graph, the QoS of its endpoints, and parameters. Pure; below all that looks at ROS."""
+
+from tutor.ros_model.field import Field
+from tutor.ros_model.graph import (
+    Connection,
+    Graph,
+    NodeName,
+    Service,
+    ServiceEndpoint,
+    Topic,
+    TopicEndpoint,
+    connections,
+    is_standard_topic,
+)
+from tutor.ros_model.parameter import PARAMETER_TYPES, Parameter
+from tutor.ros_model.qos import QoS, QoSMismatch, echo_qos, incompatible_policies
+
+__all__ = [
+    "PARAMETER_TYPES",
+    "Connection",
+    "Field",
+    "Graph",
+    "NodeName",
+    "Parameter",
+    "QoS",
+    "QoSMismatch",
+    "Service",
+    "ServiceEndpoint",
+    "Topic",
+    "TopicEndpoint",
+    "connections",
+    "echo_qos",
+    "incompatible_policies",
+    "is_standard_topic",
+]
