@@ -122,6 +122,15 @@ async def test_a_node_is_watched_from_its_first_message_to_its_end(scene: Scene)
     assert after.graph.nodes == ("/learner",), "the last that was seen of it"
 
 
+async def test_a_publisher_that_keeps_messages_but_sends_best_effort_is_heard(scene: Scene) -> None:
+    qos = "QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL, reliability=ReliabilityPolicy.BEST_EFFORT)"
+    imported = "from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy"
+    async with scene.bench(node(imported, PUBLISHES.replace(", 10)", f", {qos})"))).start(FILE) as run:
+        assert await run.until(lambda: bool(run.graph.publishers), UP_S)
+        assert run.watch("/chatter", CHATTER["/chatter"])
+        await publishing(run)
+
+
 async def test_parameters_are_read_and_set(scene: Scene) -> None:
     async with scene.bench(node(DECLARES)).start(FILE, parameters={"name": "mine"}) as run:
         await there(run, "/learner/set_parameters_atomically")
