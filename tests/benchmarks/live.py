@@ -28,8 +28,8 @@ from tests.benchmarks.terminal import Terminal, child_of, kept_waiting, use_of
 from tests.live.world import METRONOME, World, world
 from tutor.content import load_course
 from tutor.live.facts import TopicUpdate
+from tutor.session import Session
 from tutor.tui.app import TutorApp
-from tutor.tui.app_services import AppServices
 from tutor.workspace import Workspace, start
 
 TARGETS_MS = {1000: 50.0, 10000: 100.0}
@@ -138,7 +138,7 @@ class WatchedApp(TutorApp):
 
 def run_app(report: Path, workspace: Path) -> None:
     """The app that is measured."""
-    app = WatchedApp(AppServices(load_course(), Workspace(workspace)))
+    app = WatchedApp(Session(load_course(), Workspace(workspace)))
     app.run()
     assert app.counted is not None
     report.write_text(json.dumps({"count": app.counted.count, "lost": app.counted.lost}))

@@ -10,7 +10,7 @@ import pytest
 from tests.cli.conftest import Run
 from tutor.content import load_course
 from tutor.doctor.ros2 import own_domain
-from tutor.tui.app_services import AppServices
+from tutor.session import Session
 from tutor.tui.live.launching import watcher_command
 from tutor.workspace import RunOptions, Workspace, claims, domain_of
 
@@ -44,12 +44,12 @@ def test_app_live_and_ros2_are_in_the_workspaces_own(run: Run, home: Path, monke
     run("start", "i1.1", "--workspace", "bob")
     domains = []
     for name in ("ada", "bob"):
-        app_services = AppServices(load_course(), Workspace(home / name))
-        domain = domain_of(app_services.workspace)
-        node = app_services.node_command(app_services.lessons[0].files[0], RunOptions())
-        assert app_services.domain == domain
+        session = Session(load_course(), Workspace(home / name))
+        domain = domain_of(session.workspace)
+        node = session.node_command(session.lessons[0].files[0], RunOptions())
+        assert session.domain == domain
         assert node.env["ROS_DOMAIN_ID"] == str(domain)
-        assert watcher_command(app_services.domain).env["ROS_DOMAIN_ID"] == str(domain)
+        assert watcher_command(session.domain).env["ROS_DOMAIN_ID"] == str(domain)
         assert ros2_domain(run, monkeypatch, "--workspace", name) == str(domain)
         domains.append(domain)
     assert len({0, *domains}) == 3
@@ -58,19 +58,19 @@ def test_app_live_and_ros2_are_in_the_workspaces_own(run: Run, home: Path, monke
 def test_the_variable_wins_everywhere(run: Run, home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     run("start", "i1.1")
     monkeypatch.setenv("ROS_DOMAIN_ID", "77")
-    app_services = AppServices(load_course(), Workspace(home / "ros_tutor_ws"))
-    assert app_services.domain == 77
-    assert app_services.node_command(app_services.lessons[0].files[0], RunOptions()).env["ROS_DOMAIN_ID"] == "77"
+    session = Session(load_course(), Workspace(home / "ros_tutor_ws"))
+    assert session.domain == 77
+    assert session.node_command(session.lessons[0].files[0], RunOptions()).env["ROS_DOMAIN_ID"] == "77"
     assert ros2_domain(run, monkeypatch) == "77"
     assert "Your nodes run in ROS domain 77." in run("list").out
 
 
 def test_a_desk_that_moves_has_the_domain_of_the_new_place(home: Path) -> None:
-    app_services = AppServices(load_course(), Workspace(home / "ros_tutor_ws"))
-    assert app_services.domain
-    app_services.begin_in(home / "elsewhere")
-    assert app_services.domain == domain_of(Workspace(home / "elsewhere"))
-    assert (home / "elsewhere" / ".ros-tutor" / "domain").read_text() == f"{app_services.domain}\n"
+    session = Session(load_course(), Workspace(home / "ros_tutor_ws"))
+    assert session.domain
+    session.begin_in(home / "elsewhere")
+    assert session.domain == domain_of(Workspace(home / "elsewhere"))
+    assert (home / "elsewhere" / ".ros-tutor" / "domain").read_text() == f"{session.domain}\n"
 
 
 def test_list_shows_it(run: Run, home: Path) -> None:

@@ -16,9 +16,9 @@ from textual.widgets import Static
 from tests.tui import made
 from tests.tui.person import Person
 from tutor.judge.events import Event
+from tutor.session import Session
+from tutor.session.node import Node
 from tutor.tui.app import TutorApp
-from tutor.tui.app_services import AppServices
-from tutor.tui.node import Node
 from tutor.tui.screens.main import MainScreen
 from tutor.tui.widgets.code_pane import CodePane
 from tutor.tui.widgets.criteria import CriteriaPanel
@@ -29,9 +29,9 @@ from tutor.tui.widgets.line_view import LineView
 class Learner(Person[TutorApp]):
     """Somebody with a workspace."""
 
-    def __init__(self, app: TutorApp, pilot: Pilot[int], app_services: AppServices) -> None:
+    def __init__(self, app: TutorApp, pilot: Pilot[int], session: Session) -> None:
         super().__init__(app, pilot)
-        self.app_services = app_services
+        self.session = session
 
     @property
     def main(self) -> MainScreen:
@@ -54,7 +54,7 @@ class Learner(Person[TutorApp]):
     @property
     def file(self) -> Path:
         """The file that is shown."""
-        return self.main.session.path
+        return self.main.model.path
 
     async def types(self, text: str) -> None:
         await self.pilot.press(*("enter" if c == "\n" else _character_to_key(c) for c in text))
@@ -81,25 +81,25 @@ class Learner(Person[TutorApp]):
 
     async def told(self, *lines: Event | str) -> None:
         """Have the engine say this. In a daemon thread: opening the pipe waits for the child."""
-        assert isinstance(self.app_services, made.FakeServices)
-        thread = threading.Thread(target=self.app_services.engine.say, args=lines, daemon=True)
+        assert isinstance(self.session, made.FakeServices)
+        thread = threading.Thread(target=self.session.engine.say, args=lines, daemon=True)
         thread.start()
         await self.until(lambda: not thread.is_alive(), "the engine listens")
 
 
 @asynccontextmanager
-async def at(app_services: AppServices, size: tuple[int, int] = (120, 36)) -> AsyncIterator[Learner]:
+async def at(session: Session, size: tuple[int, int] = (120, 36)) -> AsyncIterator[Learner]:
     """Open the app for a learner; when they leave, nothing runs any more."""
-    app = TutorApp(app_services)
+    app = TutorApp(session)
     app.animation_level = "none"
     async with app.run_test(size=size, notifications=True) as pilot:
         try:
-            if app_services.workspace.exists:
+            if session.workspace.exists:
                 await made.opened(app, pilot)
-            yield Learner(app, pilot, app_services)
+            yield Learner(app, pilot, session)
         finally:
-            if isinstance(app_services, made.FakeServices):
-                app_services.engine.close()
+            if isinstance(session, made.FakeServices):
+                session.engine.close()
             if app.main is not None:
                 await app.main.close_down()
 

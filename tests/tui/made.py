@@ -14,10 +14,9 @@ from tutor.content import Checklist, Course, CriterionText, Difficulty, Lesson, 
 from tutor.judge.events import CheckFinished, CheckStarted, CriterionJudged, Event, ExerciseJudged, Progress, encode
 from tutor.judge.result import CriterionResult, Environment, ExerciseResult, Report
 from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped
-from tutor.tui import run_options
+from tutor.session import Session, run_options
+from tutor.session.node import NodeCommand
 from tutor.tui.app import TutorApp
-from tutor.tui.app_services import AppServices
-from tutor.tui.node import NodeCommand
 from tutor.workspace import RunOptions, Workspace
 
 BODY = """\
@@ -101,7 +100,7 @@ def _lesson(folder: Path, id: str, title: str, difficulty: Difficulty, unit: str
     return Lesson(id, title, difficulty, unit, "Publish.", tuple(files), tuple(criteria), hints, (), body, home)
 
 
-class FakeServices(AppServices):
+class FakeServices(Session):
     """The real ones, but for the engine, a script that takes its lines from a pipe, and nodes without ROS."""
 
     def __init__(self, folder: Path, *, started: bool = True, lessons: Course | None = None) -> None:
@@ -249,6 +248,6 @@ def whole(lesson: Lesson, middle: Verdict) -> list[Event]:
 async def opened(app: TutorApp, pilot: Pilot[int], limit_s: float = 30.0) -> None:
     """Wait until the main screen is there, with its lesson and the progress: the app paints before that."""
     async with asyncio.timeout(limit_s):
-        while app.main is None or not app.main.session.progress.exercises:
+        while app.main is None or not app.main.model.progress.exercises:
             await pilot.pause(0.02)
     await pilot.pause()

@@ -26,8 +26,8 @@ from tests.tui import made
 from tutor.content import load_course
 from tutor.judge.events import CheckStarted, CriterionJudged, Event
 from tutor.judge.verdict import Status
+from tutor.session import Session
 from tutor.tui.app import TutorApp
-from tutor.tui.app_services import AppServices
 from tutor.tui.live.topics_panel import TopicsPanel
 from tutor.tui.screens.checklist import ChecklistScreen
 from tutor.tui.screens.main import MainScreen
@@ -60,19 +60,19 @@ class Album:
     @asynccontextmanager
     async def opened(self, *, started: bool = True) -> AsyncIterator[tuple[Pilot[int], made.FakeServices]]:
         with tempfile.TemporaryDirectory() as scratch:
-            app_services = made.FakeServices(Path(scratch) / "learner", started=started, lessons=load_course())
+            session = made.FakeServices(Path(scratch) / "learner", started=started, lessons=load_course())
             if started:
-                app_services.path(app_services.lessons[0].files[0]).write_text(made.NODE)
-            async with self.app(app_services) as pilot:
-                yield pilot, app_services
-                app_services.engine.close()
+                session.path(session.lessons[0].files[0]).write_text(made.NODE)
+            async with self.app(session) as pilot:
+                yield pilot, session
+                session.engine.close()
 
     @asynccontextmanager
-    async def app(self, app_services: AppServices) -> AsyncIterator[Pilot[int]]:
-        app = TutorApp(app_services)
+    async def app(self, session: Session) -> AsyncIterator[Pilot[int]]:
+        app = TutorApp(session)
         app.animation_level = "none"
         async with app.run_test(size=self.size) as pilot:
-            if app_services.workspace.exists:
+            if session.workspace.exists:
                 await made.opened(app, pilot)
             else:
                 await until(pilot, lambda: isinstance(app.screen, WelcomeScreen))
@@ -141,11 +141,11 @@ class Album:
         with world() as around, tempfile.TemporaryDirectory() as scratch:
             for name in ("ROS_DOMAIN_ID", "ROS_AUTOMATIC_DISCOVERY_RANGE"):
                 os.environ[name] = around.environ[name]
-            app_services = AppServices(load_course(), Workspace(Path(scratch) / "ros_tutor_ws"))
-            lesson = app_services.lessons[0]
-            app_services.start(lesson)
-            app_services.path(lesson.files[0]).write_bytes(lesson.files[0].solution.read_bytes())
-            async with self.app(app_services) as pilot:
+            session = Session(load_course(), Workspace(Path(scratch) / "ros_tutor_ws"))
+            lesson = session.lessons[0]
+            session.start(lesson)
+            session.path(lesson.files[0]).write_bytes(lesson.files[0].solution.read_bytes())
+            async with self.app(session) as pilot:
                 main = screen(pilot)
                 await pilot.press("4")
                 await until(pilot, lambda: (live := main.pages.live) is not None and live.state.ready)
@@ -167,13 +167,13 @@ class Album:
         with world() as around, tempfile.TemporaryDirectory() as scratch:
             for name in ("ROS_DOMAIN_ID", "ROS_AUTOMATIC_DISCOVERY_RANGE"):
                 os.environ[name] = around.environ[name]
-            app_services = AppServices(load_course(), Workspace(Path(scratch) / "ros_tutor_ws"))
-            for lesson in app_services.lessons[:2]:
-                app_services.start(lesson)
-                app_services.path(lesson.files[0]).write_bytes(lesson.files[0].solution.read_bytes())
-            first = app_services.path(app_services.lessons[0].files[0])
+            session = Session(load_course(), Workspace(Path(scratch) / "ros_tutor_ws"))
+            for lesson in session.lessons[:2]:
+                session.start(lesson)
+                session.path(lesson.files[0]).write_bytes(lesson.files[0].solution.read_bytes())
+            first = session.path(session.lessons[0].files[0])
             first.write_text(first.read_text().replace("/sensor/temperature", "/sensor/temprature"))
-            async with self.app(app_services) as pilot:
+            async with self.app(session) as pilot:
                 main = screen(pilot)
                 await pilot.press("n", "r")
                 await until(pilot, lambda: bool(main.nodes.running))
@@ -205,11 +205,11 @@ class Album:
         with world() as around, tempfile.TemporaryDirectory() as scratch:
             for name in ("ROS_DOMAIN_ID", "ROS_AUTOMATIC_DISCOVERY_RANGE"):
                 os.environ[name] = around.environ[name]
-            app_services = AppServices(load_course(), Workspace(Path(scratch) / "ros_tutor_ws"))
-            lesson = app_services.lessons[0]
-            app_services.start(lesson)
-            app_services.path(lesson.files[0]).write_bytes(lesson.files[0].solution.read_bytes())
-            async with self.app(app_services) as pilot:
+            session = Session(load_course(), Workspace(Path(scratch) / "ros_tutor_ws"))
+            lesson = session.lessons[0]
+            session.start(lesson)
+            session.path(lesson.files[0]).write_bytes(lesson.files[0].solution.read_bytes())
+            async with self.app(session) as pilot:
                 main = screen(pilot)
                 await pilot.press("7")
                 await until(pilot, lambda: main.pages.terminal is not None)
@@ -228,23 +228,23 @@ class Album:
                 await self.take(pilot, "terminal")
 
     async def check(self, passing: bool) -> None:
-        async with self.opened() as (pilot, app_services):
+        async with self.opened() as (pilot, session):
             main = screen(pilot)
-            lesson = app_services.lessons[0]
+            lesson = session.lessons[0]
             await pilot.press("c")
             names = [c.id for c in lesson.criteria]
             say: list[Event] = [CheckStarted(lesson.id, tuple(names))]
             say += [made.doing(names[n], f, t, lesson.id) for n, f, t in STEPS if n < len(names)]
             say += [CriterionJudged(lesson.id, made.result(names[0], made.GOOD))]
-            await asyncio.to_thread(app_services.engine.say, *say)
-            await until(pilot, lambda: main.session.findings[lesson.id].criteria[0].verdict is not None)
+            await asyncio.to_thread(session.engine.say, *say)
+            await until(pilot, lambda: main.model.findings[lesson.id].criteria[0].verdict is not None)
             if not passing:
                 await self.take(pilot, "checking")
-            await asyncio.to_thread(app_services.engine.say, *made.whole(lesson, made.GOOD if passing else made.BAD))
-            app_services.engine.close()
+            await asyncio.to_thread(session.engine.say, *made.whole(lesson, made.GOOD if passing else made.BAD))
+            session.engine.close()
             await until(pilot, lambda: main.checks.running is None)
-            await until(pilot, lambda: main.session.progress.of(lesson.id).last is not None)
-            found = main.session.findings[lesson.id].result
+            await until(pilot, lambda: main.model.progress.of(lesson.id).last is not None)
+            found = main.model.findings[lesson.id].result
             assert found is not None
             assert (found.verdict is Status.PASSED) == passing
             await self.take(pilot, "passed" if passing else "failed")
@@ -260,9 +260,9 @@ class Album:
         await self.check(passing=True)
 
     async def ready(self) -> None:
-        async with self.opened() as (pilot, app_services):
-            for item in app_services.course.checklist.items[:-1]:
-                app_services.tick(item.id, True)
+        async with self.opened() as (pilot, session):
+            for item in session.course.checklist.items[:-1]:
+                session.tick(item.id, True)
             await pilot.press("6")
             await until(pilot, lambda: isinstance(pilot.app.screen, ChecklistScreen) and pilot.app.screen.is_mounted)
             await pilot.press("end", "space")
@@ -273,9 +273,9 @@ class Album:
             await self.take(pilot, "export")
 
     async def crash(self) -> None:
-        async with self.opened() as (pilot, app_services):
+        async with self.opened() as (pilot, session):
             await pilot.press("c")
-            await asyncio.to_thread(app_services.engine.say, "crash")
+            await asyncio.to_thread(session.engine.say, "crash")
             await until(pilot, lambda: screen(pilot).checks.running is None)
             await self.take(pilot, "crashed")
 

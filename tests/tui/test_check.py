@@ -44,8 +44,8 @@ async def test_a_failure_is_shown_with_its_diagnosis(learner: Any, size: Any) ->
         await me.until(lambda: "line 18" in me.diagnosis())
         assert "✗ rate" in me.criterion("rate")
         assert "- shutdown" in me.criterion("shutdown")
-        await me.until(lambda: me.main.session.progress.of("i1.1").last is not None)
-        assert me.app_services.progress().of("i1.1").last.passed == ("publishes", "range")
+        await me.until(lambda: me.main.model.progress.of("i1.1").last is not None)
+        assert me.session.progress().of("i1.1").last.passed == ("publishes", "range")
         await me.press("1") if size == (120, 36) else await me.press("l")
         await me.sees("2 of 3 met")
 
@@ -71,8 +71,8 @@ async def test_passing_is_good_news_and_says_what_comes_next(learner: Any, size:
         if size == (80, 24):
             await me.press("5")
         await me.sees("I1.1 Sensor Publisher passed")
-        await me.until(lambda: me.main.session.progress.of("i1.1").best is not None)
-        assert me.app_services.progress().of("i1.1").best.value == "passed"
+        await me.until(lambda: me.main.model.progress.of("i1.1").best is not None)
+        assert me.session.progress().of("i1.1").best.value == "passed"
 
 
 @pytest.mark.parametrize("key", ["escape", "c"])
@@ -81,14 +81,14 @@ async def test_cancelling_interrupts_the_engine_and_waits_for_it(learner: Any, k
         await begin(me)
         await me.told(made.doing("rate", 0.3, "listening"))
         await me.sees("listening")
-        pid = me.app_services.engine.pid
+        pid = me.session.engine.pid
         await me.press(key)
         await me.sees("cancelled", "c Check")
-        assert me.app_services.engine.cleaned_up
+        assert me.session.engine.cleaned_up
         with pytest.raises(ProcessLookupError):
             os.kill(pid, 0)
         assert me.criterion("rate").startswith("○ rate")
-        assert me.app_services.progress().of("i1.1").last is None
+        assert me.session.progress().of("i1.1").last is None
 
 
 async def test_a_crash_of_the_engine_is_our_fault_and_no_traceback_over_the_screen(learner: Any) -> None:
@@ -100,7 +100,7 @@ async def test_a_crash_of_the_engine_is_our_fault_and_no_traceback_over_the_scre
         await me.until(lambda: "RuntimeError: the engine has a bug" in me.diagnosis())
         assert "✓ publishes" in me.criterion("publishes")
         assert "! rate" in me.criterion("rate")
-        assert me.app_services.progress().of("i1.1").last is None
+        assert me.session.progress().of("i1.1").last is None
 
 
 async def test_a_fault_that_the_engine_knows_is_told_in_its_words(learner: Any) -> None:
@@ -121,7 +121,7 @@ async def test_a_line_that_is_not_an_event_is_a_fault_too(learner: Any) -> None:
 
 async def test_an_engine_that_cannot_be_started_is_told(learner: Any) -> None:
     async with learner() as me:
-        me.app_services.engine.command = ("/nowhere/python",)
+        me.session.engine.command = ("/nowhere/python",)
         await me.press("c")
         await me.sees("! error", "could not be started")
 
@@ -132,7 +132,7 @@ async def test_a_check_goes_on_while_another_lesson_is_read(learner: Any) -> Non
         await me.press("n")
         await me.sees("I1.3  Calculator Service", "checking I1.1")
         await me.told(*made.ending(made.GOOD))
-        me.app_services.engine.close()
+        me.session.engine.close()
         await me.sees("I1.1 passed.", "○ Criteria  publishes, range, rate")
 
 
@@ -141,10 +141,10 @@ async def test_quitting_ends_the_check(learner: Any) -> None:
         await begin(me)
         await me.told(made.doing("rate", 0.3, "listening"))
         await me.sees("listening")
-        pid = me.app_services.engine.pid
+        pid = me.session.engine.pid
         await me.press("q")
         await me.until(lambda: me.app.return_code == 0)
-        assert me.app_services.engine.cleaned_up
+        assert me.session.engine.cleaned_up
         with pytest.raises(ProcessLookupError):
             os.kill(pid, 0)
 
@@ -156,25 +156,23 @@ async def test_a_save_checks_again_and_the_running_check_gives_way(learner: Any)
         await begin(me)
         await me.told(made.doing("rate", 0.3, "listening"))
         await me.sees("listening")
-        first = me.app_services.engine.pid
-        me.app_services.engine.close_quietly()
+        first = me.session.engine.pid
+        me.session.engine.close_quietly()
         await me.edits()
         await me.press("#", "ctrl+s")
-        await me.until(
-            lambda: me.main.checks.running is not None and me.app_services.engine.pid != first, "checked again"
-        )
+        await me.until(lambda: me.main.checks.running is not None and me.session.engine.pid != first, "checked again")
         with pytest.raises(ProcessLookupError):
             os.kill(first, 0)
         await me.told(*made.started(), *made.ending(made.GOOD))
-        me.app_services.engine.close()
-        await me.until(lambda: me.main.session.progress.of("i1.1").best is not None)
+        me.session.engine.close()
+        await me.until(lambda: me.main.model.progress.of("i1.1").best is not None)
 
 
 async def test_attempts_are_kept_and_shown_over_time(learner: Any) -> None:
     async with learner((180, 50)) as me:
         await begin(me)
         await me.told(*made.ending(made.BAD))
-        me.app_services.engine.close()
+        me.session.engine.close()
         await me.sees("1 attempt", "2 of 3", "not yet: rate")
         await me.until(lambda: me.main.checks.running is None)
         await me.press("a")
@@ -193,7 +191,7 @@ async def test_in_the_editor_the_keys_that_are_named_are_those_that_work_there(l
         await me.sees("Next: press n for I1.3")
         await me.press("n")
         await me.sees("I1.3  Calculator Service")
-        assert me.app_services.path(me.app_services.lessons[0].files[0]).read_text() == made.NODE
+        assert me.session.path(me.session.lessons[0].files[0]).read_text() == made.NODE
 
 
 async def test_verdicts_on_code_that_has_changed_since_are_marked_until_it_is_back(learner: Any) -> None:
@@ -212,11 +210,11 @@ async def test_verdicts_on_code_that_has_changed_since_are_marked_until_it_is_ba
 
 
 async def test_after_a_restart_the_last_check_is_told(tmp_path: Path) -> None:
-    app_services = made.FakeServices(tmp_path / "learner")
+    session = made.FakeServices(tmp_path / "learner")
     done = made.ending(made.BAD)[-2]
     assert isinstance(done, ExerciseJudged)
-    app_services.record(done.result)
-    async with at(app_services) as me:
+    session.record(done.result)
+    async with at(session) as me:
         await me.press("2", "5")
         await me.sees("Criteria", "last check today", "2 of 3 met", "✓ publishes", "○ rate")
         await me.press("down", "down", "down", "enter")

@@ -38,13 +38,13 @@ def checklist(me: Learner) -> ChecklistScreen:
 
 
 def ticks(me: Learner) -> set[str]:
-    return set(me.app_services.progress().ticks)
+    return set(me.session.progress().ticks)
 
 
 def attempt(me: Learner, exercise: str, *criteria: str) -> None:
     """A check in another terminal, in which these criteria passed and others did not."""
     done = ExerciseProgress(now(), (Attempt(now(), Status.FAILED, criteria),), Status.FAILED)
-    me.app_services.workspace.progress(print).change(lambda progress: progress.with_exercise(exercise, done))
+    me.session.workspace.progress(print).change(lambda progress: progress.with_exercise(exercise, done))
 
 
 async def test_i_tick_what_i_can_do_and_it_is_kept_at_once(learner: Any) -> None:
@@ -76,7 +76,7 @@ async def test_i_tick_what_i_can_do_and_it_is_kept_at_once(learner: Any) -> None
             assert me.app.focused.id == f"item-{order[place]}", key
 
         # What cannot be kept is not shown as kept.
-        file = me.app_services.workspace.progress(print).path
+        file = me.session.workspace.progress(print).path
         text = file.read_text()
         file.unlink()
         file.mkdir()  # as good as a disk that is gone, for root too
@@ -102,18 +102,18 @@ async def test_beside_each_item_i_see_what_my_checks_have_shown(learner: Any) ->
         assert "[ ] Refuse parameter values that make no sense" in me.screen()  # ticking is mine alone
 
         # A check ends, and another terminal ticks something, while I look.
-        lesson = me.app_services.course.find("i1.1")
+        lesson = me.session.course.find("i1.1")
         judged = tuple(CriterionResult(c.id, c.text, c.bonus, made.GOOD, 1.0) for c in lesson.criteria)
-        await asyncio.to_thread(me.app_services.tick, "custom-messages", True)
+        await asyncio.to_thread(me.session.tick, "custom-messages", True)
         me.main.records.add(ExerciseResult(lesson.id, lesson.title, (), judged, 4.2))
         await me.sees("✓ i1.1 rate passed, today", "✓ i1.1 shutdown passed, today", "1 of 15 ticked")
 
 
 async def test_in_a_small_terminal_i_tick_the_last_item_and_am_told_what_comes_next(learner: Any) -> None:
     async with learner((80, 24)) as me:
-        *most, last = (item.id for item in me.app_services.course.checklist.items)
+        *most, last = (item.id for item in me.session.course.checklist.items)
         already = dict.fromkeys(most, now())
-        me.app_services.workspace.progress(print).change(lambda progress: replace(progress, ticks=already))
+        me.session.workspace.progress(print).change(lambda progress: replace(progress, ticks=already))
         await me.sees("6 Checklist", "q Quit")
         await me.press("ctrl+p", *"do by now")
         await me.sees("Tick what you can do by now")
@@ -132,7 +132,7 @@ async def test_in_a_small_terminal_i_tick_the_last_item_and_am_told_what_comes_n
         await me.sees("Export the checklist", "(•) Markdown", "A new file in", "Enter exports")
         await me.press("enter")
         await me.sees("Your checklist is in")
-        text = (me.app_services.workspace.root / "checklist.md").read_text()
+        text = (me.session.workspace.root / "checklist.md").read_text()
         assert text.count("- [x] ") == 15
         assert "## Ready for Advanced?" in text
         await me.press("space")
@@ -141,7 +141,7 @@ async def test_in_a_small_terminal_i_tick_the_last_item_and_am_told_what_comes_n
 
 async def test_i_export_in_each_format_and_no_file_is_replaced_unasked(learner: Any) -> None:
     async with learner((100, 30)) as me:
-        root: Path = me.app_services.workspace.root
+        root: Path = me.session.workspace.root
         page = root / "checklist.html"
         page.write_text("mine")
         await me.press("6")
@@ -191,14 +191,14 @@ async def test_i_export_in_each_format_and_no_file_is_replaced_unasked(learner: 
 
 async def test_the_last_pass_leads_to_the_checklist_and_capital_x_exports_there_too(learner: Any) -> None:
     async with learner() as me:
-        done = {lesson.id: ExerciseProgress(now(), (), Status.PASSED) for lesson in me.app_services.lessons[1:]}
-        me.app_services.workspace.progress(print).change(
+        done = {lesson.id: ExerciseProgress(now(), (), Status.PASSED) for lesson in me.session.lessons[1:]}
+        me.session.workspace.progress(print).change(
             lambda progress: replace(progress, exercises={**progress.exercises, **done})
         )
         me.main.records.read()
         await me.sees("5 of 6 passed")
         await me.press("c")
-        lesson = me.app_services.lessons[0]
+        lesson = me.session.lessons[0]
         await me.told(*made.started(), *made.whole(lesson, made.GOOD))
         await me.sees("Every exercise is passed now.", "Next: press 6 for the checklist")
         await me.press("6")

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from tests.patience import seen_within
 from tutor.process.supervisor import processes
-from tutor.tui.engine_child import EngineChild
+from tutor.session.engine_child import EngineChild
 
 KILLED = """
 import os, signal, sys, time

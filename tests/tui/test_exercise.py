@@ -22,7 +22,7 @@ async def test_start_puts_the_skeleton_there_and_shows_it(learner: Any) -> None:
 
 async def test_start_never_touches_what_is_there(learner: Any) -> None:
     async with learner() as me:
-        path: Path = me.app_services.path(me.app_services.lessons[0].files[0])
+        path: Path = me.session.path(me.session.lessons[0].files[0])
         path.write_text("mine = 1\n")
         await me.press("s")
         await me.sees("is there already")
@@ -35,10 +35,10 @@ async def test_where_the_file_is_missing_the_start_is_offered(learner: Any, key:
         await me.press("n", key)
         await me.sees("server.py is not in your workspace yet, so there is", "Put the skeleton there?")
         await me.press("escape")
-        assert not me.app_services.path(me.app_services.lessons[1].files[0]).exists()
+        assert not me.session.path(me.session.lessons[1].files[0]).exists()
         await me.press(key, "enter")
         await me.sees("1  import signal")
-        assert me.app_services.path(me.app_services.lessons[1].files[0]).read_text() == made.NODE
+        assert me.session.path(me.session.lessons[1].files[0]).read_text() == made.NODE
 
 
 async def test_hints_come_one_by_one_and_are_remembered(learner: Any) -> None:
@@ -49,8 +49,8 @@ async def test_hints_come_one_by_one_and_are_remembered(learner: Any) -> None:
         await me.press("h")
         await me.sees("hint 2 of 3", "create_timer takes seconds.")
         await me.press("escape")
-        await me.until(lambda: me.main.session.progress.of("i1.1").hints == 2)
-        assert me.app_services.progress().of("i1.1").hints == 2
+        await me.until(lambda: me.main.model.progress.of("i1.1").hints == 2)
+        assert me.session.progress().of("i1.1").hints == 2
         await me.press("h")
         await me.sees("hint 2 of 3")
 
@@ -75,7 +75,7 @@ async def test_without_a_terminal_to_hand_over_the_editor_is_refused_in_words(le
 
 async def test_damaged_progress_is_told_and_kept_aside(learner: Any) -> None:
     async with learner() as me:
-        file = me.app_services.workspace.root / ".ros-tutor" / "progress.json"
+        file = me.session.workspace.root / ".ros-tutor" / "progress.json"
         file.write_text("{ not json")
         me.main.records.read()
         await me.sees("could not")

@@ -103,7 +103,7 @@ async def test_in_dialogs_and_notes(learner: Any) -> None:
             me.main.post_message(messages.ErrorOccurred(name))
             me.main.say(name)
             me.app.notify(name)
-            me.app_services.notify(name)
+            me.session.notify(name)
             await me.sees("a")
             prove_harmless(me)
             me.app.clear_notifications()
@@ -113,8 +113,8 @@ async def test_in_the_log_the_terminal_and_the_code(learner: Any) -> None:
     async with learner() as me:
         said = ALL.replace("\ud800", "")
         comment = said.translate(dict.fromkeys(map(ord, "\0\n\r")))
-        me.app_services.path(me.app_services.lessons[0].files[0]).write_text(f"# {comment}\nprint({said!r})\n")
-        (me.app_services.workspace.root / "all.txt").write_text(said)
+        me.session.path(me.session.lessons[0].files[0]).write_text(f"# {comment}\nprint({said!r})\n")
+        (me.session.workspace.root / "all.txt").write_text(said)
         await me.press("2")
         await me.pilot.pause()
         prove_harmless(me)
@@ -122,7 +122,7 @@ async def test_in_the_log_the_terminal_and_the_code(learner: Any) -> None:
         await me.sees("gain")
         prove_harmless(me)
         await me.press("7")
-        await me.types(f"cat {me.app_services.workspace.root}/all.txt\n")
+        await me.types(f"cat {me.session.workspace.root}/all.txt\n")
         await me.sees("gain")
         prove_harmless(me)
 

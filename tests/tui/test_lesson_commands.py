@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from tutor.session.shell import Shell
 from tutor.tui.terminal.history import History
 from tutor.tui.terminal.lesson_commands import command_at, commands_in
-from tutor.tui.terminal.shell import Shell
 
 TEXT = """\
 Text with `ros2 topic list`.

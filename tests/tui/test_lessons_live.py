@@ -12,19 +12,19 @@ import pytest
 from tests.ros.users_domain import users_domain
 from tests.tui.conftest import Learner, at
 from tutor.content import load_course
-from tutor.tui.app_services import AppServices
+from tutor.session import Session
 from tutor.workspace import AppState, Workspace
 
 pytestmark = pytest.mark.timeout(300)
 
 
 @pytest.fixture
-def app_services(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[AppServices]:
+def session(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Session]:
     """A workspace in which nothing has been done yet, on a domain that nobody else uses."""
     with users_domain() as domain:
         monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
         monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
-        yield AppServices(load_course(), Workspace(tmp_path / "ws"))
+        yield Session(load_course(), Workspace(tmp_path / "ws"))
 
 
 class Reader(Learner):
@@ -34,7 +34,7 @@ class Reader(Learner):
 
     def reads(self, *phrases: str) -> None:
         """The lesson says so, however its lines are broken."""
-        text = " ".join(self.main.session.lesson.body.split())
+        text = " ".join(self.main.model.lesson.body.split())
         missing = [phrase for phrase in phrases if phrase not in text]
         assert not missing, f"the lesson no longer says {missing}"
 
@@ -49,20 +49,20 @@ class Reader(Learner):
 
 
 @asynccontextmanager
-async def reading(app_services: AppServices, exercise: str) -> AsyncIterator[Reader]:
-    lesson = app_services.course.find(exercise)
-    app_services.start(lesson)
+async def reading(session: Session, exercise: str) -> AsyncIterator[Reader]:
+    lesson = session.course.find(exercise)
+    session.start(lesson)
     for file in lesson.files:
-        app_services.path(file).write_bytes(file.solution.read_bytes())
-    app_services.keep(AppState(lesson=lesson.id))
-    async with at(app_services, (180, 48)) as opened:
-        me = Reader(opened.app, opened.pilot, app_services)
+        session.path(file).write_bytes(file.solution.read_bytes())
+    session.keep(AppState(lesson=lesson.id))
+    async with at(session, (180, 48)) as opened:
+        me = Reader(opened.app, opened.pilot, session)
         await me.sees(f"{lesson.id.upper()}  {lesson.title}", "Objective")
         yield me
 
 
-async def test_i1_1(app_services: AppServices) -> None:
-    async with reading(app_services, "i1.1") as me:
+async def test_i1_1(session: Session) -> None:
+    async with reading(session, "i1.1") as me:
         me.reads("Run your node with `r`, and turn to Live with `4`")
         await me.press("r")
         await me.sees("thermometer_1 publishes 2.0")
@@ -88,8 +88,8 @@ async def test_i1_1(app_services: AppServices) -> None:
         await me.rate(5.0)
 
 
-async def test_i1_2(app_services: AppServices) -> None:
-    async with reading(app_services, "i1.2") as me:
+async def test_i1_2(session: Session) -> None:
+    async with reading(session, "i1.2") as me:
         me.reads("Run it with `r`, then press `b`: that starts a talker beside it", "`[` and `]` turn from one log")
         await me.press("r")
         await me.sees("Waiting for messages")
@@ -123,8 +123,8 @@ async def test_i1_2(app_services: AppServices) -> None:
         await me.sees("/talker", "/chatter", "/message_stats", "──▶")
 
 
-async def test_i1_3(app_services: AppServices) -> None:
-    async with reading(app_services, "i1.3") as me:
+async def test_i1_3(session: Session) -> None:
+    async with reading(session, "i1.3") as me:
         me.reads(
             "`r` runs the file that is shown",
             "`j` runs the other file beside it, so that your client meets your server",
@@ -156,8 +156,8 @@ async def test_i1_3(app_services: AppServices) -> None:
         await me.sees("Cannot divide 1 by zero")
 
 
-async def test_i2_1(app_services: AppServices) -> None:
-    async with reading(app_services, "i2.1") as me:
+async def test_i2_1(session: Session) -> None:
+    async with reading(session, "i2.1") as me:
         await me.press("r")
         await me.sees("Published: Hello")
         me.reads("`enabled`, `message_prefix` and `publish_rate`, with type and value", "A new prefix is *accepted*")
@@ -187,8 +187,8 @@ async def test_i2_1(app_services: AppServices) -> None:
         await me.sees("publish_rate must be", "ended")
 
 
-async def test_i2_2(app_services: AppServices) -> None:
-    async with reading(app_services, "i2.2") as me:
+async def test_i2_2(session: Session) -> None:
+    async with reading(session, "i2.2") as me:
         me.reads("`r` launches your file, and the log shows both nodes")
         await me.press("r")
         await me.sees("I heard: ", "Publishing: ")
@@ -211,8 +211,8 @@ async def test_i2_2(app_services: AppServices) -> None:
         await me.rate(2.0)
 
 
-async def test_i2_3(app_services: AppServices) -> None:
-    async with reading(app_services, "i2.3") as me:
+async def test_i2_3(session: Session) -> None:
+    async with reading(session, "i2.3") as me:
         me.reads("turn to Live with `4`, and to its services with `S`. The form of `/slow_add` is open: Enter, fill in")
         await me.press("r")
         await me.sees("Ready: /slow_add")

@@ -26,16 +26,16 @@ SIZES = [(120, 36), (80, 24)]
 async def test_a_new_learner_is_told_where_the_work_will_be_and_begins_with_enter(learner: Any, size: Any) -> None:
     async with learner(size, started=False) as me:
         await me.sees("Learn ROS 2", "Your work will be in", "Press Enter")
-        assert not me.app_services.workspace.exists
+        assert not me.session.workspace.exists
         await me.press("enter")
         await me.sees("I1.1  Sensor Publisher", "Objective")
-        assert me.app_services.workspace.exists
-        assert me.app_services.path(me.app_services.lessons[0].files[0]).exists()
+        assert me.session.workspace.exists
+        assert me.session.path(me.session.lessons[0].files[0]).exists()
 
 
 async def test_the_workspace_can_be_elsewhere_and_is_found_the_next_time(learner: Any, tmp_path: Path) -> None:
     async with learner((80, 24), started=False) as me:
-        usual, other = me.app_services.workspace.root, tmp_path / "elsewhere"
+        usual, other = me.session.workspace.root, tmp_path / "elsewhere"
         (tmp_path / "file").touch()
         await me.sees("Your work will be in")
         await me.press("f", "ctrl+u")
@@ -43,7 +43,7 @@ async def test_the_workspace_can_be_elsewhere_and_is_found_the_next_time(learner
         me.app.post_message(Paste(str(tmp_path / "file")))
         await me.sees("is a file, not a folder")
         await me.press("enter")
-        assert not me.app_services.workspace.exists
+        assert not me.session.workspace.exists
         await me.press("ctrl+u")
         me.app.post_message(Paste(str(other)))
         await me.sees("will lead to it")
@@ -58,7 +58,7 @@ async def test_anyone_who_leaves_the_welcome_screen_has_no_workspace(learner: An
         await me.sees("Your work will be in")
         await me.press("q")
         await me.until(lambda: me.app.return_code == 0)
-        assert not me.app_services.workspace.exists
+        assert not me.session.workspace.exists
 
 
 async def test_the_lessons_show_difficulty_and_standing_in_words(learner: Any) -> None:
@@ -202,7 +202,7 @@ async def test_the_code_is_shown_with_line_numbers_and_follows_the_disk(learner:
     async with learner() as me:
         await me.press("2")
         await me.sees("1  import signal", "thermometer.py")
-        path: Path = me.app_services.path(me.app_services.lessons[0].files[0])
+        path: Path = me.session.path(me.session.lessons[0].files[0])
         path.write_text("x = 1\n" + "y = '" + "long " * 60 + "'\n\ttabbed = 'a\x1b[31mb'\n")
         await me.sees("1  x = 1", "2  y = 'long", "3      tabbed = 'a")
         removed = me.editor
@@ -217,11 +217,9 @@ async def test_a_lesson_with_two_files_shows_the_other_one(learner: Any) -> None
         await me.press("n", "s")
         await me.sees("server.py and client.py", "1  import signal")
         await me.press("f")
-        await me.until(lambda: me.main.session.file_index == 1)
+        await me.until(lambda: me.main.model.file_index == 1)
         await me.pilot.click("#code-head", offset=(2, 0))
-        assert (
-            await asyncio.to_thread(me.app_services.path(me.app_services.lessons[1].files[1]).read_text)
-        ) == made.NODE
+        assert (await asyncio.to_thread(me.session.path(me.session.lessons[1].files[1]).read_text)) == made.NODE
 
 
 async def test_home_and_end_choose_in_the_lists_and_the_keys_of_the_help_work_where_they_are_pressed(

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from tests.tui import made
-from tutor.tui.node import Phase
+from tutor.session.node import Phase
 from tutor.tui.widgets.code_pane import CodePane
 from tutor.tui.widgets.line_view import Row
 from tutor.tui.widgets.log_view import _wrapped
@@ -33,9 +33,9 @@ async def test_the_log_of_a_running_node_is_shown_with_its_levels(learner: Any, 
 
 
 async def test_a_node_that_ignores_ctrl_c_is_ended_all_the_same(learner: Any, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("tutor.tui.node.INTERRUPT_S", 0.2)
+    monkeypatch.setattr("tutor.session.node.INTERRUPT_S", 0.2)
     async with learner() as me:
-        me.app_services.path(me.app_services.lessons[0].files[0]).write_text(
+        me.session.path(me.session.lessons[0].files[0]).write_text(
             "import os\nprint(os.getpid(), flush=True)\n" + made.STUBBORN
         )
         await me.press("r")
@@ -48,16 +48,14 @@ async def test_a_node_that_ignores_ctrl_c_is_ended_all_the_same(learner: Any, mo
 
 async def test_a_node_that_breaks_shows_its_traceback_and_its_exit(learner: Any) -> None:
     async with learner() as me:
-        me.app_services.path(me.app_services.lessons[0].files[0]).write_text(
-            "print('[not markup]')\nraise ValueError('wrong')\n"
-        )
+        me.session.path(me.session.lessons[0].files[0]).write_text("print('[not markup]')\nraise ValueError('wrong')\n")
         await me.press("r")
         await me.sees("[not markup]", "Traceback", "ValueError: wrong", "ended by itself with exit code 1")
 
 
 async def test_a_flood_of_lines_leaves_the_app_usable(learner: Any) -> None:
     async with learner() as me:
-        me.app_services.path(me.app_services.lessons[0].files[0]).write_text(
+        me.session.path(me.session.lessons[0].files[0]).write_text(
             "n = 0\nwhile True:\n    n += 1\n    print('line', n)\n"
         )
         await me.press("r")
@@ -81,7 +79,7 @@ async def test_the_node_runs_on_while_another_lesson_is_read_and_the_terminal_ch
 
 async def test_quitting_ends_the_node(learner: Any) -> None:
     async with learner() as me:
-        me.app_services.path(me.app_services.lessons[0].files[0]).write_text(
+        me.session.path(me.session.lessons[0].files[0]).write_text(
             "import os\nprint(os.getpid(), flush=True)\n" + made.NODE
         )
         await me.press("r")
@@ -110,7 +108,7 @@ async def test_a_node_is_run_with_the_parameters_and_remaps_of_the_learners_choi
         await me.sees("ros2 run my_package thermometer --ros-args -p rate:=5.0 -r", "chatter:=/news")
         await me.press("f5")
         await me.sees("given --ros-args -p rate:=5.0 -r chatter:=/news", "$       ros2 run my_package thermometer")
-        await me.until(lambda: me.app_services.app_state().run_of("i1.1").parameters == ("rate:=5.0",), "remembered")
+        await me.until(lambda: me.session.app_state().run_of("i1.1").parameters == ("rate:=5.0",), "remembered")
 
 
 async def test_a_save_restarts_the_node_where_that_is_wanted(learner: Any) -> None:

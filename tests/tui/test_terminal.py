@@ -89,7 +89,7 @@ async def test_history_and_what_was_being_typed(learner: Any) -> None:
         await me.press("ctrl+c")
         await me.until(lambda: not prompt.value)
         await me.main.close_down()
-        assert me.app_services.typed_commands() == ["echo one", "echo two"]
+        assert me.session.typed_commands() == ["echo one", "echo two"]
 
 
 async def test_tab_completes_programs_and_paths(learner: Any) -> None:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from tests.tui.conftest import Learner, at
 from tutor.content import load_course
-from tutor.tui.app_services import AppServices
+from tutor.session import Session
 from tutor.tui.terminal.output_view import OutputView
 from tutor.tui.terminal.prompt import Prompt
 from tutor.workspace import Workspace, start
@@ -26,7 +26,7 @@ async def test_a_rate_set_in_the_terminal_is_seen_there(tmp_path: Path) -> None:
     start(lesson, workspace)
     file = lesson.files[0]
     workspace.path_of(file.name).write_bytes(file.solution.read_bytes())
-    async with at(AppServices(course, workspace)) as me:
+    async with at(Session(course, workspace)) as me:
         me.limit_s = 60.0  # type: ignore[misc]  # real nodes, on a machine that may be busy
         await me.main.go_to(lesson)
         await me.press("f5")
@@ -50,7 +50,7 @@ async def test_tab_knows_the_topics(tmp_path: Path) -> None:
     course = load_course()
     workspace = Workspace(tmp_path / "ws")
     start(course.lessons[0], workspace)
-    async with at(AppServices(course, workspace)) as me:
+    async with at(Session(course, workspace)) as me:
         me.limit_s = 60.0  # type: ignore[misc]  # it asks the domain
         await me.press("f10")
         prompt = me.main.query_one(Prompt)

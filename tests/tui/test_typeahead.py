@@ -57,7 +57,7 @@ async def test_what_is_typed_after_a_command_goes_where_the_command_leads(learne
 async def test_what_is_typed_after_a_dialog_was_asked_for_goes_into_the_dialog(learner: Any) -> None:
     async with learner() as me:
         ahead(me, "o", *"rate:=2.0", "enter", *"b:=1", "f5", "2", "e", *"z")
-        await me.until(lambda: me.main.session.run_options.parameters == ("rate:=2.0", "b:=1"), "the options")
+        await me.until(lambda: me.main.model.run_options.parameters == ("rate:=2.0", "b:=1"), "the options")
         await me.until(
             lambda: "zimport" in (editor.text if (editor := me.main.query_one(CodePane).editor) else ""),
             "typed in the editor",

@@ -13,7 +13,7 @@ from tests.ros.users_domain import users_domain
 from tests.running import runs
 from tests.tui.conftest import Learner, at
 from tutor.content import load_course
-from tutor.tui.app_services import AppServices
+from tutor.session import Session
 from tutor.tui.live.request_form import FieldRow
 from tutor.workspace import AppState, Workspace
 
@@ -23,29 +23,29 @@ CHECK_S = 60.0
 
 
 @pytest.fixture
-def app_services(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[AppServices]:
+def session(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Session]:
     """A workspace in which nothing has been done yet, on a domain that nobody else uses."""
     with users_domain() as domain:
         monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
         monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
-        yield AppServices(load_course(), Workspace(tmp_path / "ws"))
+        yield Session(load_course(), Workspace(tmp_path / "ws"))
 
 
 @asynccontextmanager
-async def doing(app_services: AppServices, exercise: str) -> AsyncIterator[Learner]:
+async def doing(session: Session, exercise: str) -> AsyncIterator[Learner]:
     """A learner who has written our solution of this exercise."""
-    lesson = app_services.course.find(exercise)
-    app_services.start(lesson)
+    lesson = session.course.find(exercise)
+    session.start(lesson)
     for file in lesson.files:
-        app_services.path(file).write_bytes(file.solution.read_bytes())
-    app_services.keep(AppState(lesson=lesson.id))
-    async with at(app_services) as me:
+        session.path(file).write_bytes(file.solution.read_bytes())
+    session.keep(AppState(lesson=lesson.id))
+    async with at(session) as me:
         await me.sees(f"{lesson.id.upper()}  {lesson.title}", "Objective")
         yield me
 
 
-async def test_i_run_my_node_as_i_like_and_watch_and_change_it_live(app_services: AppServices) -> None:
-    async with doing(app_services, "i1.1") as me:
+async def test_i_run_my_node_as_i_like_and_watch_and_change_it_live(session: Session) -> None:
+    async with doing(session, "i1.1") as me:
         await me.press("o")
         await me.sees("F5 runs")
         me.app.screen.query_one("#run-parameters").text = "publish_rate:=5.0"  # type: ignore[attr-defined]
@@ -73,8 +73,8 @@ async def test_i_run_my_node_as_i_like_and_watch_and_change_it_live(app_services
         assert not runs(me.file)
 
 
-async def test_i_check_i_fix_it_and_what_i_have_passed_stands_in_my_checklist(app_services: AppServices) -> None:
-    async with doing(app_services, "i1.3") as me:
+async def test_i_check_i_fix_it_and_what_i_have_passed_stands_in_my_checklist(session: Session) -> None:
+    async with doing(session, "i1.3") as me:
         right = me.file.read_text()
         me.file.write_text(right.replace("request.a - request.b", "request.b - request.a"))
         await me.press("c")
@@ -98,7 +98,7 @@ async def test_i_check_i_fix_it_and_what_i_have_passed_stands_in_my_checklist(ap
         await me.press("space", "x")
         await me.sees("(•) Markdown", "checklist.md")
         await me.press("enter")
-        exported = app_services.workspace.root / "checklist.md"
+        exported = session.workspace.root / "checklist.md"
         await me.until(exported.exists, "the export")
         assert exported.read_text().count("- [x] ") == 1
         await me.press("escape", "n")
@@ -106,9 +106,9 @@ async def test_i_check_i_fix_it_and_what_i_have_passed_stands_in_my_checklist(ap
 
 
 async def test_i_start_the_talker_beside_my_node_and_end_it_and_nothing_is_left_when_i_leave(
-    app_services: AppServices,
+    session: Session,
 ) -> None:
-    async with doing(app_services, "i1.2") as me:
+    async with doing(session, "i1.2") as me:
         await me.press("r")
         await me.sees("● running  message_stats.py", "Waiting for messages on /chatter")
         await me.press("b")
@@ -127,8 +127,8 @@ async def test_i_start_the_talker_beside_my_node_and_end_it_and_nothing_is_left_
         assert not any(Path(f"/proc/{pid}").exists() for pid in pids)
 
 
-async def test_the_log_is_beside_live_where_there_is_room(app_services: AppServices) -> None:
-    async with doing(app_services, "i1.1") as me:
+async def test_the_log_is_beside_live_where_there_is_room(session: Session) -> None:
+    async with doing(session, "i1.1") as me:
         await me.press("r")
         await me.sees("Lessons", "● running  temperature_publisher.py")
         await me.press("4")
@@ -147,8 +147,8 @@ async def test_the_log_is_beside_live_where_there_is_room(app_services: AppServi
         assert "INFO" not in me.screen()
 
 
-async def test_our_server_answers_my_client_and_my_own_server_runs_beside_it_too(app_services: AppServices) -> None:
-    async with doing(app_services, "i1.3") as me:
+async def test_our_server_answers_my_client_and_my_own_server_runs_beside_it_too(session: Session) -> None:
+    async with doing(session, "i1.3") as me:
         await me.press("f")
         await me.sees("calculator_client.py")
         await me.press("b")
@@ -169,8 +169,8 @@ def in_a_field(me: Learner) -> bool:
     return me.app.focused is not None and any(isinstance(each, FieldRow) for each in me.app.focused.ancestors)
 
 
-async def test_i_publish_a_message_by_hand_once_and_at_a_rate_and_my_node_hears_it(app_services: AppServices) -> None:
-    async with doing(app_services, "i1.2") as me:
+async def test_i_publish_a_message_by_hand_once_and_at_a_rate_and_my_node_hears_it(session: Session) -> None:
+    async with doing(session, "i1.2") as me:
         await me.press("r")
         await me.sees("Waiting for messages on /chatter")
         await me.press("4")
@@ -193,9 +193,9 @@ async def test_i_publish_a_message_by_hand_once_and_at_a_rate_and_my_node_hears_
         await me.sees("■ published on /chatter")
 
 
-async def test_i_play_a_course_from_elsewhere(tmp_path: Path, app_services: AppServices) -> None:
+async def test_i_play_a_course_from_elsewhere(tmp_path: Path, session: Session) -> None:
     course = Path(__file__).parents[1] / "courses" / "greeting"
-    mine = AppServices(load_course(course), Workspace(tmp_path / "ws"), course)
+    mine = Session(load_course(course), Workspace(tmp_path / "ws"), course)
     async with doing(mine, "h1.1") as me:
         await me.press("c")
         await me.until(lambda: "H1.1 Greeter passed" in me.screen(), "a pass", limit_s=CHECK_S)

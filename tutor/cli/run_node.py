@@ -29,21 +29,21 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Become the node; comes back only where that cannot be."""
     from tutor.bundled_ros.ros2.errors import CommandError
-    from tutor.tui.app_services import AppServices
+    from tutor.session import Session
     from tutor.workspace import RunOptions
 
     course = context.load_course(arguments)
     lesson = course.find(arguments.exercise)
     file = _file(lesson, arguments.file)
-    app_services = AppServices(course, context.require_workspace(arguments))
-    path = app_services.path(file)
+    session = Session(course, context.require_workspace(arguments))
+    path = session.path(file)
     if not path.is_file():
         raise UsageError(f"{path} is not there; `{command('start', lesson.id)}` puts the skeleton there")
     try:
-        node = app_services.node_command(file, RunOptions())
+        node = session.node_command(file, RunOptions())
     except CommandError as error:
         raise UsageError(str(error)) from error
-    terminal.say(f"{context.display_path(path)} in ROS domain {app_services.domain}; Ctrl+C ends it")
+    terminal.say(f"{context.display_path(path)} in ROS domain {session.domain}; Ctrl+C ends it")
     sys.stdout.flush()
     os.chdir(node.cwd)
     os.execve(node.argv[0], [*node.argv, *arguments.rest], node.env)

@@ -13,7 +13,7 @@ def run(workspace: Path, out: Callable[[str], None], lessons: Path | None = None
     """
     from tutor.content import load_course
     from tutor.plain.dialog import run_dialog
-    from tutor.tui.app_services import AppServices
+    from tutor.session import Session
     from tutor.workspace import Workspace
 
-    return run_dialog(AppServices(load_course(lessons), Workspace(workspace), lessons), out)
+    return run_dialog(Session(load_course(lessons), Workspace(workspace), lessons), out)

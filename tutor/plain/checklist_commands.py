@@ -31,7 +31,7 @@ class ChecklistCommands:
         )
 
     def _now(self) -> Assessment:
-        return assess(self._conversation.app_services.course, self._conversation.app_services.progress())
+        return assess(self._conversation.session.course, self._conversation.session.progress())
 
     async def read(self, words: list[str]) -> None:
         """A line for each item, numbered through the groups."""
@@ -61,10 +61,10 @@ class ChecklistCommands:
         if not words:
             raise CommandRefused("Which item? Give its number, as in: tick 1. checklist lists them.")
         chosen = [_find(word, items) for word in words]
-        if not self._conversation.app_services.workspace.exists:
+        if not self._conversation.session.workspace.exists:
             raise CommandRefused("Ticks are kept in your workspace, and there is none yet: say start.")
         for item in chosen:
-            self._conversation.app_services.tick(item.id, ticked)
+            self._conversation.session.tick(item.id, ticked)
             self._conversation.say(f"{'Ticked' if ticked else 'No longer ticked'}: {item.text}.")
         standing = self._now()
         self._conversation.say(f"{standing.ticked} of {len(items)} ticked.")
@@ -76,16 +76,16 @@ class ChecklistCommands:
         format = words[0].lower() if words else FORMATS[0]
         if format not in FORMATS:
             raise CommandRefused(f"There is no format {format}: it is {_FORMATS}.")
-        root: Path = self._conversation.app_services.workspace.root
-        if not self._conversation.app_services.workspace.exists:
+        root: Path = self._conversation.session.workspace.root
+        if not self._conversation.session.workspace.exists:
             raise CommandRefused("There is no workspace yet to write to: say start.")
         path = root / f"checklist{SUFFIXES[format]}"
-        if not self._conversation.app_services.export(format, path, replace=False):
+        if not self._conversation.session.export(format, path, replace=False):
             answer = await self._conversation.ask(f"{short_path(path)} is there already. Type yes to replace it: ")
             if (answer or "").strip().lower() not in ("yes", "y"):
                 self._conversation.say("Not written.")
                 return
-            self._conversation.app_services.export(format, path, replace=True)
+            self._conversation.session.export(format, path, replace=True)
         self._conversation.say(f"Written: {short_path(path)}")
 
 

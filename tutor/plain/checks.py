@@ -23,13 +23,13 @@ class Checks:
 
     async def check(self, words: list[str]) -> None:
         """Judge, and say what each criterion came to."""
-        app_services, lesson = self._conversation.app_services, self._conversation.lesson
-        submission = find_submission(lesson, None, app_services.workspace)
+        session, lesson = self._conversation.session, self._conversation.lesson
+        submission = find_submission(lesson, None, session.workspace)
         from tutor import engine  # late: nothing but a check needs ROS
 
         self._said.clear()
         try:
-            report = await engine.run_check([submission], app_services.course, only=None, on_event=self._tell)
+            report = await engine.run_check([submission], session.course, only=None, on_event=self._tell)
         except engine.EngineError as error:
             raise CommandRefused(
                 f"The check could not be made, which is no fault of your code: {error}. {error.hint}"
@@ -38,7 +38,7 @@ class Checks:
             self._found[result.id] = result
             self._sum_up(result)
             try:
-                app_services.record(result)
+                session.record(result)
             except StorageError as error:
                 self._conversation.say(f"This check is not in your progress: {error}")
 
@@ -61,7 +61,7 @@ class Checks:
                 self._conversation.say(line)
         if missed:
             self._conversation.say(f"why {missed[0].id} reads the evidence, hint the next hint.")
-        elif self._conversation.lesson is not self._conversation.app_services.lessons[-1]:
+        elif self._conversation.lesson is not self._conversation.session.lessons[-1]:
             self._conversation.say("Well done. next goes to the next lesson, checklist to what you can do by now.")
         else:
             self._conversation.say("Well done: this was the last lesson. checklist goes to what you can do by now.")

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from tutor.content import Lesson, UnknownExercise
 from tutor.judge.verdict import Status
-from tutor.tui.app_services import AppServices
+from tutor.session import Session
 from tutor.workspace import Progress, State, StorageError, standing
 
 
@@ -31,28 +31,28 @@ class Conversation:
     """The lesson that the learner is at; `say` tells a line, `ask` a question, whose answer is None at the end."""
 
     def __init__(
-        self, app_services: AppServices, say: Callable[[str], None], ask: Callable[[str], Awaitable[str | None]]
+        self, session: Session, say: Callable[[str], None], ask: Callable[[str], Awaitable[str | None]]
     ) -> None:
-        self.app_services, self.say, self.ask = app_services, say, ask
-        app_services.notify = say
+        self.session, self.say, self.ask = session, say, ask
+        session.notify = say
         self.lesson = self._first()
 
     def _first(self) -> Lesson:
         """Where the learner was last; else the first lesson that is not passed."""
-        lessons = self.app_services.lessons
-        remembered = {lesson.id: lesson for lesson in lessons}.get(self.app_services.app_state().lesson)
+        lessons = self.session.lessons
+        remembered = {lesson.id: lesson for lesson in lessons}.get(self.session.app_state().lesson)
         if remembered is not None:
             return remembered
-        progress = self.app_services.progress()
+        progress = self.session.progress()
         left = [lesson for lesson in lessons if progress.of(lesson.id).best is not Status.PASSED]
         return (left or [*lessons])[0]
 
     def open_lesson(self, lesson: Lesson) -> None:
         """Be at this lesson, and say so. The app, too, opens there the next time."""
         self.lesson = lesson
-        self.say(f"You are at {self.about(lesson, self.app_services.progress())}")
+        self.say(f"You are at {self.about(lesson, self.session.progress())}")
         try:
-            self.app_services.keep(replace(self.app_services.app_state(), lesson=lesson.id))
+            self.session.keep(replace(self.session.app_state(), lesson=lesson.id))
         except StorageError as error:
             self.say(f"This place is not remembered: {error}")
 
@@ -72,13 +72,13 @@ class Conversation:
 
     def find(self, text: str) -> Lesson:
         """A lesson by its number in the list, or by its id. Raises Refused."""
-        lessons = self.app_services.lessons
+        lessons = self.session.lessons
         if text.isdecimal():
             if 1 <= int(text) <= len(lessons):
                 return lessons[int(text) - 1]
             raise CommandRefused(f"There is no lesson {text}: they go from 1 to {len(lessons)}.")
         try:
-            return self.app_services.course.find(text)
+            return self.session.course.find(text)
         except UnknownExercise as error:
             raise CommandRefused(str(error)) from error
 

@@ -18,7 +18,7 @@ from tutor.plain.nodes import Nodes
 from tutor.plain.ros2_commands import Ros2Commands
 from tutor.plain.speech import counted
 from tutor.printable import printable
-from tutor.tui.app_services import AppServices
+from tutor.session import Session
 from tutor.workspace import StorageError, WorkspaceError
 
 INTERRUPTED = 130
@@ -27,13 +27,13 @@ _PROMPT = "Command: "
 _STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
-def run_dialog(app_services: AppServices, out: Callable[[str], None]) -> int:
+def run_dialog(session: Session, out: Callable[[str], None]) -> int:
     """Talk until the learner leaves, or their input ends: 0. Ctrl+C: 130. Nothing that was started is left."""
-    return asyncio.run(_until_stopped(app_services, out))
+    return asyncio.run(_until_stopped(session, out))
 
 
-async def _until_stopped(app_services: AppServices, out: Callable[[str], None]) -> int:
-    dialog = Dialog(app_services, Lines.of_stdin(), out)
+async def _until_stopped(session: Session, out: Callable[[str], None]) -> int:
+    dialog = Dialog(session, Lines.of_stdin(), out)
     talking = asyncio.ensure_future(dialog.run())
     stopped = False
 
@@ -57,11 +57,11 @@ async def _until_stopped(app_services: AppServices, out: Callable[[str], None]) 
 class Dialog:
     """The commands, and who asks for them."""
 
-    def __init__(self, app_services: AppServices, lines: Lines, out: Callable[[str], None]) -> None:
-        self._app_services, self._lines, self._out = app_services, lines, out
+    def __init__(self, session: Session, lines: Lines, out: Callable[[str], None]) -> None:
+        self._session, self._lines, self._out = session, lines, out
         self._echo = sys.stdin is None or not sys.stdin.isatty()
         self._over = False
-        self._conversation = Conversation(app_services, self._say, self._ask)
+        self._conversation = Conversation(session, self._say, self._ask)
         self._nodes = Nodes(self._conversation)
         self._commands = (
             *Lessons(self._conversation).commands,
@@ -89,12 +89,12 @@ class Dialog:
             await self._nodes.leave()
 
     def _greet(self) -> None:
-        lessons, progress = self._app_services.lessons, self._app_services.progress()
+        lessons, progress = self._session.lessons, self._session.progress()
         passed = sum(progress.of(lesson.id).best is Status.PASSED for lesson in lessons)
-        root = short_path(self._app_services.workspace.root)
+        root = short_path(self._session.workspace.root)
         self._say(f"ROS Tutor in plain lines. {counted(len(lessons), 'lesson')}, {passed} passed.")
-        if self._app_services.workspace.exists:
-            self._say(f"Your workspace is {root}; its ROS domain is {self._app_services.domain}.")
+        if self._session.workspace.exists:
+            self._say(f"Your workspace is {root}; its ROS domain is {self._session.domain}.")
         else:
             self._say(f"Your workspace will be {root}: start creates it.")
         self._say(f"You are at {self._conversation.about(self._conversation.lesson, progress)}")
@@ -126,7 +126,7 @@ class Dialog:
         self._over = True
         await self._nodes.leave()
         self._nodes.report_ended()
-        self._say("Goodbye. Your progress is kept." if self._app_services.workspace.exists else "Goodbye.")
+        self._say("Goodbye. Your progress is kept." if self._session.workspace.exists else "Goodbye.")
 
     async def _ask(self, question: str) -> str | None:
         self._out(question)

@@ -28,8 +28,8 @@ class Lessons:
 
     async def show(self, words: list[str]) -> None:
         """One line for each."""
-        progress = self._conversation.app_services.progress()
-        for number, lesson in enumerate(self._conversation.app_services.lessons, 1):
+        progress = self._conversation.session.progress()
+        for number, lesson in enumerate(self._conversation.session.lessons, 1):
             conversation = " You are here." if lesson is self._conversation.lesson else ""
             self._conversation.say(f"{number}: {self._conversation.about(lesson, progress)}{conversation}")
 
@@ -48,7 +48,7 @@ class Lessons:
         self._conversation.open_lesson(self._beside(-1))
 
     def _beside(self, step: int) -> Lesson:
-        lessons = self._conversation.app_services.lessons
+        lessons = self._conversation.session.lessons
         wanted = lessons.index(self._conversation.lesson) + step
         if not 0 <= wanted < len(lessons):
             raise CommandRefused(f"This is the {'last' if step > 0 else 'first'} lesson.")
@@ -85,10 +85,10 @@ class Lessons:
 
     async def start(self, words: list[str]) -> None:
         """Put in what is not there; say where it is."""
-        app_services, lesson = self._conversation.app_services, self._conversation.lesson
-        if not app_services.workspace.exists:
-            self._conversation.say(f"Creating your workspace: {short_path(app_services.workspace.root)}.")
-        placed = app_services.start(lesson)
+        session, lesson = self._conversation.session, self._conversation.lesson
+        if not session.workspace.exists:
+            self._conversation.say(f"Creating your workspace: {short_path(session.workspace.root)}.")
+        placed = session.start(lesson)
         for path in placed.written:
             self._conversation.say(f"To edit: {short_path(path)}")
         for path in placed.already_there:
@@ -97,11 +97,11 @@ class Lessons:
 
     async def hint(self, words: list[str]) -> None:
         """Read one more."""
-        app_services, lesson = self._conversation.app_services, self._conversation.lesson
+        session, lesson = self._conversation.session, self._conversation.lesson
         of = len(lesson.hints)
         number, again = 1, False
-        if app_services.workspace.exists:
-            number, again = app_services.workspace.progress(self._conversation.say).next_hint(lesson.id, of=of)
+        if session.workspace.exists:
+            number, again = session.workspace.progress(self._conversation.say).next_hint(lesson.id, of=of)
         self._conversation.say(
             f"Hint {number} of {of}{', again' if again else ''}: {_in_a_line(lesson.hints[number - 1])}"
         )
@@ -111,7 +111,7 @@ class Lessons:
     async def solution(self, words: list[str]) -> None:
         """Read it; before a pass, only where the learner says so."""
         lesson = self._conversation.lesson
-        if self._conversation.app_services.progress().of(lesson.id).best is not Status.PASSED:
+        if self._conversation.session.progress().of(lesson.id).best is not Status.PASSED:
             answer = await self._conversation.ask(
                 "You have not passed this lesson yet. Type yes to read our solution: "
             )

@@ -10,7 +10,7 @@ from tutor.bundled_ros.ros2.errors import CommandError
 from tutor.plain.conversation import CommandRefused, Conversation, DialogCommand
 from tutor.plain.speech import counted
 from tutor.report.plain import one_line
-from tutor.tui.node import Node, NodeState, Phase
+from tutor.session.node import Node, NodeState, Phase
 
 FIRST_LINE_S = 5.0
 """How long `log` waits for a node to say something at all, in seconds."""
@@ -38,24 +38,22 @@ class Nodes:
 
     async def run(self, words: list[str]) -> None:
         """Run a file of the lesson with the options that the app remembers."""
-        app_services, lesson = self._conversation.app_services, self._conversation.lesson
+        session, lesson = self._conversation.session, self._conversation.lesson
         number = int(words[0]) if words and words[0].isdecimal() else 1
         if not 1 <= number <= len(lesson.files):
             raise CommandRefused(f"This lesson has {counted(len(lesson.files), 'file')}.")
         file = lesson.files[number - 1]
-        path = app_services.path(file)
+        path = session.path(file)
         if not path.exists():
             raise CommandRefused(f"{file.name} is not in your workspace yet: say start.")
         known = self._nodes.get(path)
         if known is not None and known.state.alive:
             raise CommandRefused(f"{file.name} runs already: stop ends it.")
         try:
-            command = await asyncio.to_thread(
-                app_services.node_command, file, app_services.app_state().run_of(lesson.id)
-            )
+            command = await asyncio.to_thread(session.node_command, file, session.app_state().run_of(lesson.id))
         except (CommandError, OSError) as error:
             raise CommandRefused(f"The node cannot be started: {error}") from error
-        await self._stop_others({app_services.path(each) for each in lesson.files})
+        await self._stop_others({session.path(each) for each in lesson.files})
         node = Node(command, self._show)
         self._nodes[path] = self._latest = node
         task = asyncio.create_task(node.run())
@@ -64,7 +62,7 @@ class Nodes:
         await self._until(lambda: node.state.phase is not Phase.STARTING, None)
         if node.state.alive:
             self._untold.append(node)
-            self._conversation.say(f"Running in ROS domain {self._conversation.app_services.domain}: {command.typed}")
+            self._conversation.say(f"Running in ROS domain {self._conversation.session.domain}: {command.typed}")
             self._conversation.say("log reads what it writes, stop ends it.")
         else:
             self._conversation.say(f"It could not be started: {node.state.note}")

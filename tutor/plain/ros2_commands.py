@@ -11,7 +11,7 @@ from tutor.judge.trace import OutputLine
 from tutor.plain.conversation import CommandRefused, Conversation, DialogCommand
 from tutor.plain.speech import counted
 from tutor.report.plain import one_line
-from tutor.tui.node import Node
+from tutor.session.node import Node
 
 LIMIT_S = 10.0
 """How long a command may go on before it is stopped, in seconds."""
@@ -93,7 +93,7 @@ class Ros2Commands:
     ) -> list[OutputLine]:
         """Run it until it ends, until it has printed enough, or until its time is over."""
         try:
-            command = await asyncio.to_thread(self._conversation.app_services.ros2_command, words)
+            command = await asyncio.to_thread(self._conversation.session.ros2_command, words)
         except (CommandError, OSError) as error:
             raise CommandRefused(f"ros2 cannot be run: {error}") from error
         changed = asyncio.Event()

@@ -15,10 +15,10 @@ def run(workspace: Path, lessons: Path | None = None) -> int:
     `lessons` is a folder with further `lessons/` and `checks/`. Raises ContentError where a lesson is broken.
     """
     from tutor.content import load_course
+    from tutor.session import Session
     from tutor.tui.app import TutorApp
-    from tutor.tui.app_services import AppServices
     from tutor.workspace import Workspace
 
-    app = TutorApp(AppServices(load_course(lessons), Workspace(workspace), lessons))
+    app = TutorApp(Session(load_course(lessons), Workspace(workspace), lessons))
     app.run()
     return app.return_code or 0

@@ -13,7 +13,7 @@ from textual.app import SystemCommand
 from textual.events import Event, Key, Paste
 from textual.screen import Screen
 
-from tutor.tui.app_services import AppServices
+from tutor.session import Session
 from tutor.tui.screens.opening import OpeningScreen
 from tutor.tui.text_app import TextApp
 from tutor.tui.themes import DARK, LIGHT
@@ -36,15 +36,15 @@ class TutorApp(TextApp[int]):
     CommandPalette > Vertical { max-width: 84; border: round $border; background: $surface; }
     """
 
-    def __init__(self, app_services: AppServices) -> None:
+    def __init__(self, session: Session) -> None:
         super().__init__()
-        self.app_services = app_services
+        self.session = session
         self.main: MainScreen | None = None
         self._leaving = False
         self._typeahead = Typeahead(self, super().on_event)
         self._notes: list[str] = []
-        app_services.notify = self._notes.append
-        self._state = app_services.app_state()
+        session.notify = self._notes.append
+        self._state = session.app_state()
         self.register_theme(DARK)
         self.register_theme(LIGHT)
         self.theme = self._state.theme if self._state.theme in (DARK.name, LIGHT.name) else DARK.name
@@ -58,14 +58,14 @@ class TutorApp(TextApp[int]):
 
     def get_default_screen(self) -> Screen[Any]:
         """What is painted first."""
-        known = {lesson.id: lesson for lesson in self.app_services.lessons}
-        first = known.get(self._state.lesson, self.app_services.lessons[0])
-        return OpeningScreen(first if self.app_services.workspace.exists else None)
+        known = {lesson.id: lesson for lesson in self.session.lessons}
+        first = known.get(self._state.lesson, self.session.lessons[0])
+        return OpeningScreen(first if self.session.workspace.exists else None)
 
     async def on_mount(self) -> None:
         for text in self._notes:
             self._tell(text)
-        self.app_services.notify = self._tell
+        self.session.notify = self._tell
         loop = asyncio.get_running_loop()
         for number in (signal.SIGTERM, signal.SIGHUP):
             loop.add_signal_handler(number, self.leave)
@@ -73,12 +73,12 @@ class TutorApp(TextApp[int]):
 
     def _open(self) -> None:
         """The first paint is out: now for what takes longer."""
-        if self.app_services.workspace.exists:
+        if self.session.workspace.exists:
             self._begin()
             return
         from tutor.tui.screens.welcome import WelcomeScreen
 
-        self.push_screen(WelcomeScreen(self.app_services), self._welcomed)
+        self.push_screen(WelcomeScreen(self.session), self._welcomed)
 
     def _tell(self, text: str) -> None:
         # Told from worker threads: a message queue is the way to the app's own thread.
@@ -90,14 +90,14 @@ class TutorApp(TextApp[int]):
 
     def _welcomed(self, begun: bool | None) -> None:
         """The workspace is there: a new one, or one from before."""
-        found = self.app_services.app_state()
+        found = self.session.app_state()
         self._state = replace(found, theme=self.theme)
         self._begin()
 
     def _begin(self) -> None:
         from tutor.tui.screens.main import MainScreen  # late: half of all that is imported is imported here
 
-        self.main = MainScreen(self.app_services, self._state)
+        self.main = MainScreen(self.session, self._state)
         self.push_screen(self.main)
 
     def action_switch_theme(self) -> None:

@@ -8,7 +8,8 @@ from pathlib import Path
 from textual.message import Message
 
 from tutor.judge.events import Event
-from tutor.tui.node import NodeState
+from tutor.session.check_process import CheckEnded
+from tutor.session.node import NodeState
 from tutor.workspace import Progress
 
 
@@ -21,12 +22,9 @@ class CheckEvent(Message):
 
 @dataclass
 class CheckOver(Message):
-    """The check's process is gone. `fault` says what broke in it, if anything; `evidence` is what it wrote last."""
+    """The check's process is gone."""
 
-    exercise: str
-    cancelled: bool = False
-    fault: str = ""
-    evidence: tuple[str, ...] = ()
+    how: CheckEnded
 
 
 @dataclass

@@ -33,7 +33,7 @@ class Actions(Provider):
             if command.palette and screen.can(command.name):
                 about = f"Key {' or '.join(command.shown_keys)}"
                 yield command.text, about, partial(screen.action_do, command.name)
-        for lesson in screen.session.app_services.lessons:
+        for lesson in screen.model.session.lessons:
             name = f"Go to {wording.label(lesson)} {lesson.title}"
             yield name, f"{lesson.unit}, {lesson.difficulty}", partial(screen.go_to, lesson)
 
@@ -59,8 +59,8 @@ class LessonText(Provider):
     async def search(self, query: str) -> Hits:
         """The lines that hold the typed text, the shown lesson's first."""
         screen = cast("MainScreen", self.screen)
-        here = screen.session.lesson
-        for number, (lesson, line, text) in enumerate(found(screen.session.app_services.lessons, query, here)):
+        here = screen.model.lesson
+        for number, (lesson, line, text) in enumerate(found(screen.model.session.lessons, query, here)):
             if number >= MOST_LINES:
                 return
             shown = Content.assemble(text).highlight_regex(_plain(query), style="bold $accent")

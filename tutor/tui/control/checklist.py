@@ -28,7 +28,7 @@ class ChecklistController:
         }
 
     def _any(self) -> bool:
-        return bool(self._host.session.app_services.course.checklist.groups)
+        return bool(self._host.model.session.course.checklist.groups)
 
     def open(self) -> None:
         """Show the checklist; what another window has ticked follows in a moment."""
@@ -37,9 +37,9 @@ class ChecklistController:
 
         if self._screen is not None:
             return
-        session = self._host.session
+        model = self._host.model
         self._screen = ChecklistScreen(
-            assess(session.app_services.course, session.progress),
+            assess(model.session.course, model.progress),
             tick=self._tick,
             export=self.export,
             theme=self._theme,
@@ -55,7 +55,7 @@ class ChecklistController:
         from tutor.report.assessment import assess
 
         if self._screen is not None and not self._keeping:
-            self._screen.show(assess(self._host.session.app_services.course, progress))
+            self._screen.show(assess(self._host.model.session.course, progress))
 
     def _theme(self) -> None:
         self._host.work(self._host.run_action, "do('theme')", group="theme")
@@ -68,7 +68,7 @@ class ChecklistController:
 
     async def _keep(self, item: str, ticked: bool) -> None:
         try:
-            await self._records.change(self._host.session.app_services.tick, item, ticked)
+            await self._records.change(self._host.model.session.tick, item, ticked)
         finally:
             self._keeping -= 1
 
@@ -85,12 +85,12 @@ class ChecklistController:
             if answer is not None:
                 self._host.work(self._write, *answer, group="progress")
 
-        self._host.app.push_screen(ExportScreen(self._host.session.app_services.workspace.root, format, file), answered)
+        self._host.app.push_screen(ExportScreen(self._host.model.session.workspace.root, format, file), answered)
 
     async def _write(self, format: str, path: Path, replace: bool = False) -> None:
         name = wording.short(path)
         try:
-            done = await self._records.run_in_order(self._host.session.app_services.export, format, path, replace)
+            done = await self._records.run_in_order(self._host.model.session.export, format, path, replace)
         except StorageError as error:
             self._host.show_error(f"Your checklist is not written: {error}")
             return

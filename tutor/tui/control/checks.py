@@ -8,14 +8,14 @@ from pathlib import Path
 
 from tutor.content import Lesson
 from tutor.invocation import command
-from tutor.judge.events import ExerciseJudged
+from tutor.judge.events import Event, ExerciseJudged
 from tutor.judge.verdict import Status
+from tutor.session.check_process import CheckEnded, CheckProcess
+from tutor.session.findings import Findings
 from tutor.tui import messages
-from tutor.tui.check_process import CheckProcess
 from tutor.tui.control.files import Files
 from tutor.tui.control.preferences import Preferences
 from tutor.tui.control.records import Records
-from tutor.tui.findings import Findings
 from tutor.tui.screens.host import CommandHandler, HostScreen
 
 CRASHED = (
@@ -50,7 +50,7 @@ class Checks:
     def check(self) -> None:
         """Save and check the lesson that is shown."""
         if not self._files.needed_for("check"):
-            self._begin(self._host.session.lesson)
+            self._begin(self._host.model.lesson)
             if self._host.has_class("-folded"):
                 self._host.show_page("criteria")
 
@@ -61,43 +61,43 @@ class Checks:
 
     def watch(self) -> None:
         """Switch checking on save."""
-        on = not self._host.session.state.check_on_save
+        on = not self._host.model.state.check_on_save
         self._preferences.update(check_on_save=on)
         self._host.say("Each save now begins a check." if on else "A save no longer begins a check.")
         self._host.refresh_bindings()
 
     def saved(self, message: messages.FileSaved) -> None:
         """A file was saved: check again, where that is wanted."""
-        session = self._host.session
-        if (
-            not session.state.check_on_save
-            or message.path not in session.paths
-            or session.app_services.missing(session.lesson)
-        ):
+        model = self._host.model
+        if not model.state.check_on_save or message.path not in model.paths or model.session.missing(model.lesson):
             return
         if self.running is None:
-            self._begin(session.lesson)
+            self._begin(model.lesson)
         else:
-            self._next = session.lesson
+            self._next = model.lesson
             self._stop("started again: your file has changed")
 
     def edited(self) -> None:
         """A file holds something else now: verdicts on what it held before are marked, until that is back."""
-        session = self._host.session
-        found = session.findings[session.lesson.id]
-        checked, held = self._checked.get(session.lesson.id, {}), self._files.texts(session.lesson)
+        model = self._host.model
+        found = model.findings[model.lesson.id]
+        checked, held = self._checked.get(model.lesson.id, {}), self._files.texts(model.lesson)
         outdated = any(held.get(path, text) != text for path, text in checked.items())
         if outdated != found.outdated:
             self._tell(replace(found, outdated=outdated))
 
     def _begin(self, lesson: Lesson) -> None:
-        app_services = self._host.session.app_services
-        self.running = CheckProcess(
-            lesson.id, app_services.check_command(lesson), app_services.workspace.root, self._host.post_message
-        )
-        self._tell(self._host.session.findings[lesson.id].begun())
+        session = self._host.model.session
+        self.running = CheckProcess(lesson.id, session.check_command(lesson), session.workspace.root, self._post)
+        self._tell(self._host.model.findings[lesson.id].begun())
         self._host.refresh_bindings()
         self._host.work(self._run, lesson, self.running, group="check")
+
+    def _post(self, told: Event | CheckEnded) -> None:
+        if isinstance(told, CheckEnded):
+            self._host.post_message(messages.CheckOver(told))
+        else:
+            self._host.post_message(messages.CheckEvent(told))
 
     async def _run(self, lesson: Lesson, checking: CheckProcess) -> None:
         await self._files.save_all()
@@ -107,25 +107,25 @@ class Checks:
     def _stop(self, note: str) -> None:
         if self.running is not None and not self.running.cancelled:
             self.running.cancel()
-            self._tell(self._host.session.findings[self.running.exercise].stopped(note))
+            self._tell(self._host.model.findings[self.running.exercise].stopped(note))
 
-    def event(self, message: messages.CheckEvent) -> None:
+    def event(self, event: Event) -> None:
         """The running check has found something."""
         if self.running is None or self.running.cancelled:
             return
-        self._tell(self._host.session.findings[self.running.exercise].after(message.event))
-        if isinstance(message.event, ExerciseJudged):
-            self._records.add(message.event.result)
+        self._tell(self._host.model.findings[self.running.exercise].after(event))
+        if isinstance(event, ExerciseJudged):
+            self._records.add(event.result)
 
-    def over(self, message: messages.CheckOver) -> None:
+    def over(self, ended: CheckEnded) -> None:
         """The check's process is gone."""
         self.running = None
-        session = self._host.session
-        found = session.findings[message.exercise]
-        if message.cancelled:
+        model = self._host.model
+        found = model.findings[ended.exercise]
+        if ended.cancelled:
             found = found.stopped("cancelled")
-        elif message.fault:
-            found = found.broken(message.fault, CRASHED, message.evidence)
+        elif ended.fault:
+            found = found.broken(ended.fault, CRASHED, ended.evidence)
         elif found.checking:
             found = found.stopped()
         self._tell(found)
@@ -133,9 +133,9 @@ class Checks:
         if self._next is not None:
             again, self._next = self._next, None
             self._begin(again)
-        elif message.exercise != session.lesson.id and found.result is not None:
+        elif ended.exercise != model.lesson.id and found.result is not None:
             word = "passed" if found.result.verdict is Status.PASSED else "is checked: not all criteria are met yet"
-            self._host.say(f"{message.exercise.upper()} {word}.")
+            self._host.say(f"{ended.exercise.upper()} {word}.")
 
     def leave(self) -> None:
         """End it for good."""
@@ -144,5 +144,5 @@ class Checks:
             self.running.cancel()
 
     def _tell(self, found: Findings) -> None:
-        self._host.session.findings[found.exercise] = found
+        self._host.model.findings[found.exercise] = found
         self._show(found)

@@ -24,7 +24,7 @@ async def close_down(
     terminal = pages.terminal
     if terminal is not None:
         terminal.leave()
-        host.session.app_services.keep_typed_commands(terminal.typed_commands)
+        host.model.session.keep_typed_commands(terminal.typed_commands)
     try:
         async with asyncio.timeout(SAVE_LIMIT_S):
             await files.save_all()

@@ -35,10 +35,10 @@ class Files:
             "start": CommandHandler(self.start),
             "edit": CommandHandler(self.edit),
             "save": CommandHandler(self.save),
-            "find": CommandHandler(self.find, lambda: host.session.path in self._disk),
-            "find_next": CommandHandler(lambda: self.find(again=True), lambda: host.session.path in self._disk),
+            "find": CommandHandler(self.find, lambda: host.model.path in self._disk),
+            "find_next": CommandHandler(lambda: self.find(again=True), lambda: host.model.path in self._disk),
             "own_editor": CommandHandler(self.open_outside),
-            "next_file": CommandHandler(self.next_file, lambda: len(host.session.lesson.files) > 1),
+            "next_file": CommandHandler(self.next_file, lambda: len(host.model.lesson.files) > 1),
             "reset": CommandHandler(self.reset),
         }
 
@@ -46,22 +46,22 @@ class Files:
 
     def show(self, index: int) -> None:
         """Show one of the lesson's files, and follow it on the disk."""
-        session = self._host.session
-        session.file_index = index
-        self._pane.show_names(session.paths, index)
-        path = session.path
+        model = self._host.model
+        model.file_index = index
+        self._pane.show_names(model.paths, index)
+        path = model.path
         tell = partial(self._host.post_message, messages.FileTouched(path))
         self._host.work(watch_file, path, tell, group="file", exclusive=True)
 
     def next_file(self) -> None:
         """Show the lesson's other file."""
-        session = self._host.session
-        self.show((session.file_index + 1) % len(session.lesson.files))
+        model = self._host.model
+        self.show((model.file_index + 1) % len(model.lesson.files))
         self._host.show_page("code")
 
     def go_to(self, message: messages.GoToLine) -> None:
         """Put the cursor on a line."""
-        paths = self._host.session.paths
+        paths = self._host.model.paths
         if message.path in paths:
             self.show(paths.index(message.path))
             self._host.show_page("code")
@@ -83,7 +83,7 @@ class Files:
             try:
                 text = await asyncio.to_thread(read_source, path)
             except StorageError as error:
-                if path == self._host.session.path and not self._closed:
+                if path == self._host.model.path and not self._closed:
                     self._pane.show_missing(path, str(error))
                 return
             if not self._closed:
@@ -97,7 +97,7 @@ class Files:
                 await self._write(path, None)  # removed while it was being edited: what is typed counts
                 return
             self._disk.pop(path, None)
-            if path == self._host.session.path:
+            if path == self._host.model.path:
                 self._pane.show_missing(path)
             return
         if text == known and self._pane.knows(path):
@@ -109,7 +109,7 @@ class Files:
                 return
             self._pane.mark_saved(path, text)
         else:
-            await self._pane.show_source(path, text, visible=path == self._host.session.path)
+            await self._pane.show_source(path, text, visible=path == self._host.model.path)
         self._disk[path] = text
         if known is not None:
             self._host.say(f"{path.name} was changed outside: this is the new version.")
@@ -135,7 +135,7 @@ class Files:
                     self._host.show_error(f"Nothing was changed: yours cannot be kept beside it: {error}")
                     return
             self._disk[path] = theirs
-            await self._pane.show_source(path, theirs, visible=path == self._host.session.path)
+            await self._pane.show_source(path, theirs, visible=path == self._host.model.path)
             self._host.say(f"The file's version is shown. Yours is kept as {backup.name}.", warn=True)
             return
         try:
@@ -152,7 +152,7 @@ class Files:
 
     def texts(self, lesson: Lesson) -> dict[Path, str]:
         """What a lesson's files hold, those that have been read."""
-        paths = map(self._host.session.app_services.path, lesson.files)
+        paths = map(self._host.model.session.path, lesson.files)
         return {path: self._pane.text(path) for path in paths if self._pane.knows(path)}
 
     def typed(self) -> None:
@@ -168,7 +168,7 @@ class Files:
     async def save(self) -> None:
         """Save by hand: what happens on each save happens now."""
         if await self.save_all():
-            path = self._host.session.path
+            path = self._host.model.path
             if path in self._disk:
                 self._host.post_message(messages.FileSaved(path))
                 self._host.say(f"{path.name} is saved.")
@@ -211,21 +211,21 @@ class Files:
 
     def needed_for(self, what: str) -> bool:
         """Whether files are missing; then the start is offered."""
-        session = self._host.session
-        if not (missing := session.app_services.missing(session.lesson)):
+        model = self._host.model
+        if not (missing := model.session.missing(model.lesson)):
             return False
         names = " and ".join(missing)
         text = f"{names} is not in your workspace yet, so there is nothing to {what}.\n\nPut the skeleton there?"
-        self._host.ask(f"Start {wording.label(session.lesson)}", text, "Start", self.start)
+        self._host.ask(f"Start {wording.label(model.lesson)}", text, "Start", self.start)
         return True
 
     def start(self) -> None:
         """Put the skeletons there."""
-        self._host.work(self._start, self._host.session.lesson, group="start", exclusive=True)
+        self._host.work(self._start, self._host.model.lesson, group="start", exclusive=True)
 
     async def _start(self, lesson: Lesson) -> None:
         try:
-            placed = await asyncio.to_thread(self._host.session.app_services.start, lesson)
+            placed = await asyncio.to_thread(self._host.model.session.start, lesson)
         except (WorkspaceError, StorageError) as error:
             self._host.show_error(str(error))
             return
@@ -234,9 +234,9 @@ class Files:
 
     def started(self, message: messages.Started) -> None:
         """The skeletons are there."""
-        if message.exercise != self._host.session.lesson.id:
+        if message.exercise != self._host.model.lesson.id:
             return
-        self.touched(messages.FileTouched(self._host.session.path))
+        self.touched(messages.FileTouched(self._host.model.path))
         self._host.show_page("code")
         if message.written:
             self._host.say(f"{' and '.join(message.written)} is in your workspace: e to edit, then c to check.")
@@ -247,7 +247,7 @@ class Files:
         """Put the focus into the editor."""
         if self.needed_for("edit"):
             return
-        path = self._host.session.path
+        path = self._host.model.path
         if self._pane.knows(path):
             self._type()
         else:  # asked for before the file has been read
@@ -261,7 +261,7 @@ class Files:
 
     async def _type_soon(self, path: Path) -> None:
         await self.look(path)
-        if path == self._host.session.path:
+        if path == self._host.model.path:
             self._type()
 
     def _type(self) -> None:
@@ -276,11 +276,11 @@ class Files:
         if self.needed_for("edit"):
             return
         await self.save_all()
-        session = self._host.session
+        model = self._host.model
         # Ctrl+C in the editor reaches us too; a handler that does nothing is reset to the default in the editor itself.
         before = signal.signal(signal.SIGINT, lambda *_: None)
         try:
-            problem = await edit_outside(self._host.app, session.path)
+            problem = await edit_outside(self._host.app, model.path)
         finally:
             signal.signal(signal.SIGINT, before)
         if problem:
@@ -292,7 +292,7 @@ class Files:
         """Put the skeleton back, after a question."""
         if self.needed_for("reset"):
             return
-        name = self._host.session.file.name
+        name = self._host.model.file.name
         text = f"{name} becomes the skeleton again.\n\nYour version is kept beside it as a backup."
         self._host.ask(f"Reset {name}", text, "Reset", self._reset)
 
@@ -300,20 +300,20 @@ class Files:
         self._host.work(self._reset_now, group="start", exclusive=True)
 
     async def _reset_now(self) -> None:
-        session = self._host.session
-        file, path = session.file, session.path
+        model = self._host.model
+        file, path = model.file, model.path
         async with self._lock:  # nobody looks at the file between its two versions
             await self._write_changed()
             if self._pane.is_changed(path):
                 return  # it could not be saved, which was told: what was typed is nowhere else
             try:
-                placed = await asyncio.to_thread(session.app_services.reset, file)
+                placed = await asyncio.to_thread(model.session.reset, file)
                 text = await asyncio.to_thread(read_source, path)
             except (WorkspaceError, StorageError) as error:
                 self._host.show_error(str(error))
                 return
             if text is not None:
                 self._disk[path] = text
-                await self._pane.show_source(path, text, visible=path == session.path)
+                await self._pane.show_source(path, text, visible=path == model.path)
         where = f" Yours is kept as {wording.short(placed.backups[0])}." if placed.backups else ""
         self._host.say(f"{file.name} is the skeleton again.{where}", warn=True)

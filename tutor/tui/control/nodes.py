@@ -7,10 +7,10 @@ from collections.abc import Callable
 from pathlib import Path
 
 from tutor.content import Lesson, LessonFile, Partner
+from tutor.session.node import Node, NodeCommand
 from tutor.tui import messages
 from tutor.tui.control.files import Files
 from tutor.tui.control.preferences import Preferences
-from tutor.tui.node import Node, NodeCommand
 from tutor.tui.screens.host import CommandHandler, HostScreen
 from tutor.workspace import RunOptions
 
@@ -34,9 +34,9 @@ class Nodes:
         self.command_handlers = {
             "run": CommandHandler(self.run, lambda: not self._stoppable),
             "stop": CommandHandler(self.stop, lambda: bool(self._stoppable)),
-            "restart": CommandHandler(self.restart, lambda: self._alive(host.session.path)),
+            "restart": CommandHandler(self.restart, lambda: self._alive(host.model.path)),
             "partner": CommandHandler(self.partner, lambda: self._partner is not None),
-            "other_file": CommandHandler(self.other_file, lambda: len(host.session.lesson.files) > 1),
+            "other_file": CommandHandler(self.other_file, lambda: len(host.model.lesson.files) > 1),
             "options": CommandHandler(self.options),
             "restart_on_save": CommandHandler(self.switch_restart),
         }
@@ -49,7 +49,7 @@ class Nodes:
     @property
     def shown(self) -> Path | None:
         """The node whose log is to be shown: the one chosen, else that of the file that is looked at, else the last."""
-        path = self._host.session.path
+        path = self._host.model.path
         if self._chosen is not None and self._chosen[1] == path and self._chosen[0] in self.listed:
             return self._chosen[0]
         return path if path in self.known else self.latest
@@ -57,33 +57,33 @@ class Nodes:
     @property
     def listed(self) -> list[Path]:
         """The nodes whose logs can be chosen: those of the lesson, and all that run."""
-        own = self._own(self._host.session.lesson)
+        own = self._own(self._host.model.lesson)
         return [path for path, node in self.known.items() if path in own or node.state.alive]
 
     def choose(self, path: Path) -> None:
         """Show the log of this node."""
-        self._chosen = (path, self._host.session.path)
+        self._chosen = (path, self._host.model.path)
         self._tell(path)
 
     def stop_key(self, path: Path) -> str:
         """The key that stops this node."""
-        session = self._host.session
-        if path == session.path or path not in self._own(session.lesson):
+        model = self._host.model
+        if path == model.path or path not in self._own(model.lesson):
             return "r"
-        return "j" if path in session.paths else "b"
+        return "j" if path in model.paths else "b"
 
     def _tell(self, path: Path, *, first: bool = False, unasked: bool = False) -> None:
         state = self.known[path].state
         self._host.post_message(messages.NodeChanged(path, state, first=first, unasked=unasked))
 
     def _own(self, lesson: Lesson) -> set[Path]:
-        files = {self._host.session.app_services.path(file) for file in lesson.files}
+        files = {self._host.model.session.path(file) for file in lesson.files}
         return files | {key_of(partner) for partner in lesson.live.partners}
 
     @property
     def _partner(self) -> Partner | None:
-        session = self._host.session
-        return session.lesson.live.partner_of(session.file.name)
+        model = self._host.model
+        return model.lesson.live.partner_of(model.file.name)
 
     def _alive(self, path: Path) -> bool:
         return path in self.known and self.known[path].state.alive
@@ -91,25 +91,25 @@ class Nodes:
     @property
     def _stoppable(self) -> list[Node]:
         """What Stop stops: the node of the file that is shown; where another lesson is read, what runs."""
-        session = self._host.session
-        if self._alive(session.path):
-            return [self.known[session.path]]
-        if any(path in self.known for path in session.paths):
+        model = self._host.model
+        if self._alive(model.path):
+            return [self.known[model.path]]
+        if any(path in self.known for path in model.paths):
             return []
-        own = self._own(session.lesson)
+        own = self._own(model.lesson)
         return [node for path, node in self.known.items() if node.state.alive and path not in own]
 
     # --- run and stop ---
 
     def run(self) -> None:
         """Run the file that is shown."""
-        session = self._host.session
+        model = self._host.model
         if self._files.needed_for("run"):
             return
-        if not session.path.exists():
-            self._host.show_error(f"{session.file.name} is not in your workspace yet.")
+        if not model.path.exists():
+            self._host.show_error(f"{model.file.name} is not in your workspace yet.")
             return
-        self._start(session.lesson, session.file)
+        self._start(model.lesson, model.file)
 
     def stop(self) -> None:
         """Press Ctrl+C."""
@@ -118,60 +118,60 @@ class Nodes:
 
     def other_file(self) -> None:
         """Run the lesson's other file beside the one that is shown, or stop it."""
-        session = self._host.session
-        files = session.lesson.files
-        file = files[(session.file_index + 1) % len(files)]
-        path = session.app_services.path(file)
+        model = self._host.model
+        files = model.lesson.files
+        file = files[(model.file_index + 1) % len(files)]
+        path = model.session.path(file)
         if self._alive(path):
             self.known[path].stop()
         elif not path.exists():
             self._host.show_error(f"{file.name} is not in your workspace yet.")
         else:
-            self._start(session.lesson, file)
+            self._start(model.lesson, file)
 
     def partner(self) -> None:
         """Start our node that goes with the file that is shown, or stop it."""
-        session, partner = self._host.session, self._partner
+        model, partner = self._host.model, self._partner
         if partner is None:
             return
         key = key_of(partner)
         if self._alive(key):
             self.known[key].stop()
             return
-        twin = [path for path in session.paths if partner.file and path.name == partner.file.name and self._alive(path)]
+        twin = [path for path in model.paths if partner.file and path.name == partner.file.name and self._alive(path)]
         if twin:
             self._host.show_error(f"Your {twin[0].name} runs already, and does what ours would: j stops it.")
             return
-        app_services = session.app_services
-        self._begin(session.lesson, key, lambda: app_services.partner_command(partner))
+        session = model.session
+        self._begin(model.lesson, key, lambda: session.partner_command(partner))
 
     def restart(self) -> None:
         """Stop the node of the file that is shown, and run it again."""
-        self._start(self._host.session.lesson, self._host.session.file)
+        self._start(self._host.model.lesson, self._host.model.file)
 
     def saved(self, message: messages.FileSaved) -> None:
         """A file was saved: run its lesson's nodes again, where that is wanted."""
-        session = self._host.session
-        if not session.state.restart_on_save or message.path not in session.paths:
+        model = self._host.model
+        if not model.state.restart_on_save or message.path not in model.paths:
             return
-        for file in session.lesson.files:
-            if self._alive(session.app_services.path(file)):
-                self._start(session.lesson, file, unasked=message.outside)
+        for file in model.lesson.files:
+            if self._alive(model.session.path(file)):
+                self._start(model.lesson, file, unasked=message.outside)
 
     def switch_restart(self) -> None:
         """Switch restarting on save."""
-        on = not self._host.session.state.restart_on_save
+        on = not self._host.model.state.restart_on_save
         self._preferences.update(restart_on_save=on)
         self._host.say("Each save now restarts your node." if on else "A save no longer restarts your node.")
         self._host.refresh_bindings()
 
     def _start(self, lesson: Lesson, file: LessonFile, *, unasked: bool = False) -> None:
-        app_services = self._host.session.app_services
+        session = self._host.model.session
 
         def command() -> NodeCommand:
-            return app_services.node_command(file, self._host.session.state.run_of(lesson.id))
+            return session.node_command(file, self._host.model.state.run_of(lesson.id))
 
-        self._begin(lesson, app_services.path(file), command, unasked=unasked)
+        self._begin(lesson, session.path(file), command, unasked=unasked)
 
     def _begin(self, lesson: Lesson, path: Path, command: Callable[[], NodeCommand], *, unasked: bool = False) -> None:
         self._wanted[path] = self._wanted.get(path, 0) + 1
@@ -205,7 +205,7 @@ class Nodes:
             node = Node(command, lambda state: self._host.post_message(messages.NodeChanged(path, state)))
             self.known[path], self.latest = node, path
             if not unasked:
-                self._chosen = (path, self._host.session.path)
+                self._chosen = (path, self._host.model.path)
             self._tell(path, first=True, unasked=unasked)
             await node.run()
 
@@ -215,21 +215,19 @@ class Nodes:
         """Ask for parameters and remaps."""
         from tutor.tui.screens.run_options import RunOptionsScreen
 
-        session = self._host.session
-        lesson, file = session.lesson, session.file
+        model = self._host.model
+        lesson, file = model.lesson, model.file
 
         def answered(answer: tuple[RunOptions, bool] | None) -> None:
             if answer is None:
                 return
             options, run = answer
-            self._preferences.replace(session.state.with_run(lesson.id, options))
-            if run and session.lesson is lesson:
-                (self.restart if self._alive(session.path) else self.run)()
+            self._preferences.replace(model.state.with_run(lesson.id, options))
+            if run and model.lesson is lesson:
+                (self.restart if self._alive(model.path) else self.run)()
 
         self._host.app.push_screen(
-            RunOptionsScreen(
-                file, session.run_options, lambda options: session.app_services.command_line(file, options)
-            ),
+            RunOptionsScreen(file, model.run_options, lambda options: model.session.command_line(file, options)),
             answered,
         )
 

@@ -104,10 +104,10 @@ class Pages:
         if not (found := self.live):
             found = LivePane(id="live-pane")
             self._host.query_one("#live", Container).mount(found)
-            found.show_for(self._host.session.lesson)
+            found.show_for(self._host.model.lesson)
             found.nodes_run(self._node_runs())
-            app_services = self._host.session.app_services
-            found.call_after_refresh(found.start_watching, lambda: watcher_command(app_services.domain))
+            session = self._host.model.session
+            found.call_after_refresh(found.start_watching, lambda: watcher_command(session.domain))
         return found
 
     @property
@@ -118,8 +118,8 @@ class Pages:
     def open_terminal(self) -> TerminalPane:
         """The terminal page, made the first time that it is asked for."""
         if not (found := self.terminal):
-            app_services = self._host.session.app_services
-            found = TerminalPane(app_services.shell, History(app_services.typed_commands()), id="terminal-pane")
+            session = self._host.model.session
+            found = TerminalPane(session.shell, History(session.typed_commands()), id="terminal-pane")
             self._host.query_one("#terminal", Container).mount(found)
         return found
 
@@ -134,7 +134,7 @@ class Pages:
         """Show the log beside Live, where there is something in both, and room; else the page alone."""
         host, log, live = self._host, self._host.query_one(LogPane), self._host.query_one("#live", Container)
         full = self.live is not None and log.has_class("-filled")
-        wanted = host.session.state.side_by_side and full and host.size.width >= SIDE_BY_SIDE_FROM
+        wanted = host.model.state.side_by_side and full and host.size.width >= SIDE_BY_SIDE_FROM
         both = wanted and self.current in ("log", "live")
         if not both and not host.has_class("-split"):
             return
@@ -144,7 +144,7 @@ class Pages:
 
     def switch_side_by_side(self) -> None:
         """Show the log beside Live from now on, or not."""
-        on = not self._host.session.state.side_by_side
+        on = not self._host.model.state.side_by_side
         self._preferences.update(side_by_side=on)
         self.arrange_side_by_side()
         room = self._host.size.width >= SIDE_BY_SIDE_FROM
@@ -161,7 +161,7 @@ class Pages:
         if shape == self._shape:
             return
         self._shape = shape
-        host, state = self._host, self._host.session.state
+        host, state = self._host, self._host.model.state
         for place in Criteria:
             host.set_class(shape.criteria is place, f"-{place}", update=False)
         host.set_class(not shape.lessons, "-no-lessons", update=False)

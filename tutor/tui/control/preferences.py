@@ -15,23 +15,23 @@ WRITE_AFTER_S = 0.3
 
 
 class Preferences:
-    """The only one that changes `session.state`."""
+    """The only one that changes `model.state`."""
 
     def __init__(self, host: HostScreen) -> None:
         self._host = host
         self._timer: Timer | None = None
         self._writing = asyncio.Lock()
-        self._kept = host.session.state
+        self._kept = host.model.state
 
     def update(self, **changes: Any) -> None:
         """Remember these fields of `AppState`."""
-        self.replace(dataclasses.replace(self._host.session.state, **changes))
+        self.replace(dataclasses.replace(self._host.model.state, **changes))
 
     def replace(self, state: AppState) -> None:
         """Remember this state."""
-        session = self._host.session
-        if state != session.state:
-            session.state = state
+        model = self._host.model
+        if state != model.state:
+            model.state = state
             self._host.preferences_changed()
             if self._timer is None:
                 self._timer = self._host.set_timer(WRITE_AFTER_S, self._due)
@@ -42,13 +42,13 @@ class Preferences:
 
     async def flush(self) -> None:
         """Write it now, if anything has changed."""
-        session = self._host.session
+        model = self._host.model
         async with self._writing:  # two writes at once would take each other's temporary file away
-            state = session.state
+            state = model.state
             if state == self._kept:
                 return
             try:
-                await asyncio.to_thread(session.app_services.keep, state)
+                await asyncio.to_thread(model.session.keep, state)
                 self._kept = state
             except StorageError as error:
                 self._kept = state  # told once, not at every change

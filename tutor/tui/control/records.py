@@ -25,34 +25,34 @@ class Records:
 
     def read(self) -> None:
         """Read it from the disk."""
-        self._work(self._host.session.app_services.progress)
+        self._work(self._host.model.session.progress)
 
     def add(self, result: ExerciseResult) -> None:
         """Keep one attempt."""
-        self._work(self._host.session.app_services.record, result)
+        self._work(self._host.model.session.record, result)
 
     def hint(self) -> None:
         """Show the hint for what has failed, and the general ones that were shown before; else the first of these."""
-        session = self._host.session
+        model = self._host.model
         failed = self._failed()
-        self._show_hints(max(0 if failed else 1, session.progress.of(session.lesson.id).hints), failed)
+        self._show_hints(max(0 if failed else 1, model.progress.of(model.lesson.id).hints), failed)
 
     def _failed(self) -> CriterionText | None:
         """The criterion that is chosen, if it has failed; else the first that has."""
-        session = self._host.session
+        model = self._host.model
         failed = [
             finding.id
-            for finding in sorted(session.findings[session.lesson.id].criteria, key=lambda finding: finding.bonus)
+            for finding in sorted(model.findings[model.lesson.id].criteria, key=lambda finding: finding.bonus)
             if finding.verdict is not None and finding.verdict.status is Status.FAILED
         ]
         wanted = self._host.chosen_criterion if self._host.chosen_criterion in failed else next(iter(failed), "")
-        return next((each for each in session.lesson.criteria if each.id == wanted and each.hint), None)
+        return next((each for each in model.lesson.criteria if each.id == wanted and each.hint), None)
 
     def _show_hints(self, count: int, failed: CriterionText | None) -> None:
-        session = self._host.session
-        lesson = session.lesson
-        if count > session.progress.of(lesson.id).hints:
-            self._work(session.app_services.show_hint, lesson)
+        model = self._host.model
+        lesson = model.lesson
+        if count > model.progress.of(lesson.id).hints:
+            self._work(model.session.show_hint, lesson)
 
         def answered(more: bool | None) -> None:
             if more:
@@ -64,8 +64,8 @@ class Records:
         """Show the attempts at this exercise."""
         from tutor.tui.screens.attempts import AttemptsScreen
 
-        session = self._host.session
-        self._host.app.push_screen(AttemptsScreen(session.lesson, session.progress.of(session.lesson.id)))
+        model = self._host.model
+        self._host.app.push_screen(AttemptsScreen(model.lesson, model.progress.of(model.lesson.id)))
 
     def _work(self, change: Callable[..., Progress], *given: Any) -> None:
         self._host.work(self.change, change, *given, group="progress")
@@ -76,7 +76,7 @@ class Records:
             self._host.post_message(messages.ProgressRead(await self.run_in_order(change, *given)))
         except StorageError as error:
             self._host.show_error(f"Your progress is not kept: {error}")
-            self._host.post_message(messages.ProgressRead(self._host.session.progress))
+            self._host.post_message(messages.ProgressRead(self._host.model.progress))
 
     async def run_in_order[T](self, work: Callable[..., T], *given: Any) -> T:
         """Do this in a thread, after what was asked for before it: the last that is told is then the latest."""

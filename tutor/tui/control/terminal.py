@@ -18,7 +18,7 @@ class Terminal:
 
     @property
     def _commands(self) -> tuple[str, ...]:
-        return commands_in(self._host.session.lesson.body)
+        return commands_in(self._host.model.lesson.body)
 
     def choose(self) -> None:
         """Ask which of the lesson's commands to run, and run it."""

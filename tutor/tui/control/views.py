@@ -45,8 +45,8 @@ class Views:
         if self._host.page == "code" and self._pane.view == view:
             self.back()
             return
-        lesson = self._host.session.lesson
-        passed = self._host.session.progress.of(lesson.id).best is Status.PASSED
+        lesson = self._host.model.lesson
+        passed = self._host.model.progress.of(lesson.id).best is Status.PASSED
         if view in (View.SKELETON, View.CHANGES) or passed or lesson.id in self._unveiled:
             self._show(view)
             return
@@ -64,8 +64,8 @@ class Views:
     async def _show_now(self, view: View) -> None:
         from tutor.tui.diffing import count, difference
 
-        file = self._host.session.file
-        path = self._host.session.path
+        file = self._host.model.file
+        path = self._host.model.path
         try:
             other = (file.skeleton if view in (View.SKELETON, View.CHANGES) else file.solution).read_text("utf-8")
         except OSError as error:

@@ -12,7 +12,7 @@ from textual.screen import Screen
 from textual.widget import Widget
 
 from tutor.tui import messages
-from tutor.tui.session import Session
+from tutor.tui.model import AppModel
 
 
 def always() -> bool:
@@ -29,9 +29,9 @@ class CommandHandler:
 
 
 class HostScreen(Screen[None]):
-    """A screen with a session, and pages to turn to."""
+    """A screen with the app's model, and pages to turn to."""
 
-    session: Session
+    model: AppModel
     focused = Reactive[Widget | None](None, repaint=False)
     """Painted by the widgets that lose and get the focus. Textual's own repaints the whole screen."""
 

@@ -17,8 +17,10 @@ from textual.widgets import ContentSwitcher, ListView, Tab, Tabs, TextArea
 
 from tutor.content import Lesson
 from tutor.judge.verdict import Status
+from tutor.session import Session
+from tutor.session.findings import Findings
+from tutor.session.node import Phase
 from tutor.tui import messages
-from tutor.tui.app_services import AppServices
 from tutor.tui.commands import bindings
 from tutor.tui.control.checklist import ChecklistController
 from tutor.tui.control.checks import Checks
@@ -31,11 +33,9 @@ from tutor.tui.control.preferences import Preferences
 from tutor.tui.control.records import Records
 from tutor.tui.control.terminal import Terminal
 from tutor.tui.control.views import Views
-from tutor.tui.findings import Findings
-from tutor.tui.node import Phase
+from tutor.tui.model import AppModel
 from tutor.tui.palette import Actions, LessonText
 from tutor.tui.screens.host import CommandHandler, HostScreen
-from tutor.tui.session import Session
 from tutor.tui.widgets.code_pane import CodePane
 from tutor.tui.widgets.criteria import CriteriaPanel
 from tutor.tui.widgets.diagnosis import Diagnosis
@@ -56,9 +56,9 @@ class MainScreen(HostScreen):
     COMMANDS: ClassVar[set[type[Provider] | Callable[[], type[Provider]]]] = {Actions, LessonText}
     AUTO_FOCUS = "#lesson"
 
-    def __init__(self, app_services: AppServices, state: AppState) -> None:
+    def __init__(self, session: Session, state: AppState) -> None:
         super().__init__()
-        self.session = Session.of(app_services, state)
+        self.model = AppModel.of(session, state)
         code, log = CodePane(id="code"), LogPane(id="log")
         self._code, self._log = code, log
         self.preferences = Preferences(self)
@@ -99,7 +99,7 @@ class MainScreen(HostScreen):
     def compose(self) -> ComposeResult:
         yield StatusBar()
         with Horizontal(id="columns"):
-            yield LessonList(self.session.app_services.lessons, id="lessons")
+            yield LessonList(self.model.session.lessons, id="lessons")
             with Container(id="work"):
                 with Vertical(id="centre"):
                     yield Tabs(*(Tab(name.capitalize(), id=f"tab-{name}") for name in PAGES), id="tabs")
@@ -116,12 +116,12 @@ class MainScreen(HostScreen):
         self._framed = (self.query_one("#pages"), self.query_one(CriteriaPanel))
         self.watch_focused(self.focused)
         self.query_one(LessonList).border_title = "Lessons"
-        self.query_one(StatusBar).show_nodes((), self.session.app_services.domain)
+        self.query_one(StatusBar).show_nodes((), self.model.session.domain)
         self.query_one(StatusBar).show_check(None)
         self.preferences_changed()
-        page = self.session.state.page
+        page = self.model.state.page
         self.pages.arrange(self.size.width, self.size.height)
-        await self.go_to(self.session.lesson, page if page in PAGES else "lesson")
+        await self.go_to(self.model.lesson, page if page in PAGES else "lesson")
         self.records.read()
 
     # --- commands ---
@@ -166,8 +166,8 @@ class MainScreen(HostScreen):
 
     async def go_to(self, lesson: Lesson, page: str = "lesson") -> None:
         """Show a lesson."""
-        session, lessons = self.session, self.session.app_services.lessons
-        session.lesson = lesson
+        model, lessons = self.model, self.model.session.lessons
+        model.lesson = lesson
         self.preferences.update(lesson=lesson.id)
         self.query_one(StatusBar).show_lesson(lesson)
         self.query_one(LessonList).show_lesson(lesson)
@@ -179,16 +179,16 @@ class MainScreen(HostScreen):
         place = lessons.index(lesson) + 1
         criteria = self.query_one(CriteriaPanel)
         self._count_passed()
-        await criteria.show_lesson(session.findings[lesson.id], lessons[place] if place < len(lessons) else None)
-        criteria.show_attempts(lesson, session.progress.of(lesson.id))
+        await criteria.show_lesson(model.findings[lesson.id], lessons[place] if place < len(lessons) else None)
+        criteria.show_attempts(lesson, model.progress.of(lesson.id))
         await self.query_one(LessonView).show_lesson(lesson)
         self.refresh_bindings()
 
     def _count_passed(self) -> None:
-        session = self.session
-        lessons = session.app_services.lessons
-        passed = {each.id for each in lessons if session.progress.of(each.id).best is Status.PASSED}
-        others = len(lessons) - len(passed | {session.lesson.id})
+        model = self.model
+        lessons = model.session.lessons
+        passed = {each.id for each in lessons if model.progress.of(each.id).best is Status.PASSED}
+        others = len(lessons) - len(passed | {model.lesson.id})
         # The last pass leads to the checklist, where the course has one.
         self.query_one(CriteriaPanel).others_open = others if self.can("checklist") else max(1, others)
         self.query_one(StatusBar).show_progress(len(passed), len(lessons))
@@ -200,8 +200,8 @@ class MainScreen(HostScreen):
         view.call_after_refresh(view.go_to_line, line)
 
     async def _step(self, by: int) -> None:
-        lessons = self.session.app_services.lessons
-        place = lessons.index(self.session.lesson) + by
+        lessons = self.model.session.lessons
+        place = lessons.index(self.model.lesson) + by
         if 0 <= place < len(lessons):
             await self.go_to(lessons[place])
         else:
@@ -254,15 +254,15 @@ class MainScreen(HostScreen):
 
     @on(messages.ProgressRead)
     def _progress_read(self, message: messages.ProgressRead) -> None:
-        session = self.session
-        session.progress = message.progress
-        for known in session.app_services.lessons:
-            session.findings[known.id] = session.findings[known.id].remembering(message.progress.of(known.id))
-        self.query_one(CriteriaPanel).show_findings(session.findings[session.lesson.id])
+        model = self.model
+        model.progress = message.progress
+        for known in model.session.lessons:
+            model.findings[known.id] = model.findings[known.id].remembering(message.progress.of(known.id))
+        self.query_one(CriteriaPanel).show_findings(model.findings[model.lesson.id])
         self._count_passed()
         self.query_one(LessonList).show_progress(message.progress)
         self.checklist.show(message.progress)
-        lesson = session.lesson
+        lesson = model.lesson
         self.query_one(CriteriaPanel).show_attempts(lesson, message.progress.of(lesson.id))
 
     @on(messages.Started)
@@ -303,11 +303,11 @@ class MainScreen(HostScreen):
             self.show_page("log")
         if message.path == self.nodes.shown:
             key = self.nodes.stop_key(message.path)
-            self._log.show(message.state, self.session.app_services.domain, self.session.paths, key)
+            self._log.show(message.state, self.model.session.domain, self.model.paths, key)
         self.pages.arrange_side_by_side()
         self._log.show_nodes({path: self.nodes.known[path].state for path in self.nodes.listed}, self.nodes.shown)
         states = [node.state for node in self.nodes.known.values()]
-        self.query_one(StatusBar).show_nodes(states, self.session.app_services.domain)
+        self.query_one(StatusBar).show_nodes(states, self.model.session.domain)
         if (live := self.pages.live) is not None:
             live.nodes_run(bool(self.nodes.running))
         if (phases := [(state.file, state.phase) for state in states]) != self._phases:
@@ -320,24 +320,24 @@ class MainScreen(HostScreen):
 
     @on(messages.CheckEvent)
     def _check_event(self, message: messages.CheckEvent) -> None:
-        self.checks.event(message)
+        self.checks.event(message.event)
 
     @on(messages.CheckOver)
     def _check_over(self, message: messages.CheckOver) -> None:
-        self.checks.over(message)
+        self.checks.over(message.how)
 
     @on(messages.ErrorOccurred)
     def _trouble(self, message: messages.ErrorOccurred) -> None:
         self.say(message.text, warn=True)
 
     def _show_findings(self, found: Findings) -> None:
-        if found.exercise == self.session.lesson.id:
+        if found.exercise == self.model.lesson.id:
             self.query_one(CriteriaPanel).show_findings(found)
         self.query_one(StatusBar).show_check(found)
         self.query_one(Tabs).query_one("#tab-criteria").set_class(found.checking, "-busy")
 
     def preferences_changed(self) -> None:
-        state = self.session.state
+        state = self.model.state
         self.query_one(StatusBar).show_toggles(check=state.check_on_save, restart=state.restart_on_save)
 
     # --- leaving ---

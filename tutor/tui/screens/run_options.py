@@ -14,7 +14,7 @@ from textual.widgets import Button, Static, TextArea
 
 from tutor.bundled_ros.ros2.starting import is_launch_file
 from tutor.content import LessonFile
-from tutor.tui import run_options
+from tutor.session import run_options
 from tutor.tui.screens.dialog import Dialog
 from tutor.workspace import RunOptions
 

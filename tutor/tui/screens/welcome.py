@@ -17,8 +17,8 @@ from textual.content import Content
 from textual.screen import Screen
 from textual.widgets import Button, Input, Static
 
+from tutor.session import Session
 from tutor.tui import wording
-from tutor.tui.app_services import AppServices
 from tutor.tui.widgets.key_footer import KeyFooter
 from tutor.workspace import StorageError, Workspace, WorkspaceError
 
@@ -40,20 +40,20 @@ class WelcomeScreen(Screen[bool]):
         Binding("q", "app.quit", "Quit"),
     ]
 
-    def __init__(self, app_services: AppServices) -> None:
+    def __init__(self, session: Session) -> None:
         super().__init__()
-        self._app_services = app_services
+        self._session = session
         self._making = False
 
     def compose(self) -> ComposeResult:
-        count = len(self._app_services.lessons)
+        count = len(self._session.lessons)
         with Middle(), Vertical(id="welcome"):
             yield Static(_BANNER, id="welcome-banner")
             yield Static("Learn ROS 2 by writing nodes that really run.", id="welcome-lead")
             yield Static(f"{count} exercises: write a node, run it, and have it checked.", id="welcome-text")
             with Vertical(id="welcome-place"):
                 yield Static(Content.assemble("Your work will be in ", ("  f: another folder", "$quiet")))
-                yield Input(wording.short(self._app_services.workspace.root), id="welcome-folder", compact=True)
+                yield Input(wording.short(self._session.workspace.root), id="welcome-folder", compact=True)
                 yield Static(id="welcome-about")
             yield Button("Press Enter to begin", id="begin")
         yield KeyFooter()
@@ -82,7 +82,7 @@ class WelcomeScreen(Screen[bool]):
 
     @on(Input.Changed)
     def _show_about(self) -> None:
-        about, problem = _about(self.root, self._app_services.workspace.root)
+        about, problem = _about(self.root, self._session.workspace.root)
         self._tell(Content.styled(f"✗ {about}", "$bad") if problem else Content.styled(about, "$quiet"))
         self.query_one("#begin", Button).disabled = problem
 
@@ -103,7 +103,7 @@ class WelcomeScreen(Screen[bool]):
 
     async def _begin(self, root: Path) -> None:
         try:
-            await asyncio.to_thread(self._app_services.begin_in, root)
+            await asyncio.to_thread(self._session.begin_in, root)
         except (WorkspaceError, StorageError) as error:
             self._making = False
             self.query_one("#begin", Button).label = "Press Enter to try again"

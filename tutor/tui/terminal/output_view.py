@@ -11,7 +11,7 @@ from textual.binding import BindingType
 
 from tutor.judge.trace import OutputLine
 from tutor.printable import plain
-from tutor.tui.node import NodeState, Phase
+from tutor.session.node import NodeState, Phase
 from tutor.tui.widgets.line_view import LineView, Row
 
 _LEVELS = {"[WARN]": "warn", "[ERROR]": "error", "[FATAL]": "error"}

@@ -11,8 +11,8 @@ from textual.widgets import ListItem, ListView, Static
 
 from tutor.content import Lesson
 from tutor.judge.verdict import Status
+from tutor.session.findings import Finding, Findings
 from tutor.tui import wording
-from tutor.tui.findings import Finding, Findings
 from tutor.tui.widgets.attempts import history
 from tutor.tui.widgets.diagnosis import Diagnosis
 from tutor.tui.widgets.row_list import RowList

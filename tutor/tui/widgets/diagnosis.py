@@ -13,8 +13,8 @@ from textual.widgets import Static
 from tutor.content import Lesson
 from tutor.judge.result import ExerciseResult
 from tutor.judge.verdict import Status
+from tutor.session.findings import Finding, Findings
 from tutor.tui import wording
-from tutor.tui.findings import Finding, Findings
 
 
 class Part(Horizontal):

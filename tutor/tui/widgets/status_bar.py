@@ -10,9 +10,9 @@ from textual.content import Content
 from textual.widgets import Static
 
 from tutor.content import Lesson
+from tutor.session.findings import Findings
+from tutor.session.node import NodeState, Phase
 from tutor.tui import wording
-from tutor.tui.findings import Findings
-from tutor.tui.node import NodeState, Phase
 
 WIDE = 100
 """From this many columns on, what runs is named."""

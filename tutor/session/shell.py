@@ -8,12 +8,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from tutor.tui.node import NodeCommand
+from tutor.session.node import NodeCommand
 
 
 @dataclass(frozen=True, slots=True)
 class Shell:
-    """The place that commands are run in. Made by `AppServices`, as `ros-tutor shell` has it."""
+    """The place that commands are run in. Made by `Session`, as `ros-tutor shell` has it."""
 
     env: Mapping[str, str]
     cwd: Path

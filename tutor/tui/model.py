@@ -6,16 +6,16 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from tutor.content import Lesson, LessonFile
-from tutor.tui.app_services import AppServices
-from tutor.tui.findings import Findings
+from tutor.session import Session
+from tutor.session.findings import Findings
 from tutor.workspace import AppState, Progress, RunOptions
 
 
 @dataclass
-class Session:
+class AppModel:
     """Shared by the screen and its controllers; only they change it, in the app's own thread."""
 
-    app_services: AppServices
+    session: Session
     lesson: Lesson
     state: AppState = field(default_factory=AppState)
     file_index: int = 0
@@ -23,12 +23,12 @@ class Session:
     findings: dict[str, Findings] = field(default_factory=dict)
 
     @classmethod
-    def of(cls, app_services: AppServices, state: AppState) -> Session:
-        """A session that begins where the last one ended."""
-        known = {lesson.id: lesson for lesson in app_services.lessons}
-        session = cls(app_services, known.get(state.lesson, app_services.lessons[0]), state)
-        session.findings = {lesson.id: Findings.of(lesson) for lesson in app_services.lessons}
-        return session
+    def of(cls, session: Session, state: AppState) -> AppModel:
+        """What the app begins with: where the learner left it."""
+        known = {lesson.id: lesson for lesson in session.lessons}
+        model = cls(session, known.get(state.lesson, session.lessons[0]), state)
+        model.findings = {lesson.id: Findings.of(lesson) for lesson in session.lessons}
+        return model
 
     @property
     def file(self) -> LessonFile:
@@ -38,12 +38,12 @@ class Session:
     @property
     def path(self) -> Path:
         """Where that file is."""
-        return self.app_services.path(self.file)
+        return self.session.path(self.file)
 
     @property
     def paths(self) -> list[Path]:
         """Where the lesson's files are."""
-        return [self.app_services.path(file) for file in self.lesson.files]
+        return [self.session.path(file) for file in self.lesson.files]
 
     @property
     def run_options(self) -> RunOptions:

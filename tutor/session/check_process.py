@@ -1,25 +1,35 @@
-"""One check, from its start to its end: reads the child's events and tells them as messages. Touches no widget."""
+"""One check, from its start to its end: reads the child's events and passes them on."""
 
 from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
-from textual.message import Message
-
-from tutor.judge.events import CheckFinished
-from tutor.tui.engine_child import EngineChild
-from tutor.tui.messages import CheckEvent, CheckOver
+from tutor.judge.events import CheckFinished, Event
+from tutor.session.engine_child import EngineChild
 
 ENGINE_FAULT = 3
 """The exit code with which the engine tells a fault that it knows."""
 
 
-class CheckProcess:
-    """A check that runs. `tell` is given every message; the last one is always `CheckOver`."""
+@dataclass(frozen=True, slots=True)
+class CheckEnded:
+    """The check's process is gone. `fault` says what broke in it, if anything; `evidence` is what it wrote last."""
 
-    def __init__(self, exercise: str, command: Sequence[str], cwd: Path, tell: Callable[[Message], object]) -> None:
+    exercise: str
+    cancelled: bool = False
+    fault: str = ""
+    evidence: tuple[str, ...] = ()
+
+
+class CheckProcess:
+    """A check that runs. `tell` is given every event, and last a `CheckEnded`."""
+
+    def __init__(
+        self, exercise: str, command: Sequence[str], cwd: Path, tell: Callable[[Event | CheckEnded], object]
+    ) -> None:
         self.exercise = exercise
         self._command, self._cwd, self._tell = command, cwd, tell
         self._child: EngineChild | None = None
@@ -36,19 +46,19 @@ class CheckProcess:
 
     async def run(self) -> None:
         """Check. No process of it is left when this returns, or is cancelled."""
-        over = CheckOver(self.exercise)
+        over = CheckEnded(self.exercise)
         try:
             over = await self._run()
         except OSError as error:
-            over = CheckOver(self.exercise, fault=f"the check could not be started: {error.strerror or error}")
+            over = CheckEnded(self.exercise, fault=f"the check could not be started: {error.strerror or error}")
         except Exception as error:  # the worker border: a fault of ours must not take the app down
-            over = CheckOver(self.exercise, fault=f"the check broke: {type(error).__name__}: {error}")
+            over = CheckEnded(self.exercise, fault=f"the check broke: {type(error).__name__}: {error}")
         finally:
             if self._child is not None:
                 await self._child.stop()
             self._tell(over)
 
-    async def _run(self) -> CheckOver:
+    async def _run(self) -> CheckEnded:
         self._child = child = await EngineChild.start(self._command, self._cwd)
         reading = asyncio.create_task(self._read(child))
         stopping = asyncio.create_task(self._cancelled.wait())
@@ -56,14 +66,14 @@ class CheckProcess:
             await asyncio.wait({reading, stopping}, return_when=asyncio.FIRST_COMPLETED)
             if self.cancelled:
                 await child.stop()
-                return CheckOver(self.exercise, cancelled=True)
+                return CheckEnded(self.exercise, cancelled=True)
             finished, fault = reading.result()
             if fault:
                 await child.stop()
             code = await child.ended()
             if not finished and not fault:
                 fault = _why(code, child.output_tail)
-            return CheckOver(self.exercise, fault=fault, evidence=child.output_tail if fault else ())
+            return CheckEnded(self.exercise, fault=fault, evidence=child.output_tail if fault else ())
         finally:
             reading.cancel()
             stopping.cancel()
@@ -74,7 +84,7 @@ class CheckProcess:
         try:
             async for event in child.events():
                 if not self.cancelled:
-                    self._tell(CheckEvent(event))
+                    self._tell(event)
                 finished = finished or isinstance(event, CheckFinished)
         except ValueError as error:
             return finished, f"the check said something unknown ({error})"

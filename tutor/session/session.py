@@ -1,6 +1,6 @@
-"""Everything the app asks of the rest of the program: lessons, files, progress, and how to run and to check.
+"""A learner at a course: lessons, files, progress, and how to run and to check.
 
-Nothing here imports Textual. The methods that touch the disk are called in worker threads.
+The methods that touch the disk are called in worker threads.
 """
 
 from __future__ import annotations
@@ -16,9 +16,9 @@ from typing import TYPE_CHECKING
 from tutor import interpreter
 from tutor.content import Course, Lesson, LessonFile, Partner
 from tutor.judge.result import ExerciseResult
-from tutor.tui import run_options
-from tutor.tui.node import NodeCommand
-from tutor.tui.terminal.shell import Shell
+from tutor.session import run_options
+from tutor.session.node import NodeCommand
+from tutor.session.shell import Shell
 from tutor.workspace import (
     AppState,
     Placed,
@@ -39,7 +39,7 @@ if TYPE_CHECKING:
 Notify = Callable[[str], None]
 
 
-class AppServices:
+class Session:
     """A course, and a workspace to do it in. `extra` is where further lessons come from."""
 
     def __init__(self, course: Course, workspace: Workspace, extra: Path | None = None) -> None:
