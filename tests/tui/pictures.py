@@ -28,8 +28,8 @@ from tutor.judge.events import CheckStarted, CriterionJudged, Event
 from tutor.judge.verdict import Status
 from tutor.session import Session
 from tutor.tui.app import TutorApp
+from tutor.tui.dialogs.checklist import ChecklistScreen
 from tutor.tui.live.topics_panel import TopicsPanel
-from tutor.tui.screens.checklist import ChecklistScreen
 from tutor.tui.screens.main import MainScreen
 from tutor.tui.screens.welcome import WelcomeScreen
 from tutor.tui.terminal.output_view import OutputView

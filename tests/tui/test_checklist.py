@@ -16,8 +16,8 @@ from tests.tui.conftest import Learner
 from tutor.content import load_course
 from tutor.judge.result import CriterionResult, ExerciseResult
 from tutor.judge.verdict import Status
-from tutor.tui.screens.checklist import ChecklistScreen
-from tutor.tui.screens.export import ExportScreen
+from tutor.tui.dialogs.checklist import ChecklistScreen
+from tutor.tui.dialogs.export import ExportScreen
 from tutor.workspace import Attempt, ExerciseProgress
 from tutor.workspace.progress import now
 

@@ -16,11 +16,11 @@ from tutor.live.facts import CallOutcome, NodeParameters, Published, RequestForm
 from tutor.live.protocol import Ready, Update, WatcherError
 from tutor.ros_model import Field, Graph, Parameter, QoS, ServiceEndpoint, TopicEndpoint
 from tutor.tui import messages
+from tutor.tui.dialogs.confirm import ConfirmScreen
+from tutor.tui.dialogs.conflict import ConflictScreen
+from tutor.tui.dialogs.run_options import RunOptionsScreen
 from tutor.tui.live.pane import TABS, LivePane
-from tutor.tui.screens.confirm import ConfirmScreen
-from tutor.tui.screens.conflict import ConflictScreen
-from tutor.tui.screens.publish import PublishScreen
-from tutor.tui.screens.run_options import RunOptionsScreen
+from tutor.tui.live.publish_dialog import PublishScreen
 from tutor.workspace import RunOptions
 
 HOSTILE = (

@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 from tutor.session.shell import Shell
+from tutor.tui.lesson_commands import command_at, commands_in
 from tutor.tui.terminal.history import History
-from tutor.tui.terminal.lesson_commands import command_at, commands_in
 
 TEXT = """\
 Text with `ros2 topic list`.

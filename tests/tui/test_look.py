@@ -14,8 +14,8 @@ from textual.widgets._footer import FooterKey
 from textual.widgets.markdown import MarkdownBlock
 
 from tests.tui import made
-from tutor.tui.screens.help import KeyTable
-from tutor.tui.screens.layout import Criteria, Layout, layout_for
+from tutor.tui.control.layout import Criteria, Layout, layout_for
+from tutor.tui.dialogs.help import KeyTable
 from tutor.tui.themes import DARK, GROUNDS, INKS, LIGHT
 from tutor.tui.widgets.criteria import CriteriaPanel
 

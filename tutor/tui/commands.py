@@ -25,7 +25,6 @@ class Command:
     label: str
     text: str
     footer: bool = False
-    palette: bool = True
     help: str = ""
 
     @property
@@ -53,98 +52,136 @@ def shown(key: str) -> str:
 _LIVE = "Live's topics, parameters, services, graph"
 _STEP = "Go to the next or the previous lesson"
 
+# Your node
+RUN = Command("run", ("r", "f5"), "Run", "Run your node in your own ROS domain", footer=True)
+STOP = Command("stop", ("r", "f6"), "Stop", "Stop your node, as Ctrl+C does", footer=True)
+RESTART = Command("restart", ("f5",), "Restart", "Stop your node and run it again")
+PARTNER = Command("partner", ("b",), "Partner", "Run or stop our node that goes with yours", footer=True)
+OTHER_FILE = Command("other_file", ("j",), "Other file", "Run or stop the exercise's other file")
+OPTIONS = Command("options", ("o",), "Options", "Set parameters and remaps")
+RESTART_ON_SAVE = Command("restart_on_save", ("W",), "Restart on save", "Restart on each save: on or off")
+
+# The check
+CHECK = Command("check", ("c", "f9"), "Check", "Check your node against the criteria", footer=True)
+CANCEL = Command("cancel", ("c", "f9", "escape"), "Cancel", "Cancel the running check", footer=True)
+WATCH = Command("watch", ("w",), "Watch", "Check on each save: on or off")
+EVIDENCE = Command("evidence", ("i",), "Evidence", "Show or hide the evidence")
+ATTEMPTS = Command("attempts", ("a",), "Attempts", "Show your attempts over time")
+HINT = Command("hint", ("h",), "Hint", "Show the next hint", footer=True)
+
+# Your code
+START = Command("start", ("s",), "Start", "Put the skeleton into your workspace")
+EDIT = Command("edit", ("e",), "Edit", "Edit your file here, until Esc", footer=True)
+SAVE = Command("save", ("ctrl+s",), "Save", "Save (it is also saved as you go)")
+FIND = Command("find", ("ctrl+f",), "Find", "Find a text in your code")
+FIND_NEXT = Command("find_next", ("ctrl+g",), "Find next", "Find the same text again")
+OWN_EDITOR = Command("own_editor", ("E",), "$EDITOR", "Open it in your own editor ($EDITOR)")
+NEXT_FILE = Command("next_file", ("f",), "File", "Show the exercise's other file")
+SKELETON = Command("skeleton", ("k",), "Skeleton", "Show the skeleton")
+CHANGES = Command("changes", ("d",), "Changes", "Show what you changed in the skeleton")
+SOLUTION = Command("solution", ("v",), "Solution", "Show our solution (asks first)")
+AGAINST = Command("against", ("V",), "Compare", "Compare your file with our solution")
+RESET = Command("reset", ("Z",), "Reset", "Start again (keeps a backup)")
+
+# The log
+LEVEL = Command("level", ("m",), "Level", "Choose the lowest level that is shown")
+FILTER = Command("filter", ("slash",), "Filter", "Show only lines with a certain text")
+PAUSE = Command("pause", ("space",), "Pause", "Pause the log, or follow it again")
+CLEAR = Command("clear", ("x",), "Clear", "Clear the log")
+GO_TO_ERROR = Command("go_to_error", ("g",), "Go to error", "Go to the last error in your code")
+
+# Around
+NEXT = Command("next", ("n",), "Next", "Go to the next lesson", footer=True, help=_STEP)
+PREVIOUS = Command("previous", ("p",), "Prev", "Go to the previous lesson", help=_STEP)
+LESSONS = Command("lessons", ("l",), "Lessons", "Show or hide the list of lessons")
+ZOOM = Command("zoom", ("z",), "Zoom", "Give the page all the room, or not")
+PAGE_LESSON = Command("page_lesson", ("1", "f2"), "Lesson", "Show the lesson")
+PAGE_CODE = Command("page_code", ("2", "f3"), "Code", "Show your code")
+PAGE_LOG = Command("page_log", ("3", "f4"), "Log", "Show the log of your node")
+PAGE_LIVE = Command("page_live", ("4", "f7"), "Live", "Show topics, parameters, services, live")
+LIVE_TOPICS = Command("live_topics", ("T",), "Topics", "Live: show the topics, with echo, rate and plot", help=_LIVE)
+LIVE_PARAMETERS = Command(
+    "live_parameters", ("P",), "Parameters", "Live: show the parameters, and set them", help=_LIVE
+)
+LIVE_SERVICES = Command("live_services", ("S",), "Services", "Live: show the services, and call them", help=_LIVE)
+SIDE_BY_SIDE = Command("side_by_side", ("L",), "Side by side", "Show the log beside Live: on or off")
+PUBLISH = Command("publish", ("M",), "Publish", "Live: publish a message, or stop that")
+LIVE_GRAPH = Command("live_graph", ("G",), "Graph", "Live: show the graph of nodes and topics", help=_LIVE)
+LESSON_COMMAND = Command("lesson_command", ("R",), "Run command", "Run a command of the lesson in the terminal")
+PAGE_TERMINAL = Command("page_terminal", ("7", "f10"), "Terminal", "Show the terminal, and type commands")
+PAGE_CRITERIA = Command("page_criteria", ("5", "f8"), "Criteria", "Show the criteria")
+CHECKLIST = Command("checklist", ("6", "f12"), "Checklist", "Tick what you can do by now", footer=True)
+EXPORT = Command("export", ("X",), "Export", "Export the checklist and your progress")
+THEME = Command("theme", ("t",), "Theme", "Dark or light theme")
+HELP = Command("help", ("question_mark", "f1"), "Help", "Show all keys", footer=True)
+QUIT = Command(
+    "quit", ("q",), "Quit", "Stop everything and leave", footer=True, help="Stop everything and leave (Ctrl+Q, too)"
+)
+
 GROUPS: tuple[tuple[str, tuple[Command, ...]], ...] = (
-    (
-        "Your node",
-        (
-            Command("run", ("r", "f5"), "Run", "Run your node in your own ROS domain", footer=True),
-            Command("stop", ("r", "f6"), "Stop", "Stop your node, as Ctrl+C does", footer=True),
-            Command("restart", ("f5",), "Restart", "Stop your node and run it again"),
-            Command("partner", ("b",), "Partner", "Run or stop our node that goes with yours", footer=True),
-            Command("other_file", ("j",), "Other file", "Run or stop the exercise's other file"),
-            Command("options", ("o",), "Options", "Set parameters and remaps"),
-            Command("restart_on_save", ("W",), "Restart on save", "Restart on each save: on or off"),
-        ),
-    ),
-    (
-        "The check",
-        (
-            Command("check", ("c", "f9"), "Check", "Check your node against the criteria", footer=True),
-            Command("cancel", ("c", "f9", "escape"), "Cancel", "Cancel the running check", footer=True),
-            Command("watch", ("w",), "Watch", "Check on each save: on or off"),
-            Command("evidence", ("i",), "Evidence", "Show or hide the evidence"),
-            Command("attempts", ("a",), "Attempts", "Show your attempts over time"),
-            Command("hint", ("h",), "Hint", "Show the next hint", footer=True),
-        ),
-    ),
+    ("Your node", (RUN, STOP, RESTART, PARTNER, OTHER_FILE, OPTIONS, RESTART_ON_SAVE)),
+    ("The check", (CHECK, CANCEL, WATCH, EVIDENCE, ATTEMPTS, HINT)),
     (
         "Your code",
-        (
-            Command("start", ("s",), "Start", "Put the skeleton into your workspace"),
-            Command("edit", ("e",), "Edit", "Edit your file here, until Esc", footer=True),
-            Command("save", ("ctrl+s",), "Save", "Save (it is also saved as you go)"),
-            Command("find", ("ctrl+f",), "Find", "Find a text in your code"),
-            Command("find_next", ("ctrl+g",), "Find next", "Find the same text again"),
-            Command("own_editor", ("E",), "$EDITOR", "Open it in your own editor ($EDITOR)"),
-            Command("next_file", ("f",), "File", "Show the exercise's other file"),
-            Command("skeleton", ("k",), "Skeleton", "Show the skeleton"),
-            Command("changes", ("d",), "Changes", "Show what you changed in the skeleton"),
-            Command("solution", ("v",), "Solution", "Show our solution (asks first)"),
-            Command("against", ("V",), "Compare", "Compare your file with our solution"),
-            Command("reset", ("Z",), "Reset", "Start again (keeps a backup)"),
-        ),
+        (START, EDIT, SAVE, FIND, FIND_NEXT, OWN_EDITOR, NEXT_FILE, SKELETON, CHANGES, SOLUTION, AGAINST, RESET),
     ),
-    (
-        "The log",
-        (
-            Command("level", ("m",), "Level", "Choose the lowest level that is shown"),
-            Command("filter", ("slash",), "Filter", "Show only lines with a certain text"),
-            Command("pause", ("space",), "Pause", "Pause the log, or follow it again"),
-            Command("clear", ("x",), "Clear", "Clear the log"),
-            Command("go_to_error", ("g",), "Go to error", "Go to the last error in your code"),
-        ),
-    ),
+    ("The log", (LEVEL, FILTER, PAUSE, CLEAR, GO_TO_ERROR)),
     (
         "Around",
         (
-            Command("next", ("n",), "Next", "Go to the next lesson", footer=True, help=_STEP),
-            Command("previous", ("p",), "Prev", "Go to the previous lesson", help=_STEP),
-            Command("lessons", ("l",), "Lessons", "Show or hide the list of lessons"),
-            Command("zoom", ("z",), "Zoom", "Give the page all the room, or not"),
-            Command("page_lesson", ("1", "f2"), "Lesson", "Show the lesson"),
-            Command("page_code", ("2", "f3"), "Code", "Show your code"),
-            Command("page_log", ("3", "f4"), "Log", "Show the log of your node"),
-            Command("page_live", ("4", "f7"), "Live", "Show topics, parameters, services, live"),
-            Command("live_topics", ("T",), "Topics", "Live: show the topics, with echo, rate and plot", help=_LIVE),
-            Command("live_parameters", ("P",), "Parameters", "Live: show the parameters, and set them", help=_LIVE),
-            Command("live_services", ("S",), "Services", "Live: show the services, and call them", help=_LIVE),
-            Command("side_by_side", ("L",), "Side by side", "Show the log beside Live: on or off"),
-            Command("publish", ("M",), "Publish", "Live: publish a message, or stop that"),
-            Command("live_graph", ("G",), "Graph", "Live: show the graph of nodes and topics", help=_LIVE),
-            Command("lesson_command", ("R",), "Run command", "Run a command of the lesson in the terminal"),
-            Command("page_terminal", ("7", "f10"), "Terminal", "Show the terminal, and type commands"),
-            Command("page_criteria", ("5", "f8"), "Criteria", "Show the criteria"),
-            Command("checklist", ("6", "f12"), "Checklist", "Tick what you can do by now", footer=True),
-            Command("export", ("X",), "Export", "Export the checklist and your progress"),
-            Command("theme", ("t",), "Theme", "Dark or light theme"),
-            Command("help", ("question_mark", "f1"), "Help", "Show all keys", footer=True),
-            Command(
-                "quit",
-                ("q",),
-                "Quit",
-                "Stop everything and leave",
-                footer=True,
-                help="Stop everything and leave (Ctrl+Q, too)",
-            ),
+            NEXT,
+            PREVIOUS,
+            LESSONS,
+            ZOOM,
+            PAGE_LESSON,
+            PAGE_CODE,
+            PAGE_LOG,
+            PAGE_LIVE,
+            LIVE_TOPICS,
+            LIVE_PARAMETERS,
+            LIVE_SERVICES,
+            SIDE_BY_SIDE,
+            PUBLISH,
+            LIVE_GRAPH,
+            LESSON_COMMAND,
+            PAGE_TERMINAL,
+            PAGE_CRITERIA,
+            CHECKLIST,
+            EXPORT,
+            THEME,
+            HELP,
+            QUIT,
         ),
     ),
 )
+"""Every command, as the help shows them."""
+
+PAGES = {
+    "lesson": PAGE_LESSON,
+    "code": PAGE_CODE,
+    "log": PAGE_LOG,
+    "live": PAGE_LIVE,
+    "terminal": PAGE_TERMINAL,
+    "criteria": PAGE_CRITERIA,
+}
+"""The pages in the order of their tabs, each with the command that turns to it."""
+
+LIVE_TABS = {
+    "topics": LIVE_TOPICS,
+    "parameters": LIVE_PARAMETERS,
+    "services": LIVE_SERVICES,
+    "graph": LIVE_GRAPH,
+}
+"""The same for the tabs of the live page."""
 
 
 def all_commands() -> Iterator[Command]:
     """Every command, in the order of the help."""
     for _, group in GROUPS:
         yield from group
+
+
+BY_NAME = {command.name: command for command in all_commands()}
 
 
 def bindings() -> list[BindingType]:
@@ -167,12 +204,10 @@ EDITOR_KEYS = (
 """What the keys do in the editor, for the help; the commands above have theirs there, too."""
 
 
-def local(names: str, *, shown_key: int = 0, show: bool = True) -> list[BindingType]:
+def local(*commands: Command, shown_key: int = 0, show: bool = True) -> list[BindingType]:
     """The footer of a panel that has the focus: these commands of the screen, each by its key number `shown_key`."""
-    table = {command.name: command for command in all_commands()}
     found: list[BindingType] = []
-    for name in names.split():
-        command = table[name]
+    for command in commands:
         key = command.keys[min(shown_key, len(command.keys) - 1)]
-        found.append(Binding(key, f"screen.do('{name}')", command.label, show=show, key_display=shown(key)))
+        found.append(Binding(key, f"screen.do('{command.name}')", command.label, show=show, key_display=shown(key)))
     return found

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 from functools import partial
-from typing import TYPE_CHECKING, cast
+from typing import cast
 
 from textual.command import DiscoveryHit, Hit, Hits, Provider
 from textual.content import Content
@@ -13,9 +13,7 @@ from textual.content import Content
 from tutor.content import Lesson
 from tutor.tui import wording
 from tutor.tui.commands import all_commands
-
-if TYPE_CHECKING:
-    from tutor.tui.screens.main import MainScreen
+from tutor.tui.control.host import HostScreen
 
 MOST_LINES = 12
 """This many lines of the lessons are shown for one search."""
@@ -28,11 +26,11 @@ class Actions(Provider):
     """What can be done now, and the lessons."""
 
     def _offers(self) -> Iterator[tuple[str, str, Callable[[], object]]]:
-        screen = cast("MainScreen", self.screen)
+        screen = cast(HostScreen, self.screen)
         for command in all_commands():
-            if command.palette and screen.can(command.name):
+            if screen.can(command):
                 about = f"Key {' or '.join(command.shown_keys)}"
-                yield command.text, about, partial(screen.action_do, command.name)
+                yield command.text, about, partial(screen.do, command)
         for lesson in screen.model.session.lessons:
             name = f"Go to {wording.label(lesson)} {lesson.title}"
             yield name, f"{lesson.unit}, {lesson.difficulty}", partial(screen.go_to, lesson)
@@ -58,7 +56,7 @@ class LessonText(Provider):
 
     async def search(self, query: str) -> Hits:
         """The lines that hold the typed text, the shown lesson's first."""
-        screen = cast("MainScreen", self.screen)
+        screen = cast(HostScreen, self.screen)
         here = screen.model.lesson
         for number, (lesson, line, text) in enumerate(found(screen.model.session.lessons, query, here)):
             if number >= MOST_LINES:

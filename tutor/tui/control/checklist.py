@@ -5,13 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from tutor.tui import wording
+from tutor.tui import commands, wording
+from tutor.tui.control.host import HostScreen
 from tutor.tui.control.records import Records
-from tutor.tui.screens.host import CommandHandler, HostScreen
 from tutor.workspace import Progress, StorageError
 
 if TYPE_CHECKING:
-    from tutor.tui.screens.checklist import ChecklistScreen
+    from tutor.tui.dialogs.checklist import ChecklistScreen
 
 
 class ChecklistController:
@@ -22,10 +22,8 @@ class ChecklistController:
         self._screen: ChecklistScreen | None = None
         self._keeping = 0
         """Ticks on their way to the disk: progress that was read before them is not news."""
-        self.command_handlers = {
-            "checklist": CommandHandler(self.open, self._any),
-            "export": CommandHandler(self.export, self._any),
-        }
+        host.register(commands.CHECKLIST, self.open, self._any)
+        host.register(commands.EXPORT, self.export, self._any)
 
     def _any(self) -> bool:
         return bool(self._host.model.session.course.checklist.groups)
@@ -33,7 +31,7 @@ class ChecklistController:
     def open(self) -> None:
         """Show the checklist; what another window has ticked follows in a moment."""
         from tutor.report.assessment import assess
-        from tutor.tui.screens.checklist import ChecklistScreen
+        from tutor.tui.dialogs.checklist import ChecklistScreen
 
         if self._screen is not None:
             return
@@ -58,7 +56,7 @@ class ChecklistController:
             self._screen.show(assess(self._host.model.session.course, progress))
 
     def _theme(self) -> None:
-        self._host.work(self._host.run_action, "do('theme')", group="theme")
+        self._host.do(commands.THEME)
 
     # --- ticks ---
 
@@ -79,7 +77,7 @@ class ChecklistController:
         self._ask("markdown", None)
 
     def _ask(self, format: str, file: Path | None) -> None:
-        from tutor.tui.screens.export import ExportScreen
+        from tutor.tui.dialogs.export import ExportScreen
 
         def answered(answer: tuple[str, Path] | None) -> None:
             if answer is not None:
@@ -98,7 +96,7 @@ class ChecklistController:
             self._host.say(f"Your checklist is in {name}")
             return
 
-        from tutor.tui.screens.confirm import ConfirmScreen
+        from tutor.tui.dialogs.confirm import ConfirmScreen
 
         def answered(yes: bool | None) -> None:
             if yes:

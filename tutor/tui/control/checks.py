@@ -12,11 +12,11 @@ from tutor.judge.events import Event, ExerciseJudged
 from tutor.judge.verdict import Status
 from tutor.session.check_process import CheckEnded, CheckProcess
 from tutor.session.findings import Findings
-from tutor.tui import messages
+from tutor.tui import commands, messages
 from tutor.tui.control.files import Files
+from tutor.tui.control.host import HostScreen
 from tutor.tui.control.preferences import Preferences
 from tutor.tui.control.records import Records
-from tutor.tui.screens.host import CommandHandler, HostScreen
 
 CRASHED = (
     "This is a fault of ros-tutor or of the machine, not of your code. Check again; if it stays, run: "
@@ -41,11 +41,9 @@ class Checks:
         """What each exercise's files held when they were last checked."""
         self._next: Lesson | None = None
         """What is to be checked when the running check has been cancelled."""
-        self.command_handlers = {
-            "check": CommandHandler(self.check, lambda: self.running is None),
-            "cancel": CommandHandler(self.cancel, lambda: self.running is not None),
-            "watch": CommandHandler(self.watch),
-        }
+        host.register(commands.CHECK, self.check, lambda: self.running is None)
+        host.register(commands.CANCEL, self.cancel, lambda: self.running is not None)
+        host.register(commands.WATCH, self.watch)
 
     def check(self) -> None:
         """Save and check the lesson that is shown."""

@@ -6,10 +6,10 @@ import asyncio
 
 from tutor.tui.control.checks import Checks
 from tutor.tui.control.files import Files
+from tutor.tui.control.host import HostScreen
 from tutor.tui.control.nodes import Nodes
 from tutor.tui.control.pages import Pages
 from tutor.tui.control.preferences import Preferences
-from tutor.tui.screens.host import HostScreen
 
 SAVE_LIMIT_S = 5.0
 """While a question on two versions of a file is open, both are on the disk, and saving waits for the answer."""

@@ -10,10 +10,10 @@ from pathlib import Path
 from textual.timer import Timer
 
 from tutor.content import Lesson
-from tutor.tui import messages, wording
+from tutor.tui import commands, messages, wording
+from tutor.tui.control.host import HostScreen
 from tutor.tui.control.records import Records
 from tutor.tui.file_watching import watch_file
-from tutor.tui.screens.host import CommandHandler, HostScreen
 from tutor.tui.widgets.code_pane import CodePane
 from tutor.workspace import StorageError, WorkspaceError, back_up_file, overwrite_file, read_source
 
@@ -31,16 +31,14 @@ class Files:
         self._lock = asyncio.Lock()
         self._autosave: Timer | None = None
         self._closed = False
-        self.command_handlers = {
-            "start": CommandHandler(self.start),
-            "edit": CommandHandler(self.edit),
-            "save": CommandHandler(self.save),
-            "find": CommandHandler(self.find, lambda: host.model.path in self._disk),
-            "find_next": CommandHandler(lambda: self.find(again=True), lambda: host.model.path in self._disk),
-            "own_editor": CommandHandler(self.open_outside),
-            "next_file": CommandHandler(self.next_file, lambda: len(host.model.lesson.files) > 1),
-            "reset": CommandHandler(self.reset),
-        }
+        host.register(commands.START, self.start)
+        host.register(commands.EDIT, self.edit)
+        host.register(commands.SAVE, self.save)
+        host.register(commands.FIND, self.find, lambda: host.model.path in self._disk)
+        host.register(commands.FIND_NEXT, lambda: self.find(again=True), lambda: host.model.path in self._disk)
+        host.register(commands.OWN_EDITOR, self.open_outside)
+        host.register(commands.NEXT_FILE, self.next_file, lambda: len(host.model.lesson.files) > 1)
+        host.register(commands.RESET, self.reset)
 
     # --- which file ---
 
@@ -118,7 +116,7 @@ class Files:
 
     async def _conflict(self, path: Path, theirs: str) -> None:
         """Both sides have changed: both are on the disk before anything is asked; the lock is held."""
-        from tutor.tui.screens.conflict import ConflictScreen
+        from tutor.tui.dialogs.conflict import ConflictScreen
 
         ours = self._pane.text(path)
         try:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from tutor.tui import messages
-from tutor.tui.screens.host import CommandHandler, HostScreen
+from tutor.tui import commands, messages
+from tutor.tui.control.host import HostScreen
 from tutor.tui.widgets.log_pane import LogPane
 
 
@@ -16,13 +16,11 @@ class Logs:
         def filled() -> bool:
             return pane.has_class("-filled") and (host.page == "log" or pane.has_focus_within)
 
-        self.command_handlers = {
-            "level": CommandHandler(pane.next_level, filled),
-            "filter": CommandHandler(pane.filter, filled),
-            "pause": CommandHandler(pane.pause, filled),
-            "clear": CommandHandler(pane.clear, filled),
-            "go_to_error": CommandHandler(self.go_to_error, lambda: pane.has_class("-filled")),
-        }
+        host.register(commands.LEVEL, pane.next_level, filled)
+        host.register(commands.FILTER, pane.filter, filled)
+        host.register(commands.PAUSE, pane.pause, filled)
+        host.register(commands.CLEAR, pane.clear, filled)
+        host.register(commands.GO_TO_ERROR, self.go_to_error, lambda: pane.has_class("-filled"))
 
     def go_to_error(self) -> None:
         """Put the cursor where the last traceback points in the learner's own code."""

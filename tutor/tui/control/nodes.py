@@ -8,10 +8,10 @@ from pathlib import Path
 
 from tutor.content import Lesson, LessonFile, Partner
 from tutor.session.node import Node, NodeCommand
-from tutor.tui import messages
+from tutor.tui import commands, messages
 from tutor.tui.control.files import Files
+from tutor.tui.control.host import HostScreen
 from tutor.tui.control.preferences import Preferences
-from tutor.tui.screens.host import CommandHandler, HostScreen
 from tutor.workspace import RunOptions
 
 
@@ -31,15 +31,13 @@ class Nodes:
         """The file that was run last."""
         self._turns: dict[Path, asyncio.Lock] = {}
         self._wanted: dict[Path, int] = {}
-        self.command_handlers = {
-            "run": CommandHandler(self.run, lambda: not self._stoppable),
-            "stop": CommandHandler(self.stop, lambda: bool(self._stoppable)),
-            "restart": CommandHandler(self.restart, lambda: self._alive(host.model.path)),
-            "partner": CommandHandler(self.partner, lambda: self._partner is not None),
-            "other_file": CommandHandler(self.other_file, lambda: len(host.model.lesson.files) > 1),
-            "options": CommandHandler(self.options),
-            "restart_on_save": CommandHandler(self.switch_restart),
-        }
+        host.register(commands.RUN, self.run, lambda: not self._stoppable)
+        host.register(commands.STOP, self.stop, lambda: bool(self._stoppable))
+        host.register(commands.RESTART, self.restart, lambda: self._alive(host.model.path))
+        host.register(commands.PARTNER, self.partner, lambda: self._partner is not None)
+        host.register(commands.OTHER_FILE, self.other_file, lambda: len(host.model.lesson.files) > 1)
+        host.register(commands.OPTIONS, self.options)
+        host.register(commands.RESTART_ON_SAVE, self.switch_restart)
 
     @property
     def running(self) -> list[Node]:
@@ -69,8 +67,8 @@ class Nodes:
         """The key that stops this node."""
         model = self._host.model
         if path == model.path or path not in self._own(model.lesson):
-            return "r"
-        return "j" if path in model.paths else "b"
+            return commands.STOP.keys[0]
+        return commands.OTHER_FILE.keys[0] if path in model.paths else commands.PARTNER.keys[0]
 
     def _tell(self, path: Path, *, first: bool = False, unasked: bool = False) -> None:
         state = self.known[path].state
@@ -213,7 +211,7 @@ class Nodes:
 
     def options(self) -> None:
         """Ask for parameters and remaps."""
-        from tutor.tui.screens.run_options import RunOptionsScreen
+        from tutor.tui.dialogs.run_options import RunOptionsScreen
 
         model = self._host.model
         lesson, file = model.lesson, model.file

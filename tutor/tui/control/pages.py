@@ -8,11 +8,12 @@ from functools import partial
 from textual.containers import Container
 from textual.widgets import ContentSwitcher, Tabs
 
+from tutor.tui import commands
+from tutor.tui.control.host import HostScreen
+from tutor.tui.control.layout import Criteria, Layout, layout_for
 from tutor.tui.control.preferences import Preferences
 from tutor.tui.live.launching import watcher_command
-from tutor.tui.live.pane import TABS, LivePane
-from tutor.tui.screens.host import CommandHandler, HostScreen
-from tutor.tui.screens.layout import Criteria, Layout, layout_for
+from tutor.tui.live.pane import LivePane
 from tutor.tui.terminal.history import History
 from tutor.tui.terminal.pane import TerminalPane
 from tutor.tui.widgets.code_pane import CodePane
@@ -24,8 +25,6 @@ from tutor.tui.widgets.log_pane import LogPane
 SIDE_BY_SIDE_FROM = 112
 """From this many columns on there is room for the log beside Live."""
 
-PAGES = ("lesson", "code", "log", "live", "terminal", "criteria")
-
 
 class Pages:
     """Turns pages and folds panels. Criteria have a page of their own only where there is no room beside it."""
@@ -34,11 +33,14 @@ class Pages:
         self._host, self._preferences, self._node_runs = host, preferences, node_runs
         self.current = "lesson"
         self._shape: Layout | None = None
-        self.command_handlers = {f"page_{name}": CommandHandler(partial(self.show, name)) for name in PAGES}
-        self.command_handlers |= {f"live_{name}": CommandHandler(partial(self.show_live, name)) for name in TABS}
-        self.command_handlers["publish"] = CommandHandler(self.publish)
-        self.command_handlers |= {"lessons": CommandHandler(self.toggle_lessons), "zoom": CommandHandler(self.zoom)}
-        self.command_handlers["side_by_side"] = CommandHandler(self.switch_side_by_side)
+        for name, command in commands.PAGES.items():
+            host.register(command, partial(self.show, name))
+        for name, command in commands.LIVE_TABS.items():
+            host.register(command, partial(self.show_live, name))
+        host.register(commands.PUBLISH, self.publish)
+        host.register(commands.LESSONS, self.toggle_lessons)
+        host.register(commands.ZOOM, self.zoom)
+        host.register(commands.SIDE_BY_SIDE, self.switch_side_by_side)
 
     @property
     def folded(self) -> bool:

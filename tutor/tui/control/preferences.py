@@ -8,7 +8,7 @@ from typing import Any
 
 from textual.timer import Timer
 
-from tutor.tui.screens.host import HostScreen
+from tutor.tui.control.host import HostScreen
 from tutor.workspace import AppState, StorageError
 
 WRITE_AFTER_S = 0.3

@@ -9,9 +9,9 @@ from typing import Any
 from tutor.content import CriterionText
 from tutor.judge.result import ExerciseResult
 from tutor.judge.verdict import Status
-from tutor.tui import messages
-from tutor.tui.screens.hint import HintScreen
-from tutor.tui.screens.host import CommandHandler, HostScreen
+from tutor.tui import commands, messages
+from tutor.tui.control.host import HostScreen
+from tutor.tui.dialogs.hint import HintScreen
 from tutor.workspace import Progress, StorageError
 
 
@@ -21,7 +21,8 @@ class Records:
     def __init__(self, host: HostScreen) -> None:
         self._host = host
         self._lane = asyncio.Lock()
-        self.command_handlers = {"hint": CommandHandler(self.hint), "attempts": CommandHandler(self.attempts)}
+        host.register(commands.HINT, self.hint)
+        host.register(commands.ATTEMPTS, self.attempts)
 
     def read(self) -> None:
         """Read it from the disk."""
@@ -62,7 +63,7 @@ class Records:
 
     def attempts(self) -> None:
         """Show the attempts at this exercise."""
-        from tutor.tui.screens.attempts import AttemptsScreen
+        from tutor.tui.dialogs.attempts import AttemptsScreen
 
         model = self._host.model
         self._host.app.push_screen(AttemptsScreen(model.lesson, model.progress.of(model.lesson.id)))

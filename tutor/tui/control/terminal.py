@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from tutor.tui import commands
+from tutor.tui.control.host import HostScreen
 from tutor.tui.control.pages import Pages
-from tutor.tui.screens.host import CommandHandler, HostScreen
-from tutor.tui.terminal.lesson_commands import commands_in
+from tutor.tui.lesson_commands import commands_in
 
 
 class Terminal:
@@ -12,9 +13,7 @@ class Terminal:
 
     def __init__(self, host: HostScreen, pages: Pages) -> None:
         self._host, self._pages = host, pages
-        self.command_handlers = {
-            "lesson_command": CommandHandler(self.choose, lambda: bool(self._commands)),
-        }
+        host.register(commands.LESSON_COMMAND, self.choose, lambda: bool(self._commands))
 
     @property
     def _commands(self) -> tuple[str, ...]:
@@ -22,7 +21,7 @@ class Terminal:
 
     def choose(self) -> None:
         """Ask which of the lesson's commands to run, and run it."""
-        from tutor.tui.screens.choose_command import ChooseCommandScreen
+        from tutor.tui.dialogs.choose_command import ChooseCommandScreen
 
         def chosen(command: str | None) -> None:
             if command is not None:

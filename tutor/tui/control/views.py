@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from enum import StrEnum
+from functools import partial
 
 from tutor.judge.verdict import Status
-from tutor.tui import wording
+from tutor.tui import commands, wording
 from tutor.tui.control.files import Files
-from tutor.tui.screens.host import CommandHandler, HostScreen
+from tutor.tui.control.host import HostScreen
 from tutor.tui.widgets.code_pane import CodePane
 
 
@@ -29,16 +29,14 @@ class Views:
         self._host, self._pane, self._files = host, pane, files
         self._unveiled: set[str] = set()
         """Exercises whose solution was asked for."""
-        self.command_handlers = {
-            view.value: CommandHandler(self._shower(view)) for view in View if view is not View.MINE
-        }
+        host.register(commands.SKELETON, partial(self.show, View.SKELETON))
+        host.register(commands.CHANGES, partial(self.show, View.CHANGES))
+        host.register(commands.SOLUTION, partial(self.show, View.SOLUTION))
+        host.register(commands.AGAINST, partial(self.show, View.AGAINST))
 
     def back(self) -> None:
         """Show the learner's own file."""
         self._pane.show_own()
-
-    def _shower(self, view: View) -> Callable[[], None]:
-        return lambda: self.show(view)
 
     def show(self, view: View) -> None:
         """Show it; the solution only after a pass, or a question."""
@@ -62,7 +60,7 @@ class Views:
         self._host.work(self._show_now, view, group="view", exclusive=True)
 
     async def _show_now(self, view: View) -> None:
-        from tutor.tui.diffing import count, difference
+        from tutor.tui.widgets.diffing import count, difference
 
         file = self._host.model.file
         path = self._host.model.path

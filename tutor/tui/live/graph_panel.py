@@ -11,8 +11,8 @@ from textual.containers import Vertical
 
 from tutor.tui.live.graph_rows import rows_of_graph
 from tutor.tui.live.state import LiveState
-from tutor.tui.live.strip import ActionBar
 from tutor.tui.widgets.line_view import LineView
+from tutor.tui.widgets.strip import ActionBar
 
 
 class GraphView(LineView):

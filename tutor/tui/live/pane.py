@@ -31,11 +31,11 @@ from tutor.tui.live.graph_panel import GraphPanel
 from tutor.tui.live.launching import WatcherCommand
 from tutor.tui.live.near_miss import near_misses
 from tutor.tui.live.parameters_panel import ParametersPanel
+from tutor.tui.live.publish_dialog import PublishScreen
 from tutor.tui.live.services_panel import ServicesPanel
 from tutor.tui.live.state import LiveState, is_plumbing, is_plumbing_service
-from tutor.tui.live.strip import TabStrip
 from tutor.tui.live.topics_panel import Order, TopicsPanel
-from tutor.tui.screens.publish import PublishScreen
+from tutor.tui.widgets.strip import TabStrip
 
 MOST_MISSES = 3
 """This many near-miss names are told at once at most."""

@@ -19,8 +19,8 @@ from tutor.tui.live import wording
 from tutor.tui.live.history import HistoryView, set_rows
 from tutor.tui.live.row_table import RowTable
 from tutor.tui.live.state import LiveState
-from tutor.tui.live.strip import ActionBar
 from tutor.tui.live.topics_panel import Order
+from tutor.tui.widgets.strip import ActionBar
 
 _COLUMNS = ("Node", "Parameter", "Value", "Type", "Allowed")
 _LONGEST_VALUE = 40

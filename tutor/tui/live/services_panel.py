@@ -21,8 +21,8 @@ from tutor.tui.live.history import HistoryView, call_rows, waiting_row
 from tutor.tui.live.request_form import ServiceForm
 from tutor.tui.live.row_table import RowTable
 from tutor.tui.live.state import LiveState, is_plumbing_service
-from tutor.tui.live.strip import Action, ActionBar
 from tutor.tui.live.topics_panel import Order
+from tutor.tui.widgets.strip import Action, ActionBar
 
 LIMIT_S = 30.0
 """How long an answer is waited for, in seconds."""

@@ -22,7 +22,7 @@ from tutor.tui.live.echo_view import EchoView
 from tutor.tui.live.plot_view import PlotView
 from tutor.tui.live.row_table import RowTable
 from tutor.tui.live.state import LiveState, TopicView, is_plumbing
-from tutor.tui.live.strip import Action, ActionBar
+from tutor.tui.widgets.strip import Action, ActionBar
 
 _COLUMNS = ("", "Topic", "Rate", "Count", "Pub", "Sub", "Type")
 _LIST_EVERY_S = 0.45

@@ -1,1 +1,1 @@
-"""What fills the terminal: a module for each screen and dialog. Screens have a .tcss file, dialogs share one."""
+"""What fills the terminal: a module for each screen, with its .tcss file beside it."""

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import inspect
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import ClassVar
 
@@ -20,22 +20,21 @@ from tutor.judge.verdict import Status
 from tutor.session import Session
 from tutor.session.findings import Findings
 from tutor.session.node import Phase
-from tutor.tui import messages
-from tutor.tui.commands import bindings
+from tutor.tui import commands, messages
 from tutor.tui.control.checklist import ChecklistController
 from tutor.tui.control.checks import Checks
 from tutor.tui.control.closing import close_down
 from tutor.tui.control.files import Files
+from tutor.tui.control.host import HostScreen
 from tutor.tui.control.logs import Logs
 from tutor.tui.control.nodes import Nodes
-from tutor.tui.control.pages import PAGES, Pages
+from tutor.tui.control.pages import Pages
 from tutor.tui.control.preferences import Preferences
 from tutor.tui.control.records import Records
 from tutor.tui.control.terminal import Terminal
 from tutor.tui.control.views import Views
 from tutor.tui.model import AppModel
 from tutor.tui.palette import Actions, LessonText
-from tutor.tui.screens.host import CommandHandler, HostScreen
 from tutor.tui.widgets.code_pane import CodePane
 from tutor.tui.widgets.criteria import CriteriaPanel
 from tutor.tui.widgets.diagnosis import Diagnosis
@@ -52,7 +51,7 @@ class MainScreen(HostScreen):
     """What is shown, and where. What is done is in the controllers; messages come here and are handed on to them."""
 
     CSS_PATH = Path(__file__).with_name("main.tcss")
-    BINDINGS: ClassVar[list[BindingType]] = bindings()
+    BINDINGS: ClassVar[list[BindingType]] = commands.bindings()
     COMMANDS: ClassVar[set[type[Provider] | Callable[[], type[Provider]]]] = {Actions, LessonText}
     AUTO_FOCUS = "#lesson"
 
@@ -69,32 +68,16 @@ class MainScreen(HostScreen):
         self.nodes = Nodes(self, self.files, self.preferences)
         self.checks = Checks(self, self.files, self.records, self.preferences, self._show_findings)
         self.checklist = ChecklistController(self, self.records)
-        logs = Logs(self, log)
+        Logs(self, log)
         self.terminal = Terminal(self, self.pages)
-        own = {
-            "next": CommandHandler(lambda: self._step(1)),
-            "previous": CommandHandler(lambda: self._step(-1)),
-            "theme": CommandHandler(self._theme),
-            "help": CommandHandler(self._help),
-            "quit": CommandHandler(lambda: self.app.run_action("quit")),
-            "evidence": CommandHandler(self._evidence),
-        }
+        self.register(commands.NEXT, partial(self._step, 1))
+        self.register(commands.PREVIOUS, partial(self._step, -1))
+        self.register(commands.THEME, self._theme)
+        self.register(commands.HELP, self._help)
+        self.register(commands.QUIT, lambda: self.app.run_action("quit"))
+        self.register(commands.EVIDENCE, self._evidence)
         self._framed: tuple[Widget, ...] = ()
         self._phases: list[tuple[str, Phase]] = []
-        self._command_handlers: dict[str, CommandHandler] = dict(own)
-        controllers = (
-            self.pages,
-            self.records,
-            self.files,
-            self.views,
-            self.nodes,
-            self.checks,
-            self.checklist,
-            logs,
-            self.terminal,
-        )
-        for controller in controllers:
-            self._command_handlers |= controller.command_handlers
 
     def compose(self) -> ComposeResult:
         yield StatusBar()
@@ -102,7 +85,7 @@ class MainScreen(HostScreen):
             yield LessonList(self.model.session.lessons, id="lessons")
             with Container(id="work"):
                 with Vertical(id="centre"):
-                    yield Tabs(*(Tab(name.capitalize(), id=f"tab-{name}") for name in PAGES), id="tabs")
+                    yield Tabs(*(Tab(name.capitalize(), id=f"tab-{name}") for name in commands.PAGES), id="tabs")
                     with ContentSwitcher(initial="lesson", id="pages"):
                         yield LessonView(id="lesson")
                         yield self._code
@@ -121,24 +104,10 @@ class MainScreen(HostScreen):
         self.preferences_changed()
         page = self.model.state.page
         self.pages.arrange(self.size.width, self.size.height)
-        await self.go_to(self.model.lesson, page if page in PAGES else "lesson")
+        await self.go_to(self.model.lesson, page if page in commands.PAGES else "lesson")
         self.records.read()
 
     # --- commands ---
-
-    def action_do(self, name: str) -> None:
-        """Do what a command says."""
-        result = self._command_handlers[name].run()
-        if inspect.iscoroutine(result):
-            self.run_worker(result, group="command")
-
-    def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
-        """Hide what makes no sense now: one key is Run or Stop, Check or Cancel."""
-        return self.can(str(parameters[0])) if action == "do" else True
-
-    def can(self, name: str) -> bool:
-        """Whether a command makes sense now."""
-        return self.is_mounted and self._command_handlers[name].possible()
 
     def action_show_file(self, index: int) -> None:
         """Show another file of the lesson."""
@@ -149,7 +118,7 @@ class MainScreen(HostScreen):
         self.preferences.update(theme=self.app.theme)
 
     def _help(self) -> None:
-        from tutor.tui.screens.help import HelpScreen
+        from tutor.tui.dialogs.help import HelpScreen
 
         self.app.push_screen(HelpScreen())
 
@@ -190,7 +159,7 @@ class MainScreen(HostScreen):
         passed = {each.id for each in lessons if model.progress.of(each.id).best is Status.PASSED}
         others = len(lessons) - len(passed | {model.lesson.id})
         # The last pass leads to the checklist, where the course has one.
-        self.query_one(CriteriaPanel).others_open = others if self.can("checklist") else max(1, others)
+        self.query_one(CriteriaPanel).others_open = others if self.can(commands.CHECKLIST) else max(1, others)
         self.query_one(StatusBar).show_progress(len(passed), len(lessons))
 
     async def go_to_line(self, lesson: Lesson, line: int) -> None:

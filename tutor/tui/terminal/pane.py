@@ -20,11 +20,11 @@ from tutor.printable import plain
 from tutor.session.node import Node, NodeState
 from tutor.session.shell import Shell
 from tutor.tui import messages
-from tutor.tui.live.strip import TabStrip
 from tutor.tui.terminal.completion import complete
 from tutor.tui.terminal.history import History
 from tutor.tui.terminal.output_view import OutputView, broke
 from tutor.tui.terminal.prompt import Prompt
+from tutor.tui.widgets.strip import TabStrip
 
 KEPT = 8
 """How many commands that have ended are kept."""

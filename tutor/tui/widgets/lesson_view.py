@@ -11,7 +11,7 @@ from textual.widgets.markdown import MarkdownBlock, MarkdownFence
 
 from tutor.content import Lesson
 from tutor.tui import messages, wording
-from tutor.tui.terminal.lesson_commands import LANGUAGES, command_at
+from tutor.tui.lesson_commands import LANGUAGES, command_at
 
 
 class LessonView(VerticalScroll):

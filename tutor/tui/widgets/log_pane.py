@@ -17,9 +17,9 @@ from textual.widgets import Input, Static
 from tutor.judge.trace import Level
 from tutor.session.node import NodeState, Phase
 from tutor.tui import loglines, messages
-from tutor.tui.live.strip import TabStrip
 from tutor.tui.widgets.line_view import Row
 from tutor.tui.widgets.log_view import LogView
+from tutor.tui.widgets.strip import TabStrip
 
 LEVELS = (Level.DEBUG, Level.INFO, Level.WARN, Level.ERROR)
 

@@ -13,6 +13,7 @@ from textual.binding import BindingType
 from textual.message import Message
 
 from tutor.judge.trace import Level
+from tutor.tui import commands
 from tutor.tui.commands import local
 from tutor.tui.loglines import LogLine
 from tutor.tui.messages import GoToLine
@@ -32,7 +33,7 @@ class LogView(LineView):
     class Followed(Message):
         """It follows the end now, or does no longer."""
 
-    BINDINGS: ClassVar[list[BindingType]] = local("run stop")
+    BINDINGS: ClassVar[list[BindingType]] = local(commands.RUN, commands.STOP)
     COMPONENT_CLASSES: ClassVar[set[str]] = {
         f"line--{kind}" for kind in ("quiet", "name", "debug", "info", "warn", "error", "fatal", "link")
     }

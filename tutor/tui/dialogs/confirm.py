@@ -8,7 +8,7 @@ from textual.containers import Horizontal, Vertical
 from textual.content import Content
 from textual.widgets import Button, Static
 
-from tutor.tui.screens.dialog import Dialog
+from tutor.tui.dialogs.dialog import Dialog
 
 
 class ConfirmScreen(Dialog[bool]):

@@ -11,9 +11,9 @@ from textual.containers import Horizontal, Vertical
 from textual.content import Content
 from textual.widgets import Button, Static
 
-from tutor.tui.diffing import difference
-from tutor.tui.screens.dialog import Dialog
+from tutor.tui.dialogs.dialog import Dialog
 from tutor.tui.widgets.code_view import CodeView
+from tutor.tui.widgets.diffing import difference
 
 
 class ConflictScreen(Dialog[bool]):

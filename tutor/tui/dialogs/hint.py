@@ -12,7 +12,7 @@ from textual.widgets import Static
 
 from tutor.content import CriterionText, Lesson
 from tutor.tui import wording
-from tutor.tui.screens.dialog import Dialog
+from tutor.tui.dialogs.dialog import Dialog
 
 
 class HintScreen(Dialog[bool]):

@@ -15,7 +15,7 @@ from textual.widgets import Button, Input, Static
 
 from tutor.report.checklist import FORMATS, SUFFIXES, format_of
 from tutor.tui import wording
-from tutor.tui.screens.dialog import Dialog
+from tutor.tui.dialogs.dialog import Dialog
 
 NAMES = {"markdown": "Markdown", "json": "JSON", "html": "HTML page"}
 

@@ -15,8 +15,8 @@ from textual.widgets import Button, Input, Static
 
 from tutor.live.facts import RequestForm
 from tutor.live.protocol import Describe, Publish, WatcherRequest
+from tutor.tui.dialogs.dialog import Dialog
 from tutor.tui.live.request_form import ServiceForm
-from tutor.tui.screens.dialog import Dialog
 
 _TYPE = re.compile(r"(\w+)/(?:msg/)?([A-Z]\w*)")
 _FASTEST_HZ = 1000.0

@@ -16,7 +16,7 @@ from textual.widget import Widget
 from textual.widgets import Static
 
 from tutor.tui.commands import EDITOR_KEYS, GROUPS, Command
-from tutor.tui.screens.dialog import Dialog
+from tutor.tui.dialogs.dialog import Dialog
 
 _HOW = (
     "Read the lesson, start, edit, run, check. A failure tells you the next step.\n"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Awaitable, Callable, Coroutine
 from dataclasses import dataclass
 from functools import partial
@@ -11,7 +12,9 @@ from textual.reactive import Reactive
 from textual.screen import Screen
 from textual.widget import Widget
 
+from tutor.content import Lesson
 from tutor.tui import messages
+from tutor.tui.commands import BY_NAME, Command
 from tutor.tui.model import AppModel
 
 
@@ -35,6 +38,10 @@ class HostScreen(Screen[None]):
     focused = Reactive[Widget | None](None, repaint=False)
     """Painted by the widgets that lose and get the focus. Textual's own repaints the whole screen."""
 
+    def __init__(self) -> None:
+        super().__init__()
+        self._handlers: dict[Command, CommandHandler] = {}
+
     @property
     def page(self) -> str:
         """The page that is shown."""
@@ -49,9 +56,45 @@ class HostScreen(Screen[None]):
         """Turn to a page, and focus what is on it."""
         raise NotImplementedError
 
+    async def go_to(self, lesson: Lesson, page: str = "lesson") -> None:
+        """Show a lesson."""
+        raise NotImplementedError
+
+    async def go_to_line(self, lesson: Lesson, line: int) -> None:
+        """Show a line of a lesson's text, counted from 0."""
+        raise NotImplementedError
+
     def preferences_changed(self) -> None:
         """What is remembered has changed: show what of it is to be seen."""
         raise NotImplementedError
+
+    # --- commands ---
+
+    def register(
+        self, command: Command, run: Callable[[], Awaitable[object] | object], possible: Callable[[], bool] = always
+    ) -> None:
+        """`run` is what this command does; `possible`: whether it makes sense now."""
+        self._handlers[command] = CommandHandler(run, possible)
+
+    def can(self, command: Command) -> bool:
+        """Whether a command makes sense now."""
+        return self.is_mounted and self._handlers[command].possible()
+
+    def do(self, command: Command) -> None:
+        """Do what a command says."""
+        result = self._handlers[command].run()
+        if inspect.iscoroutine(result):
+            self.run_worker(result, group="command")
+
+    def action_do(self, name: str) -> None:
+        """Do what the command of this name says."""
+        self.do(BY_NAME[name])
+
+    def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
+        """Hide what makes no sense now: one key is Run or Stop, Check or Cancel."""
+        return self.can(BY_NAME[str(parameters[0])]) if action == "do" else True
+
+    # --- work, and what is said ---
 
     def work(
         self, work: Callable[..., Coroutine[Any, Any, object]], *given: Any, group: str, exclusive: bool = False
@@ -71,7 +114,7 @@ class HostScreen(Screen[None]):
 
     def ask(self, title: str, text: str, yes: str, do: Callable[[], object]) -> None:
         """Ask, and do it where the answer is yes."""
-        from tutor.tui.screens.confirm import ConfirmScreen
+        from tutor.tui.dialogs.confirm import ConfirmScreen
 
         def answered(answer: bool | None) -> None:
             if answer:

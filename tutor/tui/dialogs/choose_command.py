@@ -10,7 +10,7 @@ from textual.containers import Vertical
 from textual.content import Content
 from textual.widgets import OptionList
 
-from tutor.tui.screens.dialog import Dialog
+from tutor.tui.dialogs.dialog import Dialog
 
 
 class ChooseCommandScreen(Dialog[str]):

@@ -15,7 +15,7 @@ from textual.widgets import Button, Static, TextArea
 from tutor.bundled_ros.ros2.starting import is_launch_file
 from tutor.content import LessonFile
 from tutor.session import run_options
-from tutor.tui.screens.dialog import Dialog
+from tutor.tui.dialogs.dialog import Dialog
 from tutor.workspace import RunOptions
 
 
