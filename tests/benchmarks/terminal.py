@@ -60,13 +60,30 @@ class Terminal:
             self._seen = b""
 
     def kill(self) -> None:
-        """SIGKILL. The terminal itself stays open, as the learner's would; `let_go` closes it."""
+        """SIGKILL. The terminal itself stays open, as the learner's would; `detach` closes it."""
         os.kill(self.pid, signal.SIGKILL)
         os.waitpid(self.pid, 0)
 
     def detach(self) -> None:
         """Close the terminal."""
-        os.close(self._fd)
+        if self._fd >= 0:
+            os.close(self._fd)
+        self._fd = -1
+
+    def ended(self, limit_s: float = LIMIT_S) -> bool:
+        """Whether it ends within that time by itself; what it draws until then is taken."""
+        deadline = time.perf_counter() + limit_s
+        while time.perf_counter() < deadline:
+            if os.waitpid(self.pid, os.WNOHANG)[0]:
+                return True
+            try:
+                if self._fd >= 0:
+                    self.read(0.02)
+                    continue
+            except OSError:  # it has closed its end
+                pass
+            time.sleep(0.02)
+        return False
 
     def close(self) -> None:
         """Quit, and wait for it."""

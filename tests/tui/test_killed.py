@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import signal
 import sys
 import time
@@ -133,6 +134,34 @@ def test_while_a_check_runs_right_after_a_save(learner: Killed) -> None:
     learner.is_killed()
     assert learner.file.read_text() == "# new\n" + whole
     assert learner.progress() == learner.before
+
+
+@pytest.mark.parametrize("number", [signal.SIGHUP, signal.SIGTERM])
+def test_asked_to_end_it_ends_its_nodes_by_ctrl_c_and_leaves_no_shared_memory(
+    learner: Killed, number: signal.Signals
+) -> None:
+    ended = learner.file.with_name("ended")
+    text = f"import atexit, pathlib\natexit.register(pathlib.Path({str(ended)!r}).touch)\n"
+    learner.file.write_text(text + learner.file.read_text().partition("\n")[2])
+    learner.app.press(b"4")
+    learner.until(lambda: learner.runs("tutor.live"), "the watching process")
+    learner.app.press(b"r")
+    learner.app.until(b"publishes 2.0")
+    segments = [path for pid in learner.running() for path in segments_of(pid)]
+    assert segments
+    if number == signal.SIGHUP:
+        learner.app.detach()  # the window is closed: this sends it
+    else:
+        os.kill(learner.app.pid, number)
+    assert learner.app.ended(LIMIT_S)
+    assert ended.exists()
+    assert not [path for path in segments if path.exists()]
+
+
+def segments_of(pid: int) -> set[Path]:
+    """What a process has mapped of Fast DDS's shared memory that has a name of its own."""
+    maps = Path(f"/proc/{pid}/maps").read_text()
+    return {Path(name) for name in re.findall(r"/dev/shm/fastrtps_[0-9a-f]{16}$", maps, re.MULTILINE)}
 
 
 def test_the_moment_a_save_or_a_check_begins(learner: Killed) -> None:

@@ -18,6 +18,7 @@ from tutor.plain.nodes import Nodes
 from tutor.plain.ros2_commands import Ros2Commands
 from tutor.plain.speech import counted
 from tutor.printable import printable
+from tutor.ros import stale_segments
 from tutor.session import Session
 from tutor.workspace import StorageError, WorkspaceError
 
@@ -87,6 +88,7 @@ class Dialog:
                     await self._do(words)
         finally:
             await self._nodes.leave()
+            stale_segments.remove()
 
     def _greet(self) -> None:
         lessons, progress = self._session.lessons, self._session.progress()

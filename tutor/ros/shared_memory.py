@@ -5,6 +5,8 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
+from tutor.ros import stale_segments
+
 _PLACE = Path("/dev/shm")
 _NEEDED = 2 * 4096
 
@@ -27,7 +29,8 @@ def problem(place: Path = _PLACE) -> str:
 
 
 def prove_enough() -> None:
-    """Raise OSError where there is a `problem`."""
+    """Raise OSError where there is a `problem`, with what killed processes have left out of the way."""
+    stale_segments.remove()
     if text := problem():
         raise OSError(text)
 

@@ -15,10 +15,16 @@ def run(workspace: Path, lessons: Path | None = None) -> int:
     `lessons` is a folder with further `lessons/` and `checks/`. Raises ContentError where a lesson is broken.
     """
     from tutor.content import load_course
+    from tutor.ros import stale_segments
     from tutor.session import Session
+    from tutor.tui import hangup
     from tutor.tui.app import TutorApp
     from tutor.workspace import Workspace
 
+    hangup.prepare()
     app = TutorApp(Session(load_course(lessons), Workspace(workspace), lessons))
-    app.run()
+    try:
+        app.run()
+    finally:
+        stale_segments.remove()  # of nodes that were ended by force
     return app.return_code or 0
