@@ -37,6 +37,7 @@ from tutor.judge.ending import repeat_if_doubtful
 from tutor.judge.rates import measure
 from tutor.judge.trace import Trace
 from tutor.judge.waiting import (
+    IDLE_S,
     START_S,
     TRIES,
     find_stuck_frames,
@@ -186,7 +187,7 @@ async def probe_names(bench: Bench) -> NameProbes:
             def logged() -> str:
                 return next((str(log) for log in run.logs if bears(str(log).casefold())), "")
 
-            await wait_until_seen(run, lambda: bool(logged()), promised=lambda: True)
+            await wait_until_seen(run, lambda: bool(logged()), promised=lambda: True, idle_s=IDLE_S)
             found, trace = logged(), run.trace()
             at_end = (await run.interrupt()).output if not found and run.exit is None else ()
             return NameProbe(name, value, found, trace, at_end)

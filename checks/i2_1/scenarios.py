@@ -39,7 +39,14 @@ from tutor.judge.ending import repeat_if_doubtful
 from tutor.judge.rates import Rate, measure
 from tutor.judge.trace import Sample, SetAnswer, Trace
 from tutor.judge.tracebacks import Frame
-from tutor.judge.waiting import START_S, find_stuck_frames, measure_steady_rate, wait_for_message, wait_until_seen
+from tutor.judge.waiting import (
+    IDLE_S,
+    START_S,
+    find_stuck_frames,
+    measure_steady_rate,
+    wait_for_message,
+    wait_until_seen,
+)
 from tutor.ros_model import Parameter
 
 
@@ -274,7 +281,8 @@ async def bad_launches(bench: Bench) -> tuple[Trace, ...]:
     async def one(bad: float) -> Trace:
         async with bench.start(FILE, parameters={RATE: bad}, watch={TOPIC: TYPE}, expected_s=0.5) as run:
             bench.report_progress(0.3, f"starting with {RATE}:={bad}")
-            await wait_until_seen(run, lambda: run.exit is not None or bool(messages_naming_rate(run.trace())))
+            said = lambda: run.exit is not None or bool(messages_naming_rate(run.trace()))  # noqa: E731
+            await wait_until_seen(run, said, idle_s=IDLE_S)
             await run.until(lambda: run.exit is not None, 1.0)  # what it says may come in more than one message
             return run.trace()
 

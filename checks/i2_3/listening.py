@@ -9,7 +9,7 @@ from checks.i2_3.ticks import HZ, Series, all_series
 from tutor.judge.bench import Run
 from tutor.judge.rates import TOLERANCE
 from tutor.judge.trace import CallAnswer, LogRecord
-from tutor.judge.waiting import IN_FLIGHT_S
+from tutor.judge.waiting import IDLE_S, IN_FLIGHT_S
 
 UP_S = 1.5
 """What a node logs later than this after its first sign of life is not a greeting."""
@@ -46,7 +46,7 @@ async def listen(run: Run, since: float, is_up: Callable[[], bool]) -> None:
             )
         return enough
 
-    await run.until(heard, 2 * RARE_S)
+    await run.until(heard, 2 * RARE_S, idle_s=IDLE_S)
 
 
 def _told(logs: Sequence[LogRecord]) -> bool:

@@ -32,7 +32,7 @@ from tutor.judge.bench import Bench, Run
 from tutor.judge.ending import repeat_if_doubtful
 from tutor.judge.trace import CallAnswer
 from tutor.judge.tracebacks import Frame
-from tutor.judge.waiting import CPU_WAIT_SHARE, wait_until_seen
+from tutor.judge.waiting import CPU_WAIT_SHARE, IDLE_S, wait_until_seen
 
 INTO_CALL_S = 1.5
 """A call that was made this long ago is being worked on."""
@@ -55,7 +55,7 @@ async def run_idle(bench: Bench) -> IdleRun:
         await wait_until_seen(run, lambda: bool(run.graph.nodes))
         await _spins(run)
         since = run.now()
-        await wait_until_seen(run, lambda: bool(logs_since(run.logs, since)))
+        await wait_until_seen(run, lambda: bool(logs_since(run.logs, since)), idle_s=IDLE_S)
         listened_at, cpu_wait_s = run.now(), run.node_cpu_wait_s()
         bench.report_progress(0.3, "listening to the timer")
         await listen(run, since, lambda: has_service(run.graph.servers))

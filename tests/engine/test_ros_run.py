@@ -75,6 +75,18 @@ def generate_launch_description():
 """
 
 
+LATER = """
+import threading
+publisher = node.create_publisher(String, "later", 10)
+threading.Timer(2.5, lambda: publisher.publish(String(data="at last"))).start()
+"""
+PARTNER = """
+import subprocess, sys
+subprocess.Popen([sys.executable, "-c", "import time; time.sleep(1000)"])
+"""
+LONG_S = 60.0
+
+
 async def publishing(run: Run, topic: str = "/chatter") -> None:
     assert await run.until(lambda: bool(run.samples_on(topic)), UP_S), run.trace()
 
@@ -365,3 +377,34 @@ async def test_the_known_exceptions_of_a_check_reach_its_judges(scene: Scene) ->
         cause = diagnose_process(run.trace())
     assert cause is not None
     assert cause.hint == "in line 1: our own words"
+
+
+async def given_up_after(scene: Scene, *parts: str) -> float:
+    """How many seconds are waited, of LONG_S, for a message that never comes."""
+    async with scene.bench(node(*parts)).start(FILE, watch={"/later": CHATTER["/chatter"]}) as run:
+        assert await run.until(lambda: bool(run.graph.nodes), UP_S), run.trace()
+        began = time.monotonic()
+        assert not await run.until(lambda: bool(run.samples_on("/later")), LONG_S, idle_s=0.7), run.trace()
+        return time.monotonic() - began
+
+
+async def test_nothing_is_waited_for_of_a_node_that_only_waits(scene: Scene) -> None:
+    assert 0.7 <= await given_up_after(scene) < LONG_S / 2
+
+
+async def test_what_a_node_does_later_is_waited_for(scene: Scene) -> None:
+    async with scene.bench(node(LATER)).start(FILE, watch={"/later": CHATTER["/chatter"]}) as run:
+        assert await run.until(lambda: bool(run.samples_on("/later")), LONG_S, idle_s=0.7), run.trace()
+
+
+@pytest.mark.parametrize(
+    ("part", "least_s", "most_s"),
+    [("node.create_timer(90.0, print)", 0.7, 9.0), ("node.create_timer(4.0, print)", 7.0, 60.0), (PARTNER, 0.7, 9.0)],
+    ids=["late", "in-time", "partner"],
+)
+async def test_a_wake_up_counts_if_it_is_in_time(scene: Scene, part: str, least_s: float, most_s: float) -> None:
+    async with scene.bench(node(part)).start(FILE, watch={"/later": CHATTER["/chatter"]}) as run:
+        assert await run.until(lambda: bool(run.graph.nodes), UP_S), run.trace()
+        began = time.monotonic()
+        assert not await run.until(lambda: bool(run.samples_on("/later")), 10.0, idle_s=0.7), run.trace()
+        assert least_s <= time.monotonic() - began < most_s

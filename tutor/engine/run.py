@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from tutor.engine.errors import EngineError
+from tutor.engine.idle import Idle
 from tutor.engine.source import launch_arguments, sources, uncalled_main, with_code
 from tutor.judge import tracebacks
 from tutor.judge.bench import Handler
@@ -165,9 +166,10 @@ class RosRun:
             self._cpu_time = (now, had)
         return had
 
-    async def until(self, seen: Callable[[], bool], limit_s: float) -> bool:
+    async def until(self, seen: Callable[[], bool], limit_s: float, *, idle_s: float | None = None) -> bool:
         # The limit is for the node, not for a machine that does not let it run, or us see it.
-        return await self._until(seen, limit_s, lambda: self._cpu().waited_s + self.our_cpu_wait_s())
+        idle = Idle(self._process.next_wake, self.our_cpu_wait_s, idle_s) if idle_s is not None else None
+        return await self._until(seen, limit_s, lambda: self._cpu().waited_s + self.our_cpu_wait_s(), idle)
 
     async def wait_for_exit(self, limit_s: float, *, meanwhile: Callable[[], object] = lambda: None) -> bool:
         def ended() -> bool:
@@ -178,7 +180,9 @@ class RosRun:
         # are we: what we see late has its time all the same.
         return await self._until(ended, limit_s, lambda: self._cpu().main_waited_s)
 
-    async def _until(self, seen: Callable[[], bool], limit_s: float, lost_s: Callable[[], float]) -> bool:
+    async def _until(
+        self, seen: Callable[[], bool], limit_s: float, lost_s: Callable[[], float], idle: Idle | None = None
+    ) -> bool:
         """Wait as `until` does; the limit grows by what `lost_s` grows meanwhile, in seconds."""
         loop = asyncio.get_running_loop()
         deadline, granted_s = loop.time() + limit_s, 0.0
@@ -196,6 +200,8 @@ class RosRun:
             if self.exit is not None and ended_at is None:
                 ended_at = now
             if ended_at is not None and now - ended_at >= IN_FLIGHT_S:
+                return False
+            if idle is not None and idle.until(time.time() + deadline - now):
                 return False
             if now >= deadline:
                 if self._cpu().ran_s - ran_s >= ENOUGH_CPU_S:  # one that has used this much of the CPU has run

@@ -89,11 +89,12 @@ class Run(Protocol):
     def our_cpu_wait_s(self) -> float:
         """Seconds that we who watch it waited for a CPU so far: what is seen may be seen that much later."""
 
-    async def until(self, seen: Callable[[], bool], limit_s: float) -> bool:
+    async def until(self, seen: Callable[[], bool], limit_s: float, *, idle_s: float | None = None) -> bool:
         """Wait until `seen()` is true; it is asked again whenever a new fact has come in.
 
         Gives False when `limit_s` seconds have passed (and those in which the machine did not let the process run), or
-        soon after the process has ended.
+        soon after the process has ended. With `idle_s`, also once the process has done nothing for so many seconds, and
+        will do nothing by itself before the limit: all its threads wait, none of them for a time within it.
         """
 
     async def wait_for_exit(self, limit_s: float, *, meanwhile: Callable[[], object] = lambda: None) -> bool:

@@ -20,6 +20,12 @@ RARE_S = 12.0
 AGAIN_S = 3.5
 """A second listen is at least this long, so that a rate of 1 Hz, too, can be told for what it is."""
 
+IDLE_S = 0.7
+"""What a node has sent before it fell idle has come in by then."""
+
+NO_NODE_S = 2.0
+"""A node whose process has been idle for this long would be in the graph."""
+
 STUCK_S = 1.5
 """A node that is up has run into what it waits for within this time."""
 
@@ -33,17 +39,24 @@ IN_FLIGHT_S = 0.1
 
 
 async def wait_until_seen(
-    run: Run, seen: Callable[[], bool], *, promised: Callable[[], bool] = lambda: False, rare_s: float = RARE_S
+    run: Run,
+    seen: Callable[[], bool],
+    *,
+    promised: Callable[[], bool] = lambda: False,
+    rare_s: float = RARE_S,
+    idle_s: float | None = None,
 ) -> bool:
     """Wait until `seen()`; give up when the process ends, never makes a node, or its node does nothing of the kind.
 
     `promised()`: something announces that it will come, such as a publisher on the topic; then `rare_s` more seconds
-    are waited for it.
+    are waited for it. `idle_s`: give up after so many seconds, too, of a node that is idle (see `Run.until`); not where
+    what is waited for is in the graph, of which we may hear later than it is done.
     """
-    if await run.until(lambda: seen() or bool(run.graph.nodes), START_S) and not seen():
-        await run.until(lambda: seen() or promised(), SETTLE_S)
-        if promised() and not seen():
-            await run.until(seen, rare_s)
+    if await run.until(lambda: seen() or bool(run.graph.nodes), START_S, idle_s=NO_NODE_S) and not seen():
+        if not await run.until(lambda: seen() or promised(), SETTLE_S, idle_s=idle_s):
+            return seen()
+        if not seen():
+            await run.until(seen, rare_s, idle_s=idle_s)
     return seen()
 
 
@@ -54,6 +67,7 @@ async def wait_for_message(run: Run, topic: str, type_name: str, *, rare_s: floa
         lambda: bool(run.samples_on(topic)),
         promised=lambda: any(p.topic == topic and p.type == type_name for p in run.graph.publishers),
         rare_s=rare_s,
+        idle_s=IDLE_S,
     )
 
 

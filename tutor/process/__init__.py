@@ -3,12 +3,14 @@
 from tutor.process.cpu_wait import CpuMeter, CpuTime, own_cpu_time
 from tutor.process.errors import EndError, ProcessError, StartError
 from tutor.process.learner import LearnerProcess, Survivor
+from tutor.process.next_wake import NextWake
 
 __all__ = [
     "CpuMeter",
     "CpuTime",
     "EndError",
     "LearnerProcess",
+    "NextWake",
     "ProcessError",
     "StartError",
     "Survivor",

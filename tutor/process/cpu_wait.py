@@ -45,7 +45,7 @@ class CpuMeter:
 
     def read(self) -> CpuTime:
         """The sum of all processes so far."""
-        for process in _processes(self._session).values():
+        for process in recent_processes(self._session).values():
             if process.session == self._session and (had := _read_cpu_time(process.pid)) != CpuTime():
                 self._per_process[process.pid] = had
         return CpuTime(*(sum(values) for values in zip(*map(astuple, self._per_process.values()), strict=True)))
@@ -60,12 +60,12 @@ def own_cpu_time() -> CpuTime:
     return _own[2]
 
 
-def _processes(leader: int) -> dict[int, Process]:
-    """The table of processes, read again where it is old or lacks `leader`; the numbers of each are never old."""
+def recent_processes(pid: int) -> dict[int, Process]:
+    """The table of processes, read again where it is old or lacks `pid`; the numbers of each are never old."""
     global _process_table
     read_at, table = _process_table
     now = time.monotonic()
-    if leader not in table or now - read_at >= TABLE_EVERY_S:
+    if pid not in table or now - read_at >= TABLE_EVERY_S:
         _process_table = (now, processes())
     return _process_table[1]
 

@@ -18,6 +18,7 @@ from tutor.judge.trace import Exit, OutputLine
 from tutor.process import memory, orphans
 from tutor.process.errors import EndError, StartError
 from tutor.process.link import SupervisorLink
+from tutor.process.next_wake import NextWake
 from tutor.process.output import Output
 from tutor.process.pipe import PipeReader
 from tutor.process.stdin import Stdin
@@ -147,6 +148,10 @@ class LearnerProcess:
         """Wait for the exit, `limit_s` seconds at most (None: as long as it takes). None if it still lives."""
         await asyncio.wait({self._exited}, timeout=limit_s)
         return self._exit
+
+    def next_wake(self) -> NextWake:
+        """When one of the learner's processes next does something by itself, as far as the kernel tells."""
+        return self._link.next_wake()
 
     async def survivors(self) -> list[Survivor]:
         """The living processes of the learner's, the first one included while it lives; zombies do not count."""

@@ -14,7 +14,9 @@ from pathlib import Path
 
 from tutor.judge.trace import Exit
 from tutor.process import orphans, prctl
-from tutor.process.supervisor import Process, descendants, innermost, kill
+from tutor.process.cpu_wait import recent_processes
+from tutor.process.next_wake import NextWake, next_wake
+from tutor.process.supervisor import Process, among, descendants, innermost, kill
 
 _SUPERVISOR = Path(__file__).with_name("supervisor.py")
 # How long the supervisor may take to end everything before we step in, and how long we then may take.
@@ -103,6 +105,13 @@ class SupervisorLink(asyncio.Protocol):
             return []
         found = [p for p in descendants(self._supervisor.pid) if p.alive] or orphans.find_orphans(self._marks())
         return [p for p in found if p.pid not in self._ours]
+
+    def next_wake(self) -> NextWake:
+        """When one of the processes under the supervisor next does something by itself."""
+        if self._supervisor is None or self.gone.done():
+            return NextWake()
+        found = among(recent_processes(self._supervisor.pid), self._supervisor.pid)
+        return next_wake(p.pid for p in found if p.alive and p.pid not in self._ours)
 
     def end(self) -> None:
         """Begin to end everything; `gone` tells when that is done. May be called more than once."""

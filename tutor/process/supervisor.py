@@ -81,6 +81,11 @@ def descendants(root: int) -> list[Process]:
         table = processes()
         if all(p.parent == 0 or p.parent in table for p in table.values()):
             break
+    return among(table, root)
+
+
+def among(table: dict[int, Process], root: int) -> list[Process]:
+    """The descendants of `root` in a table of processes, parents before children."""
     children: dict[int, list[Process]] = {}
     for process in table.values():
         children.setdefault(process.parent, []).append(process)

@@ -1,0 +1,86 @@
+"""When a process will next do something by itself."""
+
+from __future__ import annotations
+
+import math
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import pytest
+
+from tutor.process.next_wake import NextWake, next_wake
+
+LIMIT_S = 30.0
+
+
+@contextmanager
+def running(code: str) -> Iterator[int]:
+    """A program that has said it is up."""
+    command = [sys.executable, "-I", "-S", "-c", f"import threading, time\nprint('up', flush=True)\n{code}"]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as process:
+        try:
+            assert process.stdout is not None
+            assert process.stdout.readline() == b"up\n"
+            yield process.pid
+        finally:
+            process.kill()
+
+
+def waiting(pid: int) -> NextWake:
+    """What it waits for, once it does."""
+    deadline = time.monotonic() + LIMIT_S
+    while (found := next_wake([pid])).at == 0.0:
+        assert time.monotonic() < deadline
+        time.sleep(0.01)
+    return found
+
+
+@pytest.mark.parametrize(
+    "code",
+    [
+        "threading.Event().wait()",
+        "threading.Thread(target=threading.Event().wait).start()",
+        "lock = threading.Lock()\nlock.acquire()\nlock.acquire()",
+    ],
+    ids=["event", "thread", "deadlock"],
+)
+def test_what_waits_without_end_never_wakes_by_itself(code: str) -> None:
+    with running(code) as pid:
+        first = waiting(pid)
+        assert first.at == math.inf
+        assert next_wake([pid]) == first  # it has not run in between
+
+
+@pytest.mark.parametrize(
+    "code",
+    ["time.sleep(60)", "threading.Event().wait(60)", "threading.Thread(target=time.sleep, args=(60,)).start()"],
+    ids=["sleep", "event", "thread"],
+)
+def test_a_sleep_ends_when_it_says(code: str) -> None:
+    with running(code) as pid:
+        assert waiting(pid).at == pytest.approx(time.time() + 60, abs=20)
+
+
+@pytest.mark.parametrize(
+    "code",
+    ["while True: pass", "import select; select.select([], [], [], 60)", "import sys; sys.stdin.read()"],
+    ids=["busy", "select", "input"],
+)
+def test_of_anything_else_nothing_is_known(code: str) -> None:
+    with running(code) as pid:
+        assert next_wake([pid]).at == 0.0
+
+
+def test_of_several_the_first_to_wake_counts() -> None:
+    with running("threading.Event().wait()") as idle, running("time.sleep(60)") as sleeper:
+        waiting(idle)
+        waiting(sleeper)
+        assert next_wake([idle, sleeper]).at == pytest.approx(time.time() + 60, abs=20)
+        assert next_wake([idle, sleeper, 2**22 + 1]).at == 0.0
+
+
+def test_of_none_nothing_is_known() -> None:
+    assert next_wake([]) == NextWake()
