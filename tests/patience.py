@@ -8,7 +8,9 @@ from collections.abc import Callable
 
 from tutor.process.cpu_wait import own_cpu_time
 
-LOOK_EVERY_S = 0.02
+LOOK_AFTER_S = 0.01
+LOOK_EVERY_S = 0.1
+"""Between two looks, at most: one at a whole screen takes as long as a node needs the core for, to get there."""
 
 
 async def seen_within(seen: Callable[[], bool], limit_s: float) -> bool:
@@ -16,10 +18,11 @@ async def seen_within(seen: Callable[[], bool], limit_s: float) -> bool:
 
     Whoever looks so often, and sleeps so little between, waits for the CPU as long as anybody on the machine.
     """
-    began, waited = time.monotonic(), own_cpu_time().waited_s
+    began, waited, pause = time.monotonic(), own_cpu_time().waited_s, LOOK_AFTER_S
     while not seen():
         took = time.monotonic() - began
         if took > limit_s and took - (own_cpu_time().waited_s - waited) > limit_s:
             return False
-        await asyncio.sleep(LOOK_EVERY_S)
+        await asyncio.sleep(pause)
+        pause = min(1.5 * pause, LOOK_EVERY_S)
     return True
