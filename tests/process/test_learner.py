@@ -16,7 +16,7 @@ from typing import Any
 import pytest
 
 from tutor.judge.trace import Exit
-from tutor.process import LearnerProcess, StartError
+from tutor.process import CpuMeter, LearnerProcess, StartError, pipe
 from tutor.process.output import LINE_CHARACTERS
 
 LIMIT_S = 20.0
@@ -276,6 +276,38 @@ async def test_endless_print_costs_little(bench: Any) -> None:
     assert len(learner.output) <= 1001
     assert learner.dropped_lines > 10_000
     assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - memory < 30_000  # KiB
+    await learner.end()
+
+
+async def test_one_that_prints_without_end_sleeps_most_of_the_time(bench: Any) -> None:
+    learner = await bench.start("while True: print('x')")
+    await bench_until(lambda: learner.dropped_lines > 200_000)  # what it may print at once is over
+    meter = CpuMeter(learner.pid)
+    before, start = meter.read().ran_s, time.monotonic()
+    assert await learner.wait(1.5) is None
+    assert (meter.read().ran_s - before) / (time.monotonic() - start) < 0.3
+
+
+async def test_a_large_table_is_printed_without_a_wait(bench: Any) -> None:
+    learner = await bench.start("""
+start = time.monotonic()
+for row in range(30_000): print(row, 'x' * 50, flush=True)
+print(time.monotonic() - start, file=sys.stderr)
+""")
+    assert (await ended(learner)).code == 0
+    assert len(texts(learner)) + learner.dropped_lines == 30_000
+    assert float(texts(learner, "stderr")[0]) < 30_000 * (50 + pipe.LINE_BYTES) / pipe.MOST_PER_S  # had it been slowed
+
+
+async def test_what_comes_after_a_flood_is_not_kept_waiting(bench: Any) -> None:
+    learner = await bench.start("""
+for _ in range(1_000_000): print('x')
+print('last', file=sys.stderr)
+forever()
+""")
+    await bench_until(lambda: texts(learner, "stderr") == ["last"])
+    # At least all of it but what fits into the pipe has been read by then, at no more than the bounded rate.
+    assert learner.dropped_lines > 900_000
     await learner.end()
 
 

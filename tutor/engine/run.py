@@ -51,10 +51,6 @@ IN_TRANSIT_S = 1.0
 IN_FLIGHT_S = 0.5
 """What a process sent before it ended may arrive this much later."""
 
-
-_flooding: set[Path] = set()
-"""The learners' files that print without end: their starts, all at once, keep the machine busy themselves."""
-
 NEVER_S = 1e6
 """The limit of a request whose time is kept by `until`."""
 
@@ -194,8 +190,6 @@ class RosRun:
                 raise EngineError(f"watching the node failed: {self._observer.fault}")
             if seen():
                 return True
-            if self._process.dropped_lines:
-                _flooding.add(self._path)
             now = loop.time()
             if self.exit is not None and ended_at is None:
                 ended_at = now
@@ -211,7 +205,7 @@ class RosRun:
                 if owed_s < LOOK_EVERY_S:
                     # A shorter wait is a look, from which nothing follows; a node that has had CPU time was let run.
                     starved = late_s > most_s and self._cpu().ran_s - ran_s < LITTLE_CPU_S
-                    if starved and limit_s >= 1.0 and self._path not in _flooding:
+                    if starved and limit_s >= 1.0:
                         raise EngineError(TOO_BUSY, "close what keeps it busy, then check again")
                     return False
                 deadline, granted_s = deadline + owed_s, granted_s + owed_s

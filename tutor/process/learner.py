@@ -211,7 +211,7 @@ class LearnerProcess:
         self._changed()
 
     def _take_stderr(self, data: bytes) -> None:
-        self._stdout.drain()  # what was printed before this is in its pipe by now, and is shown above it
+        self._stdout.catch_up()  # what was printed before this is in its pipe by now, and is shown above it
         self._take("stderr", data)
 
     def _changed(self) -> None:
