@@ -69,7 +69,7 @@ def judge_publishes(seen: PlainStart) -> Verdict:
             [f"data: {samples[0].message['data']}"],
         )
     answers = seen.parameters is not None
-    cause = causes.diagnose_silence(
+    cause = causes.diagnose_no_messages(
         seen.trace, TOPIC, TYPE, answers=answers, stuck=seen.stuck, step=steps.add_publisher(seen.trace)
     )
     return failed(expected, "no such message", cause, causes.output_tail(seen.trace))
@@ -108,9 +108,9 @@ def _why_outside(wrong: Sequence[float], values: Sequence[float], trace: Trace |
 def judge_random(found: CollectedValues) -> Verdict:
     expected = "values that vary at random: not constant, not a ramp, not a short cycle"
     told = [(run, pattern) for run in found.runs if (pattern := _pattern(run)) is not None]
-    telling = sum(len(run) >= randomness.ENOUGH for run in found.runs)
-    if told and (any(pattern.sure for _, pattern in told) or len(told) >= telling):
-        run, pattern = max(told, key=lambda each: (each[1].sure, len(each[0])))
+    telling = sum(len(run) >= randomness.MIN_SAMPLE_SIZE for run in found.runs)
+    if told and (any(pattern.significant for _, pattern in told) or len(told) >= telling):
+        run, pattern = max(told, key=lambda each: (each[1].significant, len(each[0])))
         return failed(
             expected,
             f"{pattern.text} ({len(run)} values)",
@@ -130,17 +130,17 @@ def judge_random(found: CollectedValues) -> Verdict:
 def _pattern(run: Sequence[float]) -> randomness.Pattern | None:
     """The regularity in these values; coming to rest goes before any other."""
     found, stuck = randomness.find_pattern(run), _stuck(run)
-    return replace(stuck, sure=found is not None and found.sure) if stuck else found
+    return replace(stuck, significant=found is not None and found.significant) if stuck else found
 
 
 def _stuck(run: Sequence[float]) -> randomness.Pattern | None:
-    """Different values, and then a new one that stays, for half of `PLENTY` at least.
+    """Different values, and then a new one that stays, for half of `FULL_SAMPLE_SIZE` at least.
 
     Coarse values, of which one is by far the most frequent, have it among the others, too.
     """
     same = next((i for i, value in enumerate(reversed(run)) if value != run[-1]), len(run))
     before = run[: len(run) - same]
-    if same < randomness.PLENTY / 2 or len(before) < 2 or len({*before, run[-1]}) <= len(before):
+    if same < randomness.FULL_SAMPLE_SIZE / 2 or len(before) < 2 or len({*before, run[-1]}) <= len(before):
         return None
     return randomness.Pattern("constant value", f"the last {same} values are all {run[-1]:g}")
 
@@ -214,14 +214,14 @@ def _why_rate(group: Sequence[RateProbe], wrong: RateProbe, declared: tuple[Para
         return _rate_not_declared(wrong.trace)
     step = steps.set_timer_period(wrong.trace, wrong.name, wrong.unit)
     if wrong.rate is not None and wrong.rate.in_bursts:
-        return causes.in_bursts(step)
+        return causes.diagnose_bursts(step)
     measured = [(probe, probe.rate) for probe in group if probe.rate is not None]
     if measured and len(inverted_probes(group)) == len(measured):
         if wrong.unit == "Hz":
-            return causes.rate_as_period(wrong.name, step)
-        return causes.period_as_rate(wrong.name, step)
+            return causes.diagnose_rate_as_period(wrong.name, step)
+        return causes.diagnose_period_as_rate(wrong.name, step)
     rates_seen = [rate.hz for _, rate in measured]
-    if (seen := causes.same_name(wrong.trace) or steps.diagnose_rate(wrong.trace, wrong.name)) is not None:
+    if (seen := causes.diagnose_same_name(wrong.trace) or steps.diagnose_rate(wrong.trace, wrong.name)) is not None:
         return seen
     if len(rates_seen) > 1 and max(rates_seen) <= min(rates_seen) * (1 + TOLERANCE):
         return Cause(
@@ -273,7 +273,7 @@ def _why_name(found: NameProbes) -> Cause:
         (each.trace for each in found.probes if not each.trace.logs and not each.trace.samples_on(TOPIC)), None
     )
     if silent is not None and any(each.topic == TOPIC for each in silent.graph.publishers):
-        return causes.diagnose_silence(silent, TOPIC, TYPE, answers=True, step=steps.add_publisher(silent))
+        return causes.diagnose_no_messages(silent, TOPIC, TYPE, answers=True, step=steps.add_publisher(silent))
     own = [probe for probe in found.probes if probe.name in {parameter.name for parameter in found.declared}]
     return steps.diagnose_name(found.probes[0].trace, (own or found.probes)[0].name)
 

@@ -74,10 +74,10 @@ async def collect_values(bench: Bench) -> CollectedValues:
         seen.add(run)
         mine = _data(run)
         others = {value for other in seen if other is not run for value in _data(other)}
-        bench.report_progress(min(len(mine) / randomness.ENOUGH, 1), f"{len(mine)} temperatures so far")
+        bench.report_progress(min(len(mine) / randomness.MIN_SAMPLE_SIZE, 1), f"{len(mine)} temperatures so far")
         # The same values in both starts may be a fixed list: only its second round would tell.
         doubtful = randomness.needs_more_values(mine) or len(others.intersection(mine)) > len(mine) / 2
-        return len(mine) >= randomness.PLENTY or (
+        return len(mine) >= randomness.FULL_SAMPLE_SIZE or (
             not doubtful and run.now() >= run.samples_on(TOPIC)[0].source_time + LEAST_S
         )
 
@@ -100,7 +100,7 @@ async def collect_more_values(bench: Bench) -> CollectedValues:
     bench.report_progress(0.6, "listening longer: a start with a parameter gave a temperature that is out of range")
 
     def enough(run: Run) -> bool:
-        return len(_data(run)) >= randomness.PLENTY or bool(out_of_range(_data(run)))
+        return len(_data(run)) >= randomness.FULL_SAMPLE_SIZE or bool(out_of_range(_data(run)))
 
     runs = await asyncio.gather(_collect(bench, enough), _collect(bench, enough))
     return CollectedValues((plain, *(values for values, _ in runs)), runs[0][1])

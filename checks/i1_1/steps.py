@@ -142,13 +142,17 @@ def _without_f(read: NodeFile) -> Cause | None:
 def diagnose_rate(trace: Trace, name: str) -> Cause | None:
     """What keeps the rate from being what a parameter, which is read in Hz, says, as far as one line tells it."""
     read = file(trace)
-    return diagnose_whole_rate(trace, name) or period_slips.other_unit(read) or parameter_slips.overridden(read, name)
+    return (
+        diagnose_whole_rate(trace, name)
+        or period_slips.diagnose_period_unit(read)
+        or parameter_slips.diagnose_override(read, name)
+    )
 
 
 def diagnose_whole_rate(trace: Trace, name: str) -> Cause | None:
     """Whether a rate is cut to a whole number, so that a small one becomes 0."""
     read = file(trace)
-    if (cause := period_slips.whole_division(read)) is not None:
+    if (cause := period_slips.diagnose_integer_period(read)) is not None:
         return cause
     kept = parameters.find_kept_value(read, name)
     if kept is None or not any(

@@ -34,7 +34,9 @@ def judge_restart(restart: Trial, steady: Trial, jump: Trial) -> Verdict:
         return failed(
             expected,
             f"the new publisher found no subscription on {OURS.topic}",
-            steps.keep_node_up(restart.trace, causes.diagnose_deafness(restart.trace, OURS, answers=restart.spins)),
+            steps.keep_node_up(
+                restart.trace, causes.diagnose_nothing_received(restart.trace, OURS, answers=restart.spins)
+            ),
             words,
         )
     after = [report for report in find_reports(restart) if report.messages > before]
@@ -240,7 +242,7 @@ def _why_unsaid(index: int, jump: Trial, steady: Trial) -> Cause:
         step = printing.log_instead_of_print(jump.trace, call) if call else steps.compare_numbers(jump.trace)
         return Cause("printed, not logged", f"it is only printed: {printed}", step or "self.get_logger().warning(...)")
     missed = jump.missed(index)[-1]
-    return gap_steps.diagnose_silence(jump.trace) or Cause(
+    return gap_steps.diagnose_no_messages(jump.trace) or Cause(
         "gap not noticed",
         f"{missed} number{'s are' if missed > 1 else ' is'} missing, and nothing tells this from any other message",
         steps.compare_numbers(jump.trace)

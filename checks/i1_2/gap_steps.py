@@ -25,7 +25,7 @@ def diagnose_alarm(trace: Trace, false: Sequence[str] = ()) -> Cause | None:
     return _with_step(found, steps.compare_numbers(trace, false))
 
 
-def diagnose_silence(trace: Trace) -> Cause | None:
+def diagnose_no_messages(trace: Trace) -> Cause | None:
     """Why it tells nothing of a gap."""
     functions = source.callbacks(trace, "create_subscription")
     found = (

@@ -155,7 +155,7 @@ def judge_rate(steady: Trial, jump: Trial) -> Verdict:
         return failed(
             expected,
             f"after {wrong.messages} messages it states {', '.join(n.text for n in wrong.numbers) or 'no number'}",
-            rates.why_wrong(wrong, reports, steady),
+            rates.diagnose_wrong_rate(wrong, reports, steady),
             evidence,
         )
     if rates.doubtful(stated, reports, steady):
@@ -197,7 +197,9 @@ def judge_slow_summary(steady: Trial, jump: Trial) -> Verdict:
     """Judge what `summary` asks for where the messages come slowly."""
     expected = EXPECTED_SUMMARY
     if not find_reports(steady):
-        return failed(expected, f"none, after {len(steady.sent)} messages", why_silent(steady), _logged(steady))
+        return failed(
+            expected, f"none, after {len(steady.sent)} messages", diagnose_no_summary(steady), _logged(steady)
+        )
     # A node that ends with the jump, or miscounts from then on, breaks other criteria.
     all_along = jump.trace.exit is None and counts_truly(jump)
     for trial, messages in ((steady, len(steady.sent)), (jump, len(jump.sent) if all_along else jump.breaks)):
@@ -296,11 +298,13 @@ def _why_incomplete(report: Report, trial: Trial) -> Cause | None:
     return None
 
 
-def why_silent(trial: Trial) -> Cause:
+def diagnose_no_summary(trial: Trial) -> Cause:
     """Why the node logs no summary."""
     trace = trial.trace
     if trace.exit is not None or not trial.sent or not (trial.lines or trial.spins):
-        return steps.keep_node_up(trace, causes.diagnose_deafness(trace, OURS, answers=trial.spins, stuck=trial.stuck))
+        return steps.keep_node_up(
+            trace, causes.diagnose_nothing_received(trace, OURS, answers=trial.spins, stuck=trial.stuck)
+        )
     printed = causes.diagnose_printed(
         trace,
         lambda text: bool(read(_as_log(text), 1).quoted),

@@ -139,7 +139,7 @@ def _close(report: Report, trial: Trial) -> Iterator[Range]:
         yield Range((1 - CLOSE) * low, (1 + CLOSE) * high)
 
 
-def why_wrong(report: Report, reports: Sequence[Report], trial: Trial) -> Cause:
+def diagnose_wrong_rate(report: Report, reports: Sequence[Report], trial: Trial) -> Cause:
     """What kind of mistake leads to the numbers in this one of the reports, which states no true rate."""
     found = _but_the_count(report, trial)
     texts, numbers = [line.text for line in report.lines], [number.text for number in found]

@@ -31,7 +31,7 @@ from checks.i1_2.facts import (
     Trial,
 )
 from checks.i1_2.reports import find_reports, milestone
-from tutor.judge.bench import Bench, Feed, MachineTooBusy, Run
+from tutor.judge.bench import Bench, MachineTooBusy, Publisher, Run
 from tutor.judge.ending import repeat_if_doubtful
 from tutor.judge.tracebacks import Frame
 from tutor.judge.waiting import TRIES, wait_until_log_quiet, wait_until_seen
@@ -55,14 +55,14 @@ async def steady(bench: Bench) -> Trial:
     """Feed it evenly from 0 on, then press Ctrl+C."""
 
     async def once() -> Trial:
-        async with bench.start(FILE) as run, run.publisher(TOPIC, TYPE) as feed:
+        async with bench.start(FILE) as run, run.publisher(TOPIC, TYPE) as talker:
             bench.report_progress(0.05, "waiting for the subscription")
-            spins = await _wait_for_match(run, feed, QUIET_S)
-            if not feed.subscribers:
+            spins = await _wait_for_match(run, talker, QUIET_S)
+            if not talker.subscribers:
                 return Trial(run.trace(), spins=spins, ending=await run.interrupt() if run.exit is None else None)
             waited_s = run.node_cpu_wait_s()
             sent: list[Sent] = []
-            await _send(bench, run, feed, sent, range(STEADY_MESSAGES), random.uniform(*STEADY_HZ))
+            await _send(bench, run, talker, sent, range(STEADY_MESSAGES), random.uniform(*STEADY_HZ))
             trial = Trial(run.trace(), tuple(sent), cpu_wait_s=run.node_cpu_wait_s() - waited_s, spins=spins)
             trial = await _collect_last_logs(run, trial)
             bench.report_progress(0.95, "pressing Ctrl+C")
@@ -85,19 +85,19 @@ async def jump(bench: Bench) -> Trial:
     """Feed it from some number on, and leave some out; later, leave out one more."""
 
     async def once() -> Trial:
-        async with bench.start(FILE) as run, run.publisher(TOPIC, TYPE) as feed:
-            spins = await _wait_for_match(run, feed, MATCH_S)
-            if not feed.subscribers:
+        async with bench.start(FILE) as run, run.publisher(TOPIC, TYPE) as talker:
+            spins = await _wait_for_match(run, talker, MATCH_S)
+            if not talker.subscribers:
                 return Trial(run.trace(), spins=spins)
             waited_s = run.node_cpu_wait_s()
             sent: list[Sent] = []
             # Past 100 before the jump: a node that compares texts, or the last two digits, goes wrong there.
             first = random.randint(90, 97)
             skipped = first + JUMP_AFTER + random.randint(4, 8)
-            await _send(bench, run, feed, sent, range(first, first + JUMP_AFTER), SOONER_HZ)
+            await _send(bench, run, talker, sent, range(first, first + JUMP_AFTER), SOONER_HZ)
             until = skipped + AGAIN_AFTER - JUMP_AFTER
-            await _send(bench, run, feed, sent, range(skipped, until), SOONER_HZ)
-            await _send(bench, run, feed, sent, range(until + 1, until + 1 + JUMP_MESSAGES - AGAIN_AFTER), SOONER_HZ)
+            await _send(bench, run, talker, sent, range(skipped, until), SOONER_HZ)
+            await _send(bench, run, talker, sent, range(until + 1, until + 1 + JUMP_MESSAGES - AGAIN_AFTER), SOONER_HZ)
             breaks, again = (after if len(sent) > after else 0 for after in (JUMP_AFTER, AGAIN_AFTER))
             lost = run.node_cpu_wait_s() - waited_s
             trial = Trial(run.trace(), tuple(sent), breaks, cpu_wait_s=lost, spins=spins, again=again)
@@ -115,14 +115,14 @@ async def fast(bench: Bench) -> Trial:
     """Feed it for a short while as fast as many a sensor does."""
 
     async def once() -> Trial:
-        async with bench.start(FILE, expected_s=FAST_ASKS_S) as run, run.publisher(TOPIC, TYPE) as feed:
-            spins = await _wait_for_match(run, feed, MATCH_S)
-            if not feed.subscribers:
+        async with bench.start(FILE, expected_s=FAST_ASKS_S) as run, run.publisher(TOPIC, TYPE) as talker:
+            spins = await _wait_for_match(run, talker, MATCH_S)
+            if not talker.subscribers:
                 return Trial(run.trace(), spins=spins)
             waited_s = run.node_cpu_wait_s()
             sent: list[Sent] = []
             first = random.randint(0, 50)
-            await _send(bench, run, feed, sent, range(first, first + FAST_MESSAGES), FAST_HZ)
+            await _send(bench, run, talker, sent, range(first, first + FAST_MESSAGES), FAST_HZ)
             lost = run.node_cpu_wait_s() - waited_s
             return await _collect_last_logs(run, Trial(run.trace(), tuple(sent), cpu_wait_s=lost, spins=spins))
 
@@ -140,24 +140,24 @@ async def restart(bench: Bench) -> Trial:
     async def once() -> Trial:
         async with bench.start(FILE) as run:
             sent: list[Sent] = []
-            async with run.publisher(TOPIC, TYPE) as feed:
-                spins = await _wait_for_match(run, feed, MATCH_S)
-                if not feed.subscribers:
+            async with run.publisher(TOPIC, TYPE) as talker:
+                spins = await _wait_for_match(run, talker, MATCH_S)
+                if not talker.subscribers:
                     return Trial(run.trace(), spins=spins)
                 waited_s = run.node_cpu_wait_s()
                 # So low that the second publisher sends again what has come before: a node that takes that for a
                 # repetition fails.
                 first = random.randint(3, 6)
-                await _send(bench, run, feed, sent, range(first, first + RESTART_AFTER), SOONER_HZ)
+                await _send(bench, run, talker, sent, range(first, first + RESTART_AFTER), SOONER_HZ)
                 await _pause(run, SOON_S / 2)
                 gone_at = run.now()  # before it goes: the node may tell of that at once
             await _pause(run, ABSENT_S)
-            async with run.publisher(TOPIC, TYPE) as feed:
-                await run.until(lambda: feed.subscribers > 0, SPIN_S)
-                if feed.subscribers:
+            async with run.publisher(TOPIC, TYPE) as talker:
+                await run.until(lambda: talker.subscribers > 0, SPIN_S)
+                if talker.subscribers:
                     await _pause(run, MATCH_S)
                     again = RESTART_MESSAGES - RESTART_AFTER
-                    await _send(bench, run, feed, sent, range(again), SOONER_HZ)
+                    await _send(bench, run, talker, sent, range(again), SOONER_HZ)
                 lost = run.node_cpu_wait_s() - waited_s
                 breaks = RESTART_AFTER if len(sent) >= RESTART_AFTER else 0
                 return await _collect_last_logs(run, Trial(run.trace(), tuple(sent), breaks, gone_at, lost, spins))
@@ -177,13 +177,13 @@ async def _repeat_if_slowed(once: Callable[[], Awaitable[Trial]], fair: Callable
     return trial
 
 
-async def _wait_for_match(run: Run, feed: Feed, settled_s: float) -> bool:
+async def _wait_for_match(run: Run, talker: Publisher, settled_s: float) -> bool:
     """Wait for the subscription, and until the node takes in what comes. Gives whether it answered a request."""
 
     def announced() -> bool:
         return any((each.topic, each.type) == (TOPIC, TYPE) for each in run.graph.subscriptions)
 
-    await wait_until_seen(run, lambda: feed.subscribers > 0, promised=announced, rare_s=1.0)
+    await wait_until_seen(run, lambda: talker.subscribers > 0, promised=announced, rare_s=1.0)
     met_at = run.now()
     if run.exit is not None:
         return True
@@ -193,7 +193,7 @@ async def _wait_for_match(run: Run, feed: Feed, settled_s: float) -> bool:
     return answered
 
 
-async def _send(bench: Bench, run: Run, feed: Feed, sent: list[Sent], numbers: Iterable[int], hz: float) -> None:
+async def _send(bench: Bench, run: Run, talker: Publisher, sent: list[Sent], numbers: Iterable[int], hz: float) -> None:
     """Send a message for each number, evenly; stop when the node has ended."""
     due = sent[-1].at + 1 / hz if sent else run.now()
     for number in numbers:
@@ -203,7 +203,7 @@ async def _send(bench: Bench, run: Run, feed: Feed, sent: list[Sent], numbers: I
         due += 1 / hz
         if run.exit is not None:
             return
-        sample = feed.publish({"data": f"Hello World: {number}"})
+        sample = talker.publish({"data": f"Hello World: {number}"})
         sent.append(Sent(number, sample.source_time, run.node_cpu_wait_s()))
         bench.report_progress(0.1 + 0.04 * min(len(sent), 20), f"sending “Hello World: {number}”")
 
@@ -246,9 +246,9 @@ def _speaks_since(jumped_at: float, trial: Trial) -> bool:
 
 async def _stuck(bench: Bench) -> tuple[Frame, ...]:
     """Start it once more, only to see where it is while it answers nothing."""
-    async with bench.start(FILE) as run, run.publisher(TOPIC, TYPE) as feed:
+    async with bench.start(FILE) as run, run.publisher(TOPIC, TYPE) as talker:
         bench.report_progress(0.9, "looking where the node is stuck")
-        await wait_until_seen(run, lambda: feed.subscribers > 0)
-        feed.publish({"data": "Hello World: 0"})
+        await wait_until_seen(run, lambda: talker.subscribers > 0)
+        talker.publish({"data": "Hello World: 0"})
         await _pause(run, STUCK_S)
         return await run.dump_stacks()

@@ -135,7 +135,7 @@ def _why_not_called(seen: ClientRun, missing: Sequence[str]) -> Cause:
             first_sound_step(seen.trace, main_called) or 'end the file with: if __name__ == "__main__": main()',
         )
     return (
-        causes.incompatible_service(seen.clients)
+        causes.diagnose_incompatible_service(seen.clients)
         or names.diagnose_client(seen, missing)
         or _never_awaited(seen.trace)
         or _returns_early(seen)
@@ -150,7 +150,7 @@ def _why_not_called(seen: ClientRun, missing: Sequence[str]) -> Cause:
 
 def _why_hanging(seen: ClientRun, missing: Sequence[str]) -> Cause:
     assert seen.trace is not None
-    if (mismatched := causes.incompatible_service(seen.clients)) is not None:
+    if (mismatched := causes.diagnose_incompatible_service(seen.clients)) is not None:
         return mismatched
     if (strange := names.diagnose_client(seen, missing)) is not None:
         return strange

@@ -38,7 +38,7 @@ def judge_services(seen: ServiceCalls) -> Verdict:
     if unanswered is not None:
         observed = f"{unanswered.service}: {causes.describe_no_answer(seen.trace, ANSWER_S)}"
         silent = [service for service in seen.trace.graph.servers if service.name == unanswered.service]
-        cause = causes.incompatible_service(silent) or causes.diagnose_no_answer(
+        cause = causes.diagnose_incompatible_service(silent) or causes.diagnose_no_answer(
             seen.trace, seen.stuck, spins=seen.spins
         )
         cause = _unanswered(cause, seen.trace, unanswered.service, seen.stuck)

@@ -89,7 +89,7 @@ def judge_launch(seen: ParameterStarts) -> Verdict:
     samples = seen.trace.samples_on(TOPIC)
     given = f"{PREFIX}:={seen.prefix} {RATE}:={LAUNCH_HZ}"
     if not samples:
-        cause = causes.diagnose_silence(seen.trace, TOPIC, TYPE, answers=True, step=steps.add_publisher(seen.trace))
+        cause = causes.diagnose_no_messages(seen.trace, TOPIC, TYPE, answers=True, step=steps.add_publisher(seen.trace))
         return failed(expected, f"with {given}: no message on {TOPIC}", cause, causes.output_tail(seen.trace))
     without = [text_of(sample) for sample in samples[-2:] if seen.prefix not in text_of(sample)]
     if without:
@@ -98,7 +98,7 @@ def judge_launch(seen: ParameterStarts) -> Verdict:
         )
     if seen.rate is None or not seen.rate.agrees(LAUNCH_HZ):
         observed = f"with {given}: {describe(seen.rate, seen.messages)}, not {LAUNCH_HZ} Hz ±{TOLERANCE:.0%}"
-        return failed(expected, observed, causes.same_name(seen.trace) or _why_launch_rate(seen))
+        return failed(expected, observed, causes.diagnose_same_name(seen.trace) or _why_launch_rate(seen))
     if seen.slow_rate is None or not seen.slow_rate.agrees(SLOW_LAUNCH_HZ):
         slow = f"{RATE}:={SLOW_LAUNCH_HZ}: {describe(seen.slow_rate, seen.slow_messages)}"
         cause = (
@@ -133,14 +133,14 @@ def judge_launch(seen: ParameterStarts) -> Verdict:
 
 def _why_launch_rate(seen: ParameterStarts) -> Cause:
     rate, trace = seen.rate, seen.trace
-    if (whole := period_slips.whole_division(started_node(trace))) is not None:
+    if (whole := period_slips.diagnose_integer_period(started_node(trace))) is not None:
         return whole
     if rate is not None and rate.in_bursts:
-        return causes.in_bursts(steps.send_once_per_tick(trace))
+        return causes.diagnose_bursts(steps.send_once_per_tick(trace))
     if rate is not None and (rate.agrees(DEFAULT_HZ) or _are_alike(rate, seen.slow_rate)):
         return _ignored(RATE, trace)
     if rate is None or rate.agrees(1 / LAUNCH_HZ):
-        return causes.rate_as_period(RATE, steps.use_parameter(trace, RATE))
+        return causes.diagnose_rate_as_period(RATE, steps.use_parameter(trace, RATE))
     return _other_rate(trace)
 
 
@@ -150,7 +150,7 @@ def _are_alike(rate: Rate, other: Rate | None) -> bool:
 
 
 def _other_rate(trace: Trace) -> Cause:
-    return period_slips.whole_division(started_node(trace)) or Cause(
+    return period_slips.diagnose_integer_period(started_node(trace)) or Cause(
         "wrong rate", f"{RATE} has an effect, but not this one", steps.use_parameter(trace, RATE)
     )
 
@@ -164,7 +164,7 @@ def _made_whole(rate: Rate | None, asked: float, step: str) -> Cause | None:
 
 
 def _ignored(name: str, trace: Trace) -> Cause:
-    return parameter_slips.overridden(started_node(trace), name) or Cause(
+    return parameter_slips.diagnose_override(started_node(trace), name) or Cause(
         "parameter ignored", f"{name} given at start-up has no effect", steps.use_parameter(trace, name)
     )
 
@@ -262,8 +262,10 @@ def _ignored_later(name: str, trace: Trace) -> Cause:
     if compared is not None:
         return Cause("parameter ignored", f"{name} is accepted, but compared with a text", compared)
     read = started_node(trace)
-    old = parameter_slips.old_value_read(read, name)
-    if (cause := parameter_slips.overridden(read, name) or parameter_slips.not_called(read)) is not None:
+    old = parameter_slips.diagnose_old_value_read(read, name)
+    if (
+        cause := parameter_slips.diagnose_override(read, name) or parameter_slips.diagnose_uncalled_callback(read)
+    ) is not None:
         return cause
     if old is not None:
         return replace(old, hint=old.hint or steps.use_parameter_later(trace, name))
@@ -285,7 +287,7 @@ def _not_running(seen: RuntimeChanges | BadRates | RateChanges | AtomicRequests,
             _no_answer(trace, stuck),
             causes.output_tail(trace),
         )
-    cause = causes.diagnose_silence(
+    cause = causes.diagnose_no_messages(
         trace, TOPIC, TYPE, answers=seen.answering, stuck=stuck, step=steps.add_publisher(trace)
     )
     return failed(expected, f"no message on {TOPIC} to start with", cause, causes.output_tail(trace))
@@ -339,7 +341,7 @@ def judge_validation(seen: BadRates, switched: RuntimeChanges) -> Verdict:
                 f"{bad} was rejected without a reason",
                 Cause("no reason given", "the reason is empty", steps.refuse_bad_rates(seen.trace)),
             )
-        if causes.RCLPYS_OWN.match(answer.reason):
+        if causes.RCLPY_REASON.match(answer.reason):
             return _not_set(expected, answer, seen.trace, seen.stuck)
         if value != seen.before:
             return failed(
@@ -374,7 +376,7 @@ def judge_timer(seen: RateChanges) -> Verdict:
             return failed(
                 expected,
                 f"{RATE} set to {asked}: {describe(rate, messages)}",
-                causes.same_name(seen.trace) or _why_timer(seen, asked, rate),
+                causes.diagnose_same_name(seen.trace) or _why_timer(seen, asked, rate),
             )
     return passed(expected, ", then ".join(str(rate) for _, rate, _ in seen.steps))
 
@@ -383,9 +385,9 @@ def _why_timer(seen: RateChanges, asked: float, rate: Rate | None) -> Cause:
     if seen.trace.exit and (cause := causes.diagnose_process(seen.trace)):
         return cause
     read, trace = started_node(seen.trace), seen.trace
-    whole_division = period_slips.whole_division(read)
+    diagnose_integer_period = period_slips.diagnose_integer_period(read)
     if rate is not None and rate.in_bursts:
-        return whole_division or causes.in_bursts(steps.send_once_per_tick(trace))
+        return diagnose_integer_period or causes.diagnose_bursts(steps.send_once_per_tick(trace))
     before = DEFAULT_HZ if asked == UP_HZ else UP_HZ
     faster = seen.steps[0][1]
     left_behind = asked == DOWN_HZ and faster is not None and faster.hz > UP_HZ + DEFAULT_HZ / 2
@@ -396,27 +398,29 @@ def _why_timer(seen: RateChanges, asked: float, rate: Rate | None) -> Cause:
     if (whole := _made_whole(rate, asked, steps.follow_changes(trace))) is not None:
         return whole
     if rate is not None and rate.hz > asked:
-        return whole_division or causes.old_timer_kept(rate.hz, asked, steps.cancel_old_timer(trace))
+        return diagnose_integer_period or causes.diagnose_old_timer(rate.hz, asked, steps.cancel_old_timer(trace))
     if rate is None or rate.agrees(1 / asked):
-        return whole_division or causes.rate_as_period(RATE, steps.follow_changes(trace))
+        return diagnose_integer_period or causes.diagnose_rate_as_period(RATE, steps.follow_changes(trace))
     return Cause("wrong rate", f"{rate.hz:.1f} Hz instead of {asked:g} Hz", steps.follow_changes(trace))
 
 
 def _not_replaced(trace: Trace) -> Cause:
     """The parameter has a new value, the timer its old period."""
     read = started_node(trace)
-    if (cause := parameter_slips.overridden(read, RATE)) is not None:
+    if (cause := parameter_slips.diagnose_override(read, RATE)) is not None:
         return cause
-    if (old := parameter_slips.old_value_read(read, RATE)) is not None:
+    if (old := parameter_slips.diagnose_old_value_read(read, RATE)) is not None:
         return replace(old, hint=old.hint or steps.follow_changes(trace))
     text = "the parameter changes, but the timer keeps its old period"
-    return parameter_slips.not_called(read) or Cause(names.TIMER_NOT_REPLACED, text, steps.follow_changes(trace))
+    return parameter_slips.diagnose_uncalled_callback(read) or Cause(
+        names.TIMER_NOT_REPLACED, text, steps.follow_changes(trace)
+    )
 
 
 def _not_refused(trace: Trace, bad: float) -> Cause:
     """A bad number is taken."""
     read = started_node(trace)
-    return parameter_slips.not_called(read) or Cause(
+    return parameter_slips.diagnose_uncalled_callback(read) or Cause(
         "no validation", parameter_slips.why_accepted(read, bad), steps.refuse_bad_rates(trace)
     )
 

@@ -120,7 +120,7 @@ def accept_value(trace: Trace, answer: SetAnswer) -> str:
     read, reason = started_node(trace), answer.reason
     if "parameter list cannot be empty" in reason:
         return refuse_bad_rates(trace)
-    if (causes.RCLPYS_OWN.match(reason) and "Callback returned" not in reason) or "out of range" in reason:
+    if (causes.RCLPY_REASON.match(reason) and "Callback returned" not in reason) or "out of range" in reason:
         declaring = [
             each for n in answer.values for each in parameters.declare_parameter(read, n, DEFAULTS[n][1], plain=True)
         ]

@@ -22,7 +22,7 @@ from checks.i2_2.facts import (
 from checks.i2_2.processes import EndedProcess, by_stream, ended_processes, writers, written_by
 from checks.i2_2.rewriting import PACKAGES, PROGRAMS, Launch, launch, nearest
 from tutor.judge import causes, tracebacks
-from tutor.judge.bench import OnlyWithRos
+from tutor.judge.bench import NeedsInstalledRos
 from tutor.judge.trace import Trace
 from tutor.judge.verdict import Cause
 from tutor.ros_model import Graph, TopicEndpoint
@@ -80,7 +80,7 @@ def diagnose_launch(trace: Trace) -> Cause | None:
     text = "\n".join(line.text for line in own)
     there = launch(trace)
     if found := _NOT_HERE.search(text):
-        raise OnlyWithRos(_line_of(text, found.start()))
+        raise NeedsInstalledRos(_line_of(text, found.start()))
     if found := _NO_VALUE.search(text):
         return steps.declare_argument(there, found["name"])
     if found := _NO_DEFAULT.search(text):
@@ -167,7 +167,7 @@ def _diagnose_dead(dead: EndedProcess, trace: Trace) -> Cause:
         return Cause("a node that ends", f"{dead.process} has ended: {named}", named.hint)
     words = [line.text for line in dead.output if line.text.strip()][-1:]
     if words and (elsewhere := _ELSEWHERE.search(words[0])):
-        raise OnlyWithRos(elsewhere[0])
+        raise NeedsInstalledRos(elsewhere[0])
     return Cause(
         "a node that ends",
         f"{dead.process} has ended by itself with exit code {dead.code}" + (f": {words[0]}" if words else ""),

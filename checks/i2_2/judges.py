@@ -117,7 +117,7 @@ def _why_not(seen: LaunchRun, pair: Pair) -> Cause | None:
             f"on {one.topic}, {one.node} sends {one.type}, and {other.node} wants {other.type}",
             "choose two programs whose messages have the same type",
         )
-    if (cause := causes.incompatible_qos(one, other)) is not None:
+    if (cause := causes.diagnose_incompatible_qos(one, other)) is not None:
         return cause
     if not seen.trace.samples_on(one.topic) and one.topic not in seen.hidden:
         return diagnose_launch(seen.trace) or Cause(

@@ -39,7 +39,7 @@ def diagnose_no_service(trace: Trace) -> Cause:
                 or f"create it with AddTwoInts: self.create_service(AddTwoInts, '{SERVICE[1:]}', ...)",
             )
     same_type = [service for service in offered if service.type == TYPE]
-    if (unmatched := causes.incompatible_service(_here(trace))) is not None:
+    if (unmatched := causes.diagnose_incompatible_service(_here(trace))) is not None:
         return unmatched
     for service in same_type or offered:
         return Cause(
@@ -60,7 +60,7 @@ def diagnose_no_answer(seen: SingleCalls) -> Cause:
     """Why a call got no answer."""
     if (broken := causes.diagnose_process(seen.trace)) is not None:
         return broken
-    if (unmatched := causes.incompatible_service(_here(seen.trace))) is not None:
+    if (unmatched := causes.diagnose_incompatible_service(_here(seen.trace))) is not None:
         return unmatched
     if not seen.spins and (empty := steps.diagnose_node_not_added(started_node(seen.trace))) is not None:
         return empty
@@ -69,7 +69,7 @@ def diagnose_no_answer(seen: SingleCalls) -> Cause:
     blocked = causes.diagnose_blocked(seen.trace, seen.stuck, spins=True)
     if blocked is not None and blocked.name != "blocked executor":
         return _fixed(blocked, started_node(seen.trace))
-    if (locked := causes.waiting_for_lock(seen.trace, seen.stuck)) is not None:
+    if (locked := causes.diagnose_lock_wait(seen.trace, seen.stuck)) is not None:
         return _fixed(replace(locked, name="no answer"), started_node(seen.trace))
     own = tracebacks.own_frame(seen.stuck, seen.trace.folder)
     return Cause(
@@ -182,7 +182,7 @@ def diagnose_disturbed_timer(seen: SingleCalls, heard: TimerDuring) -> Cause:
             or "use a MultiThreadedExecutor, and put the timer and the service into different callback groups",
         )
     if _in_worker(seen.stuck):
-        if (locked := causes.waiting_for_lock(seen.trace, seen.stuck)) is not None:
+        if (locked := causes.diagnose_lock_wait(seen.trace, seen.stuck)) is not None:
             return replace(locked, hint=steps.separate_groups(source) or locked.hint)
         return Cause(
             "blocked executor",

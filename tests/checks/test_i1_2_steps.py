@@ -47,7 +47,7 @@ def followed(told: Trace, step: str) -> str:
 
 def test_of_a_node_without_a_fault_nothing_is_said() -> None:
     assert gap_steps.diagnose_alarm(started()) is None
-    assert gap_steps.diagnose_silence(started()) is None
+    assert gap_steps.diagnose_no_messages(started()) is None
     assert gap_steps.diagnose_alarm(started(code="def f(:")) is None
 
 
@@ -65,7 +65,7 @@ def test_of_a_node_without_a_fault_nothing_is_said() -> None:
     ],
 )
 def test_a_number_that_is_taken_from_the_wrong_place(reads: str, what: str) -> None:
-    for seen in (gap_steps.diagnose_alarm, gap_steps.diagnose_silence):
+    for seen in (gap_steps.diagnose_alarm, gap_steps.diagnose_no_messages):
         cause = seen(started(("int(msg.data.split(':')[1])", reads)))
         assert cause is not None
         assert (cause.name, cause.text) == ("number misread", f"line 10: {reads} {cause.text.partition(reads)[2][1:]}")
@@ -90,7 +90,7 @@ def test_a_number_that_is_read_well_or_in_a_way_that_is_not_known(reads: str) ->
 
 def test_a_number_is_followed_through_a_variable_and_into_a_helper() -> None:
     apart = ("number = int(msg.data.split(':')[1])", "parts = msg.data.split()\n        number = int(parts[1])")
-    cause = gap_steps.diagnose_silence(started(apart))
+    cause = gap_steps.diagnose_no_messages(started(apart))
     assert cause is not None
     assert cause.hint == "line 11 becomes: number = int(msg.data.rpartition(':')[2])"
     helper = NODE.replace("number = int(", "self.check(msg.data)\n\n    def check(self, data):\n        number = int(")
@@ -163,7 +163,7 @@ def test_a_last_number_that_does_not_follow(pairs: list[tuple[str, str]], text: 
 def test_a_last_number_that_is_replaced_before_it_is_compared() -> None:
     early = "        number = int(msg.data.split(':')[1])\n"
     told = started(("        self.last_number = number\n", ""), (early, f"{early}        self.last_number = number\n"))
-    cause = gap_steps.diagnose_silence(told)
+    cause = gap_steps.diagnose_no_messages(told)
     assert cause is not None
     assert "line 11: self.last_number = number comes before line 12" in cause.text
     assert COMPARES.replace("last_number", "number_before") in followed(told, cause.hint)
@@ -171,7 +171,7 @@ def test_a_last_number_that_is_replaced_before_it_is_compared() -> None:
 
 def test_a_comparison_that_is_about_lower_numbers_only() -> None:
     told = started(("number > self.last_number + 1", "number < self.last_number"))
-    cause = gap_steps.diagnose_silence(told)
+    cause = gap_steps.diagnose_no_messages(told)
     assert cause is not None
     assert "line 11: number < self.last_number is about lower numbers only" in cause.text
     assert COMPARES.replace("last_number", "number_before") in followed(told, cause.hint)

@@ -10,7 +10,7 @@ import pytest
 from checks.i2_2 import facts, judges, processes
 from checks.i2_2.facts import LaunchRun
 from tests.checks.made import FOLDER, START, assert_failed, assert_passed, ending, exited, lines
-from tutor.judge.bench import OnlyWithRos
+from tutor.judge.bench import NeedsInstalledRos
 from tutor.judge.trace import LogRecord, Sample, Trace
 from tutor.judge.verdict import Status
 from tutor.ros_model import Graph, QoS, ServiceEndpoint, TopicEndpoint
@@ -153,7 +153,7 @@ def test_a_traceback_is_read_although_the_streams_are_mixed() -> None:
 def test_a_command_that_only_an_installed_ros_has_is_no_fault_of_the_learner() -> None:
     says = "[ros2-1] ros2: `ros2 topic` needs an installed ROS 2; this ros2 knows: launch, run"
     out = f"{says}\n[ERROR] [ros2-1]: process has died [pid 12, exit code 2, cmd 'ros2 topic pub /chatter']"
-    with pytest.raises(OnlyWithRos, match="ros2 topic"):
+    with pytest.raises(NeedsInstalledRos, match="ros2 topic"):
         judges.judge_starts(launched(Graph(nodes=(HEARS,)), out=out))
 
 
@@ -168,7 +168,7 @@ def test_a_substitution_in_an_f_string() -> None:
 def test_what_only_an_installed_ros_has_is_no_fault_of_the_learner() -> None:
     says = "launch_ros.actions.LifecycleNode is not supported by the launch files that run without an installed ROS 2"
     broken = launched(Graph(), out=f"{ERROR}{says}; it works where ROS 2 is installed and sourced", exit=exited(1))
-    with pytest.raises(OnlyWithRos, match=r"^launch_ros\.actions\.LifecycleNode is not supported"):
+    with pytest.raises(NeedsInstalledRos, match=r"^launch_ros\.actions\.LifecycleNode is not supported"):
         judges.judge_starts(broken)
 
 

@@ -10,18 +10,18 @@ import pytest
 from tests.checks.made import CRASH, CRASHED, FOLDER, NO_NODE, UP, exited, graph, lines, log, trace
 from tests.judge.real import crash
 from tutor.judge.causes import (
-    diagnose_deafness,
+    diagnose_incompatible_qos,
+    diagnose_incompatible_service,
     diagnose_lifecycle,
     diagnose_no_answer,
+    diagnose_no_messages,
+    diagnose_nothing_received,
     diagnose_printed,
     diagnose_process,
     diagnose_refusal,
-    diagnose_silence,
-    incompatible_qos,
-    incompatible_service,
+    diagnose_same_name,
+    diagnose_wrong_topic,
     output_tail,
-    same_name,
-    wrong_topic,
 )
 from tutor.judge.trace import Trace
 from tutor.judge.tracebacks import Frame, Traceback, find_tracebacks
@@ -110,7 +110,7 @@ def test_a_node_that_is_up_gives_no_cause(seen: Trace) -> None:
     ],
 )
 def test_why_nothing_came(seen: Trace, answers: bool, cause: str, word: str) -> None:
-    found = diagnose_silence(seen, TOPIC, TYPE, answers=answers)
+    found = diagnose_no_messages(seen, TOPIC, TYPE, answers=answers)
     assert found.name == cause
     assert word in found.text
     assert found.hint
@@ -118,7 +118,7 @@ def test_why_nothing_came(seen: Trace, answers: bool, cause: str, word: str) -> 
 
 def test_the_nearest_of_several_wrong_topics_is_explained() -> None:
     endpoints = [TopicEndpoint(name, TYPE, "/node") for name in ("/zzz", "/me/sensor/temperature", "/a")]
-    assert "namespace" in wrong_topic(endpoints, TOPIC).text
+    assert "namespace" in diagnose_wrong_topic(endpoints, TOPIC).text
 
 
 def test_last_words_are_the_last_lines_with_something_in_them() -> None:
@@ -135,11 +135,11 @@ def test_the_words_of_a_traceback() -> None:
 
 
 def test_two_nodes_of_one_name_are_told_and_two_of_different_names_are_not() -> None:
-    cause = same_name(Trace("x.py", graph=Graph(nodes=("/a", "/talker", "/talker"))))
+    cause = diagnose_same_name(Trace("x.py", graph=Graph(nodes=("/a", "/talker", "/talker"))))
     assert cause is not None
     assert cause.name == "second node of the same name"
     assert "2 nodes called /talker" in cause.text
-    assert same_name(Trace("x.py", graph=Graph(nodes=("/a", "/talker")))) is None
+    assert diagnose_same_name(Trace("x.py", graph=Graph(nodes=("/a", "/talker")))) is None
 
 
 @pytest.mark.parametrize(
@@ -152,7 +152,7 @@ def test_two_nodes_of_one_name_are_told_and_two_of_different_names_are_not() -> 
 )
 def test_a_second_node_of_the_same_class_is_taken_out(made: str, step: str) -> None:
     text = f"class P(Node):\n    pass\n{made}\n"
-    cause = same_name(Trace("x.py", sources={"x.py": text}, graph=Graph(nodes=("/p", "/p"))))
+    cause = diagnose_same_name(Trace("x.py", sources={"x.py": text}, graph=Graph(nodes=("/p", "/p"))))
     assert cause is not None
     assert cause.hint == step
 
@@ -180,7 +180,7 @@ def subscribed(topic: str = OURS.topic, type_name: str = OURS.type, qos: QoS = O
     ],
 )
 def test_why_a_subscriber_took_in_nothing(seen: Trace, answers: bool, cause: str, word: str) -> None:
-    found = diagnose_deafness(seen, OURS, answers=answers)
+    found = diagnose_nothing_received(seen, OURS, answers=answers)
     assert found.name == cause
     assert word in found.text
     assert found.hint
@@ -207,17 +207,17 @@ def test_qos_of_the_learners_own_endpoints(offered: tuple[Any, ...], asked: tupl
     publisher, subscription = (
         TopicEndpoint("/a", "T", node, QoS(*qos)) for node, qos in (("/one", offered), ("/two", asked))
     )
-    found = incompatible_qos(publisher, subscription)
+    found = diagnose_incompatible_qos(publisher, subscription)
     assert (found.name if found else "") == ("incompatible QoS" if policy else "")
     assert found is None or policy in found.text
 
 
 def test_a_service_with_best_effort_is_not_connected() -> None:
     services = [ServiceEndpoint("/add", "T", "/node"), ServiceEndpoint("/divide", "T", "/node", "best_effort")]
-    found = incompatible_service(services)
+    found = diagnose_incompatible_service(services)
     assert found is not None
     assert (found.name, "/divide" in found.text) == ("incompatible QoS", True)
-    assert incompatible_service(services[:1]) is None
+    assert diagnose_incompatible_service(services[:1]) is None
 
 
 OWN = Frame(f"{FOLDER}/node.py", 12, "tick", "time.sleep(9)")
@@ -412,7 +412,7 @@ def main():
 def test_a_lifecycle_node_that_nobody_activates(source: str, steps: list[str]) -> None:
     asleep = graph(services={"/sensor/change_state": "lifecycle_msgs/srv/ChangeState"})
     seen = trace(graph=asleep, sources={"node.py": source})
-    cause = diagnose_silence(seen, "/chatter", "std_msgs/msg/String", answers=True)
+    cause = diagnose_no_messages(seen, "/chatter", "std_msgs/msg/String", answers=True)
     assert cause.name == "lifecycle node not activated"
     for step in steps:
         assert step in cause.hint

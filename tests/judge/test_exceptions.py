@@ -10,7 +10,16 @@ import pytest
 from tests.checks.made import exited, trace
 from tests.judge.real import crash
 from tutor.judge.causes import diagnose_process
-from tutor.judge.exceptions import Example, Known, RaisedException, TableError, explain, load, load_shipped, parse
+from tutor.judge.exceptions import (
+    Example,
+    KnownException,
+    RaisedException,
+    TableError,
+    explain,
+    load,
+    load_shipped,
+    parse,
+)
 from tutor.judge.tracebacks import Frame, Traceback
 
 FOLDER = "/home/me/ws"
@@ -48,7 +57,7 @@ def test_the_checks_have_tables_of_their_own() -> None:
 
 @pytest.mark.parametrize(("table", "known", "example"), EXAMPLES)
 def test_each_example_gets_its_step_and_no_other_entry_takes_it(
-    table: tuple[Known, ...], known: Known, example: Example
+    table: tuple[KnownException, ...], known: KnownException, example: Example
 ) -> None:
     found = explain(seen(example), table, cause=OWN)
     assert found is not None
@@ -160,7 +169,7 @@ def test_an_unknown_exception_says_what_python_complains_of_and_not_the_line_aga
 
 
 @pytest.mark.parametrize("entry", load_shipped(), ids=lambda entry: entry.says[:40])
-def test_words_after_a_line_of_code_are_not_joined_to_it_by_a_semicolon(entry: Known) -> None:
+def test_words_after_a_line_of_code_are_not_joined_to_it_by_a_semicolon(entry: KnownException) -> None:
     assert "{becomes};" not in entry.step
 
 

@@ -17,7 +17,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tutor.judge.randomness import ENOUGH, PLENTY, find_pattern, needs_more_values
+from tutor.judge.randomness import FULL_SAMPLE_SIZE, MIN_SAMPLE_SIZE, find_pattern, needs_more_values
 
 TRIALS = 500
 
@@ -80,24 +80,24 @@ RANDOM = {
 
 @pytest.mark.parametrize("name", RANDOM)
 def test_random_values_are_no_pattern(name: str) -> None:
-    found = [find_pattern(RANDOM[name](PLENTY)) for _ in range(TRIALS)]
+    found = [find_pattern(RANDOM[name](FULL_SAMPLE_SIZE)) for _ in range(TRIALS)]
     assert not [each for each in found if each is not None]
 
 
 @pytest.mark.parametrize("name", ["uniform", "two decimals", "whole degrees", "a list of 20", "gauss"])
-@pytest.mark.parametrize("count", [ENOUGH, 14])
+@pytest.mark.parametrize("count", [MIN_SAMPLE_SIZE, 14])
 def test_nor_are_fewer_of_them(name: str, count: int) -> None:
     found = [find_pattern(RANDOM[name](count)) for _ in range(TRIALS)]
     assert not [each for each in found if each is not None]
 
 
 def test_random_values_hardly_ever_need_more_than_a_few() -> None:
-    doubtful = sum(needs_more_values(RANDOM["uniform"](ENOUGH)) for _ in range(TRIALS))
+    doubtful = sum(needs_more_values(RANDOM["uniform"](MIN_SAMPLE_SIZE)) for _ in range(TRIALS))
     assert doubtful <= TRIALS / 20
 
 
 bases = st.floats(-100, 100)
-counts = st.integers(10, PLENTY)
+counts = st.integers(10, FULL_SAMPLE_SIZE)
 
 
 @given(bases, st.integers(3, 100))
@@ -114,25 +114,25 @@ def test_a_ramp_is_found(start: float, step: float, down: bool, count: int) -> N
     found = find_pattern(values)
     assert found is not None
     assert found.name == "ramp"
-    assert needs_more_values(values[:ENOUGH])
+    assert needs_more_values(values[:MIN_SAMPLE_SIZE])
 
 
 @given(bases, st.floats(0.1, 10 / 3.1), st.booleans())
 def test_a_sawtooth_is_found(start: float, step: float, down: bool) -> None:
     sign = -1 if down else 1
-    values = [20 + sign * ((start + step * i) % 10) for i in range(PLENTY)]
+    values = [20 + sign * ((start + step * i) % 10) for i in range(FULL_SAMPLE_SIZE)]
     found = find_pattern(values)
     assert found is not None
     assert found.name in ("ramp", "short cycle")
-    assert needs_more_values(values[:ENOUGH])
+    assert needs_more_values(values[:MIN_SAMPLE_SIZE])
 
 
 @pytest.mark.parametrize("decimals", [1, 2, 9])
 def test_a_ramp_that_starts_over_is_found_whatever_its_step(decimals: int) -> None:
     for _ in range(200):
         start, step = chance.uniform(0, 10), chance.uniform(0.3, 9.7)
-        values = [round(20 + (start + i * step) % 10, decimals) for i in range(PLENTY)]
-        assert needs_more_values(values[:ENOUGH]), (start, step)
+        values = [round(20 + (start + i * step) % 10, decimals) for i in range(FULL_SAMPLE_SIZE)]
+        assert needs_more_values(values[:MIN_SAMPLE_SIZE]), (start, step)
         assert find_pattern(values) is not None or decimals == 1, (start, step)
 
 
@@ -141,16 +141,16 @@ def test_a_ramp_of_two_or_three_steps_in_turn_is_found() -> None:
         for _ in range(200):
             steps = [chance.uniform(0.3, 9.7) for _ in range(period)]
             values = [chance.uniform(20, 30)]
-            while len(values) < PLENTY:
+            while len(values) < FULL_SAMPLE_SIZE:
                 values.append(20 + (values[-1] - 20 + steps[len(values) % period]) % 10)
-            assert needs_more_values(values[:ENOUGH]), steps
+            assert needs_more_values(values[:MIN_SAMPLE_SIZE]), steps
             assert find_pattern(values) is not None, steps
 
 
 def test_a_ramp_by_the_clock_is_found() -> None:
     for _ in range(200):
         speed = chance.uniform(0.3, 3)
-        times = [i + chance.uniform(-0.003, 0.003) for i in range(PLENTY)]
+        times = [i + chance.uniform(-0.003, 0.003) for i in range(FULL_SAMPLE_SIZE)]
         assert find_pattern([20 + (speed * time) % 10 for time in times]) is not None, speed
 
 
@@ -158,7 +158,7 @@ def test_a_triangle_is_found() -> None:
     missed = 0
     for _ in range(200):
         start, step = chance.uniform(0, 10), chance.uniform(0.3, 9.7)
-        missed += find_pattern([20 + abs((start + i * step) % 20 - 10) for i in range(PLENTY)]) is None
+        missed += find_pattern([20 + abs((start + i * step) % 20 - 10) for i in range(FULL_SAMPLE_SIZE)]) is None
     assert missed <= 10  # it may not touch its ends in so few values
 
 
@@ -170,16 +170,16 @@ def test_a_round_that_is_entered_late_is_found() -> None:
 
 
 def test_a_cycle_under_a_little_noise_is_found() -> None:
-    values = [(21.3, 28.8, 24.1)[i % 3] + chance.uniform(-0.01, 0.01) for i in range(PLENTY)]
+    values = [(21.3, 28.8, 24.1)[i % 3] + chance.uniform(-0.01, 0.01) for i in range(FULL_SAMPLE_SIZE)]
     assert find_pattern(values) is not None
-    assert needs_more_values(values[:ENOUGH])
+    assert needs_more_values(values[:MIN_SAMPLE_SIZE])
 
 
 @given(st.data())
 def test_a_cycle_is_found(data: st.DataObject) -> None:
     period = data.draw(st.integers(2, 10))
     values = data.draw(st.lists(st.floats(20, 30), min_size=period, max_size=period, unique=True))
-    found = find_pattern([values[i % period] for i in range(PLENTY)])
+    found = find_pattern([values[i % period] for i in range(FULL_SAMPLE_SIZE)])
     assert found is not None
     assert found.name in ("short cycle", "ramp", "not random")
 
@@ -188,26 +188,26 @@ def test_a_cycle_is_found(data: st.DataObject) -> None:
 @pytest.mark.parametrize("start", [20.0, 25.0])
 def test_up_to_the_top_and_down_again_is_found(step: float, start: float) -> None:
     values = [start]
-    while len(values) < PLENTY:
+    while len(values) < FULL_SAMPLE_SIZE:
         step = -step if not 20 <= values[-1] + step <= 30 else step
         values.append(values[-1] + step)
     assert find_pattern(values) is not None
-    assert needs_more_values(values[:ENOUGH])
+    assert needs_more_values(values[:MIN_SAMPLE_SIZE])
 
 
 @pytest.mark.parametrize("jitter", [0.0, 0.002])
 def test_a_sine_is_found_also_with_a_timers_jitter(jitter: float) -> None:
     for _ in range(300):
         omega, phase, size = chance.uniform(0.05, 1.5), chance.uniform(0, 7), chance.uniform(1, 5)
-        times = [i + chance.uniform(-jitter, jitter) for i in range(PLENTY)]
+        times = [i + chance.uniform(-jitter, jitter) for i in range(FULL_SAMPLE_SIZE)]
         values = [25 + size * math.sin(omega * t + phase) for t in times]
         assert find_pattern(values) is not None, (omega, phase, size)
-        assert needs_more_values(values[:ENOUGH]), (omega, phase, size)
+        assert needs_more_values(values[:MIN_SAMPLE_SIZE]), (omega, phase, size)
 
 
 @given(st.floats(0.3, 0.99), st.floats(1, 10))
 def test_a_decay_is_found(factor: float, size: float) -> None:
-    assert find_pattern([20 + size * factor**i for i in range(PLENTY)]) is not None
+    assert find_pattern([20 + size * factor**i for i in range(FULL_SAMPLE_SIZE)]) is not None
 
 
 @given(st.lists(st.floats(), max_size=2))
@@ -216,7 +216,9 @@ def test_two_values_tell_nothing(values: list[float]) -> None:
     assert needs_more_values(values)
 
 
-@given(st.lists(st.floats(), max_size=PLENTY) | st.lists(st.sampled_from([0.0, 1e-323, 5e-324, math.nan, 20.0])))
+@given(
+    st.lists(st.floats(), max_size=FULL_SAMPLE_SIZE) | st.lists(st.sampled_from([0.0, 1e-323, 5e-324, math.nan, 20.0]))
+)
 def test_any_values_can_be_judged(values: list[float]) -> None:
     find_pattern(values)
     needs_more_values(values)
@@ -226,9 +228,9 @@ def test_what_is_not_a_number_neither_makes_a_pattern_nor_hides_one() -> None:
     lost = [math.nan, math.inf, -math.inf]
     for trial in range(200):
         chance = random.Random(trial)
-        values = [chance.choice(lost) if i % 3 == 2 else chance.uniform(20, 30) for i in range(PLENTY)]
+        values = [chance.choice(lost) if i % 3 == 2 else chance.uniform(20, 30) for i in range(FULL_SAMPLE_SIZE)]
         assert find_pattern(values) is None
-    ramp = [math.nan if i % 5 == 4 else 20 + i / 10 for i in range(PLENTY)]
+    ramp = [math.nan if i % 5 == 4 else 20 + i / 10 for i in range(FULL_SAMPLE_SIZE)]
     assert find_pattern(ramp) is not None
     assert find_pattern([20.0, math.nan] * 12) is not None
     assert find_pattern([math.nan] * 8) is not None
@@ -237,16 +239,16 @@ def test_what_is_not_a_number_neither_makes_a_pattern_nor_hides_one() -> None:
 
 def test_ints_sent_as_the_bits_of_a_float_vary_all_the_same() -> None:
     # What an int in a float field looks like on the wire: numbers below any rounding.
-    values = [chance.randint(20, 30) * 5e-324 for _ in range(PLENTY)]
+    values = [chance.randint(20, 30) * 5e-324 for _ in range(FULL_SAMPLE_SIZE)]
     assert find_pattern(values) is None
 
 
 def main() -> None:
     trials = int(sys.argv[1]) if len(sys.argv) > 1 else 100_000
     for name, draw in RANDOM.items():
-        for count in (ENOUGH, 14, PLENTY):
+        for count in (MIN_SAMPLE_SIZE, 14, FULL_SAMPLE_SIZE):
             found = Counter(
-                each.name for _ in range(trials) if (each := find_pattern(draw(count))) is not None and each.sure
+                each.name for _ in range(trials) if (each := find_pattern(draw(count))) is not None and each.significant
             )
             print(f"{name}, {count} values: {sum(found.values())} of {trials} {dict(found)}", flush=True)
 

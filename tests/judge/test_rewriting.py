@@ -257,11 +257,11 @@ def test_a_second_timer_is_removed() -> None:
     ],
 )
 def test_slips_in_a_period(file: NodeFile, cause: str, line: str) -> None:
-    found = period_slips.whole_division(file) or period_slips.other_unit(file)
+    found = period_slips.diagnose_integer_period(file) or period_slips.diagnose_period_unit(file)
     assert found is not None
     assert found.name == cause
     assert line in apply_step(found.hint, {"node.py": file.text})["node.py"]
-    assert period_slips.whole_division(changed()) is period_slips.other_unit(changed()) is None
+    assert period_slips.diagnose_integer_period(changed()) is period_slips.diagnose_period_unit(changed()) is None
 
 
 @pytest.mark.parametrize(
@@ -284,18 +284,18 @@ def test_slips_in_a_period(file: NodeFile, cause: str, line: str) -> None:
     ],
 )
 def test_a_value_that_the_node_overwrites(file: NodeFile, right: str) -> None:
-    found = parameter_slips.overridden(file, PREFIX)
+    found = parameter_slips.diagnose_override(file, PREFIX)
     assert found is not None
     assert found.name == "value overwritten by the node"
     assert apply_step(found.hint, {"node.py": file.text})["node.py"] == right
-    assert parameter_slips.overridden(changed(), PREFIX) is None
+    assert parameter_slips.diagnose_override(changed(), PREFIX) is None
     corrected = changed(
         (
             "        self.count = 0\n",
             "        if self.rate <= 0:\n            self.rate = 1.0\n        self.count = 0\n",
         )
     )
-    assert parameter_slips.overridden(corrected, RATE) is None
+    assert parameter_slips.diagnose_override(corrected, RATE) is None
 
 
 @pytest.mark.parametrize(
@@ -311,17 +311,17 @@ def test_a_value_that_the_node_overwrites(file: NodeFile, right: str) -> None:
     ],
 )
 def test_a_callback_that_is_never_called(file: NodeFile, cause: str, line: str) -> None:
-    found = parameter_slips.not_called(file)
+    found = parameter_slips.diagnose_uncalled_callback(file)
     assert found is not None
     assert found.name == cause
     assert line in apply_step(found.hint, {"node.py": file.text})["node.py"]
-    assert parameter_slips.not_called(changed()) is None
+    assert parameter_slips.diagnose_uncalled_callback(changed()) is None
 
 
 def test_the_old_value_is_read_in_an_on_set_callback() -> None:
     reading = "for p in params:\n            self.prefix = self.get_parameter('message_prefix').value\n        return"
     file = changed(("        return Set", f"        {reading} Set"))
-    found = parameter_slips.old_value_read(file, PREFIX)
+    found = parameter_slips.diagnose_old_value_read(file, PREFIX)
     assert found is not None
     assert "self.prefix = p.value" in found.hint
 

@@ -19,7 +19,7 @@ from tutor.engine.log_folder import log_folder
 from tutor.engine.run import CollectedFacts, RosRun
 from tutor.engine.walls import Walls
 from tutor.judge.bench import Run, Scenario
-from tutor.judge.exceptions import Known
+from tutor.judge.exceptions import KnownException
 from tutor.judge.submission import Submission
 from tutor.judge.verdict import MOST_CHARACTERS
 from tutor.process import LearnerProcess, ProcessError
@@ -58,7 +58,7 @@ class RosBench:
     tell: Callable[[float, str], None]
     admission: Admission = field(default_factory=Admission)
     expected_s: float = 0.0
-    exceptions: tuple[Known, ...] = ()
+    exceptions: tuple[KnownException, ...] = ()
     walls: Walls | None = None
     kills: list[Path] = field(default_factory=list)
 

@@ -19,14 +19,14 @@ from tutor.engine.idle import Idle
 from tutor.engine.source import launch_arguments, sources, uncalled_main, with_code
 from tutor.judge import tracebacks
 from tutor.judge.bench import Handler
-from tutor.judge.exceptions import Known
+from tutor.judge.exceptions import KnownException
 from tutor.judge.trace import CallAnswer, Echo, Ending, Exit, LogRecord, OutputLine, Sample, Served, SetAnswer, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.process import CpuMeter, CpuTime, LearnerProcess, own_cpu_time
 from tutor.ros import echo, graph, parameters
-from tutor.ros.feed import TopicFeed
 from tutor.ros.messages import UnknownType, to_plain
 from tutor.ros.observer import ANY_PUBLISHER, MOST_SAMPLES, Observer
+from tutor.ros.talker import Talker
 from tutor.ros_model import Graph, Parameter, echo_qos
 
 T = TypeVar("T")
@@ -78,7 +78,7 @@ class RosRun:
         process: LearnerProcess,
         observer: Observer,
         facts: CollectedFacts,
-        exceptions: tuple[Known, ...] = (),
+        exceptions: tuple[KnownException, ...] = (),
     ) -> None:
         self._exceptions = exceptions
         self._path = path
@@ -253,12 +253,12 @@ class RosRun:
         )
 
     @asynccontextmanager
-    async def publisher(self, topic: str, type: str) -> AsyncIterator[TopicFeed]:
-        feed = TopicFeed(self._domain_id, topic, type)
+    async def publisher(self, topic: str, type: str) -> AsyncIterator[Talker]:
+        talker = Talker(self._domain_id, topic, type)
         try:
-            yield feed
+            yield talker
         finally:
-            feed.close()
+            talker.close()
 
     async def echo(self, topic: str, *, samples: int, limit_s: float) -> Echo:
         shown = await echo.echo_topic(self._domain_id, topic, samples=samples, limit_s=limit_s)

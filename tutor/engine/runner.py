@@ -13,7 +13,7 @@ from tutor.engine.bench import RosBench
 from tutor.engine.errors import EngineError
 from tutor.engine.unchanged_skeleton import first_todo, point_to_todo
 from tutor.engine.walls import Walls
-from tutor.judge.bench import MachineTooBusy, OnlyWithRos, Scenario
+from tutor.judge.bench import MachineTooBusy, NeedsInstalledRos, Scenario
 from tutor.judge.check import Check, Criterion
 from tutor.judge.events import CheckStarted, CriterionJudged, Event, ExerciseJudged, Progress
 from tutor.judge.result import CriterionResult, ExerciseResult
@@ -113,7 +113,7 @@ class Runner:
             return fault(str(error), error.hint)
         except MachineTooBusy as error:
             return fault(str(error), "close what keeps this machine busy, then check again")
-        except OnlyWithRos as error:
+        except NeedsInstalledRos as error:
             return fault(str(error), "install ROS 2 Jazzy, source its setup file, and check again")
         except Exception as error:  # the check's boundary: a fault of ours must not be shown as the learner's
             where = _where(error)

@@ -21,7 +21,7 @@ class MachineTooBusy(RuntimeError):
     """The machine kept the node from running while it was measured: nothing can be said about the node."""
 
 
-class OnlyWithRos(RuntimeError):
+class NeedsInstalledRos(RuntimeError):
     """The learner uses something of a full ROS 2 that is not there without one: nothing can be said about it here."""
 
 
@@ -29,7 +29,7 @@ Handler = Callable[[Mapping[str, Any]], Mapping[str, Any]]
 """Answers one service request (fields to values) with a response (fields to values)."""
 
 
-class Feed(Protocol):
+class Publisher(Protocol):
     """A publisher of ours on the learner's domain, with a talker's QoS: reliable, volatile, a queue of 10."""
 
     @property
@@ -114,10 +114,10 @@ class Run(Protocol):
     async def call(self, service: str, type: str, request: Mapping[str, Any], *, limit_s: float) -> CallAnswer:
         """Call a service as `ros2 service call` does: a client of its own, once it is matched."""
 
-    def publisher(self, topic: str, type: str) -> AbstractAsyncContextManager[Feed]:
+    def publisher(self, topic: str, type: str) -> AbstractAsyncContextManager[Publisher]:
         """Publish on a topic, from a node and participant of our own; both are out of the graph when the context ends.
 
-        Messages sent before a subscription is matched are lost (see `Feed.subscribers`).
+        Messages sent before a subscription is matched are lost (see `Publisher.subscribers`).
         """
 
     async def echo(self, topic: str, *, samples: int, limit_s: float) -> Echo:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from tutor.judge.bench import Scenario
-from tutor.judge.exceptions.table import Known
+from tutor.judge.exceptions.table import KnownException
 from tutor.judge.verdict import Verdict
 
 Judge = Callable[..., Verdict]
@@ -41,7 +41,7 @@ class Check:
     exercise: str
     criteria: tuple[Criterion, ...]
     expected_s: float = 0.0
-    exceptions: tuple[Known, ...] = ()
+    exceptions: tuple[KnownException, ...] = ()
 
     def __post_init__(self) -> None:
         seen: set[str] = set()

@@ -151,7 +151,11 @@ def _diagnose_traceback(found: tracebacks.Traceback, trace: Trace) -> Cause:
             f"{found.type.rsplit('.', 1)[-1]} reaches the end of the program" + (f" ({own})" if own else ""),
             shutdown_steps.catch_interrupt(trace),
         )
-    known = causes.known(found, trace) if not any(words in found.message for words in _CONTEXT_OVER) else None
+    known = (
+        causes.diagnose_known_exception(found, trace)
+        if not any(words in found.message for words in _CONTEXT_OVER)
+        else None
+    )
     return Cause(
         "traceback on exit",
         f"{found.raised}" + (f" ({own})" if own else ""),

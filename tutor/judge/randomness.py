@@ -1,7 +1,7 @@
 """Whether numbers vary as random ones do. Coarse but real randomness (whole degrees, a random walk) must pass.
 
-Each test states how the next value would follow from those before it, and counts how often it does. `SURE` bounds how
-often random values would do so by chance, also where they are drawn from a few values only.
+Each test states how the next value would follow from those before it, and counts how often it does. `SIGNIFICANCE`
+bounds how often random values would do so by chance, also where they are drawn from a few values only.
 """
 
 from __future__ import annotations
@@ -13,19 +13,19 @@ from dataclasses import dataclass
 from functools import cache
 from itertools import pairwise
 
-SURE = 1e-6
+SIGNIFICANCE = 1e-6
 """A pattern counts when random values would show it by chance less often than this."""
 
-ENOUGH = 8
-"""As many values tell when nothing looks suspicious."""
+MIN_SAMPLE_SIZE = 8
+"""This many values are enough where nothing looks suspicious."""
 
-PLENTY = 24
-"""As many values tell in any case."""
+FULL_SAMPLE_SIZE = 24
+"""This many values are enough in any case."""
 
-ALIKE = 0.01
+VALUE_TOLERANCE = 0.01
 """Two values are alike when they differ by less than this share of the range: jitter or rounding hides no pattern."""
 
-SMOOTH = 5e-4
+SMOOTH_RESIDUAL = 5e-4
 """Values of which all but this share of the variance follows from those before are a curve, not noise."""
 
 LONGEST_STEPS = 6
@@ -36,13 +36,13 @@ LONGEST_STEPS = 6
 class Pattern:
     """A regularity: its name ("constant value", "ramp", "short cycle", "not random") and what it is here.
 
-    `sure`: random values of every kind show it less often than `SURE`. Else some kind does, a walk in equal steps or
-    the like: it counts where every start of the program shows one.
+    `significant`: random values of every kind show it less often than `SIGNIFICANCE`. Else some kind, such as a walk
+    in equal steps, shows it more often: it counts where every start of the program shows one.
     """
 
     name: str
     text: str
-    sure: bool = True
+    significant: bool = True
 
 
 def find_pattern(values: Sequence[float]) -> Pattern | None:
@@ -68,7 +68,7 @@ def find_pattern(values: Sequence[float]) -> Pattern | None:
 def needs_more_values(values: Sequence[float]) -> bool:
     """Whether more values are needed before `pattern` can be trusted to have found nothing, or something."""
     values = _finite(values)
-    if len(values) < ENOUGH or find_pattern(values) is not None:
+    if len(values) < MIN_SAMPLE_SIZE or find_pattern(values) is not None:
         return True
     again = max(Counter(step for step in _steps(values) if step != 0).values(), default=0)
     return (
@@ -76,7 +76,7 @@ def needs_more_values(values: Sequence[float]) -> bool:
         or again > 2
         or _monotone(values)
         or any(_follows_in_steps(values, period, _tolerance(values)) for period in range(1, 4))
-        or any(_comes_again(values, period, ALIKE * _span(values)) for period in range(2, len(values) - 1))
+        or any(_comes_again(values, period, VALUE_TOLERANCE * _span(values)) for period in range(2, len(values) - 1))
         or min(_unexplained(values, 2), _unexplained(_unfolded(values), 2)) < 0.02
     )
 
@@ -101,24 +101,24 @@ def _ramp(values: Sequence[float]) -> Pattern | None:
         return Pattern("ramp", f"each value is the one before it {step:+g}")
     if len(values) >= 14 and _monotone(values):
         way = "up" if values[-1] > values[0] else "down"
-        return Pattern("ramp", f"all {len(values)} values only go {way}", sure=len(values) >= PLENTY)
+        return Pattern("ramp", f"all {len(values)} values only go {way}", significant=len(values) >= FULL_SAMPLE_SIZE)
     return None
 
 
 def _cycle(values: Sequence[float]) -> Pattern | None:
     for first in range(len(values) // 4 + 1):  # it may take a while until a program is in its round
         rest = values[first:]
-        tolerance = ALIKE * _span(rest)
+        tolerance = VALUE_TOLERANCE * _span(rest)
         # A random walk chooses among its few steps, not among all the values that it has been at.
-        choices = min(_different(rest, tolerance), _different(_steps(rest), ALIKE * _span(_steps(rest))))
+        choices = min(_different(rest, tolerance), _different(_steps(rest), VALUE_TOLERANCE * _span(_steps(rest))))
         for period in range(2, len(rest) - 2):
             repeats = len(rest) - period
             if not _comes_again(rest, period, tolerance):
                 continue
-            chance = max(choices**-repeats, (2 * ALIKE) ** repeats)  # that alike values come in this order
+            chance = max(choices**-repeats, (2 * VALUE_TOLERANCE) ** repeats)  # that alike values come in this order
             if _distinct(rest[:period]) and _comes_again(rest, period, 1e-9):
                 chance = min(chance, _chance_of_a_round(period, repeats))
-            if chance < SURE / 10:  # there are many periods, and many places to begin, to try
+            if chance < SIGNIFICANCE / 10:  # there are many periods, and many places to begin, to try
                 return Pattern("short cycle", f"the same {period} values come again and again")
     return None
 
@@ -146,10 +146,10 @@ def _zigzag(values: Sequence[float]) -> Pattern | None:
         values[i] for i in range(1, len(values) - 1) if (values[i] - values[i - 1]) * (values[i + 1] - values[i]) < 0
     ]
     low, high = min(values), max(values)
-    even = times >= 0.75 * len(steps) and all(abs(step) <= size * (1 + ALIKE) for step in steps)
+    even = times >= 0.75 * len(steps) and all(abs(step) <= size * (1 + VALUE_TOLERANCE) for step in steps)
     at_ends = all(min(turn - low, high - turn) < 0.5 * size for turn in turns)
     if even and at_ends and len(turns) <= 5 and high - low > 3 * size:
-        return Pattern("ramp", f"the values go up and down in steps of {size:g}", sure=False)
+        return Pattern("ramp", f"the values go up and down in steps of {size:g}", significant=False)
     return None
 
 
@@ -160,7 +160,7 @@ def _sawtooth(values: Sequence[float]) -> Pattern | None:
     likely = min(0.5, max(2 / few, 4 * share))  # that one more value falls where the rule says, by chance
     for period in range(1, LONGEST_STEPS + 1):
         checked = len(values) - 1 - period
-        if checked >= 6 and likely**checked < SURE and _follows_in_steps(values, period, tolerance):
+        if checked >= 6 and likely**checked < SIGNIFICANCE and _follows_in_steps(values, period, tolerance):
             return Pattern(
                 "ramp",
                 f"each value is the one before it {_steps(values)[0]:+g}, and starts over at the end of the range"
@@ -184,7 +184,7 @@ def _follows_in_steps(values: Sequence[float], period: int, tolerance: float) ->
     if not jumps:
         return True
     # Of few values, such as heads and tails, every second change is as long as the range.
-    least = span - tolerance if _different(values, tolerance) >= ENOUGH else span * (1 + 1e-6)
+    least = span - tolerance if _different(values, tolerance) >= MIN_SAMPLE_SIZE else span * (1 + 1e-6)
     return min(jumps) > least and max(jumps) - min(jumps) <= 2 * tolerance
 
 
@@ -192,28 +192,28 @@ def _tolerance(values: Sequence[float]) -> float:
     """How far a change of steps may be off: what jitter does to it, or rounding to a few decimals."""
     span = _span(values)
     if not all(abs(value) < 1e15 for value in values):
-        return ALIKE * span
+        return VALUE_TOLERANCE * span
     grain = next((g for g in (1.0, 0.1, 0.01) if all(abs(v / g - round(v / g)) < 1e-6 for v in values)), 0.0)
-    return max(ALIKE * span, 2.1 * grain if grain <= span / 40 else 0.0)
+    return max(VALUE_TOLERANCE * span, 2.1 * grain if grain <= span / 40 else 0.0)
 
 
 def _curve(values: Sequence[float]) -> Pattern | None:
-    if len(values) < PLENTY and _different(values, ALIKE * _span(values)) < ENOUGH:
+    if len(values) < FULL_SAMPLE_SIZE and _different(values, VALUE_TOLERANCE * _span(values)) < MIN_SAMPLE_SIZE:
         return None  # few values, drawn from fewer: some curve goes through them now and then
-    smooth = (len(values) >= 10 and _unexplained(values, 2) < SMOOTH) or (
-        len(values) >= 16 and _unexplained(values, 4) < SMOOTH
+    smooth = (len(values) >= 10 and _unexplained(values, 2) < SMOOTH_RESIDUAL) or (
+        len(values) >= 16 and _unexplained(values, 4) < SMOOTH_RESIDUAL
     )
     if smooth:
         return Pattern(
             "not random",
             "the values follow a smooth curve, such as a sine: each follows from those before it",
-            sure=len(values) >= PLENTY,
+            significant=len(values) >= FULL_SAMPLE_SIZE,
         )
-    if len(values) >= 12 and _unexplained(_unfolded(values), 2) < SMOOTH:
+    if len(values) >= 12 and _unexplained(_unfolded(values), 2) < SMOOTH_RESIDUAL:
         return Pattern(
             "not random",
             "the values go up and down between two ends: each follows from the two before it",
-            sure=len(values) >= PLENTY,
+            significant=len(values) >= FULL_SAMPLE_SIZE,
         )
     return None
 
@@ -254,7 +254,7 @@ def _unexplained(values: Sequence[float], order: int) -> float:
 
     Ramps, sines (of order 2) and sums of two of them (of order 4) obey one exactly; random values do not.
     """
-    if len(values) < ENOUGH:
+    if len(values) < MIN_SAMPLE_SIZE:
         return 1.0
     import numpy as np
 

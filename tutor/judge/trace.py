@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 from tutor.ros_model import Graph, QoS
 
 if TYPE_CHECKING:
-    from tutor.judge.exceptions.table import Known
+    from tutor.judge.exceptions.table import KnownException
 
 
 class Level(IntEnum):
@@ -155,7 +155,7 @@ class Trace:
     uncalled_main: bool = False
     launch_arguments: tuple[str, ...] = ()
     sources: Mapping[str, str] = field(default_factory=dict)
-    exceptions: tuple[Known, ...] = ()
+    exceptions: tuple[KnownException, ...] = ()
     parameters: Mapping[str, Any] = field(default_factory=dict)
     started_at: float = 0.0
     samples: Mapping[str, tuple[Sample, ...]] = field(default_factory=dict)

@@ -60,7 +60,7 @@ def is_in_blocking_call(stuck: Sequence[Frame]) -> bool:
     return any(frame.function == "call" and frame.path.endswith("rclpy/client.py") for frame in stuck)
 
 
-def waiting_for_lock(trace: Trace, stuck: Sequence[Frame]) -> Cause | None:
+def diagnose_lock_wait(trace: Trace, stuck: Sequence[Frame]) -> Cause | None:
     """Whether one callback waits for a lock."""
     held = _held(stuck, trace.folder)
     return _diagnose_lock(trace, stuck, held[0]) if held is not None and _LOCK.search(held[0].code) else None

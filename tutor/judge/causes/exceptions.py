@@ -21,7 +21,7 @@ _EDITS = re.compile(r"lines? \d+|write (?:above|below) line|remove lines? \d+|at
 
 def diagnose_traceback(found: Traceback, trace: Trace) -> Cause:
     """Name an exception, with the learner's own line; of a chain, the one that tells most, from its origin on."""
-    if (cause := known(found, trace)) is not None:
+    if (cause := diagnose_known_exception(found, trace)) is not None:
         return cause
     own = found.origin.own(trace.folder) or found.own(trace.folder)
     return Cause(
@@ -39,7 +39,7 @@ def _general(raised: Traceback, own: Frame | None) -> str:
     return f"in line {own.line} of {own.name}, change what Python complains of there: {said}"
 
 
-def known(found: Traceback, trace: Trace) -> Cause | None:
+def diagnose_known_exception(found: Traceback, trace: Trace) -> Cause | None:
     """What the table of known exceptions says of the first of a chain that it knows."""
     chain = [found]
     while (before := chain[-1].follows) is not None:

@@ -16,7 +16,7 @@ from tutor.judge.verdict import Cause
 _OVERWRITTEN = "value overwritten by the node"
 
 
-def overridden(file: NodeFile, name: str) -> Cause | None:
+def diagnose_override(file: NodeFile, name: str) -> Cause | None:
     """Whether the code itself gives the parameter, or what it has read of it, another value."""
     return _set_by_itself(file, name) or _ignoring(file, name) or _assigned_again(file, name)
 
@@ -70,7 +70,7 @@ def _assigned_again(file: NodeFile, name: str) -> Cause | None:
     return None
 
 
-def not_called(file: NodeFile) -> Cause | None:
+def diagnose_uncalled_callback(file: NodeFile) -> Cause | None:
     """Whether a parameter callback that the code has is never called, or not the one that is meant."""
     for call in file.calls(parameters.ON_SET, parameters.POST_SET):
         given = argument(call, 0, "callback")
@@ -118,7 +118,7 @@ def _meant(file: NodeFile) -> Function | None:
     )
 
 
-def old_value_read(file: NodeFile, name: str) -> Cause | None:
+def diagnose_old_value_read(file: NodeFile, name: str) -> Cause | None:
     """Whether an on-set callback reads the parameter from the node, where it has its old value still.
 
     The step is for a callback that goes through the list; where it does not, it has to be rewritten.

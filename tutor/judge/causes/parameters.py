@@ -8,7 +8,7 @@ from dataclasses import replace
 from tutor.judge.causes import names
 from tutor.judge.verdict import Cause
 
-RCLPYS_OWN = re.compile(
+RCLPY_REASON = re.compile(
     r"Callback returned an invalid type"
     r"|Wrong parameter type, expected '.*' got '"
     r"|Trying to set a read-only parameter: "
@@ -69,7 +69,7 @@ def diagnose_refusal(reason: str, step: str) -> Cause:
     return Cause("rejected", reason if "read-only" in reason else text, step)
 
 
-def in_bursts(step: str) -> Cause:
+def diagnose_bursts(step: str) -> Cause:
     """Several messages at once: of a loop in one callback, or of two timers that run together."""
     return Cause(
         "messages in bursts",
@@ -78,18 +78,18 @@ def in_bursts(step: str) -> Cause:
     )
 
 
-def rate_as_period(name: str, step: str) -> Cause:
+def diagnose_rate_as_period(name: str, step: str) -> Cause:
     """The rate's number is taken for seconds."""
     return Cause(names.RATE_AS_PERIOD, f"{name} is given in Hz, but the timer waits that many seconds", step)
 
 
-def period_as_rate(name: str, step: str) -> Cause:
+def diagnose_period_as_rate(name: str, step: str) -> Cause:
     """The period's number is taken for Hz."""
     text = f"{name} is given as a period, but the node publishes that many times a second"
     return Cause("period used as a rate", text, step)
 
 
-def old_timer_kept(hz: float, asked_hz: float, step: str) -> Cause:
+def diagnose_old_timer(hz: float, asked_hz: float, step: str) -> Cause:
     """There is a new timer, and the old one as well."""
     return Cause(
         names.OLD_TIMER_KEPT,

@@ -11,7 +11,7 @@ from tutor.judge.source import values_of
 from tutor.judge.verdict import Cause
 
 
-def whole_division(file: NodeFile) -> Cause | None:
+def diagnose_integer_period(file: NodeFile) -> Cause | None:
     """Whether a timer's period is made a whole number: by //, int() or round()."""
     found = [(spot, right) for spot in _spots(file) if (right := _with_decimals(spot)) is not None]
     step = file.step([replace_node(file.text, spot, right) for spot, right in found])
@@ -22,7 +22,7 @@ def whole_division(file: NodeFile) -> Cause | None:
     return Cause("period made a whole number", text, step)
 
 
-def other_unit(file: NodeFile) -> Cause | None:
+def diagnose_period_unit(file: NodeFile) -> Cause | None:
     """Whether a period is not 1 divided by a rate, but another number."""
     for spot in _spots(file):
         match spot:

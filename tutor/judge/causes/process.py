@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from tutor.judge import tracebacks
 from tutor.judge.causes import names, spinning
 from tutor.judge.causes.blocking import diagnose_blocked
-from tutor.judge.causes.exceptions import diagnose_traceback, known
+from tutor.judge.causes.exceptions import diagnose_known_exception, diagnose_traceback
 from tutor.judge.edits import remove_statement
 from tutor.judge.rewriting.node import started_node
 from tutor.judge.rewriting.program import first_sound_step, main_called, whole_program
@@ -80,7 +80,11 @@ def _diagnose_usage(trace: Trace) -> Cause | None:
     """Whether the program refused its command line, as argparse and others do: with a message, and exit code 2."""
     said = [line.text for line in trace.output if line.stream == "stderr" and " error: " in line.text]
     assert trace.exit is not None
-    return known(Traceback("SystemExit", said[-1], ()), trace) if trace.exit.code == 2 and said else None
+    return (
+        diagnose_known_exception(Traceback("SystemExit", said[-1], ()), trace)
+        if trace.exit.code == 2 and said
+        else None
+    )
 
 
 def diagnose_torn_thread(ended: Exit, output: Sequence[OutputLine]) -> Cause | None:
@@ -102,7 +106,7 @@ def describe_no_answer(trace: Trace, limit_s: float) -> str:
     return f"no answer: the process ended by itself, {trace.exit.after_s:.1f} s after its start, with {trace.exit}"
 
 
-def no_spin(trace: Trace) -> Cause:
+def diagnose_no_spin(trace: Trace) -> Cause:
     """The node exists, but none of its callbacks ever runs."""
     return Cause(
         names.NO_SPIN,
@@ -124,11 +128,11 @@ def diagnose_no_answer(trace: Trace, stuck: Sequence[Frame], *, spins: bool = Fa
     return (
         diagnose_blocked(trace, stuck, spins=spins)
         or spinning.diagnose_not_spinning(trace, stuck, node_names(trace))
-        or no_spin(trace)
+        or diagnose_no_spin(trace)
     )
 
 
-def same_name(trace: Trace) -> Cause | None:
+def diagnose_same_name(trace: Trace) -> Cause | None:
     """Two nodes under one name: both publish, and anyone who asks one of them cannot tell which answers."""
     nodes = trace.graph.nodes
     twice = sorted({node for node in nodes if nodes.count(node) > 1})

@@ -29,7 +29,7 @@ from tutor.ros_model import ServiceEndpoint, TopicEndpoint, incompatible_policie
 _ASLEEP = "lifecycle node not activated"
 
 
-def diagnose_silence(
+def diagnose_no_messages(
     trace: Trace, topic: str, type_name: str, *, answers: bool, stuck: Sequence[Frame] = (), step: str = ""
 ) -> Cause:
     """Why nothing of `type_name` came on `topic`.
@@ -64,19 +64,21 @@ def _idle(trace: Trace, topic: str, step: str) -> Cause:
         text = f"there is a publisher on {topic}, but no timer calls what publishes"
     else:
         text = f"there is a publisher on {topic}, but it sent nothing"
-    return period_slips.other_unit(file) or Cause(
+    return period_slips.diagnose_period_unit(file) or Cause(
         "no messages", text, step or "publish from a timer's callback, and keep the timer in self"
     )
 
 
-def diagnose_deafness(trace: Trace, ours: TopicEndpoint, *, answers: bool, stuck: Sequence[Frame] = ()) -> Cause:
-    """Why a node of the learner's took in nothing of what `ours`, a publisher, sent; see `diagnose_silence`."""
+def diagnose_nothing_received(
+    trace: Trace, ours: TopicEndpoint, *, answers: bool, stuck: Sequence[Frame] = ()
+) -> Cause:
+    """Why a node of the learner's took in nothing of what `ours`, a publisher, sent; see `diagnose_no_messages`."""
     if (cause := diagnose_process(trace) or diagnose_lifecycle(trace)) is not None:
         return cause
     subscriptions = trace.graph.subscriptions
     here = [each for each in subscriptions if (each.topic, each.type) == (ours.topic, ours.type)]
     if here:
-        mismatched = [cause for each in here if (cause := incompatible_qos(ours, each)) is not None]
+        mismatched = [cause for each in here if (cause := diagnose_incompatible_qos(ours, each)) is not None]
         if len(mismatched) == len(here):
             return mismatched[0]
         if not answers:
@@ -93,7 +95,7 @@ def diagnose_deafness(trace: Trace, ours: TopicEndpoint, *, answers: bool, stuck
     )
 
 
-def incompatible_qos(publisher: TopicEndpoint, subscription: TopicEndpoint) -> Cause | None:
+def diagnose_incompatible_qos(publisher: TopicEndpoint, subscription: TopicEndpoint) -> Cause | None:
     """Whether the subscription asks for more than the publisher offers: then they are not matched at all."""
     mismatch = next(incompatible_policies(publisher.qos, subscription.qos), None)
     if mismatch is None:
@@ -101,7 +103,7 @@ def incompatible_qos(publisher: TopicEndpoint, subscription: TopicEndpoint) -> C
     return Cause(names.INCOMPATIBLE_QOS, f"on {publisher.topic} {mismatch}", mismatch.hint)
 
 
-def incompatible_service(services: Iterable[ServiceEndpoint]) -> Cause | None:
+def diagnose_incompatible_service(services: Iterable[ServiceEndpoint]) -> Cause | None:
     """Whether one of the learner's service servers or clients sends best effort, where the other side is reliable."""
     for service in services:
         if service.reliability == "best_effort":
@@ -114,7 +116,7 @@ def incompatible_service(services: Iterable[ServiceEndpoint]) -> Cause | None:
     return None
 
 
-def wrong_topic(
+def diagnose_wrong_topic(
     endpoints: Iterable[TopicEndpoint], topic: str, create: str = "create_publisher", file: NodeFile | None = None
 ) -> Cause:
     """The endpoint is there, under another name; what kind of slip it is follows from the name."""
@@ -220,7 +222,7 @@ def _misplaced(
     elsewhere = [endpoint for endpoint in endpoints if endpoint.type == type_name] or [
         endpoint for endpoint in endpoints if difflib.get_close_matches(endpoint.topic, [topic], cutoff=0.6)
     ]
-    return wrong_topic(elsewhere, topic, create, started_node(trace)) if elsewhere else None
+    return diagnose_wrong_topic(elsewhere, topic, create, started_node(trace)) if elsewhere else None
 
 
 def _everywhere(file: NodeFile, wrong: str, type_name: str) -> str | None:

@@ -1,6 +1,16 @@
 """Known exceptions, as data: what they mean in a node, and the step that fixes them. See CONTRIBUTING.md."""
 
 from tutor.judge.exceptions.matching import RaisedException, explain
-from tutor.judge.exceptions.table import Example, Known, Replace, TableError, load, load_shipped, parse
+from tutor.judge.exceptions.table import Example, KnownException, Replace, TableError, load, load_shipped, parse
 
-__all__ = ["Example", "Known", "RaisedException", "Replace", "TableError", "explain", "load", "load_shipped", "parse"]
+__all__ = [
+    "Example",
+    "KnownException",
+    "RaisedException",
+    "Replace",
+    "TableError",
+    "explain",
+    "load",
+    "load_shipped",
+    "parse",
+]

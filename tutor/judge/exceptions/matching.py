@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from tutor.judge import edits
 from tutor.judge.edits import Edit
 from tutor.judge.exceptions.rewriting import REWRITERS
-from tutor.judge.exceptions.table import WORD, Known
+from tutor.judge.exceptions.table import WORD, KnownException
 from tutor.judge.source import Function, SourceFile
 from tutor.judge.tracebacks import Frame, Traceback, is_in_folder
 from tutor.judge.verdict import Cause
@@ -32,7 +32,7 @@ class RaisedException:
     source: str = ""
 
 
-def explain(seen: RaisedException, table: Iterable[Known], *, cause: str, after: str = "") -> Cause | None:
+def explain(seen: RaisedException, table: Iterable[KnownException], *, cause: str, after: str = "") -> Cause | None:
     """What the first entry that fits says of it; None where none does.
 
     `cause` is its name where the entry has none, `after` what the exception led to.
@@ -48,7 +48,7 @@ def explain(seen: RaisedException, table: Iterable[Known], *, cause: str, after:
     return None
 
 
-def _words(known: Known, seen: RaisedException) -> dict[str, str] | None:
+def _words(known: KnownException, seen: RaisedException) -> dict[str, str] | None:
     """The words that the entry's texts ask for; None where it does not fit."""
     found, own = seen.traceback, seen.line
     kind = re.fullmatch(known.type, found.type.rsplit(".", 1)[-1])
@@ -75,7 +75,7 @@ def _raised_at(pattern: str, found: Traceback) -> bool:
     return re.search(pattern, f"{last.path}, {last.function}" if last else "") is not None
 
 
-def _words_of_way(known: Known, seen: RaisedException, words: Mapping[str, str]) -> dict[str, str] | None:
+def _words_of_way(known: KnownException, seen: RaisedException, words: Mapping[str, str]) -> dict[str, str] | None:
     """The first of the learner's lines, from the outermost on, that `through` is found in."""
     if not known.through:
         return {}
@@ -87,7 +87,7 @@ def _words_of_way(known: Known, seen: RaisedException, words: Mapping[str, str])
     return None
 
 
-def _words_of_source(known: Known, seen: RaisedException, words: Mapping[str, str]) -> dict[str, str] | None:
+def _words_of_source(known: KnownException, seen: RaisedException, words: Mapping[str, str]) -> dict[str, str] | None:
     """The first place in the learner's file that `source` is found in."""
     source = seen.source
     if known.without and re.search(_fill_in(known.without, words, escaped=True), source, re.MULTILINE):
@@ -105,7 +105,7 @@ def _words_of_source(known: Known, seen: RaisedException, words: Mapping[str, st
     return {**_groups(there), "there": str(number), "there_code": code}
 
 
-def _words_of_table(known: Known, seen: RaisedException, words: Mapping[str, str]) -> dict[str, str] | None:
+def _words_of_table(known: KnownException, seen: RaisedException, words: Mapping[str, str]) -> dict[str, str] | None:
     """What the table of words has for the group `name`."""
     if not known.look_up:
         return {}
@@ -116,7 +116,9 @@ def _words_of_table(known: Known, seen: RaisedException, words: Mapping[str, str
     return {"found": known.words[near[0]], "nearest": near[0]} if near else None
 
 
-def _words_of_replacement(known: Known, seen: RaisedException, words: Mapping[str, str]) -> dict[str, str] | None:
+def _words_of_replacement(
+    known: KnownException, seen: RaisedException, words: Mapping[str, str]
+) -> dict[str, str] | None:
     """What the line becomes; None where it would stay as it is."""
     if known.replace is None:
         return {}
@@ -126,7 +128,7 @@ def _words_of_replacement(known: Known, seen: RaisedException, words: Mapping[st
     return {"becomes": becomes} if becomes != before else None
 
 
-def _edited(known: Known, seen: RaisedException, words: Mapping[str, str]) -> str | None:
+def _edited(known: KnownException, seen: RaisedException, words: Mapping[str, str]) -> str | None:
     """The step as edits of the learner's file; None where the entry has none, or they do not fit."""
     for way in known.edits:
         found = [_edit(seen.source, each, words) for each in way]

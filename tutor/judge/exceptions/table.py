@@ -70,7 +70,7 @@ class Example:
 
 
 @dataclass(frozen=True, slots=True)
-class Known:
+class KnownException:
     """One entry. All of its patterns must be found (`type` as a whole); an empty one asks for nothing.
 
     `type` is about the last part of the exception's name, `text` about its message, `line` about the learner's own
@@ -108,12 +108,12 @@ class Known:
 
 
 @cache
-def load_shipped() -> tuple[Known, ...]:
+def load_shipped() -> tuple[KnownException, ...]:
     """The table that comes with the program, in the order in which it is searched."""
     return tuple(entry for name in _ORDER for entry in load(Path(__file__).parent / f"{name}.toml"))
 
 
-def load(path: Path) -> tuple[Known, ...]:
+def load(path: Path) -> tuple[KnownException, ...]:
     """Read a table. Raises TableError where it cannot be read, or is not as it must be."""
     try:
         return parse(path.read_text(encoding="utf-8"), path.name)
@@ -121,7 +121,7 @@ def load(path: Path) -> tuple[Known, ...]:
         raise TableError(f"{path}: {error}") from error
 
 
-def parse(text: str, name: str = "exceptions.toml") -> tuple[Known, ...]:
+def parse(text: str, name: str = "exceptions.toml") -> tuple[KnownException, ...]:
     """The entries of a table, given as TOML; `name` is for what TableError says."""
     try:
         data = tomllib.loads(text)
@@ -136,7 +136,7 @@ def parse(text: str, name: str = "exceptions.toml") -> tuple[Known, ...]:
     return tuple(_entry(each, tables, f"{name}, entry {number}") for number, each in enumerate(entries, 1))
 
 
-def _entry(data: Mapping[str, Any], tables: Mapping[str, Mapping[str, str]], where: str) -> Known:
+def _entry(data: Mapping[str, Any], tables: Mapping[str, Mapping[str, str]], where: str) -> KnownException:
     allowed = {*_PATTERNS, *_TEXTS, "replace", "edits", "example", "exact", "of_source"}
     if strange := data.keys() - allowed:
         raise TableError(
@@ -151,7 +151,7 @@ def _entry(data: Mapping[str, Any], tables: Mapping[str, Mapping[str, str]], whe
     table = data.get("look_up", "")
     if table and table not in tables:
         raise TableError(f"{where}: there is no [words.{table}]")
-    made = Known(
+    made = KnownException(
         **{key: data[key] for key in (*_PATTERNS, *_TEXTS) if key in data},
         exact=bool(data.get("exact", True)),
         of_source=bool(data.get("of_source", False)),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 
 from tests.engine.made import FILE, Scene, node
-from tutor.judge.bench import Feed, Run
+from tutor.judge.bench import Publisher, Run
 from tutor.ros_model import QoS
 
 CHATTER, STRING = "/chatter", "std_msgs/msg/String"
@@ -16,8 +16,8 @@ node.create_timer(0.02, lambda: print(node.count_publishers("chatter"), flush=Tr
 """
 
 
-async def matched(run: Run, feed: Feed) -> None:
-    assert await run.until(lambda: feed.subscribers == 1, UP_S), run.trace()
+async def matched(run: Run, talker: Publisher) -> None:
+    assert await run.until(lambda: talker.subscribers == 1, UP_S), run.trace()
 
 
 async def heard(run: Run, *texts: str) -> None:
@@ -31,12 +31,12 @@ def publishers_seen(run: Run) -> list[str]:
 
 
 async def test_a_node_hears_what_is_published_in_order_and_at_known_times(scene: Scene) -> None:
-    async with scene.bench(node(HEARS)).start(FILE) as run, run.publisher(CHATTER, STRING) as feed:
-        assert feed.subscribers == 0
-        await matched(run, feed)
+    async with scene.bench(node(HEARS)).start(FILE) as run, run.publisher(CHATTER, STRING) as talker:
+        assert talker.subscribers == 0
+        await matched(run, talker)
         before = time.time()
-        first = feed.publish({"data": "one"})
-        second = feed.publish({"data": "two"})
+        first = talker.publish({"data": "one"})
+        second = talker.publish({"data": "two"})
         await heard(run, "one", "two")
     assert before <= first.source_time <= second.source_time <= run.logs[-1].stamp + 0.01
     assert (first.topic, first.message) == (CHATTER, {"data": "one"})
@@ -44,15 +44,15 @@ async def test_a_node_hears_what_is_published_in_order_and_at_known_times(scene:
 
 async def test_it_goes_away_and_another_takes_its_place(scene: Scene) -> None:
     async with scene.bench(node(HEARS)).start(FILE) as run:
-        async with run.publisher(CHATTER, STRING) as feed:
-            await matched(run, feed)
-            feed.publish({"data": "before"})
+        async with run.publisher(CHATTER, STRING) as talker:
+            await matched(run, talker)
+            talker.publish({"data": "before"})
             await heard(run, "before")
             assert await run.until(lambda: publishers_seen(run)[-1:] == ["1"], UP_S)
         assert await run.until(lambda: publishers_seen(run)[-1] == "0", UP_S), publishers_seen(run)
-        async with run.publisher(CHATTER, STRING) as feed:
-            await matched(run, feed)
-            feed.publish({"data": "after"})
+        async with run.publisher(CHATTER, STRING) as talker:
+            await matched(run, talker)
+            talker.publish({"data": "after"})
             await heard(run, "before", "after")
 
 
@@ -62,11 +62,11 @@ from rclpy.qos import QoSProfile, DurabilityPolicy, ReliabilityPolicy
 node.create_subscription(String, "chatter", print, QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL))
 node.create_subscription(String, "chatter", print, QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT))
 """
-    async with scene.bench(node(durable)).start(FILE) as run, run.publisher(CHATTER, STRING) as feed:
-        await matched(run, feed)
+    async with scene.bench(node(durable)).start(FILE) as run, run.publisher(CHATTER, STRING) as talker:
+        await matched(run, talker)
         assert await run.until(lambda: len(run.graph.subscriptions) == 2, UP_S)
-        assert feed.subscribers == 1
+        assert talker.subscribers == 1
         assert run.graph.publishers == ()
         assert await run.until(lambda: bool(run.graph.nodes), UP_S)  # DDS tells of a node's endpoints before it
         assert run.graph.nodes == ("/learner",)
-        assert feed.endpoint.qos == QoS("reliable", "volatile")
+        assert talker.endpoint.qos == QoS("reliable", "volatile")

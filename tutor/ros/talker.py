@@ -17,13 +17,13 @@ DEPTH = 10
 """The queue depth of the talkers that ROS brings along; their QoS is the default one, reliable and volatile."""
 
 
-class TopicFeed:
-    """The `Feed` of `tutor.judge.bench`, on real DDS. Raises UnknownType for a type that this ROS does not have."""
+class Talker:
+    """The `Publisher` of `tutor.judge.bench`, on real DDS. Raises UnknownType for a type that is not installed."""
 
     def __init__(self, domain_id: int, topic: str, type_name: str) -> None:
         self._type: Any = interface_class(type_name)
         self._context = join_domain(domain_id)
-        name = f"{OUR_PREFIX}_feed"
+        name = f"{OUR_PREFIX}_talker"
         self._node = create_node(self._context, name)
         self._publisher: Publisher = self._node.create_publisher(self._type, topic, DEPTH)
         self._endpoint = TopicEndpoint(topic, type_name, f"/{name}")
