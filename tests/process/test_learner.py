@@ -301,13 +301,12 @@ print(time.monotonic() - start, file=sys.stderr)
 
 async def test_what_comes_after_a_flood_is_not_kept_waiting(bench: Any) -> None:
     learner = await bench.start("""
-for _ in range(1_000_000): print('x')
+for _ in range(150_000): print('x')
 print('last', file=sys.stderr)
 forever()
 """)
     await bench_until(lambda: texts(learner, "stderr") == ["last"])
-    # At least all of it but what fits into the pipe has been read by then, at no more than the bounded rate.
-    assert learner.dropped_lines > 900_000
+    assert learner.dropped_lines > 100_000  # all but what fits into the pipe has been read by then
     await learner.end()
 
 
