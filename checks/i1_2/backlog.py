@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from checks.i1_2.facts import EVERY, FAST_ENOUGH_HZ, FAST_HZ, Trial
-from checks.i1_2.reports import Report, find_reports, group_lines
+from checks.i1_2.summaries import Summary, find_summaries, group_lines
 
 TOLERATED = 4
 """Even a queue of one, with a node that takes in each message at once, loses no more than this many by chance."""
@@ -21,7 +21,7 @@ class LostMessages:
     `excused`: the machine kept the node, or us, from running for so long that it may have lost as many.
     """
 
-    report: Report
+    summary: Summary
     counted: int
     excused: bool
 
@@ -37,18 +37,18 @@ def find_lost(fast: Trial, steady: Trial) -> LostMessages | None:
     A summary may come as late as it likes: up to the message that it quotes as the last, it must have counted them all.
     What is a summary is known from the `steady` stretch. The number of the lost ones is the least that it may be.
     """
-    kinds = {line.kind for report in find_reports(steady) for line in report.lines if line.tells}
+    kinds = {line.kind for summary in find_summaries(steady) for line in summary.lines if line.tells}
     order = {each.number: index for index, each in enumerate(fast.sent, start=1)}
     worst: tuple[int, LostMessages] | None = None
-    for report in group_lines([line for line in fast.lines if line.kind in kinds], fast):
-        until = max((order[number] for number in report.quoted if number in order), default=0)
-        if until < 2 or not report.numbers or any(map(report.states, range(until - TOLERATED, until + 2))):
+    for summary in group_lines([line for line in fast.lines if line.kind in kinds], fast):
+        until = max((order[number] for number in summary.quoted if number in order), default=0)
+        if until < 2 or not summary.numbers or any(map(summary.states, range(until - TOLERATED, until + 2))):
             continue
-        stated = [value for number in report.numbers for value in number.values if 0 < value < until]
+        stated = [value for number in summary.numbers for value in number.values if 0 < value < until]
         missing = min((until - int(value) for value in stated), default=until)
         allowed = TOLERATED + FAST_HZ * (fast.cpu_wait_s + max(fast.most_late_s, 0.0))
         if worst is None or missing > worst[0]:
-            worst = missing, LostMessages(report, until, missing <= allowed)
+            worst = missing, LostMessages(summary, until, missing <= allowed)
     return worst[1] if worst else None
 
 
@@ -57,11 +57,11 @@ def count_summarised(fast: Trial, steady: Trial) -> int:
 
     It may come late, and leave others out: anyone who looks once a second whether ten more have come sums up at last.
     """
-    kinds = {line.kind for report in find_reports(steady) for line in report.lines if line.tells}
+    kinds = {line.kind for summary in find_summaries(steady) for line in summary.lines if line.tells}
     others = {line.kind for line in steady.lines} - kinds  # what is logged with each message
     order = {each.number: index for index, each in enumerate(fast.sent, start=1)}
-    reports = group_lines([line for line in fast.lines if line.kind not in others], fast)
-    quoted = (number for report in reports for number in report.quoted)
+    summaries = group_lines([line for line in fast.lines if line.kind not in others], fast)
+    quoted = (number for summary in summaries for number in summary.quoted)
     return max((order[number] for number in quoted if number in order), default=0)
 
 

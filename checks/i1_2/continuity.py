@@ -9,7 +9,7 @@ from checks.i1_2 import gap_steps, steps
 from checks.i1_2.facts import EVERY, OURS, SOON_S, Trial
 from checks.i1_2.judges import NO_SUMMARY, counts_truly, judge_slow_summary, true_total
 from checks.i1_2.reading import Line
-from checks.i1_2.reports import Report, find_reports, milestone
+from checks.i1_2.summaries import Summary, find_summaries, milestone
 from tutor.judge import causes
 from tutor.judge.causes import printing
 from tutor.judge.trace import Level
@@ -22,7 +22,7 @@ SETTLED = 2
 def judge_restart(restart: Trial, steady: Trial, jump: Trial) -> Verdict:
     """Judge `restart`."""
     expected = "the publisher goes away, a new one starts over at 0: the node lives on and keeps counting"
-    if not find_reports(steady):
+    if not find_summaries(steady):
         return skipped(NO_SUMMARY)
     words = causes.output_tail(restart.trace)
     sent, before = len(restart.sent), restart.breaks
@@ -39,8 +39,8 @@ def judge_restart(restart: Trial, steady: Trial, jump: Trial) -> Verdict:
             ),
             words,
         )
-    after = [report for report in find_reports(restart) if report.messages > before]
-    evidence = [str(report) for report in find_reports(restart)]
+    after = [summary for summary in find_summaries(restart) if summary.messages > before]
+    evidence = [str(summary) for summary in find_summaries(restart)]
     observed = f"{before} messages from the first publisher, {sent - before} from the second"
     if not after:
         return failed(
@@ -57,35 +57,35 @@ def judge_restart(restart: Trial, steady: Trial, jump: Trial) -> Verdict:
     if not counts_truly(steady, jump):
         return skipped("not judged, because `count` did not pass")
     told = [line.text for line in new_lines(restart, since=restart.first_publisher_left_at, usual=(steady, jump))]
-    for report in after:
-        if true_total(report, restart):
+    for summary in after:
+        if true_total(summary, restart):
             continue
-        restarted = true_total(report, restart, before=before)
+        restarted = true_total(summary, restart, before=before)
         if restarted and told:
             continue
         cause = (
             Cause(
                 "starts over silently",
-                f"it says {restarted} after {report.messages} messages, and no log message says that it started over",
+                f"it says {restarted} after {summary.messages} messages, and no log message says that it started over",
                 steps.announce_restart(restart.trace)
                 or "go on with the total, or log that the publisher was restarted and that you count from zero",
             )
             if restarted
             else Cause(
                 "wrong count after a restart",
-                f"{report.messages} messages in all, {report.messages - before} of them from the new publisher: "
+                f"{summary.messages} messages in all, {summary.messages - before} of them from the new publisher: "
                 "it states neither",
                 steps.go_on_after_restart(restart.trace)
                 or "do not compute the total from N; go on counting, or set everything back and say so",
             )
         )
-        return failed(expected, f"{observed}; {report}", cause, evidence)
+        return failed(expected, f"{observed}; {summary}", cause, evidence)
     if judge_slow_summary(steady, jump).passed and (changed := _sums_up_otherwise(after, restart)):
         return failed(expected, observed, changed, evidence)
     return passed(expected, observed, [*evidence, *told[:2]])
 
 
-def _sums_up_otherwise(after: Sequence[Report], restart: Trial) -> Cause | None:
+def _sums_up_otherwise(after: Sequence[Summary], restart: Trial) -> Cause | None:
     """What is wrong with the summaries since the restart, wherever the node has begun to count: no more is judged."""
     before = restart.breaks
     new = len(restart.sent) - before
@@ -96,8 +96,8 @@ def _sums_up_otherwise(after: Sequence[Report], restart: Trial) -> Cause | None:
             steps.go_on_after_restart(restart.trace)
             or "once N has fallen, go on as before: a summary for every ten messages",
         )
-    own = [report for report in after if report.messages > before + 1]  # not of what came before
-    if own and not any(_quotes_new(report, restart) for report in own):
+    own = [summary for summary in after if summary.messages > before + 1]  # not of what came before
+    if own and not any(_quotes_new(summary, restart) for summary in own):
         return Cause(
             "last message missing",
             "no summary quotes what the new publisher has sent last",
@@ -106,19 +106,19 @@ def _sums_up_otherwise(after: Sequence[Report], restart: Trial) -> Cause | None:
     return None
 
 
-def _quotes_new(report: Report, restart: Trial) -> bool:
+def _quotes_new(summary: Summary, restart: Trial) -> bool:
     """Whether it quotes a recent message of the new publisher, besides a first one."""
-    quoted = list(report.quoted)
+    quoted = list(summary.quoted)
     for first in {restart.sent[0].number, restart.sent[restart.breaks].number}.intersection(quoted):
         quoted.remove(first)
-    recent = restart.sent[max(restart.breaks, report.messages - EVERY) : report.until]
+    recent = restart.sent[max(restart.breaks, summary.messages - EVERY) : summary.until]
     return any(each.number in quoted for each in recent)
 
 
 def judge_gaps(jump: Trial, steady: Trial) -> Verdict:
     """Judge `gaps`."""
     expected = "when N jumps, a log message or a gap count in the next summary says so; while N rises by one, none does"
-    if not jump.sent or (not find_reports(steady) and not steady.lines):
+    if not jump.sent or (not find_summaries(steady) and not steady.lines):
         return skipped("not judged, because the node logs nothing about the messages: see `summary`")
     if jump.trace.exit is not None:
         words = causes.output_tail(jump.trace)
@@ -221,9 +221,9 @@ def _why_unsaid(index: int, jump: Trial, steady: Trial) -> Cause:
 
     A kind of message that came with the jump, but not with every message, was a false alarm elsewhere.
     """
-    summaries = {line.kind for report in (*find_reports(steady), *find_reports(jump)) for line in report.lines}
+    in_summaries = {line.kind for summary in (*find_summaries(steady), *find_summaries(jump)) for line in summary.lines}
     with_it = range(index + 1, index + 3)
-    since = {line.kind for line in jump.lines if line.messages in with_it} - summaries
+    since = {line.kind for line in jump.lines if line.messages in with_it} - in_summaries
     calm = [line for trial in (steady, jump) for line in trial.lines if _calm(line, trial)]
     false = [line for line in calm if line.kind in since]
     if 0 < len(false) < 0.7 * (len(steady.sent) + jump.breaks - 2):
@@ -259,14 +259,14 @@ def new_lines(trial: Trial, *, since: float, usual: Sequence[Trial]) -> list[Lin
     before = [line for line in trial.lines if line.at < since and not _is_of_first_jump(line, trial)]
     elsewhere = [[line for line in other.lines if _calm(line, other)] for other in usual]
     known = {line.kind for lines in (before, *elsewhere) for line in lines}
-    summaries = {line: report for report in find_reports(trial) for line in report.lines}
+    in_summaries = {line: summary for summary in find_summaries(trial) for line in summary.lines}
     told = []
     for line in trial.lines:
         if line.at < since:
             continue
         mine = [other for other in before if other.kind == line.kind]
         others = [[other for other in lines if other.kind == line.kind] for lines in elsewhere]
-        if line.kind not in known or _counts_up(line, summaries.get(line), mine, others, trial):
+        if line.kind not in known or _counts_up(line, in_summaries.get(line), mine, others, trial):
             told.append(line)
     return told
 
@@ -280,11 +280,11 @@ def _is_of_first_jump(line: Line, trial: Trial) -> bool:
 
 
 def _counts_up(
-    line: Line, report: Report | None, before: Sequence[Line], elsewhere: Sequence[Sequence[Line]], trial: Trial
+    line: Line, summary: Summary | None, before: Sequence[Line], elsewhere: Sequence[Sequence[Line]], trial: Trial
 ) -> bool:
     """Whether a number in the line tells of the jump: how many gaps, missed messages, or messages there should be.
 
-    `report`: the summary that the line is of, if any.
+    `summary`: the summary that the line is of, if any.
     """
     others = [other for lines in (before, *elsewhere) for other in lines]
     missed = trial.missed(line.messages)
@@ -293,14 +293,14 @@ def _counts_up(
     for place, number in enumerate(line.numbers):
         was = {other.numbers[place].value for other in before or others}
         usually = [{other.numbers[place].value for other in lines} for lines in elsewhere]
-        if report is not None and _should_be(place, line, report, others, missed):
+        if summary is not None and _should_be(place, line, summary, others, missed):
             return True
         if len(was) > 1 or any(len(each) > 1 for each in usually):
             continue
         base = was.pop()
         grown = number.value - base
         from_zero = any(each == {0.0} for each in usually)
-        if report is None:
+        if summary is None:
             # In what is logged with every message, a number speaks for itself if it was 0 until then, and no warning.
             told = base == 0 and from_zero and line.level < Level.WARN and _counts(grown, missed)
         else:
@@ -311,12 +311,12 @@ def _counts_up(
     return False
 
 
-def _should_be(place: int, line: Line, report: Report, calm: Iterable[Line], missed: Sequence[int]) -> bool:
+def _should_be(place: int, line: Line, summary: Summary, calm: Iterable[Line], missed: Sequence[int]) -> bool:
     """Whether a number that was the count until then is greater by what was missed, while the count itself is there."""
     due = milestone(line.messages)
     followed = all(other.numbers[place].value == milestone(other.messages) > 0 for other in calm)
     greater = line.numbers[place].value - due in [each for each in _amounts(missed) if each > 0]
-    return followed and greater and report.states(due)
+    return followed and greater and summary.states(due)
 
 
 def _amounts(missed: Sequence[int]) -> set[int]:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from checks.i1_2 import backlog, rates, slowness, steps
 from checks.i1_2.facts import EVERY, FAST_HZ, OURS, Trial
 from checks.i1_2.reading import labelled, read
-from checks.i1_2.reports import Report, find_reports, in_time, milestone, totals
+from checks.i1_2.summaries import Summary, find_summaries, in_time, milestone, totals
 from tutor.judge import causes, ending
 from tutor.judge.bench import MachineTooBusy
 from tutor.judge.trace import LogRecord
@@ -33,132 +33,132 @@ def judge_count(steady: Trial, jump: Trial, fast: Trial) -> Verdict:
         return verdict
     return failed(
         f"{EXPECTED_COUNT}, at {FAST_HZ:g} a second, too",
-        f"{lost.counted} messages up to the last that it quotes; {lost.report}",
+        f"{lost.counted} messages up to the last that it quotes; {lost.summary}",
         slowness.diagnose_lost(fast.trace, lost),
-        [str(report) for report in find_reports(fast)[:6]],
+        [str(summary) for summary in find_summaries(fast)[:6]],
     )
 
 
 def judge_slow_count(steady: Trial, jump: Trial) -> Verdict:
     """Judge what `count` asks for where the messages come slowly."""
     expected = EXPECTED_COUNT
-    if not find_reports(steady):
+    if not find_summaries(steady):
         return skipped(NO_SUMMARY)
-    seen = [(trial, report) for trial in (steady, jump) for report in find_reports(trial)]
-    wrong = [(trial, report) for trial, report in seen if not true_total(report, trial)]
+    seen = [(trial, summary) for trial in (steady, jump) for summary in find_summaries(trial)]
+    wrong = [(trial, summary) for trial, summary in seen if not true_total(summary, trial)]
     if wrong:
-        trial, report = wrong[-1]  # after the jump, N and the count are far apart: there the cause shows best
+        trial, summary = wrong[-1]  # after the jump, N and the count are far apart: there the cause shows best
         return failed(
-            f"{expected}: {' or '.join(map(str, totals(report, trial)))}",
-            f"the summary that came after {report.messages} messages does not say so",
-            _why_miscounted(report, trial),
+            f"{expected}: {' or '.join(map(str, totals(summary, trial)))}",
+            f"the summary that came after {summary.messages} messages does not say so",
+            _why_miscounted(summary, trial),
             [str(other) for _, other in seen],
         )
-    stated = ", ".join(str(true_total(report, trial)) for trial, report in seen)
-    return passed(expected, f"{len(seen)} summaries state {stated}", [str(report) for _, report in seen])
+    stated = ", ".join(str(true_total(summary, trial)) for trial, summary in seen)
+    return passed(expected, f"{len(seen)} summaries state {stated}", [str(summary) for _, summary in seen])
 
 
 def counts_truly(*trials: Trial) -> bool:
     """Whether every summary states the true total."""
-    return all(true_total(report, trial) for trial in trials for report in find_reports(trial))
+    return all(true_total(summary, trial) for trial in trials for summary in find_summaries(trial))
 
 
-def true_total(report: Report, trial: Trial, *, before: int = 0) -> int:
+def true_total(summary: Summary, trial: Trial, *, before: int = 0) -> int:
     """The true total that a summary states, when the first `before` messages do not count; 0 where it states none.
 
     One that comes later than its message must quote no newer one: which of the older ones it quotes as the last is no
     matter of the count. One that also quotes the message that it has counted last may be as late as it likes.
     """
-    true = totals(report, trial, before=before)
+    true = totals(summary, trial, before=before)
     for total in true:
-        late = report.messages > before + total
-        if report.states(total) and (not late or _may_be_of(before + total, report, trial, before=before)):
+        late = summary.messages > before + total
+        if summary.states(total) and (not late or _may_be_of(before + total, summary, trial, before=before)):
             return total
     before_that = {*range(EVERY, true.start, EVERY), *range(max(1, true.start - EVERY), true.start)}
-    held_back = [total for total in sorted(before_that) if report.states(total)]
-    return next((t for t in held_back if _is_of(before + t, report, trial, before=before)), 0)
+    held_back = [total for total in sorted(before_that) if summary.states(total)]
+    return next((t for t in held_back if _is_of(before + t, summary, trial, before=before)), 0)
 
 
-def _may_be_of(messages: int, report: Report, trial: Trial, *, before: int) -> bool:
+def _may_be_of(messages: int, summary: Summary, trial: Trial, *, before: int) -> bool:
     """Whether nothing that it quotes tells against its being made when this many messages had come."""
-    newer = {each.number for each in trial.sent[messages : report.until]}
-    later = newer.intersection(_quoted_but_first(report, trial, before=before))
-    return not later or _is_of(messages, report, trial, before=before)
+    newer = {each.number for each in trial.sent[messages : summary.until]}
+    later = newer.intersection(_quoted_but_first(summary, trial, before=before))
+    return not later or _is_of(messages, summary, trial, before=before)
 
 
-def _is_of(messages: int, report: Report, trial: Trial, *, before: int) -> bool:
+def _is_of(messages: int, summary: Summary, trial: Trial, *, before: int) -> bool:
     """Whether it quotes the last of this many messages, and what it quotes had come by then.
 
     A new publisher sends some numbers once more: what was there before is none of the newer ones.
     """
-    sent, quoted = trial.sent, _quoted_but_first(report, trial, before=before)
-    newer = {each.number for each in sent[messages : report.until]} - {each.number for each in sent[:messages]}
+    sent, quoted = trial.sent, _quoted_but_first(summary, trial, before=before)
+    newer = {each.number for each in sent[messages : summary.until]} - {each.number for each in sent[:messages]}
     return sent[messages - 1].number in quoted and not newer.intersection(quoted)
 
 
-def _quoted_but_first(report: Report, trial: Trial, *, before: int) -> list[int]:
+def _quoted_but_first(summary: Summary, trial: Trial, *, before: int) -> list[int]:
     """What it quotes, without a first message."""
-    quoted = list(report.quoted)
+    quoted = list(summary.quoted)
     for first in {trial.sent[0].number, trial.sent[before].number}.intersection(quoted):
         quoted.remove(first)
     return quoted
 
 
-def _why_miscounted(report: Report, trial: Trial) -> Cause:
-    name, text, words = _miscounted(report, trial)
+def _why_miscounted(summary: Summary, trial: Trial) -> Cause:
+    name, text, words = _miscounted(summary, trial)
     return Cause(name, text, steps.count_messages(trial.trace) or words)
 
 
-def _miscounted(report: Report, trial: Trial) -> tuple[str, str, str]:
+def _miscounted(summary: Summary, trial: Trial) -> tuple[str, str, str]:
     """The name of the cause, what it says, and a step in words."""
-    sent, last = report.messages, trial.sent[report.messages - 1].number
+    sent, last = summary.messages, trial.sent[summary.messages - 1].number
     missed = sum(trial.missed(sent - 1))
-    if missed and report.states(sent + missed):
+    if missed and summary.states(sent + missed):
         return (
             "missed messages counted",
             f"it says {sent + missed}, but {missed} of these were never sent",
             "count each call of the callback, and nothing else: self.total_count += 1",
         )
-    if trial.breaks and (report.states(last) or report.states(last + 1)):
+    if trial.breaks and (summary.states(last) or summary.states(last + 1)):
         return (
             "number taken for the count",
             f"it states the N of “Hello World: {last}”, not how many messages came",
             "anyone who starts late hears the N of others: count yourself, self.total_count += 1 in the callback",
         )
-    near = next((sent + by for by in (1, -1) if report.states(sent + by)), None)
+    near = next((sent + by for by in (1, -1) if summary.states(sent + by)), None)
     if near is not None:
         return (
             "off by one",
             f"it says {near} after {sent} messages",
             "begin with 0, and count each message once, before you write the summary",
         )
-    if not report.numbers:
+    if not summary.numbers:
         return ("no count", "there is no number in it", "put self.total_count into the text of the summary")
     return (
         "wrong count",
-        f"none of its numbers ({', '.join(number.text for number in report.numbers)}) is {sent}",
+        f"none of its numbers ({', '.join(number.text for number in summary.numbers)}) is {sent}",
         "self.total_count += 1 in the callback, once for each message, and put it into the summary",
     )
 
 
 def judge_rate(steady: Trial, jump: Trial) -> Verdict:
-    reports = [report for report in find_reports(steady) if report.messages > 1]  # one message has no rate yet
-    if not reports:
+    summaries = [summary for summary in find_summaries(steady) if summary.messages > 1]  # one message has no rate yet
+    if not summaries:
         return skipped(NO_SUMMARY)
-    allowed = [rates.true_rates(report, steady) for report in reports]
+    allowed = [rates.true_rates(summary, steady) for summary in summaries]
     low, high = min(each.low for each in allowed), max(each.high for each in allowed)
     expected = f"each summary states the messages per second: {rates.sent_hz(steady):.2f}, from {low:.1f} to {high:.1f}"
-    evidence = [str(report) for report in reports]
-    stated = rates.stated(reports, allowed, jump)
+    evidence = [str(summary) for summary in summaries]
+    stated = rates.stated(summaries, allowed, jump)
     if stated is None:
-        wrong = next((r for r, a in zip(reports, allowed, strict=True) if not a.among(r)), reports[-1])
+        wrong = next((r for r, a in zip(summaries, allowed, strict=True) if not a.among(r)), summaries[-1])
         return failed(
             expected,
             f"after {wrong.messages} messages it states {', '.join(n.text for n in wrong.numbers) or 'no number'}",
-            rates.diagnose_wrong_rate(wrong, reports, steady),
+            rates.diagnose_wrong_rate(wrong, summaries, steady),
             evidence,
         )
-    if rates.doubtful(stated, reports, steady):
+    if rates.doubtful(stated, summaries, steady):
         raise MachineTooBusy("this machine is too busy to send messages at an even rate")
     return passed(expected, f"{', '.join(number.text for number in stated)} messages per second", evidence)
 
@@ -175,7 +175,7 @@ def judge_summary(steady: Trial, jump: Trial, fast: Trial) -> Verdict:
         f"{EXPECTED_SUMMARY}, at {FAST_HZ:g} a second, too",
         f"of {len(fast.sent)} messages, none since message {backlog.count_summarised(fast, steady)}",
         _why_fewer(fast),
-        [str(report) for report in find_reports(fast)[:6]],
+        [str(summary) for summary in find_summaries(fast)[:6]],
     )
 
 
@@ -196,46 +196,48 @@ def _why_fewer(fast: Trial) -> Cause:
 def judge_slow_summary(steady: Trial, jump: Trial) -> Verdict:
     """Judge what `summary` asks for where the messages come slowly."""
     expected = EXPECTED_SUMMARY
-    if not find_reports(steady):
+    if not find_summaries(steady):
         return failed(
             expected, f"none, after {len(steady.sent)} messages", diagnose_no_summary(steady), _logged(steady)
         )
     # A node that ends with the jump, or miscounts from then on, breaks other criteria.
     all_along = jump.trace.exit is None and counts_truly(jump)
     for trial, messages in ((steady, len(steady.sent)), (jump, len(jump.sent) if all_along else jump.breaks)):
-        reports = [report for report in find_reports(trial) if report.messages <= messages]
-        evidence = [str(report) for report in reports[:8]]
-        if (cause := _why_not_every_ten(reports, trial, messages)) is not None:
-            if _counts_wrongly(reports, trial):
+        summaries = [summary for summary in find_summaries(trial) if summary.messages <= messages]
+        evidence = [str(summary) for summary in summaries[:8]]
+        if (cause := _why_not_every_ten(summaries, trial, messages)) is not None:
+            if _counts_wrongly(summaries, trial):
                 return skipped("not judged, because `count` did not pass: it sums up by a count that is not true")
-            observed = f"summaries after {', '.join(str(report.messages) for report in reports[:12]) or 'no'} messages"
+            observed = (
+                f"summaries after {', '.join(str(summary.messages) for summary in summaries[:12]) or 'no'} messages"
+            )
             return failed(expected, f"{observed}, of {messages}", cause, evidence)
-        for report in reports:
-            if (cause := _why_incomplete(report, trial)) is not None:
-                return failed(expected, f"it is incomplete {report}", cause, evidence)
-    complete = find_reports(steady)
+        for summary in summaries:
+            if (cause := _why_incomplete(summary, trial)) is not None:
+                return failed(expected, f"it is incomplete {summary}", cause, evidence)
+    complete = find_summaries(steady)
     return passed(
         expected,
         f"{len(complete)} for {len(steady.sent)} messages, with both contents",
-        [str(report) for report in complete],
+        [str(summary) for summary in complete],
     )
 
 
-def _why_not_every_ten(reports: Sequence[Report], trial: Trial, messages: int) -> Cause | None:
+def _why_not_every_ten(summaries: Sequence[Summary], trial: Trial, messages: int) -> Cause | None:
     due = range(EVERY, messages + 1, EVERY)
-    when = [report.messages for report in reports]
-    if len(reports) > 3 and len(reports) >= 0.7 * messages:
+    when = [summary.messages for summary in summaries]
+    if len(summaries) > 3 and len(summaries) >= 0.7 * messages:
         return Cause(
-            "summary for every message", f"{len(reports)} summaries for {messages} messages", _every_ten(trial)
+            "summary for every message", f"{len(summaries)} summaries for {messages} messages", _every_ten(trial)
         )
-    if len(reports) > len(due) or any(report.times > 1 for report in reports):
+    if len(summaries) > len(due) or any(summary.times > 1 for summary in summaries):
         return Cause(
             "too many summaries",
-            f"{sum(report.times for report in reports)} summaries for {messages} messages",
+            f"{sum(summary.times for summary in summaries)} summaries for {messages} messages",
             _every_ten(trial),
         )
     for number in due:
-        of_it = [each for each in reports if milestone(each.messages) == number]
+        of_it = [each for each in summaries if milestone(each.messages) == number]
         if not any(in_time(each, trial) for each in of_it):
             early = [each for each in when if number - EVERY < each < number]
             late = [each for each in when if number < each < number + EVERY]
@@ -251,21 +253,21 @@ def _every_ten(trial: Trial) -> str:
     )
 
 
-def _counts_wrongly(reports: Sequence[Report], trial: Trial) -> bool:
+def _counts_wrongly(summaries: Sequence[Summary], trial: Trial) -> bool:
     """Whether each summary comes when its own count says so, and that count is not true.
 
     By chance one may be true: in a node that counts one too many, the summary after 9 messages may come late, after the
     10th.
     """
-    by_its_count = all(report.states(EVERY * number) for number, report in enumerate(reports, start=1))
-    return by_its_count and any(not true_total(report, trial) for report in reports)
+    by_its_count = all(summary.states(EVERY * number) for number, summary in enumerate(summaries, start=1))
+    return by_its_count and any(not true_total(summary, trial) for summary in summaries)
 
 
-def _why_incomplete(report: Report, trial: Trial) -> Cause | None:
+def _why_incomplete(summary: Summary, trial: Trial) -> Cause | None:
     first = trial.sent[0]
-    recent = trial.sent[milestone(report.messages) - 1 : report.until]
-    if first.number not in report.quoted:
-        others = [number for number in report.quoted if number not in {each.number for each in recent}]
+    recent = trial.sent[milestone(summary.messages) - 1 : summary.until]
+    if first.number not in summary.quoted:
+        others = [number for number in summary.quoted if number not in {each.number for each in recent}]
         if others:
             return Cause(
                 "first message overwritten",
@@ -279,14 +281,14 @@ def _why_incomplete(report: Report, trial: Trial) -> Cause | None:
             steps.summarise_every_ten(trial.trace)
             or "keep the first message's data in self.first_message, and put it into the summary",
         )
-    if not any(each.number in report.quoted for each in recent):
+    if not any(each.number in summary.quoted for each in recent):
         return Cause(
             "last message missing",
             f"“{recent[0].content}” is not in it",
             steps.summarise_every_ten(trial.trace)
             or "self.last_message = msg.data for each message, before you write the summary",
         )
-    called = {(name, number) for line in report.lines for name, number in labelled(line.text)}
+    called = {(name, number) for line in summary.lines for name, number in labelled(line.text)}
     swapped = [("first", each.number) for each in recent if each.number != first.number]
     if ("last", first.number) in called and called.intersection(swapped) and ("first", first.number) not in called:
         return Cause(

@@ -30,7 +30,7 @@ from checks.i1_2.facts import (
     Sent,
     Trial,
 )
-from checks.i1_2.reports import find_reports, milestone
+from checks.i1_2.summaries import find_summaries, milestone
 from tutor.judge.bench import Bench, MachineTooBusy, Publisher, Run
 from tutor.judge.ending import repeat_if_doubtful
 from tutor.judge.tracebacks import Frame
@@ -224,7 +224,7 @@ async def _collect_last_logs(run: Run, trial: Trial) -> Trial:
     last = milestone(len(trial.sent))
 
     def told() -> bool:
-        return any(report.messages >= last for report in find_reports(now()))
+        return any(summary.messages >= last for summary in find_summaries(now()))
 
     if last:
         # From the last message on: a node that starts counting again for a new publisher is due later than others.

@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 
-from checks.i1_3 import names, offers, programs, requests, whole
+from checks.i1_3 import client_names, client_requests, rewriting, service_steps, steps
 from checks.i1_3.code import Code, learner_files, with_applicable_step
 from checks.i1_3.facts import CLIENT, CLIENT_S, LATER_S, SERVER, SIGNS, ClientRun
 from tutor.judge import causes, edits, source, tracebacks
@@ -53,17 +53,19 @@ _Step = Callable[[Code, Cause, ClientRun], str | None]
 
 
 def _without(code: Code, _cause: Cause, _seen: ClientRun, names: Sequence[str] = ("_exit",)) -> str | None:
-    return programs.remove_calls(code, *names)
+    return steps.remove_calls(code, *names)
 
 
 _STEPS: Mapping[str, Sequence[_Step]] = {
-    "service not waited for": [lambda code, *_: requests.wait_for_services(code)],
-    "waits too short a time": [_without, lambda code, *_: requests.lengthen_waits(code)],
-    "non-zero exit": [lambda code, *_: programs.end_with_zero(code)],
-    "coroutine not awaited": [lambda code, cause, _: requests.make_synchronous(code, cause.text.partition(" ")[0])],
-    "incompatible QoS": [lambda code, *_: offers.use_default_qos(code)],
-    "thread still running": [lambda code, *_: programs.join_thread(code)],
-    "not called": [_without, lambda code, _, seen: programs.add_to_list(code, _missing(seen))],
+    "service not waited for": [lambda code, *_: client_requests.wait_for_services(code)],
+    "waits too short a time": [_without, lambda code, *_: client_requests.lengthen_waits(code)],
+    "non-zero exit": [lambda code, *_: steps.end_with_zero(code)],
+    "coroutine not awaited": [
+        lambda code, cause, _: client_requests.make_synchronous(code, cause.text.partition(" ")[0])
+    ],
+    "incompatible QoS": [lambda code, *_: service_steps.use_default_qos(code)],
+    "thread still running": [lambda code, *_: steps.join_thread(code)],
+    "not called": [_without, lambda code, _, seen: steps.add_to_list(code, _missing(seen))],
 }
 """The smallest steps for a cause."""
 
@@ -75,20 +77,20 @@ def _stepped(cause: Cause, seen: ClientRun) -> Cause:
     found = tracebacks.last_traceback(trace)
     raised = own_frame.code if found is not None and (own_frame := found.own(trace.folder)) is not None else ""
     if cause.name == "did not end" and own is not None and "sleep(" in own.code:
-        steps: Sequence[_Step] = [partial(_without, names=("sleep",))]
+        fixes: Sequence[_Step] = [partial(_without, names=("sleep",))]
     elif cause.name == "did not end" and not _missing(seen) and source.calls(trace, "Thread"):
-        steps = [lambda code, *_: programs.shut_down_rclpy(code)]
+        fixes = [lambda code, *_: steps.shut_down_rclpy(code)]
     else:
-        steps = _STEPS.get(cause.name, [])
-    first = bool(steps) or _is_due_to_no_answer(found)
+        fixes = _STEPS.get(cause.name, [])
+    first = bool(fixes) or _is_due_to_no_answer(found)
     if "input(" in raised or (own is not None and "input(" in own.code):
-        steps, first = [lambda code, *_: programs.remove_input(code)], True
-    each_file = [partial(step, code, cause, seen) for step in steps for code in learner_files(trace)]
+        fixes, first = [lambda code, *_: steps.remove_input(code)], True
+    each_file = [partial(step, code, cause, seen) for step in fixes for code in learner_files(trace)]
     unmet = cause.name in ("wrong service name", "wrong type", "not called")
     unmet = unmet or cause.name == "waits too short a time"
-    waits = [] if unmet else [partial(requests.wait_for_answers, code, trace) for code in learner_files(trace)]
+    waits = [] if unmet else [partial(client_requests.wait_for_answers, code, trace) for code in learner_files(trace)]
     file = next(iter(learner_files(trace)), Code(""))
-    last = [partial(whole.rewrite_client, file)] if file.file else []
+    last = [partial(rewriting.rewrite_client, file)] if file.file else []
     if first and (told := next((told for step in (*each_file, *waits) if (told := step()) is not None), None)):
         return replace(cause, hint=told)
     return with_applicable_step(cause, trace, *each_file, *waits, *last)
@@ -106,7 +108,7 @@ def _missing(seen: ClientRun) -> list[str]:
 
 def _why_not_zero(seen: ClientRun, missing: Sequence[str], ended: str) -> Cause:
     assert seen.trace is not None
-    if (strange := names.diagnose_client(seen, missing)) is not None and _follows_from_silence(seen.trace):
+    if (strange := client_names.diagnose_client(seen, missing)) is not None and _follows_from_silence(seen.trace):
         return strange
     if (unmet := _diagnose_missing_calls(seen, missing)) is not None and _follows_from_silence(seen.trace):
         return unmet
@@ -136,7 +138,7 @@ def _why_not_called(seen: ClientRun, missing: Sequence[str]) -> Cause:
         )
     return (
         causes.diagnose_incompatible_service(seen.clients)
-        or names.diagnose_client(seen, missing)
+        or client_names.diagnose_client(seen, missing)
         or _never_awaited(seen.trace)
         or _returns_early(seen)
         or _diagnose_missing_calls(seen, missing)
@@ -152,7 +154,7 @@ def _why_hanging(seen: ClientRun, missing: Sequence[str]) -> Cause:
     assert seen.trace is not None
     if (mismatched := causes.diagnose_incompatible_service(seen.clients)) is not None:
         return mismatched
-    if (strange := names.diagnose_client(seen, missing)) is not None:
+    if (strange := client_names.diagnose_client(seen, missing)) is not None:
         return strange
     own = tracebacks.own_frame(seen.stuck, seen.trace.folder)
     where = f" at {own}" if own else ""
@@ -219,7 +221,7 @@ def _returns_early(seen: ClientRun) -> Cause | None:
     if len(seen.served) != 1:
         return None
     for code in learner_files(seen.trace):
-        if (found := programs.move_return(code)) is not None:
+        if (found := steps.move_return(code)) is not None:
             loop, returns, step = found
             return Cause(
                 "return in the loop",

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
-from checks.i1_3 import mixed, offers, programs, services, zero
+from checks.i1_3 import division_by_zero, late_binding, service_steps, services, steps
 from checks.i1_3.code import Code, learner_files, with_applicable_step
 from checks.i1_3.facts import (
     ANSWER_S,
@@ -19,7 +19,7 @@ from checks.i1_3.facts import (
     missing_services,
     right_result,
 )
-from checks.i1_3.whole import with_applicable_steps
+from checks.i1_3.rewriting import with_applicable_steps
 from tutor.judge import causes, ending, tracebacks
 from tutor.judge.causes import names
 from tutor.judge.trace import CallAnswer, Trace
@@ -55,7 +55,7 @@ def _why_missing(trace: Trace, missing: Sequence[str]) -> Cause:
     broken = causes.diagnose_process(trace)
     if broken is not None:
         asks = broken.name == names.UNHANDLED_EXCEPTION and "EOFError" in broken.text
-        return with_applicable_step(broken, trace, lambda: _first(trace, programs.remove_input) if asks else None)
+        return with_applicable_step(broken, trace, lambda: _first(trace, steps.remove_input) if asks else None)
     offered = [s for s in trace.graph.servers if not s.is_standard]
     typed = [service for service in offered if service.name in missing and service.type != TYPE]
     if typed:
@@ -64,7 +64,7 @@ def _why_missing(trace: Trace, missing: Sequence[str]) -> Cause:
             f"{typed[0].name} has the type {typed[0].type}, not {TYPE}",
             f"create it with AddTwoInts: self.create_service(AddTwoInts, '{typed[0].name[1:]}', ...)",
         )
-        return with_applicable_step(cause, trace, lambda: offers.set_types(trace, [each.name for each in typed]))
+        return with_applicable_step(cause, trace, lambda: service_steps.set_types(trace, [each.name for each in typed]))
     strange = [(s.name, name) for name in missing for s in offered if s.name not in SIGNS and _like(s.name, name)]
     if strange:
         cause = Cause(
@@ -72,13 +72,13 @@ def _why_missing(trace: Trace, missing: Sequence[str]) -> Cause:
             f"there is {strange[0][0]} instead of {strange[0][1]}",
             f"name it {strange[0][1][1:]!r}, without a namespace or ~ in front",
         )
-        return with_applicable_step(cause, trace, lambda: offers.rename_services(trace, strange))
+        return with_applicable_step(cause, trace, lambda: service_steps.rename_services(trace, strange))
     cause = Cause(
         "service missing",
         f"{', '.join(missing)} {'is' if len(missing) == 1 else 'are'} not there",
         f"self.create_service(AddTwoInts, '{missing[0][1:]}', self.{missing[0][1:]}_callback)",
     )
-    return with_applicable_step(cause, trace, lambda: offers.add_services(trace, missing))
+    return with_applicable_step(cause, trace, lambda: service_steps.add_services(trace, missing))
 
 
 def _like(offered: str, missing: str) -> bool:
@@ -94,15 +94,15 @@ def _unanswered(cause: Cause, trace: Trace, service: str, stuck: Sequence[Frame]
     """The cause with the step that lets a service answer."""
     found, at = tracebacks.last_traceback(trace), tracebacks.own_frame(stuck, trace.folder)
     if found is not None and found.frames[-1].function == "send_response":
-        return replace(cause, hint=offers.return_response(trace, service) or cause.hint)
+        return replace(cause, hint=service_steps.return_response(trace, service) or cause.hint)
     if cause.name == names.NO_SPIN:
         return with_applicable_step(cause, trace)
     if at is not None and "sleep(" in at.code:
-        return replace(cause, hint=_first(trace, lambda code: programs.remove_calls(code, "sleep")) or cause.hint)
+        return replace(cause, hint=_first(trace, lambda code: steps.remove_calls(code, "sleep")) or cause.hint)
     if any("was never awaited" in line.text for line in trace.output):
         return replace(cause, hint=services.compute_results(trace, [service], whole=True) or cause.hint)
     if cause.name == names.INCOMPATIBLE_QOS:
-        return with_applicable_step(cause, trace, lambda: _first(trace, offers.use_default_qos))
+        return with_applicable_step(cause, trace, lambda: _first(trace, service_steps.use_default_qos))
     return with_applicable_step(cause, trace, lambda: services.compute_results(trace, [service], whole=True))
 
 
@@ -136,7 +136,7 @@ def judge_operations(seen: ServiceCalls) -> Verdict:
             return failed(
                 f"{question} = {right}",
                 f"{answer.response['sum']}",
-                mixed.diagnose_loop(seen.trace, seen.answers)
+                late_binding.diagnose_loop(seen.trace, seen.answers)
                 or _computing(_negatives_refused(answer, seen.answers) or _why_wrong(answer, right), seen),
                 [f"{name} answered {result}" for name, result in _answered(seen.of(answer.service))],
             )
@@ -212,7 +212,7 @@ def _guarded(cause: Cause, trace: Trace) -> Cause:
     """The cause with the step that lets /divide answer, and say that it is an error, where b is 0."""
     found = tracebacks.last_traceback(trace)
     if found is not None and found.frames[-1].function == "send_response":
-        return replace(cause, hint=offers.return_response(trace, "/divide") or cause.hint)
+        return replace(cause, hint=service_steps.return_response(trace, "/divide") or cause.hint)
     return replace(cause, hint=services.guard_division(trace) or cause.hint)
 
 
@@ -263,7 +263,7 @@ def judge_division(seen: Division) -> Verdict:
         )
         trace = seen.trace
         cause = with_applicable_step(
-            cause, trace, lambda: zero.log_division_by_zero(trace), lambda: services.guard_division(trace)
+            cause, trace, lambda: division_by_zero.log_division_by_zero(trace), lambda: services.guard_division(trace)
         )
         return failed(
             expected,

@@ -24,7 +24,7 @@ from checks.i1_2.facts import (
     Trial,
 )
 from checks.i1_2.reading import read, values
-from checks.i1_2.reports import find_reports
+from checks.i1_2.summaries import find_summaries
 from tests.checks.made import CRASH, NO_NODE, START, UP, assert_failed, assert_passed, ending, exited, trace
 from tutor.judge.bench import MachineTooBusy
 from tutor.judge.trace import LogRecord, Trace
@@ -684,7 +684,7 @@ class ByASlowTimer(Counter):
 
 def test_the_third_summary_may_wait_for_a_slow_timer() -> None:
     jumped = jump(ByASlowTimer())
-    assert [report.messages for report in find_reports(jumped)] == [11, 21, 35, 41]
+    assert [summary.messages for summary in find_summaries(jumped)] == [11, 21, 35, 41]
     assert_passed(judges.judge_slow_summary(steady(Counter()), jumped))
     assert_passed(judges.judge_slow_count(steady(Counter()), jumped))
 
@@ -1214,7 +1214,7 @@ def test_a_node_that_ends_when_the_publisher_goes_or_n_jumps() -> None:
     assert_failed(continuity.judge_gaps(replace(jumped, trace=crashed), even), "unhandled exception")
     deaf = replace(restarted, sent=restarted.sent[:RESTART_AFTER], trace=trace(logs=restarted.trace.logs))
     assert_failed(continuity.judge_restart(deaf, even, jumped), "no subscription")
-    assert find_reports(replace(deaf, trace=restarted.trace))[0].messages == 10
+    assert find_summaries(replace(deaf, trace=restarted.trace))[0].messages == 10
 
 
 def test_shutdown() -> None:
@@ -1490,8 +1490,8 @@ def test_an_alarm_beside_a_summary_is_no_part_of_the_next_one() -> None:
             if self.total == 10:
                 yield 30, "by the way: 3"
 
-    assert [report.messages for report in find_reports(steady(Beside()))] == [10, 20]
-    assert [len(report.lines) for report in find_reports(steady(Beside()))] == [1, 1]
+    assert [summary.messages for summary in find_summaries(steady(Beside()))] == [10, 20]
+    assert [len(summary.lines) for summary in find_summaries(steady(Beside()))] == [1, 1]
 
 
 def test_what_is_said_just_before_a_summary_is_due_is_no_part_of_it() -> None:
@@ -1499,7 +1499,7 @@ def test_what_is_said_just_before_a_summary_is_due_is_no_part_of_it() -> None:
     early = jumped.sent[29].at - 0.01
     logs = (*jumped.trace.logs, LogRecord(40, "node", "1 lost in the last second", early, early))
     jumped = replace(jumped, trace=replace(jumped.trace, logs=logs))
-    assert [report.messages for report in find_reports(jumped)] == [10, 20, 30, 40]
+    assert [summary.messages for summary in find_summaries(jumped)] == [10, 20, 30, 40]
 
 
 def test_how_much_later_than_due_a_message_was_sent() -> None:

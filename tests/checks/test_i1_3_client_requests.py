@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 import pytest
 
-from checks.i1_3 import programs, requests
+from checks.i1_3 import client_requests, steps
 from checks.i1_3.code import Code
 from tests.checks.made import trace
 from tutor.judge.step_parsing import apply_step
@@ -28,7 +28,7 @@ def followed(text: str, step: Callable[[Code], str | None]) -> str | None:
 
 
 def answered(code: Code) -> str | None:
-    return requests.wait_for_answers(code, trace(sources={code.file: code.text}))
+    return client_requests.wait_for_answers(code, trace(sources={code.file: code.text}))
 
 
 ASK = """\
@@ -142,12 +142,12 @@ def test_a_timer_awaits_its_answers() -> None:
     ],
 )
 def test_a_service_is_waited_for_above_its_request(asks: str, waits: str) -> None:
-    assert followed(ASK.format(asks), requests.wait_for_services) == ASK.format(waits)
+    assert followed(ASK.format(asks), client_requests.wait_for_services) == ASK.format(waits)
 
 
 def test_a_service_is_waited_for_where_its_client_is_made_if_there_is_no_other_place() -> None:
     text = "node = rclpy.create_node('c')\nasked = [node.create_client(T, n).call_async(R) for n in NAMES]\n"
-    after = followed(text, requests.wait_for_services)
+    after = followed(text, client_requests.wait_for_services)
     assert after is not None
     assert "asked = [waited(node.create_client(T, n)).call_async(R) for n in NAMES]" in after
     assert "def waited(client):\n    client.wait_for_service(timeout_sec=10.0)\n    return client" in after
@@ -156,7 +156,7 @@ def test_a_service_is_waited_for_where_its_client_is_made_if_there_is_no_other_p
 def test_a_wait_is_made_long_enough() -> None:
     text = "if not client.wait_for_service(0.5) or not other.service_is_ready(): pass\n"
     long = "wait_for_service(timeout_sec=10.0)"
-    assert followed(text, requests.lengthen_waits) == f"if not client.{long} or not other.{long}: pass\n"
+    assert followed(text, client_requests.lengthen_waits) == f"if not client.{long} or not other.{long}: pass\n"
 
 
 ASYNC = """\
@@ -167,7 +167,7 @@ class Client(Node):
 
 
 def test_a_coroutine_that_nobody_runs_becomes_a_function() -> None:
-    after = followed(ASYNC, lambda code: requests.make_synchronous(code, "ask"))
+    after = followed(ASYNC, lambda code: client_requests.make_synchronous(code, "ask"))
     assert after == textwrap.dedent("""\
         class Client(Node):
             def ask(self, client):
@@ -186,7 +186,7 @@ def test_a_coroutine_that_nobody_runs_becomes_a_function() -> None:
     ],
 )
 def test_what_is_not_called_comes_into_the_list(text: str, after: str | None) -> None:
-    assert followed(text, lambda code: programs.add_to_list(code, ["/multiply"])) == after
+    assert followed(text, lambda code: steps.add_to_list(code, ["/multiply"])) == after
 
 
 @pytest.mark.parametrize(
@@ -203,4 +203,4 @@ def test_what_is_not_called_comes_into_the_list(text: str, after: str | None) ->
     ],
 )
 def test_a_program_that_did_all_its_work_ends_with_0(text: str, after: str | None) -> None:
-    assert followed(text, programs.end_with_zero) == after
+    assert followed(text, steps.end_with_zero) == after

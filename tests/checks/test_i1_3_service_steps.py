@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import pytest
 
-from checks.i1_3 import offers, programs, services
+from checks.i1_3 import service_steps, services, steps
 from checks.i1_3.code import Code
 from checks.i1_3.facts import SIGNS
 from tests.checks.made import trace
@@ -70,7 +70,7 @@ def body(*lines: str) -> str:
     ],
 )
 def test_a_response_is_returned_on_every_path(before: str, after: str) -> None:
-    assert followed(before, lambda seen: offers.return_response(seen, "/divide")) == after
+    assert followed(before, lambda seen: service_steps.return_response(seen, "/divide")) == after
 
 
 WRAPPED = """\
@@ -85,7 +85,7 @@ def logged(function):
 
 
 def test_what_a_decorator_puts_around_a_callback_returns_the_response() -> None:
-    after = followed(WRAPPED, lambda seen: offers.return_response(seen, "/divide"))
+    after = followed(WRAPPED, lambda seen: service_steps.return_response(seen, "/divide"))
     assert after == WRAPPED.replace("response)\n\n    return", "response)\n        return response\n\n    return")
 
 
@@ -97,20 +97,20 @@ for name in NAMES:
 
 
 def test_services_that_are_missing_are_offered_below_the_others() -> None:
-    after = followed(body("return response"), lambda seen: offers.add_services(seen, ["/add", "/multiply"]))
+    after = followed(body("return response"), lambda seen: service_steps.add_services(seen, ["/add", "/multiply"]))
     assert after is not None
     assert "self.on_divide)\n        self.create_service(AddTwoInts, 'add', self.add_callback)\n" in after
     assert (
         "    def multiply_callback(self, request, response):\n        response.sum = request.a * request.b\n" in after
     )
-    after = followed(MODULE, lambda seen: offers.add_services(seen, ["/add"]))
+    after = followed(MODULE, lambda seen: service_steps.add_services(seen, ["/add"]))
     assert after is not None
     assert after.endswith("    return response\n\nnode.create_service(AddTwoInts, 'add', add_callback)\n")
 
 
 def test_services_that_are_offered_in_a_loop_are_named_and_answered_in_it() -> None:
     wanted = [(f"/calc{name}", name) for name in SIGNS]
-    after = followed(MODULE, lambda seen: offers.rename_services(seen, wanted))
+    after = followed(MODULE, lambda seen: service_steps.rename_services(seen, wanted))
     assert after is not None
     assert "node.create_service(AddTwoInts, '/' + (PREFIX + name).rpartition('/')[2], make(name))" in after
     after = followed(MODULE, lambda seen: services.compute_results(seen, list(SIGNS)))
@@ -121,7 +121,7 @@ def test_services_that_are_offered_in_a_loop_are_named_and_answered_in_it() -> N
 
 def test_a_service_of_another_type_gets_the_type_and_a_callback_that_fills_it_in() -> None:
     text = body("response.success = True", "return response").replace("AddTwoInts", "Trigger")
-    after = followed(text, lambda seen: offers.set_types(seen, ["/divide"]))
+    after = followed(text, lambda seen: service_steps.set_types(seen, ["/divide"]))
     assert after is not None
     assert 'self.create_service(AddTwoInts, "divide", self.on_divide)' in after
     assert "self.get_logger().error('division by zero')" in after
@@ -130,5 +130,5 @@ def test_a_service_of_another_type_gets_the_type_and_a_callback_that_fills_it_in
 
 def test_a_thread_that_spins_is_waited_for_at_the_end() -> None:
     text = "t = Thread(target=executor.spin, daemon=True)\n"
-    told = programs.join_thread(Code(text, "node.py"))
+    told = steps.join_thread(Code(text, "node.py"))
     assert told == "in node.py, line 1 becomes: t = Thread(target=executor.spin)"

@@ -21,7 +21,7 @@ STALE = 4
 
 
 @dataclass(frozen=True)
-class Report:
+class Summary:
     """A summary: lines that were logged together. `messages`: how many had been sent when the first was logged."""
 
     lines: tuple[Line, ...]
@@ -76,79 +76,83 @@ def milestone(messages: int) -> int:
     return messages - messages % EVERY
 
 
-def in_time(report: Report, trial: Trial) -> bool:
+def in_time(summary: Summary, trial: Trial) -> bool:
     """Whether the summary belongs to the tenth, twentieth, ... message: it comes with it, or soon after."""
-    due = milestone(report.messages)
-    return due > 0 and report.at - trial.sent[due - 1].at <= trial.summary_limit_s
+    due = milestone(summary.messages)
+    return due > 0 and summary.at - trial.sent[due - 1].at <= trial.summary_limit_s
 
 
-def totals(report: Report, trial: Trial, *, before: int = 0) -> range:
+def totals(summary: Summary, trial: Trial, *, before: int = 0) -> range:
     """The totals that are true in it, when the first `before` messages do not count.
 
     It may have been made a moment before it was logged, and it may be logged in several parts.
     """
-    counted = report.messages - before
+    counted = summary.messages - before
     earliest = counted
-    if milestone(counted) > 0 and (report.at - trial.sent[before + milestone(counted) - 1].at <= trial.summary_limit_s):
+    if milestone(counted) > 0 and (
+        summary.at - trial.sent[before + milestone(counted) - 1].at <= trial.summary_limit_s
+    ):
         earliest = milestone(counted)
-    elif report.at - trial.sent[report.messages - 1].at <= AT_ONCE_S + trial.allowance_s:
+    elif summary.at - trial.sent[summary.messages - 1].at <= AT_ONCE_S + trial.allowance_s:
         earliest = counted - 1
-    return range(max(earliest, 1), report.until - before + 1)
+    return range(max(earliest, 1), summary.until - before + 1)
 
 
-def find_reports(trial: Trial) -> tuple[Report, ...]:
+def find_summaries(trial: Trial) -> tuple[Summary, ...]:
     """The summaries among what was logged, complete or not, oldest first."""
     times = Counter(line.kind for line in trial.lines)
     usual = {kind for kind, count in times.items() if count >= max(3, ORDINARY * len(trial.sent))}
     special = group_lines([line for line in trial.lines if line.kind not in usual], trial)
-    if complete := _but_of_the_break([report for report in special if _complete(report, trial)], trial):
+    if complete := _but_of_the_break([summary for summary in special if _complete(summary, trial)], trial):
         return _alone(_like(complete, special), special, trial)
     everything = group_lines(trial.lines, trial)
-    complete = [report for report in everything if report.messages > 1 and _complete(report, trial)]
+    complete = [summary for summary in everything if summary.messages > 1 and _complete(summary, trial)]
     if len(complete) > len(trial.sent) / 4:
         return _alone(_like(complete, everything), everything, trial)
     return _alone(_likeliest(special, trial), special, trial)
 
 
-def _complete(report: Report, trial: Trial) -> bool:
+def _complete(summary: Summary, trial: Trial) -> bool:
     """Whether it quotes a first message and a recent one."""
     firsts = {trial.sent[index].number for index in (0, *trial.jumps)}
-    oldest = min(report.messages - STALE, milestone(report.messages)) - 1
-    recent = {each.number for each in trial.sent[max(oldest, 0) : report.until]}
-    quoted = list(report.quoted)
+    oldest = min(summary.messages - STALE, milestone(summary.messages)) - 1
+    recent = {each.number for each in trial.sent[max(oldest, 0) : summary.until]}
+    quoted = list(summary.quoted)
     return any(
         first in quoted and any(last in quoted and (last != first or quoted.count(first) > 1) for last in recent)
         for first in firsts
     )
 
 
-def _but_of_the_break(complete: Sequence[Report], trial: Trial) -> list[Report]:
+def _but_of_the_break(complete: Sequence[Summary], trial: Trial) -> list[Summary]:
     """Without what is said of a jump or a restart: that may quote a first and a recent message, too.
 
     It is told from a summary by its wording, if there are summaries elsewhere.
     """
-    summaries = {
+    in_summaries = {
         kind
-        for report in complete
-        if in_time(report, trial) and not _at_the_break(report, trial)
-        for kind in report.kinds
+        for summary in complete
+        if in_time(summary, trial) and not _at_the_break(summary, trial)
+        for kind in summary.kinds
     }
     return [
-        report for report in complete if not summaries or report.kinds & summaries or not _at_the_break(report, trial)
+        summary
+        for summary in complete
+        if not in_summaries or summary.kinds & in_summaries or not _at_the_break(summary, trial)
     ]
 
 
-def _at_the_break(report: Report, trial: Trial) -> bool:
+def _at_the_break(summary: Summary, trial: Trial) -> bool:
     """Whether it came right after a break, and quotes nothing newer than the message after that."""
-    quoted = [index for index, each in enumerate(trial.sent[: report.until]) if each.number in report.quoted]
+    quoted = [index for index, each in enumerate(trial.sent[: summary.until]) if each.number in summary.quoted]
     newest = max(quoted, default=0)
     return any(
-        newest in (index - 1, index) and 0 <= report.at - trial.sent[index].at <= trial.summary_limit_s
+        newest in (index - 1, index) and 0 <= summary.at - trial.sent[index].at <= trial.summary_limit_s
         for index in trial.jumps
     )
 
 
-def _like(complete: Sequence[Report], candidates: Iterable[Report]) -> tuple[Report, ...]:
+def _like(complete: Sequence[Summary], candidates: Iterable[Summary]) -> tuple[Summary, ...]:
     """The complete ones, and those that share most of their kinds of lines with one of them."""
     return tuple(
         each
@@ -157,26 +161,26 @@ def _like(complete: Sequence[Report], candidates: Iterable[Report]) -> tuple[Rep
     )
 
 
-def _alone(reports: Sequence[Report], candidates: Iterable[Report], trial: Trial) -> tuple[Report, ...]:
+def _alone(summaries: Sequence[Summary], candidates: Iterable[Summary], trial: Trial) -> tuple[Summary, ...]:
     """The summaries without what only happened to be logged together with one.
 
     That is what comes by itself, too, and not when a summary is due: then it may be the rest of a torn one.
     """
-    apart = [each for each in candidates if each not in reports and each.messages % EVERY > STALE]
+    apart = [each for each in candidates if each not in summaries and each.messages % EVERY > STALE]
     elsewhere = {line.kind for each in apart for line in each.lines}
-    return tuple(_without(report, elsewhere, trial) for report in reports)
+    return tuple(_without(summary, elsewhere, trial) for summary in summaries)
 
 
-def _without(report: Report, kinds: Container[tuple[int, str]], trial: Trial) -> Report:
+def _without(summary: Summary, kinds: Container[tuple[int, str]], trial: Trial) -> Summary:
     """The summary without lines of these kinds, where it says as much without them."""
-    rest = Report(tuple(line for line in report.lines if line.kind not in kinds))
-    return rest if rest.lines and _complete(rest, trial) >= _complete(report, trial) else report
+    rest = Summary(tuple(line for line in summary.lines if line.kind not in kinds))
+    return rest if rest.lines and _complete(rest, trial) >= _complete(summary, trial) else summary
 
 
-def _likeliest(candidates: Sequence[Report], trial: Trial) -> tuple[Report, ...]:
+def _likeliest(candidates: Sequence[Summary], trial: Trial) -> tuple[Summary, ...]:
     """No candidate is complete: those of a family that most often state a total, or quote a message, when it is due."""
 
-    def worth(family: Sequence[Report]) -> tuple[int, int]:
+    def worth(family: Sequence[Summary]) -> tuple[int, int]:
         due = [each for each in family if in_time(each, trial)]
         telling = [each for each in due if each.quoted or any(map(each.states, totals(each, trial)))]
         return len({milestone(each.messages) for each in telling}), -len(family)
@@ -186,20 +190,20 @@ def _likeliest(candidates: Sequence[Report], trial: Trial) -> tuple[Report, ...]
     return best if best and worth(best)[0] else ()
 
 
-def group_lines(lines: Sequence[Line], trial: Trial) -> tuple[Report, ...]:
+def group_lines(lines: Sequence[Line], trial: Trial) -> tuple[Summary, ...]:
     """Lines that were logged at once, or between the same two messages; and groups that only together are complete.
 
     What was said just before a summary was due is none of it.
     """
-    groups: list[Report] = []
+    groups: list[Summary] = []
     for line in lines:
         before = groups[-1].lines[-1] if groups else None
         at_once = before and line.at - before.at <= AT_ONCE_S and milestone(line.messages) == milestone(before.messages)
         if before and (line.messages == before.messages or at_once):
-            groups[-1] = Report((*groups[-1].lines, line))
+            groups[-1] = Summary((*groups[-1].lines, line))
         else:
-            groups.append(Report((line,)))
-    joined: list[Report] = []
+            groups.append(Summary((line,)))
+    joined: list[Summary] = []
     for group in groups:
         if joined and (whole := _joined(joined[-1], group, trial)):
             joined[-1] = whole
@@ -208,19 +212,19 @@ def group_lines(lines: Sequence[Line], trial: Trial) -> tuple[Report, ...]:
     return tuple(joined)
 
 
-def _joined(one: Report, other: Report, trial: Trial) -> Report | None:
+def _joined(one: Summary, other: Summary, trial: Trial) -> Summary | None:
     """One summary that was interrupted by a message; None where these are none."""
-    whole = Report(one.lines + other.lines)
+    whole = Summary(one.lines + other.lines)
     soon = other.at - one.at <= SOON_S and milestone(other.messages) == milestone(one.messages) > 0
     apart = not _complete(one, trial) and not _complete(other, trial) and not one.kinds & other.kinds
     return whole if soon and apart and _complete(whole, trial) else None
 
 
-def slots(reports: Sequence[Report]) -> list[tuple[Number, ...]] | None:
-    """The numbers of equally worded reports, place by place; None where they are not worded equally."""
+def slots(summaries: Sequence[Summary]) -> list[tuple[Number, ...]] | None:
+    """The numbers of equally worded summaries, place by place; None where they are not worded equally."""
     if any(
-        [line.kind for line in one.lines] != [line.kind for line in other.lines] for one, other in pairwise(reports)
+        [line.kind for line in one.lines] != [line.kind for line in other.lines] for one, other in pairwise(summaries)
     ):
         return None
-    rows = [report.numbers for report in reports]
+    rows = [summary.numbers for summary in summaries]
     return list(zip(*rows, strict=True)) if len({len(row) for row in rows}) == 1 else None

@@ -6,8 +6,8 @@ import ast
 
 import pytest
 
+from checks.i1_3.division_by_zero import log_division_by_zero
 from checks.i1_3.services import guard_division
-from checks.i1_3.zero import log_division_by_zero
 from tests.checks.made import trace
 from tutor.judge.step_parsing import apply_step
 

@@ -6,7 +6,7 @@ import ast
 
 import pytest
 
-from checks.i1_3 import services, whole
+from checks.i1_3 import rewriting, services
 from checks.i1_3.code import Code
 from checks.i1_3.facts import SIGNS, ServiceCalls
 from checks.i1_3.judges import judge_services
@@ -52,23 +52,23 @@ def followed(text: str, step: str | None) -> str:
 
 
 def test_a_server_as_a_whole_keeps_the_learners_names() -> None:
-    after = followed(SERVER, whole.rewrite_server(seen(SERVER)))
+    after = followed(SERVER, rewriting.rewrite_server(seen(SERVER)))
     ast.parse(after)
     assert after.startswith('#!/usr/bin/env python3\n"""A calculator."""\nimport rclpy\n')
     assert "class Calc(Node):\n    def __init__(self):\n        super().__init__('calc')\n" in after
     assert "def add(self, req, res):\n        res.sum = req.a + req.b\n        return res\n" in after
     assert "Thread" not in after
-    assert whole.rewrite_server(seen(after)) is None
+    assert rewriting.rewrite_server(seen(after)) is None
 
 
 @pytest.mark.parametrize("text", ["def main(:\n", "import rclpy\nrclpy.spin(None)\n", "pass\n"])
 def test_it_needs_no_file_that_python_can_read(text: str) -> None:
-    after = followed(text, whole.rewrite_server(seen(text)))
+    after = followed(text, rewriting.rewrite_server(seen(text)))
     assert after.count("self.create_service(") == 4
     assert after.count("rclpy.init()") == 1
-    after = followed(text, whole.rewrite_client(Code(text, "node.py")))
+    after = followed(text, rewriting.rewrite_client(Code(text, "node.py")))
     assert "rclpy.spin_until_future_complete(node, future)" in after
-    assert whole.rewrite_client(Code(after, "node.py")) is None
+    assert rewriting.rewrite_client(Code(after, "node.py")) is None
 
 
 LOOP = """\
@@ -105,7 +105,7 @@ def test_no_step_of_a_server_is_in_words_only() -> None:
     ],
 )
 def test_a_client_as_a_whole_calls_all_four(text: str) -> None:
-    after = followed(text, whole.rewrite_client(Code(text, "node.py")))
+    after = followed(text, rewriting.rewrite_client(Code(text, "node.py")))
     assert "for name in ('add', 'subtract', 'multiply', 'divide'):" in after
     assert "rclpy.spin_until_future_complete(node, future)" in after
     assert after.count("rclpy.init()") == 1

@@ -7,7 +7,7 @@ import difflib
 from collections.abc import Sequence
 from functools import partial
 
-from checks.i1_3 import offers
+from checks.i1_3 import service_steps
 from checks.i1_3.code import Code, learner_files, with_applicable_step
 from checks.i1_3.facts import SIGNS, TYPE, ClientRun
 from checks.i1_3.services import Changes
@@ -45,7 +45,8 @@ def _step(trace: Trace, strange: Sequence[str], missing: Sequence[str]) -> str:
             wanted.append((name, nearest))
             free.remove(nearest)
     return (
-        offers.rename_services(trace, wanted, "create_client") or f"write {missing[0][1:]!r} in place of {strange[0]!r}"
+        service_steps.rename_services(trace, wanted, "create_client")
+        or f"write {missing[0][1:]!r} in place of {strange[0]!r}"
     )
 
 

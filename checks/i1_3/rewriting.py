@@ -8,9 +8,9 @@ from collections.abc import Callable
 from dataclasses import replace
 from functools import wraps
 
+from checks.i1_3.client_requests import LONG
 from checks.i1_3.code import Code, with_applicable_step
 from checks.i1_3.facts import SIGNS, Division, ServiceCalls
-from checks.i1_3.requests import LONG
 from checks.i1_3.services import argument_names, find_callback, is_named_after, lines_for
 from tutor.judge import edits
 from tutor.judge.rewriting.node import argument
