@@ -334,7 +334,7 @@ def _diagnose_ignored(seen: LaunchRun, argument: str, value: str, usual: LaunchR
     """Whether the value that was given reaches no node at all."""
     there = launch(seen.trace)
     word = value.rsplit("/", 1)[-1]
-    nodes = [command for command in seen.commands if seen.trace.file not in command]  # the launch has it by itself
+    nodes = [command for command in seen.command_lines if seen.trace.file not in command]  # the launch has it by itself
     if any(word in command for command in nodes):
         return None
     name = _own_name(usual) if usual is not None else "chatter"
@@ -416,7 +416,7 @@ def _diagnose_remaps(seen: LaunchRun, wanted: str) -> Cause | None:
 
 def _remaps(seen: LaunchRun) -> list[tuple[str, str]]:
     """The remappings on the nodes' command lines, from and to."""
-    return [(m["source"], m["target"]) for command in seen.commands for m in _REMAP.finditer(command)]
+    return [(m["source"], m["target"]) for command in seen.command_lines for m in _REMAP.finditer(command)]
 
 
 @_uses_own_names

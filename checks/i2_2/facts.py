@@ -28,7 +28,7 @@ Pair = tuple[TopicEndpoint, TopicEndpoint]
 
 @dataclass(frozen=True)
 class LaunchRun:
-    """One launch. `commands` are the command lines of its processes, itself included.
+    """One launch. `command_lines` are the command lines of its processes, itself included.
 
     `hidden` are topics whose type this ROS does not have, so that their messages cannot be seen. `answering` are the
     nodes that answered a request after messages had come. `parted`: the nodes had met, and do so no longer; the graph
@@ -37,7 +37,7 @@ class LaunchRun:
 
     trace: Trace
     arguments: Mapping[str, str] = field(default_factory=dict)
-    commands: tuple[str, ...] = ()
+    command_lines: tuple[str, ...] = ()
     hidden: frozenset[str] = frozenset()
     answering: frozenset[str] = frozenset()
     ending: Ending | None = None

@@ -64,11 +64,11 @@ async def plain(bench: Bench) -> LaunchRun:
         answering = await _answering(run)
         if pairs(met):  # a node that has gone is told of a little later
             await run.until(lambda: bool(pairs(run.graph)) or bool(ended_processes(run.output)), GONE_S)
-        trace, commands = run.trace(), await run.commands()
+        trace, command_lines = run.trace(), await run.command_lines()
         parted = bool(pairs(met)) and not pairs(trace.graph)
         bench.report_progress(0.8, "pressing Ctrl+C")
         ending = await run.interrupt() if run.exit is None else None
-        return LaunchRun(_with(trace, met, pairs), {}, commands, hidden, answering, ending, parted)
+        return LaunchRun(_with(trace, met, pairs), {}, command_lines, hidden, answering, ending, parted)
 
 
 async def other_topic(bench: Bench) -> LaunchRun:
@@ -116,7 +116,7 @@ async def _varied(bench: Bench, arguments: Mapping[str, str], wanted: Callable[[
             # Whatever else there is without arguments must have had its time, too: it may be where it should not.
             expected = count_entities((await usual).trace.graph)
             await run.until(lambda: _wait_at_least(run.graph, expected), ENDPOINTS_S)
-            return LaunchRun(_with(run.trace(), met, wanted), arguments, await run.commands(), hidden)
+            return LaunchRun(_with(run.trace(), met, wanted), arguments, await run.command_lines(), hidden)
     finally:
         usual.cancel()
 

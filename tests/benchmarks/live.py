@@ -27,7 +27,7 @@ from pathlib import Path
 from tests.benchmarks.terminal import Terminal, child_of, kept_waiting, use_of
 from tests.live.world import METRONOME, World, world
 from tutor.content import load_course
-from tutor.live.facts import TopicUpdate
+from tutor.live.updates import TopicUpdate
 from tutor.session import Session
 from tutor.tui.app import TutorApp
 from tutor.workspace import Workspace, start

@@ -39,7 +39,9 @@ def pair(topic: str, other: str | None = None, *, namespace: str = "") -> Graph:
     return graph([end(topic, namespace + TALKS)], [end(other or topic, namespace + HEARS)])
 
 
-def launched(seen: Graph, *, out: str = "", commands: Sequence[str] = (), messages: int = 2, **more: Any) -> LaunchRun:
+def launched(
+    seen: Graph, *, out: str = "", command_lines: Sequence[str] = (), messages: int = 2, **more: Any
+) -> LaunchRun:
     """A launch with this graph, and messages on each topic that something is sent on."""
     arguments = more.pop("arguments", {})
     topics = {each.topic for each in seen.publishers}
@@ -60,7 +62,7 @@ def launched(seen: Graph, *, out: str = "", commands: Sequence[str] = (), messag
         launch_arguments=more.pop("declares", ("topic", "namespace")),
     )
     more.setdefault("answering", frozenset(seen.nodes))
-    return LaunchRun(trace, arguments, tuple(commands), **more)
+    return LaunchRun(trace, arguments, tuple(command_lines), **more)
 
 
 USUAL = launched(pair("/chatter"))
@@ -193,13 +195,13 @@ def test_the_default_topic_must_not_be_used_any_more() -> None:
 
 @pytest.mark.parametrize(("sent", "taken"), [("/news", "/chatter"), ("/chatter", "/news")])
 def test_one_node_is_not_remapped(sent: str, taken: str) -> None:
-    commands = ["talker --ros-args -r chatter:=news", "listener --ros-args"]
-    verdict = judges.judge_topic(USUAL, with_topic(pair(sent, taken), commands=commands))
+    command_lines = ["talker --ros-args -r chatter:=news", "listener --ros-args"]
+    verdict = judges.judge_topic(USUAL, with_topic(pair(sent, taken), command_lines=command_lines))
     assert_failed(verdict, "remapping missing on one node", "/chatter")
 
 
 def test_something_is_added_to_the_topic() -> None:
-    seen = with_topic(pair("/news_data"), commands=["talker --ros-args -r chatter:=news_data"])
+    seen = with_topic(pair("/news_data"), command_lines=["talker --ros-args -r chatter:=news_data"])
     assert_failed(judges.judge_topic(USUAL, seen), "wrong topic", "/news_data", "added")
 
 
@@ -213,8 +215,10 @@ def test_something_is_added_to_the_topic() -> None:
         (["talker --ros-args -r news:=chatter"], ("topic",), "remapping the wrong way round"),
     ],
 )
-def test_nobody_uses_the_topic(commands: list[str], declares: tuple[str, ...], cause: str) -> None:
-    seen = with_topic(pair("/chatter"), commands=["ros2 launch my_launch.py topic:=news", *commands], declares=declares)
+def test_nobody_uses_the_topic(command_lines: list[str], declares: tuple[str, ...], cause: str) -> None:
+    seen = with_topic(
+        pair("/chatter"), command_lines=["ros2 launch my_launch.py topic:=news", *command_lines], declares=declares
+    )
     assert_failed(judges.judge_topic(USUAL, seen), cause)
 
 
@@ -268,28 +272,28 @@ def test_one_node_has_no_namespace() -> None:
 
 
 def test_no_node_has_it() -> None:
-    seen = in_robot1(pair("/chatter"), commands=["talker --ros-args"])
+    seen = in_robot1(pair("/chatter"), command_lines=["talker --ros-args"])
     assert_failed(judges.judge_namespace(USUAL, ELSEWHERE, seen, BOTH), "namespace not used")
 
 
 def test_its_argument_has_another_name() -> None:
-    seen = in_robot1(pair("/chatter"), commands=["talker --ros-args"], declares=("topic", "ns"))
+    seen = in_robot1(pair("/chatter"), command_lines=["talker --ros-args"], declares=("topic", "ns"))
     assert_failed(judges.judge_namespace(USUAL, ELSEWHERE, seen, BOTH), "wrong argument name", "ns")
 
 
 def test_a_name_like_the_namespace_is_not_under_it() -> None:
-    seen = in_robot1(pair("/robot1chatter", namespace="/robot1x"), commands=["talker -r __node:=robot1x"])
+    seen = in_robot1(pair("/robot1chatter", namespace="/robot1x"), command_lines=["talker -r __node:=robot1x"])
     assert_failed(judges.judge_namespace(USUAL, ELSEWHERE, seen, BOTH), "namespace not used")
 
 
 def test_the_topic_has_a_slash() -> None:
-    seen = in_robot1(pair("/chatter", namespace="/robot1"), commands=["talker --ros-args -r chatter:=/chatter"])
+    seen = in_robot1(pair("/chatter", namespace="/robot1"), command_lines=["talker --ros-args -r chatter:=/chatter"])
     assert_failed(judges.judge_namespace(USUAL, ELSEWHERE, seen, BOTH), "absolute topic", "/chatter")
 
 
 def test_a_remapping_from_a_slash_works_without_a_namespace_only() -> None:
     both = with_both(
-        pair("/robot1/chatter", namespace="/robot1"), commands=["talker -r __ns:=/robot1 -r /chatter:=news"]
+        pair("/robot1/chatter", namespace="/robot1"), command_lines=["talker -r __ns:=/robot1 -r /chatter:=news"]
     )
     assert_failed(judges.judge_namespace(USUAL, ELSEWHERE, ALONE, both), "absolute remapping", "/chatter")
 

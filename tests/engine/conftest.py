@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from tests.engine.made import Scene
-from tutor.ros import this_process
+from tutor.ros import process_setup
 from tutor.ros.environment import RosEnvironment, detect
 
 
@@ -21,7 +21,7 @@ def ros() -> Iterator[RosEnvironment]:
     """ROS, chosen and isolated as for a check; `import rclpy` works from here on."""
     environ, path = dict(os.environ), list(sys.path)
     chosen = detect()
-    this_process.prepare_for_rclpy(chosen, isolated=True)
+    process_setup.prepare_for_rclpy(chosen, isolated=True)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # of what ROS itself imports
         importlib.import_module("rosidl_generator_py")

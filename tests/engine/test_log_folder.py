@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from tutor.engine.log_folder import keep_small, log_folder
+from tutor.engine.log_folder import keep_small, temporary_log_folder
 
 
 def link(folder: Path, elsewhere: Path) -> None:
@@ -51,7 +51,7 @@ def links_in_it(folder: Path, elsewhere: Path) -> None:
 @pytest.mark.parametrize("made", [link, file, other, deep, gone, links_in_it])
 async def test_it_goes_whatever_it_has_become(made: Callable[[Path, Path], None], tmp_path: Path) -> None:
     (tmp_path / "kept.log").write_text("kept")
-    with log_folder() as folder:
+    with temporary_log_folder() as folder:
         made(folder, tmp_path)
     assert not os.path.lexists(folder)
     assert os.listdir(tmp_path) == ["kept.log"]

@@ -9,8 +9,8 @@ import pytest
 
 from tests.live.test_live_process import LIMIT_S, Watching
 from tests.live.world import world
-from tutor.live.facts import TopicUpdate
 from tutor.live.protocol import Follow
+from tutor.live.updates import TopicUpdate
 
 BIG = """
 import sys

@@ -14,8 +14,8 @@ from collections.abc import Iterator
 import pytest
 
 from tests.live.world import METRONOME, World, world
-from tutor.live.facts import TopicUpdate
 from tutor.live.protocol import Follow, Ready, SetVisible, Update, WatcherRequest, decode_update, encode
+from tutor.live.updates import TopicUpdate
 
 LIMIT_S = 30.0
 
@@ -31,9 +31,9 @@ class Watching:
         )
         self._held = b""
 
-    def tell(self, command: WatcherRequest) -> None:
+    def tell(self, request: WatcherRequest) -> None:
         assert self.process.stdin is not None
-        self.process.stdin.write(encode(command).encode() + b"\n")
+        self.process.stdin.write(encode(request).encode() + b"\n")
 
     def updates(self, limit_s: float = LIMIT_S) -> Iterator[Update]:
         assert self.process.stdout is not None

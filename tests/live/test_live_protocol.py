@@ -2,7 +2,6 @@ from __future__ import annotations
 
 import pytest
 
-from tutor.live.facts import CallOutcome, NodeParameters, Published, RequestForm, SetOutcome, Timing, TopicUpdate
 from tutor.live.protocol import (
     Call,
     Follow,
@@ -17,6 +16,7 @@ from tutor.live.protocol import (
     decode_update,
     encode,
 )
+from tutor.live.updates import CallOutcome, NodeParameters, Published, RequestForm, SetOutcome, Timing, TopicUpdate
 from tutor.ros_model import Field, Graph, Parameter, QoS, ServiceEndpoint, TopicEndpoint
 
 END = TopicEndpoint("/t", "std_msgs/msg/String", "/n", QoS("best_effort", deadline_s=0.5))
@@ -37,15 +37,15 @@ END = TopicEndpoint("/t", "std_msgs/msg/String", "/n", QoS("best_effort", deadli
         Published("/t", "a/msg/B", 2.0, 3, 1, 1.0, True, "no"),
     ],
 )
-def test_news_arrive_as_they_were_said(update: Update) -> None:
+def test_updates_arrive_as_they_were_sent(update: Update) -> None:
     line = encode(update)
     assert "\n" not in line
     assert line.isascii()
     assert decode_update(line) == update
 
 
-def test_commands_arrive_as_they_were_given() -> None:
-    for command in (
+def test_requests_arrive_as_they_were_sent() -> None:
+    for request in (
         Follow("/t"),
         SetVisible(False),
         SetParameter(1, "/n", "p", "double", 2.0),
@@ -53,10 +53,10 @@ def test_commands_arrive_as_they_were_given() -> None:
         Publish("/t", "a/msg/B", {"x.y": 1.5}, 0.0),
         StopPublishing("/t"),
     ):
-        assert decode_request(encode(command)) == command
+        assert decode_request(encode(request)) == request
 
 
 @pytest.mark.parametrize("line", ["", "{}", "[1]", '{"kind": "Follow"}', '{"kind": "Eval", "x": 1}', encode(Ready(1))])
-def test_anything_else_is_not_a_command(line: str) -> None:
+def test_anything_else_is_not_a_request(line: str) -> None:
     with pytest.raises(ValueError, match="not understood"):
         decode_request(line)

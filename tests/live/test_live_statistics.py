@@ -7,17 +7,17 @@ import statistics
 
 import pytest
 
-from tutor.live.statistics import FEWEST, WINDOW_S, Statistics
+from tutor.live.statistics import MIN_PERIODS, WINDOW_S, TopicStatistics
 
 
-def fed(stamps: list[float], numbers: list[int | None] | None = None) -> Statistics:
-    found = Statistics()
+def fed(stamps: list[float], numbers: list[int | None] | None = None) -> TopicStatistics:
+    found = TopicStatistics()
     found.add(stamps, numbers or [None] * len(stamps))
     return found
 
 
 def test_nothing_has_no_timing_and_one_message_has_none_either() -> None:
-    assert Statistics().timing() is None
+    assert TopicStatistics().timing() is None
     assert fed([5.0]).timing() is None
     assert fed([5.0]).count == 1
 
@@ -50,7 +50,7 @@ def test_only_the_last_seconds_count_but_every_message_does() -> None:
 def test_a_slow_topic_is_measured_over_more_than_the_window() -> None:
     timing = fed([n * 2.0 for n in range(30)]).timing()
     assert timing is not None
-    assert timing.periods >= FEWEST
+    assert timing.periods >= MIN_PERIODS
     assert timing.mean_s == pytest.approx(2.0)
 
 

@@ -202,10 +202,10 @@ def test_a_sourced_jazzy_is_used_and_nothing_bundled_with_it(jazzy: Path, tmp_pa
 OBSERVER = """
 import os, sys
 sys.path.append(os.environ["ROS_TUTOR_ROOT"])
-from tutor.ros import this_process
+from tutor.ros import process_setup
 from tutor.ros.environment import detect
 ros = detect()
-this_process.prepare_for_rclpy(ros, isolated=True)
+process_setup.prepare_for_rclpy(ros, isolated=True)
 """
 
 

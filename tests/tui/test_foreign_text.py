@@ -12,8 +12,8 @@ from rich.cells import cell_len
 from tests.tui import made
 from tutor.content import LessonFile
 from tutor.judge.verdict import Cause, failed
-from tutor.live.facts import CallOutcome, NodeParameters, Published, RequestForm, SetOutcome, TopicUpdate
 from tutor.live.protocol import Ready, Update, WatcherError
+from tutor.live.updates import CallOutcome, NodeParameters, Published, RequestForm, SetOutcome, TopicUpdate
 from tutor.ros_model import Field, Graph, Parameter, QoS, ServiceEndpoint, TopicEndpoint
 from tutor.tui import messages
 from tutor.tui.dialogs.confirm import ConfirmScreen

@@ -14,7 +14,7 @@ from textual.pilot import Pilot
 from tests.live.world import METRONOME, THERMOMETER, LiveApp, World, world
 from tests.tui.person import Person
 from tutor.content import load_course
-from tutor.live.facts import TopicUpdate
+from tutor.live.updates import TopicUpdate
 from tutor.tui.live import services_panel
 from tutor.tui.live.echo_view import EchoView
 from tutor.tui.live.history import HistoryView

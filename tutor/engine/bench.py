@@ -1,4 +1,4 @@
-"""The live bench: starts the submission's files on domains of their own, watched from the first moment."""
+"""The bench on real processes and real DDS: each start has a domain of its own, watched from the first moment."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from tutor.bundled_ros.ros2.errors import CommandError
 from tutor.bundled_ros.ros2.starting import ros2_command
 from tutor.engine.admission import Admission
 from tutor.engine.errors import EngineError
-from tutor.engine.log_folder import log_folder
+from tutor.engine.log_folder import temporary_log_folder
 from tutor.engine.run import CollectedFacts, RosRun
 from tutor.engine.walls import Walls
 from tutor.judge.bench import Run, Scenario
@@ -131,7 +131,7 @@ class RosBench:
         with (
             _as_engine_errors(),
             reserve_domain() as domain_id,
-            log_folder() as log_dir,
+            temporary_log_folder() as log_dir,
         ):
             observer = Observer(domain_id, facts.change)
             try:

@@ -40,7 +40,7 @@ async def run_check(
     """
     from tutor.engine import unchanged
     from tutor.engine.modules import load_check
-    from tutor.ros import bytecode, this_process
+    from tutor.ros import bytecode, process_setup
     from tutor.ros.environment import detect
     from tutor.ros.isolation import prove_loopback
 
@@ -52,8 +52,8 @@ async def run_check(
         raise EngineError(what, "switch the loopback interface on: sudo ip link set lo up") from error
     ros = detect()
     try:
-        this_process.prepare_for_rclpy(ros, isolated=True)
-        this_process.keep_stdout()
+        process_setup.prepare_for_rclpy(ros, isolated=True)
+        process_setup.keep_stdout()
         await asyncio.to_thread(bytecode.compile_ros_modules, ros)
         from tutor.engine.runner import Runner  # brings in rclpy, which must find its environment chosen
     except (ImportError, OSError, RuntimeError) as error:

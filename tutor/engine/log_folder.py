@@ -25,7 +25,7 @@ _FILE = os.O_WRONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_NOCTTY | os.O_CLOEXEC
 
 
 @contextmanager
-def log_folder() -> Iterator[Path]:
+def temporary_log_folder() -> Iterator[Path]:
     """A new folder. The processes that use it must have ended when it is left; no error comes of what they did to it.
 
     Needs a running event loop.

@@ -1,4 +1,4 @@
-"""One start of the learner's process, live: the process, and what an observer on its domain sees of it."""
+"""One start of the learner's process, and what an observer on its domain sees of it."""
 
 from __future__ import annotations
 
@@ -282,7 +282,7 @@ class RosRun:
             await asyncio.sleep(LOOK_EVERY_S)
         return tuple(survivor.command for survivor in left)
 
-    async def commands(self) -> tuple[str, ...]:
+    async def command_lines(self) -> tuple[str, ...]:
         return tuple(survivor.command for survivor in await self._process.survivors())
 
     async def dump_stacks(self) -> tuple[Frame, ...]:

@@ -13,7 +13,7 @@ from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 
 LIMIT_S = 300.0
-"""Who has waited for so long goes on without a turn."""
+"""A check that has waited this long goes on without a turn."""
 
 _LOOK_EVERY_S = 0.1
 

@@ -1,6 +1,6 @@
 """The bench that checks are written against: what can be done to a learner's node, and what can be seen of it.
 
-A check knows nothing of ROS, processes or time-outs of the machine; it asks the bench. The live bench is in
+A check knows nothing of ROS, processes or time-outs of the machine; it asks the bench. The one on real DDS is in
 `tutor.engine`; tests of pure judging need none, since judges take plain facts.
 """
 
@@ -126,7 +126,7 @@ class Run(Protocol):
     async def interrupt(self, limit_s: float = 5.0) -> Ending:
         """Press Ctrl+C (SIGINT to the process group), watch the process end, and see what it leaves behind."""
 
-    async def commands(self) -> tuple[str, ...]:
+    async def command_lines(self) -> tuple[str, ...]:
         """The command lines of all living processes that the learner's process has started, itself included."""
 
     async def dump_stacks(self) -> tuple[Frame, ...]:

@@ -11,12 +11,12 @@ import os
 import sys
 from typing import BinaryIO
 
-from tutor.live.facts import TopicUpdate
-from tutor.live.lifeline import read_lines
 from tutor.live.protocol import Update, decode_request, encode
+from tutor.live.request_reader import read_lines
+from tutor.live.updates import TopicUpdate
 from tutor.process.prctl import die_with_parent
 from tutor.ros.environment import detect
-from tutor.ros.this_process import prepare_for_rclpy
+from tutor.ros.process_setup import prepare_for_rclpy
 
 FULL = 1 << 20
 """With this many bytes unread, updates of topics are left out: the next ones say it all again."""

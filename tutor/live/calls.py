@@ -6,12 +6,12 @@ import asyncio
 import time
 from collections.abc import Callable
 
-from tutor.live.facts import CallOutcome, RequestForm
 from tutor.live.protocol import Call
 from tutor.live.topics import MOST_TEXT
+from tutor.live.updates import CallOutcome, RequestForm
+from tutor.ros.fields import fill_request, message_fields, request_fields
 from tutor.ros.messages import UnknownType, cut
 from tutor.ros.observer import Observer
-from tutor.ros.requests import fill_request, message_fields, request_fields
 from tutor.ros.yaml_format import to_yaml
 
 CANCELLED = "cancelled"
@@ -26,7 +26,7 @@ def describe(type_name: str) -> RequestForm:
         return RequestForm(type_name, problem=f"This ROS does not have the type {type_name}.")
 
 
-class Calls:
+class ServiceCalls:
     """The calls under way. Each is told about when it is over, however it ends."""
 
     def __init__(self, observer: Observer, tell: Callable[[CallOutcome], object]) -> None:

@@ -9,8 +9,8 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
-from tutor.live.facts import NodeParameters, SetOutcome
 from tutor.live.protocol import SetParameter
+from tutor.live.updates import NodeParameters, SetOutcome
 from tutor.ros.observer import Observer
 from tutor.ros.parameter_events import watch_changes
 from tutor.ros.parameters import get_parameters, set_parameters
@@ -63,21 +63,21 @@ class ParameterWatch:
             if time.monotonic() >= due:
                 self.ask(node)
 
-    async def set(self, order: SetParameter) -> SetOutcome:
+    async def set(self, request: SetParameter) -> SetOutcome:
         """Set one parameter; the node's answer, or that none came."""
         answer = await set_parameters(
             self._observer,
-            order.node,
-            {order.name: order.value},
+            request.node,
+            {request.name: request.value},
             atomic=False,
             limit_s=LIMIT_S,
-            types={order.name: order.type},
+            types={request.name: request.type},
         )
         return SetOutcome(
-            id=order.id,
-            node=order.node,
-            name=order.name,
-            value=order.value,
+            id=request.id,
+            node=request.node,
+            name=request.name,
+            value=request.value,
             answered=answer.answered,
             accepted=answer.successful,
             reason=answer.reason,

@@ -9,7 +9,7 @@ from dataclasses import asdict, dataclass, fields, is_dataclass
 from functools import cache
 from typing import Any, Union, get_args, get_origin, get_type_hints
 
-from tutor.live.facts import CallOutcome, NodeParameters, Published, RequestForm, SetOutcome, TopicUpdate
+from tutor.live.updates import CallOutcome, NodeParameters, Published, RequestForm, SetOutcome, TopicUpdate
 from tutor.ros_model import Graph
 
 # --- requests: from the app ---
@@ -158,8 +158,8 @@ def encode(said: WatcherRequest | Update) -> str:
 
 def decode_request(line: str) -> WatcherRequest:
     """Read a request. Raises ValueError for a line that is not one."""
-    command: WatcherRequest = _decode(line, get_args(WatcherRequest))
-    return command
+    request: WatcherRequest = _decode(line, get_args(WatcherRequest))
+    return request
 
 
 def decode_update(line: str) -> Update:

@@ -6,8 +6,8 @@ import asyncio
 import time
 from collections.abc import Callable
 
-from tutor.live.facts import Published
 from tutor.live.protocol import Publish
+from tutor.live.updates import Published
 from tutor.ros.manual_publisher import ManualPublisher
 from tutor.ros.messages import UnknownType
 
@@ -37,10 +37,10 @@ class Publishing:
         self._tell = tell
         self._running: dict[str, asyncio.Task[None]] = {}
 
-    async def begin(self, order: Publish) -> None:
+    async def begin(self, request: Publish) -> None:
         """Publish this, instead of what is published on the topic."""
-        await self.end(order.topic)
-        self._running[order.topic] = asyncio.create_task(self._run(order))
+        await self.end(request.topic)
+        self._running[request.topic] = asyncio.create_task(self._run(request))
 
     async def end(self, topic: str) -> None:
         """Stop."""
@@ -48,36 +48,38 @@ class Publishing:
             task.cancel()
             await asyncio.gather(task, return_exceptions=True)
 
-    async def _run(self, order: Publish) -> None:
+    async def _run(self, request: Publish) -> None:
         sent, problem = 0, ""
 
         def say(over: bool) -> None:
-            listeners = self._manual_publisher.listeners(order.topic)
-            update = Published(order.topic, order.type, order.rate_hz, sent, listeners, time.time(), over, problem)
+            listeners = self._manual_publisher.listeners(request.topic)
+            update = Published(
+                request.topic, request.type, request.rate_hz, sent, listeners, time.time(), over, problem
+            )
             self._tell(update)
 
         try:
-            self._manual_publisher.add(order.topic, order.type, order.values)
-            await self._connect(order.topic, self._expect(order.topic, order.type))
+            self._manual_publisher.add(request.topic, request.type, request.values)
+            await self._connect(request.topic, self._expect(request.topic, request.type))
             began, told = time.perf_counter(), 0.0
-            while sent == 0 or order.rate_hz:
-                self._manual_publisher.publish(order.topic)
+            while sent == 0 or request.rate_hz:
+                self._manual_publisher.publish(request.topic)
                 sent += 1
-                if order.rate_hz and time.perf_counter() >= told + TELL_EVERY_S:
+                if request.rate_hz and time.perf_counter() >= told + TELL_EVERY_S:
                     told = time.perf_counter()
                     say(over=False)
-                if order.rate_hz:
-                    due = began + sent / min(order.rate_hz, FASTEST_HZ)
+                if request.rate_hz:
+                    due = began + sent / min(request.rate_hz, FASTEST_HZ)
                     await asyncio.sleep(max(0.0, due - time.perf_counter()))
             say(over=False)
             await asyncio.sleep(LINGER_S)
         except UnknownType:
-            problem = f"This ROS does not have the type {order.type}."
+            problem = f"This ROS does not have the type {request.type}."
         except ValueError as error:
             problem = str(error)
         finally:
             say(over=True)
-            self._manual_publisher.remove(order.topic)
+            self._manual_publisher.remove(request.topic)
 
     async def _connect(self, topic: str, ours: bool) -> None:
         deadline = time.monotonic() + CONNECT_S

@@ -7,12 +7,12 @@ from collections import deque
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from tutor.live.facts import Timing
+from tutor.live.updates import Timing
 
 WINDOW_S = 5.0
 """Rate and jitter are those of the last seconds..."""
 
-FEWEST = 10
+MIN_PERIODS = 10
 """... or of this many periods, where a topic is slow."""
 
 _BUCKET_S = 0.25
@@ -41,7 +41,7 @@ class _Bucket:
         self.longest = max(self.longest, period)
 
 
-class Statistics:
+class TopicStatistics:
     """Of one followed topic. `count` is the number of messages, `missing` of those that the numbers skip."""
 
     def __init__(self) -> None:
@@ -95,5 +95,5 @@ class Statistics:
 
     def _forget(self, now: float) -> None:
         held = sum(bucket.periods for bucket in self._buckets)
-        while self._buckets[0].end < now - WINDOW_S and held - self._buckets[0].periods >= FEWEST:
+        while self._buckets[0].end < now - WINDOW_S and held - self._buckets[0].periods >= MIN_PERIODS:
             held -= self._buckets.popleft().periods

@@ -7,14 +7,14 @@ import time
 from collections import deque
 from dataclasses import dataclass, field
 
-from tutor.live.facts import TopicUpdate
-from tutor.live.statistics import Statistics
+from tutor.live.statistics import TopicStatistics
+from tutor.live.updates import TopicUpdate
 from tutor.ros.messages import UnknownType, cut, interface_class
 from tutor.ros.raw_subscription import Batch, RawSubscription, deserialize
 from tutor.ros.yaml_format import number_at, numeric_fields, to_yaml
 from tutor.ros_model import Graph, QoS, Topic, TopicEndpoint, echo_qos
 
-POINTS_PER_NEWS = 10
+POINTS_PER_UPDATE = 10
 """Values sampled for a plot between two updates: a hundred a second, whatever the topic's rate."""
 
 BIG = 100_000
@@ -43,10 +43,10 @@ class _Followed:
     several: bool = False
     path: str = ""
     fields: tuple[str, ...] = ()
-    statistics: Statistics = field(default_factory=Statistics)
+    statistics: TopicStatistics = field(default_factory=TopicStatistics)
     newest: bytes | None = None
     told: bytes | None = None
-    samples: deque[tuple[float, bytes]] = field(default_factory=lambda: deque(maxlen=POINTS_PER_NEWS))
+    samples: deque[tuple[float, bytes]] = field(default_factory=lambda: deque(maxlen=POINTS_PER_UPDATE))
     last_at: float | None = None
     told_at: float = 0.0
     text_after: float = 0.0
@@ -94,7 +94,7 @@ class FollowedTopics:
         """Count from nothing."""
         if followed := self._all.get(topic):
             with followed.lock:
-                followed.statistics = Statistics()
+                followed.statistics = TopicStatistics()
                 followed.samples.clear()
                 followed.newest = followed.told = followed.last_at = None
                 followed.stale = True

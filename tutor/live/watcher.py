@@ -1,4 +1,4 @@
-"""Everything that is watched on one domain, and what is done there on command."""
+"""Everything that is watched on one domain, and what is done there on request."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import time
 from collections.abc import Callable, Coroutine
 from typing import Any
 
-from tutor.live.calls import Calls, describe
+from tutor.live.calls import ServiceCalls, describe
 from tutor.live.node_parameters import ParameterWatch
 from tutor.live.protocol import (
     Call,
@@ -53,7 +53,7 @@ class Watcher:
         self._graph = Graph()
         self._topics = FollowedTopics(self._raw_subscription)
         self._parameters = ParameterWatch(self._observer, say)
-        self._calls = Calls(self._observer, say)
+        self._calls = ServiceCalls(self._observer, say)
         self._manual_publisher = ManualPublisher(self._observer.node.context)
         self._publishing = Publishing(self._manual_publisher, self._topics.expect, say)
         self._seen = True
@@ -120,9 +120,9 @@ class Watcher:
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
 
-    async def _set(self, order: SetParameter) -> None:
-        self._say(await self._parameters.set(order))
-        self._parameters.ask(order.node)
+    async def _set(self, request: SetParameter) -> None:
+        self._say(await self._parameters.set(request))
+        self._parameters.ask(request.node)
 
     def _look(self, now: float) -> None:
         known = graph_fingerprint(self._observer.node)

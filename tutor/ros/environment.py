@@ -111,7 +111,7 @@ def learner_env(
 def tutor_env(ros: RosEnvironment, *, isolated: bool, environ: Mapping[str, str] = os.environ) -> dict[str, str]:
     """The environment for a process of ours that imports rclpy, to be run with `sys.executable`.
 
-    A process that is started with it need not restart itself in `tutor.ros.this_process.prepare_for_rclpy`.
+    A process that is started with it need not restart itself in `tutor.ros.process_setup.prepare_for_rclpy`.
     """
     env = _ros_env(ros, environ, first_on_path=[])
     env.update(_discovery(ros, isolated, environ))

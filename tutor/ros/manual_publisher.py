@@ -9,9 +9,9 @@ from rclpy.context import Context
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 
+from tutor.ros.fields import fill_message
 from tutor.ros.messages import interface_class
 from tutor.ros.participant import OUR_PREFIX, create_node
-from tutor.ros.requests import fill_message
 
 NODE_NAME = "published_by_hand"
 """The node's name."""

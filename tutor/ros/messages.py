@@ -50,10 +50,10 @@ def to_plain(message: Any) -> dict[str, Any]:
 
     Texts are cut after `MOST_CHARACTERS`, and arrays where the message has more than `MOST_ELEMENTS` in all.
     """
-    return weighed(message)[0]
+    return plain_and_size(message)[0]
 
 
-def weighed(message: Any) -> tuple[dict[str, Any], int]:
+def plain_and_size(message: Any) -> tuple[dict[str, Any], int]:
     """A message as `to_plain` gives it, and what it costs to keep, in bytes; what is cut off counts for a share."""
     room = _Room()
     plain = room.message(message)
@@ -65,7 +65,7 @@ def cut(text: str, most: int = MOST_CHARACTERS) -> str:
     return text if len(text) <= most else f"{text[: most - 3]}..."
 
 
-def weight(text: str, kept: str) -> int:
+def size_kept(text: str, kept: str) -> int:
     """What it costs, in bytes, to keep a part of a text, with a share of what it cost to receive the whole."""
     return _EACH + len(kept) * (1 if kept.isascii() else 4) + len(text) // _RECEIVED
 
@@ -92,7 +92,7 @@ class _Room:
             return self.message(value)
         if isinstance(value, str):
             kept = cut(value)
-            self.bytes += weight(value, kept)
+            self.bytes += size_kept(value, kept)
             return kept
         if isinstance(value, (bytes, list, tuple, array.array)) or hasattr(value, "tolist"):
             kept = value[: self._elements]

@@ -15,7 +15,7 @@ from rclpy.qos import qos_profile_services_default
 from rclpy.service import Service as ServiceServer
 
 from tutor.judge.trace import LogRecord, Sample
-from tutor.ros.messages import cut, interface_class, set_fields, to_plain, weighed, weight
+from tutor.ros.messages import cut, interface_class, plain_and_size, set_fields, size_kept, to_plain
 from tutor.ros.participant import OUR_PREFIX, create_node, join_domain
 from tutor.ros.qos import subscription_profile
 from tutor.ros_model import QoS
@@ -23,7 +23,7 @@ from tutor.ros_model import QoS
 ANY_PUBLISHER = QoS("best_effort", "volatile")
 """What every publisher offers at least."""
 
-DEEP = 1000
+QUEUE_DEPTH = 1000
 """Queue depth of our subscriptions: a default-QoS subscriber can lose a burst that this one gets whole."""
 
 MOST_SAMPLES = 20_000
@@ -63,7 +63,7 @@ class Observer:
 
     def watch_logs(self) -> None:
         """Subscribe to `/rosout`, with what was logged before (it is transient local)."""
-        qos = subscription_profile(QoS("reliable", "transient_local"), DEEP)
+        qos = subscription_profile(QoS("reliable", "transient_local"), QUEUE_DEPTH)
 
         def take(message: Any) -> None:
             stamp = message.stamp.sec + message.stamp.nanosec * 1e-9
@@ -72,7 +72,7 @@ class Observer:
                 cut(each, LINE_CHARACTERS) for each in (message.msg, message.name, message.function)
             )
             self._hand_to_loop(self._log, LogRecord(level, name, text, stamp, time.time(), function))
-            count(weight(message.msg, text))
+            count(size_kept(message.msg, text))
 
         count = self._counter(lambda: self.node.destroy_subscription(subscription))
         subscription = self.node.create_subscription(interface_class("rcl_interfaces/msg/Log"), "/rosout", take, qos)
@@ -81,10 +81,10 @@ class Observer:
         """Collect the samples of a topic. Raises UnknownType."""
         message_type = interface_class(type_name)
         self.samples[topic] = []
-        qos = subscription_profile(requested, DEEP)
+        qos = subscription_profile(requested, QUEUE_DEPTH)
 
         def take(message: Any, info: Any) -> None:
-            plain, cost = weighed(message)
+            plain, cost = plain_and_size(message)
             source = info["source_timestamp"] * 1e-9
             self._hand_to_loop(self._sample, Sample(topic, plain, source, time.time()))
             count(cost)

@@ -9,7 +9,7 @@ from typing import ClassVar
 from rich.cells import cell_len, chop_cells
 from textual import events
 
-from tutor.live.facts import CallOutcome, SetOutcome
+from tutor.live.updates import CallOutcome, SetOutcome
 from tutor.ros_model.values import format_value
 from tutor.tui.live.wording import period
 from tutor.tui.widgets.line_view import LineView, Row

@@ -20,9 +20,9 @@ from textual.widgets import ContentSwitcher, Static
 from textual.worker import Worker
 
 from tutor.content import Lesson
-from tutor.live.facts import CallOutcome, NodeParameters, Published, RequestForm, SetOutcome, TopicUpdate
 from tutor.live.protocol import Follow, Plot, Publish, SetVisible, StopPublishing, Unfollow, Update, WatcherRequest
 from tutor.live.protocol import WatcherError as ChildTrouble
+from tutor.live.updates import CallOutcome, NodeParameters, Published, RequestForm, SetOutcome, TopicUpdate
 from tutor.ros_model import Graph
 from tutor.tui import messages
 from tutor.tui.live import wording

@@ -13,8 +13,8 @@ from textual.containers import Horizontal, VerticalScroll
 from textual.content import Content
 from textual.widgets import Button, Input, Static
 
-from tutor.live.facts import RequestForm
 from tutor.live.protocol import Describe, Publish, WatcherRequest
+from tutor.live.updates import RequestForm
 from tutor.tui.dialogs.dialog import Dialog
 from tutor.tui.live.request_form import ServiceForm
 

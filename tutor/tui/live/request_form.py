@@ -11,7 +11,7 @@ from textual.content import Content
 from textual.message import Message
 from textual.widgets import Input, Static
 
-from tutor.live.facts import RequestForm
+from tutor.live.updates import RequestForm
 from tutor.ros_model import Field
 from tutor.ros_model.values import parse_value
 

@@ -7,8 +7,8 @@ from collections import deque
 from dataclasses import dataclass, field, replace
 
 from tutor.content import LiveView
-from tutor.live.facts import CallOutcome, NodeParameters, Published, RequestForm, SetOutcome, TopicUpdate
 from tutor.live.protocol import Ready, Update
+from tutor.live.updates import CallOutcome, NodeParameters, Published, RequestForm, SetOutcome, TopicUpdate
 from tutor.ros_model import Connection, Graph, Parameter, Topic, connections
 
 KEEP_POINTS_S = 120.0

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tutor.live.facts import Published, TopicUpdate
+from tutor.live.updates import Published, TopicUpdate
 from tutor.ros_model import Parameter
 
 

@@ -1,4 +1,4 @@
-"""Reads what the app says, and ends this process when it says nothing more."""
+"""Reads the app's requests, and ends this process when the app closes its input."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ CLEAN_UP_S = 1.0
 
 
 def read_lines(source: BinaryIO, on_line: Callable[[str], None], on_end: Callable[[], None]) -> threading.Thread:
-    """Read lines in a thread. At the end of the input `on_end` is called, and soon after this process is no more."""
+    """Read lines in a thread. At their end, `on_end` is called, and `CLEAN_UP_S` later this process exits."""
 
     def read() -> None:
         for line in source:
@@ -23,6 +23,6 @@ def read_lines(source: BinaryIO, on_line: Callable[[str], None], on_end: Callabl
         last.start()
         on_end()
 
-    thread = threading.Thread(target=read, name="commands", daemon=True)
+    thread = threading.Thread(target=read, name="requests", daemon=True)
     thread.start()
     return thread

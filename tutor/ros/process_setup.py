@@ -15,7 +15,7 @@ from tutor import interpreter
 from tutor.ros import prefixes, shared_memory
 from tutor.ros.environment import RosEnvironment, tutor_env
 
-_NOT_ANEW = "_ROS_TUTOR_STARTED_ANEW"
+_RESTARTED = "_ROS_TUTOR_RESTARTED"
 _NOT_ROS = ("ros_tutor", "ros_wheels_bootstrapper")
 _OF_ROS = ("ROS_", "RMW_", "AMENT_", "FASTRTPS_", "FASTDDS_", "RCUTILS_", "OPENBLAS_")
 
@@ -38,8 +38,8 @@ def prepare_for_rclpy(ros: RosEnvironment, *, isolated: bool) -> None:
     if "rclpy" in sys.modules and _in_use != _identity(ros):
         raise RuntimeError("rclpy is imported already: choose the ROS before")
     _in_use = _identity(ros)
-    if _wrong_libraries(ros) and os.environ.get(_NOT_ANEW) != ros.kind:
-        interpreter.become([sys.executable, *sys.orig_argv[1:]], {**env, _NOT_ANEW: ros.kind})
+    if _wrong_libraries(ros) and os.environ.get(_RESTARTED) != ros.kind:
+        interpreter.become([sys.executable, *sys.orig_argv[1:]], {**env, _RESTARTED: ros.kind})
     for name in set(os.environ) - set(env):
         if name.startswith(_OF_ROS):
             del os.environ[name]
@@ -57,7 +57,7 @@ def prepare_for_rclpy(ros: RosEnvironment, *, isolated: bool) -> None:
 
 
 def keep_stdout() -> None:
-    """Keep standard output for us: what the libraries of ROS write to it goes to stderr. Call it after `use`."""
+    """Keep standard output for us: what ROS's libraries write to it goes to stderr. Call it after `prepare_for_rclpy`."""
     try:
         if sys.stdout.fileno() != 1 or sys.stderr.fileno() != 2:
             return
@@ -70,7 +70,7 @@ def keep_stdout() -> None:
 
 
 def _identity(ros: RosEnvironment) -> tuple[object, ...]:
-    # Without its problems: they are those of the variables around us, which `use` has cleaned.
+    # Without its problems: they are those of the variables around us, which `prepare_for_rclpy` has cleaned.
     return ros.kind, ros.distro, ros.python, ros.rmw
 
 
