@@ -57,7 +57,7 @@ def prepare_for_rclpy(ros: RosEnvironment, *, isolated: bool) -> None:
 
 
 def keep_stdout() -> None:
-    """Keep standard output for us: what ROS's libraries write to it goes to stderr. Call it after `prepare_for_rclpy`."""
+    """Keep standard output for us: what ROS's libraries write goes to stderr. Call it after `prepare_for_rclpy`."""
     try:
         if sys.stdout.fileno() != 1 or sys.stderr.fileno() != 2:
             return
