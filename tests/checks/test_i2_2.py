@@ -206,7 +206,7 @@ def test_something_is_added_to_the_topic() -> None:
 
 
 @pytest.mark.parametrize(
-    ("commands", "declares", "cause"),
+    ("command_lines", "declares", "cause"),
     [
         (["talker --ros-args -r chatter:=chatter"], ("topik", "namespace"), "wrong argument name"),
         (["talker --ros-args"], ("namespace",), "argument missing"),
