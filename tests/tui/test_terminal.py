@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import os
+from pathlib import Path
 from typing import Any
 
 from tests.tui import made
+from tutor import private
+from tutor.tui.terminal.completion import complete
 from tutor.tui.terminal.output_view import OutputView
 from tutor.tui.terminal.prompt import Prompt
 
@@ -156,3 +159,16 @@ async def test_a_command_of_the_lesson_is_run_by_key_and_by_click(learner: Any, 
         row, line = next((y, line) for y, line in enumerate(me.screen().splitlines()) if "echo by click" in line)
         await me.pilot.click(offset=(line.index("echo by click") + 2, row))
         await me.until(lambda: output(me).splitlines()[-1:] == ["by click"])
+
+
+async def test_what_a_program_offers_lies_where_a_killed_apps_files_are_swept(tmp_path: Path) -> None:
+    where = tmp_path / "where"
+    program = tmp_path / "ros2"
+    program.write_text(f'#!/bin/sh\nprintf %s "$_ARGCOMPLETE_STDOUT_FILENAME" > {where}\n')
+    program.chmod(0o755)
+    env = {"PATH": f"{tmp_path}:{os.environ['PATH']}"}
+    await complete("ros2 topic ", 11, env, tmp_path)
+    folder = Path(where.read_text()).parent
+    assert folder.parent == private.home()
+    assert folder.name.startswith("complete.")  # as all that `private` sweeps
+    assert not folder.exists()

@@ -2,14 +2,21 @@
 
 from __future__ import annotations
 
+import os
 import signal
+import subprocess
+import tempfile
+import time
 from pathlib import Path
 
 import pytest
 
 from tests.bundled_ros.launching.case import launch_file
 from tests.bundled_ros.launching.launcher import Launcher, Ran
+from tests.ros.users_domain import users_domain
+from tutor import interpreter, private
 
+LIMIT_S = 60.0
 WAITER = "Node(package='demo', executable='waiter', output='screen')"
 INTERRUPTED = "[WARNING] [launch]: user interrupted with ctrl-c (SIGINT)"
 
@@ -108,3 +115,32 @@ def test_the_parameter_files_are_gone_afterwards(launcher: Launcher) -> None:
     ran = launcher.run(write(launcher, node, before))
     assert "param     a: 1" in ran.says["talker-1"]
     assert not list(launcher.folder.glob("launch_params_*"))
+
+
+def test_those_of_a_killed_launch_go_at_the_next_start(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    temporary = tmp_path / "temporary"
+    temporary.mkdir()
+    path = tmp_path / "one.launch.py"
+    path.write_text(
+        "from launch import LaunchDescription\nfrom launch_ros.actions import Node\n"
+        "def generate_launch_description():\n"
+        "    return LaunchDescription([Node(package='demo_nodes_py', executable='talker', parameters=[{'a': 1}])])\n"
+    )
+    with users_domain() as domain:
+        env = {**os.environ, "TMPDIR": str(temporary), "ROS_DOMAIN_ID": str(domain)}
+        launch = subprocess.Popen(
+            interpreter.module_command("tutor", "ros2", "launch", str(path)),
+            env=env, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, process_group=0,
+        )  # fmt: skip
+        try:
+            deadline = time.monotonic() + LIMIT_S
+            while not (left := list(temporary.rglob("launch_params_*"))):
+                assert time.monotonic() < deadline
+                time.sleep(0.05)
+        finally:
+            os.killpg(launch.pid, signal.SIGKILL)
+            launch.wait()
+    assert all(each.exists() for each in left)
+    monkeypatch.setattr(tempfile, "tempdir", str(temporary))
+    with private.folder("check"):
+        assert not list(temporary.rglob("launch_params_*"))

@@ -5,10 +5,11 @@ from __future__ import annotations
 import asyncio
 import os
 import re
-import tempfile
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+
+from tutor import private
 
 LIMIT_S = 5.0
 """How long a program may take to say what it offers: topics and nodes are looked up."""
@@ -79,14 +80,16 @@ def paths(typed: str, cwd: Path) -> list[str]:
 
 async def _ask(program: str, command: str, env: Mapping[str, str], cwd: Path) -> list[str]:
     """Ask a program that completes itself, in the way in which a shell does (argcomplete's)."""
-    with tempfile.NamedTemporaryFile(prefix="ros-tutor-complete-") as answer:
+    with private.folder("complete") as folder:
+        answer = folder / "answer"
+        answer.touch()
         asked = {
             **env,
             "_ARGCOMPLETE": "1",
             "_ARGCOMPLETE_IFS": _SEPARATOR,
             "_ARGCOMPLETE_SHELL": "bash",
             "_ARGCOMPLETE_SUPPRESS_SPACE": "1",
-            "_ARGCOMPLETE_STDOUT_FILENAME": answer.name,
+            "_ARGCOMPLETE_STDOUT_FILENAME": str(answer),
             "COMP_LINE": command,
             "COMP_POINT": str(len(command)),
             "COMP_TYPE": "9",
@@ -106,5 +109,5 @@ async def _ask(program: str, command: str, env: Mapping[str, str], cwd: Path) ->
             if process.returncode is None:
                 process.kill()
                 await process.wait()
-        text = Path(answer.name).read_text(encoding="utf-8", errors="replace")
+        text = answer.read_text(encoding="utf-8", errors="replace")
     return [offer.replace("\\", "") for offer in text.split(_SEPARATOR) if offer]
