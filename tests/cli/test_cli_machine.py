@@ -16,8 +16,12 @@ CLONE = Path(__file__).resolve().parents[2]
 RUN = (sys.executable, "-I", "-m", "tutor")
 CHECK = ("check", "i1.1", str(CLONE / "lessons" / "i1_1" / "solution"), "--criterion", "range")
 UNPRIVILEGED = ("setpriv", "--inh-caps=-all", "--bounding-set=-all") if os.getuid() == 0 else ()
-FULL = """
-mount -t tmpfs -o size=1m tmpfs /dev/shm && head -c 2M /dev/zero > /dev/shm/full 2>/dev/null
+SMALL = """
+mount -t tmpfs -o size=1m tmpfs /dev/shm
+exec "$@"
+"""
+FULL = f"""
+{SMALL.strip().splitlines()[0]} && head -c 2M /dev/zero > /dev/shm/full 2>/dev/null
 exec "$@"
 """
 
@@ -60,15 +64,38 @@ def test_the_clone_starts_where_uv_can_keep_nothing(read_only: Path) -> None:
     assert (found.returncode, "Sensor Publisher" in found.stdout) == (0, True), found.stderr
 
 
-@pytest.mark.parametrize(("words", "code"), [(CHECK, 3), (("ros2", "topic", "list"), 1)], ids=["check", "ros2"])
-def test_full_shared_memory_is_told_in_a_sentence(words: tuple[str, ...], code: int) -> None:
-    apart = ("unshare", "--mount", "--map-root-user", "sh", "-c", FULL, "sh")
+def with_shared_memory(as_here: str) -> tuple[str, ...]:
+    """The beginning of a command that is to find such a /dev/shm."""
+    apart = ("unshare", "--mount", "--map-root-user", "sh", "-c", as_here, "sh")
     if not can(*apart, "true"):
         pytest.skip("the kernel gives no mount namespace to this user")
-    found = ran(*apart, *RUN, *words)
+    return apart
+
+
+@pytest.mark.parametrize(("words", "code"), [(CHECK, 3), (("ros2", "topic", "list"), 1)], ids=["check", "ros2"])
+def test_full_shared_memory_is_told_in_a_sentence(words: tuple[str, ...], code: int) -> None:
+    found = ran(*with_shared_memory(FULL), *RUN, *words)
     assert (found.returncode, found.stdout) == (code, ""), found.stderr
     assert "/dev/shm is full (1 MB)" in found.stderr
     assert len(found.stderr.splitlines()) == 1
+
+
+@pytest.mark.parametrize(
+    ("as_here", "said", "works"),
+    [
+        (FULL, "/dev/shm is full (1 MB), so that ROS cannot be loaded.", False),
+        (SMALL, "/dev/shm has 1 MB of 1 MB", True),
+    ],
+    ids=["full", "small"],
+)
+def test_the_doctor_has_a_finding_for_full_and_for_little_shared_memory(as_here: str, said: str, works: bool) -> None:
+    found = ran(*with_shared_memory(as_here), *RUN, "doctor")
+    assert found.returncode == (0 if works else 3), found.stdout + found.stderr
+    about = " ".join(found.stdout.split())
+    assert said in about
+    assert about.count("docker run --shm-size=1g") == 1
+    assert ("First fix the shared memory, see above." in about) is not works
+    assert "reinstall" not in about
 
 
 def test_few_descriptors_leave_the_report_alone() -> None:

@@ -57,6 +57,7 @@ def test_this_machine_is_well_and_nothing_is_left_behind(tmp_path: Path) -> None
         "ROS 2",
         "ROS variables",
         "ROS packages",
+        "Shared memory",
         "rclpy",
         "example_interfaces",
         "Loopback network",

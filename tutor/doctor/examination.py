@@ -26,6 +26,7 @@ def examine(workspace: Path | None, environ: Mapping[str, str] = os.environ) -> 
         ("ROS 2", lambda: ros2.which_ros(ros)),
         ("ROS variables", lambda: ros2.variables(ros)),
         ("ROS packages", lambda: ros2.wheels(ros)),
+        ("Shared memory", machine.shared_memory_room),
         ("rclpy", lambda: ros2.rclpy_import(ros, environ)),
         ("example_interfaces", lambda: ros2.example_interfaces(ros, environ)),
         ("Loopback network", machine.loopback),

