@@ -130,7 +130,7 @@ class Started:
 
 
 @pytest.mark.timeout(600)
-@pytest.mark.parametrize("lesson", LESSONS.values(), ids=str)
+@pytest.mark.parametrize("lesson", LESSONS.values(), ids=lambda lesson: lesson.id)
 def test_each_command_of_a_lesson_does_what_it_shows(bench: Bench, lesson: Lesson) -> None:
     workspace = Workspace(bench.folder / "ws")
     with ExitStack() as nodes:
