@@ -14,7 +14,7 @@ import pytest
 LIMIT_S = 100.0
 CLONE = Path(__file__).resolve().parents[2]
 RUN = (sys.executable, "-I", "-m", "tutor")
-CHECK = ("check", "i1.1", str(CLONE / "lessons" / "i1_1" / "solution"), "--criterion", "range")
+CHECK = ("check", "i1.3", str(CLONE / "lessons" / "i1_3" / "solution"), "--criterion", "services")
 UNPRIVILEGED = ("setpriv", "--inh-caps=-all", "--bounding-set=-all") if os.getuid() == 0 else ()
 SMALL = """
 mount -t tmpfs -o size=1m tmpfs /dev/shm
@@ -100,7 +100,7 @@ def test_the_doctor_has_a_finding_for_full_and_for_little_shared_memory(as_here:
 
 def test_few_descriptors_leave_the_report_alone() -> None:
     few = lambda: resource.setrlimit(resource.RLIMIT_NOFILE, (40, 40))  # noqa: E731
-    command = [*RUN, *CHECK, "--format", "json"]
+    command = [*RUN, "check", "i1.1", "--solution", "--criterion", "range", "--format", "json"]  # starts two nodes
     found = subprocess.run(command, capture_output=True, text=True, timeout=LIMIT_S, check=False, preexec_fn=few)
     assert found.returncode == 3, found.stderr
     assert not found.stdout or json.loads(found.stdout)["verdict"] == "error"
