@@ -63,14 +63,14 @@ def test_a_round_trip_changes_nothing(event: Event) -> None:
         '{"event": "Nothing"}',
         '{"event": []}',
         '{"event": "Progress"}',
-        '{"event": "Progress", "exercise": "a", "criterion": "b", "fraction": 0.5, "doing": "c", "more": 1}',
+        '{"event": "Progress", "exercise": "a", "criterion": "b", "fraction": "0.5", "doing": "c"}',
         '{"event": "CheckStarted", "exercise": "i1.1", "criteria": null}',
         '{"event": "CriterionJudged", "exercise": "i1.1", "result": {"id": "a"}}',
         '{"event": "ExerciseJudged", "result": []}',
     ],
 )
 def test_what_is_not_an_event_is_refused(line: str) -> None:
-    with pytest.raises(ValueError, match=r"not an event|valid Status"):
+    with pytest.raises(ValueError, match="not understood"):
         decode(line)
 
 

@@ -14,7 +14,7 @@ from collections.abc import Iterator
 import pytest
 
 from tests.live.world import METRONOME, World, world
-from tutor.live.protocol import Follow, Ready, SetVisible, Update, WatcherRequest, decode_update, encode
+from tutor.live.protocol import Follow, Ready, SetVisible, Update, WatcherRequest, decode_update, encode_request
 from tutor.live.updates import TopicUpdate
 
 LIMIT_S = 30.0
@@ -33,7 +33,7 @@ class Watching:
 
     def tell(self, request: WatcherRequest) -> None:
         assert self.process.stdin is not None
-        self.process.stdin.write(encode(request).encode() + b"\n")
+        self.process.stdin.write(encode_request(request).encode() + b"\n")
 
     def updates(self, limit_s: float = LIMIT_S) -> Iterator[Update]:
         assert self.process.stdout is not None

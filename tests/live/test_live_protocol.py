@@ -14,7 +14,8 @@ from tutor.live.protocol import (
     WatcherError,
     decode_request,
     decode_update,
-    encode,
+    encode_request,
+    encode_update,
 )
 from tutor.live.updates import CallOutcome, NodeParameters, Published, RequestForm, SetOutcome, Timing, TopicUpdate
 from tutor.ros_model import Field, Graph, Parameter, QoS, ServiceEndpoint, TopicEndpoint
@@ -38,7 +39,7 @@ END = TopicEndpoint("/t", "std_msgs/msg/String", "/n", QoS("best_effort", deadli
     ],
 )
 def test_updates_arrive_as_they_were_sent(update: Update) -> None:
-    line = encode(update)
+    line = encode_update(update)
     assert "\n" not in line
     assert line.isascii()
     assert decode_update(line) == update
@@ -53,10 +54,17 @@ def test_requests_arrive_as_they_were_sent() -> None:
         Publish("/t", "a/msg/B", {"x.y": 1.5}, 0.0),
         StopPublishing("/t"),
     ):
-        assert decode_request(encode(request)) == request
+        assert decode_request(encode_request(request)) == request
 
 
-@pytest.mark.parametrize("line", ["", "{}", "[1]", '{"kind": "Follow"}', '{"kind": "Eval", "x": 1}', encode(Ready(1))])
+@pytest.mark.parametrize(
+    "line", ["", "{}", "[1]", '{"kind": "Follow"}', '{"kind": "Eval", "x": 1}', encode_update(Ready(1))]
+)
 def test_anything_else_is_not_a_request(line: str) -> None:
     with pytest.raises(ValueError, match="not understood"):
         decode_request(line)
+
+
+def test_what_a_node_may_hold_arrives_though_json_has_no_word_for_it() -> None:
+    said = SetOutcome(1, "/n", "p", [float("inf"), -float("inf")], True, True, "\udcff", 1.0, 0.1)
+    assert decode_update(encode_update(said)) == said

@@ -116,7 +116,7 @@ async def test_a_line_that_is_not_an_event_is_a_fault_too(learner: Any) -> None:
         await begin(me)
         await me.told("hello [red]world[/red]")
         await me.sees("! error")
-        assert "not an event: 'hello [red]world[/red]" in me.diagnosis()
+        assert "not understood: 'hello [red]world[/red]" in me.diagnosis()
 
 
 async def test_an_engine_that_cannot_be_started_is_told(learner: Any) -> None:

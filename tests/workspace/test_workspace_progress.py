@@ -219,3 +219,35 @@ def test_every_progress_survives_the_disk(progress: Progress) -> None:
 def test_no_text_breaks_the_reader(text: str) -> None:
     with pytest.raises(ValueError, match="it is damaged"):
         decode(text)
+
+
+BEFORE = """{
+ "schema": "ros-tutor/progress/1",
+ "exercises": {
+  "i1.1": {
+   "started_at": "2026-01-02T03:04:05Z",
+   "attempts": [{"at": "2026-01-02T03:04:06Z", "verdict": "failed", "passed": ["node"], "whole": true}],
+   "best": "failed",
+   "hints": 2
+  }
+ },
+ "checklist": {"topics": "2026-01-02T03:04:07Z"}
+}"""
+
+
+def test_a_file_of_an_earlier_version_is_read() -> None:
+    progress = decode(BEFORE)
+    attempt = Attempt("2026-01-02T03:04:06Z", Status.FAILED, ("node",))
+    assert progress.of("i1.1") == ExerciseProgress("2026-01-02T03:04:05Z", (attempt,), Status.FAILED, 2)
+    assert progress.ticks == {"topics": "2026-01-02T03:04:07Z"}
+    assert decode(encode(progress)) == progress
+
+
+@pytest.mark.parametrize(
+    ("text", "becomes"),
+    [('"hints": 2', '"hints": -1'), ('"whole": true', '"whole": 1'), ('"failed", "passed"', '"maybe", "passed"')],
+)
+def test_a_value_that_cannot_be_is_damage(text: str, becomes: str) -> None:
+    assert text in BEFORE
+    with pytest.raises(ValueError, match="damaged"):
+        decode(BEFORE.replace(text, becomes))

@@ -6,12 +6,11 @@ with ROS.
 
 from __future__ import annotations
 
-import json
-from dataclasses import asdict, dataclass
-from typing import Any
+from dataclasses import dataclass
+from typing import get_args
 
-from tutor.judge.result import CriterionResult, Environment, ExerciseResult, Report, Wall
-from tutor.judge.verdict import Status, Verdict
+from tutor.json_codec import LineCodec
+from tutor.judge.result import CriterionResult, ExerciseResult, Report
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,74 +55,7 @@ class CheckFinished:
 
 Event = CheckStarted | Progress | CriterionJudged | ExerciseJudged | CheckFinished
 
-_KINDS: dict[str, type[Event]] = {
-    kind.__name__: kind for kind in (CheckStarted, Progress, CriterionJudged, ExerciseJudged, CheckFinished)
-}
+_CODEC: LineCodec[Event] = LineCodec("event", get_args(Event))
 
-
-def encode(event: Event) -> str:
-    """Write an event as one line of JSON, without the line's end.
-
-    In ASCII: the same bytes in every locale, and no character that some reader would take for a line's end.
-    """
-    return json.dumps({"event": type(event).__name__, **_plain(asdict(event))})
-
-
-def decode(line: str) -> Event:
-    """Read an event that `encode` wrote.
-
-    Raises ValueError for a line that is not an event.
-    """
-    try:
-        fields = json.loads(line)
-        kind = _KINDS[fields.pop("event")]
-        event: Event = _BUILD[kind](fields)
-        return event
-    except (KeyError, TypeError, AttributeError, json.JSONDecodeError) as error:
-        raise ValueError(f"not an event: {line[:200]!r}") from error
-
-
-def _plain(value: Any) -> Any:
-    if isinstance(value, Status):
-        return value.value
-    if isinstance(value, dict):
-        return {key: _plain(item) for key, item in value.items()}
-    if isinstance(value, (list, tuple)):
-        return [_plain(item) for item in value]
-    return value
-
-
-def _criterion(fields: dict[str, Any]) -> CriterionResult:
-    verdict = fields.pop("verdict")
-    return CriterionResult(
-        **fields,
-        verdict=Verdict(**{**verdict, "status": Status(verdict["status"]), "evidence": tuple(verdict["evidence"])}),
-    )
-
-
-def _exercise(fields: dict[str, Any]) -> ExerciseResult:
-    return ExerciseResult(
-        id=fields["id"],
-        title=fields["title"],
-        submission=tuple(fields["submission"]),
-        criteria=tuple(_criterion(c) for c in fields["criteria"]),
-        duration_s=fields["duration_s"],
-    )
-
-
-def _report(fields: dict[str, Any]) -> Report:
-    return Report(
-        environment=Environment(**fields["environment"]),
-        exercises=tuple(_exercise(e) for e in fields["exercises"]),
-        duration_s=fields["duration_s"],
-        walls=tuple(Wall(**wall) for wall in fields["walls"]),
-    )
-
-
-_BUILD: dict[type[Event], Any] = {
-    CheckStarted: lambda f: CheckStarted(f["exercise"], tuple(f["criteria"])),
-    Progress: lambda f: Progress(**f),
-    CriterionJudged: lambda f: CriterionJudged(f["exercise"], _criterion(f["result"])),
-    ExerciseJudged: lambda f: ExerciseJudged(_exercise(f["result"])),
-    CheckFinished: lambda f: CheckFinished(_report(f["report"])),
-}
+encode = _CODEC.encode
+decode = _CODEC.decode

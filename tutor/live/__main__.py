@@ -11,7 +11,7 @@ import os
 import sys
 from typing import BinaryIO
 
-from tutor.live.protocol import Update, decode_request, encode
+from tutor.live.protocol import Update, decode_request, encode_update
 from tutor.live.request_reader import read_lines
 from tutor.live.updates import TopicUpdate
 from tutor.process.prctl import die_with_parent
@@ -43,7 +43,7 @@ async def _watch(pipe: BinaryIO) -> None:
 
     def say(said: Update) -> None:
         if not (isinstance(said, TopicUpdate) and transport.get_write_buffer_size() > FULL):
-            transport.write(encode(said).encode() + b"\n")
+            transport.write(encode_update(said).encode() + b"\n")
 
     watcher = Watcher(_domain_id(), say)
     running = asyncio.ensure_future(watcher.run())

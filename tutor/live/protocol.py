@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import json
-import types
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, fields, is_dataclass
-from functools import cache
-from typing import Any, Union, get_args, get_origin, get_type_hints
+from dataclasses import dataclass
+from typing import Any, get_args
 
+from tutor.json_codec import LineCodec
 from tutor.live.updates import CallOutcome, NodeParameters, Published, RequestForm, SetOutcome, TopicUpdate
 from tutor.ros_model import Graph
 
@@ -148,52 +146,8 @@ Update = (
     Ready | WatcherError | Graph | TopicUpdate | NodeParameters | SetOutcome | RequestForm | CallOutcome | Published
 )
 
-_KINDS: dict[str, type[Any]] = {kind.__name__: kind for kind in (*get_args(WatcherRequest), *get_args(Update))}
+_REQUESTS: LineCodec[WatcherRequest] = LineCodec("kind", get_args(WatcherRequest))
+_UPDATES: LineCodec[Update] = LineCodec("kind", get_args(Update))
 
-
-def encode(said: WatcherRequest | Update) -> str:
-    """Write it as one line of JSON in ASCII, without the line's end."""
-    return json.dumps({"kind": type(said).__name__, **asdict(said)})
-
-
-def decode_request(line: str) -> WatcherRequest:
-    """Read a request. Raises ValueError for a line that is not one."""
-    request: WatcherRequest = _decode(line, get_args(WatcherRequest))
-    return request
-
-
-def decode_update(line: str) -> Update:
-    """Read an update. Raises ValueError for a line that is not one."""
-    update: Update = _decode(line, get_args(Update))
-    return update
-
-
-def _decode(line: str, expected: tuple[Any, ...]) -> Any:
-    try:
-        given = json.loads(line)
-        kind = _KINDS[given.pop("kind")]
-        if kind not in expected:
-            raise KeyError(kind.__name__)
-        return _build(kind, given)
-    except (KeyError, TypeError, ValueError, AttributeError) as error:
-        raise ValueError(f"not understood: {line[:200]!r}") from error
-
-
-def _build(kind: Any, value: Any) -> Any:
-    """A value as JSON gives it, as what the annotation `kind` says: dataclasses and tuples are made again."""
-    if is_dataclass(kind):
-        built: Any = kind
-        annotated = _annotations(built)
-        return built(**{name: _build(annotated[name], item) for name, item in value.items()})
-    origin, of = get_origin(kind), get_args(kind)
-    if origin is tuple:
-        return tuple(_build(of[0] if of[-1] is ... else of[n], item) for n, item in enumerate(value))
-    if origin in (Union, types.UnionType):
-        return None if value is None else _build(next(one for one in of if one is not type(None)), value)
-    return value
-
-
-@cache
-def _annotations(kind: type[Any]) -> dict[str, Any]:
-    hints = get_type_hints(kind)
-    return {field.name: hints[field.name] for field in fields(kind)}
+encode_request, decode_request = _REQUESTS.encode, _REQUESTS.decode
+encode_update, decode_update = _UPDATES.encode, _UPDATES.decode

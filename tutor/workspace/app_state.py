@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Mapping
-from dataclasses import asdict, dataclass, field, fields, replace
+from dataclasses import dataclass, field, fields, replace
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Any
 
+from tutor.json_codec import read_as, read_document, write_document
 from tutor.workspace.atomic import write_atomically
 from tutor.workspace.errors import StorageError
 from tutor.workspace.regular import read_text
@@ -52,40 +51,12 @@ class AppState:
 
 def encode(state: AppState) -> str:
     """Write the state as JSON."""
-    return json.dumps({"schema": SCHEMA, **asdict(state)}, ensure_ascii=False, indent=1) + "\n"
+    return write_document(SCHEMA, **{each.name: getattr(state, each.name) for each in fields(state)})
 
 
 def decode(text: str) -> AppState:
     """Read what `encode` wrote. Raises ValueError, which says what is wrong."""
-    try:
-        document = json.loads(text)
-        if document["schema"] != SCHEMA:
-            raise ValueError("another version of ros-tutor wrote it")
-        plain = AppState()
-        values: dict[str, Any] = {}
-        for known in fields(AppState):
-            if known.name == "side_by_side" and known.name not in document:
-                continue  # written before there was such a thing
-            if known.name != "runs":
-                values[known.name] = _as_type(type(getattr(plain, known.name)), document[known.name])
-        runs = {str(key): _run(value) for key, value in document["runs"].items()}
-        return AppState(**values, runs=runs)
-    except (KeyError, TypeError, AttributeError, RecursionError, json.JSONDecodeError) as error:
-        raise ValueError("it is damaged") from error
-
-
-def _run(value: Any) -> RunOptions:
-    return RunOptions(_lines(value["parameters"]), _lines(value["remaps"]))
-
-
-def _as_type(wanted: type, value: Any) -> Any:
-    if type(value) is not wanted:
-        raise TypeError(f"no {wanted.__name__}: {value!r}")
-    return value
-
-
-def _lines(value: Any) -> tuple[str, ...]:
-    return tuple(_as_type(str, line) for line in _as_type(list, value))
+    return read_as(AppState, read_document(text, SCHEMA))
 
 
 class AppStateFile:

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable, Mapping
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import dataclass, field, replace
 from datetime import UTC, datetime
-from typing import Any
 
+from tutor.json_codec import read_as, read_document, write_document
 from tutor.judge.result import ExerciseResult
 from tutor.judge.verdict import Status
 
@@ -43,6 +42,10 @@ class ExerciseProgress:
     attempts: tuple[Attempt, ...] = ()
     best: Status | None = None
     hints: int = 0
+
+    def __post_init__(self) -> None:
+        if self.hints < 0:
+            raise ValueError("hints")
 
     @property
     def last(self) -> Attempt | None:
@@ -100,58 +103,13 @@ def now() -> str:
 
 def encode(progress: Progress) -> str:
     """Write progress as JSON."""
-    exercises = {key: asdict(value) for key, value in progress.exercises.items()}
-    document = {"schema": SCHEMA, "exercises": exercises, "checklist": dict(progress.ticks)}
-    return json.dumps(document, ensure_ascii=False, indent=1, default=lambda status: status.value) + "\n"
+    return write_document(SCHEMA, exercises=progress.exercises, checklist=progress.ticks)
 
 
 def decode(text: str) -> Progress:
     """Read what `encode` wrote. Raises ValueError, which says what is wrong."""
-    try:
-        document = json.loads(text)
-        schema = document["schema"]
-        if schema != SCHEMA:
-            raise ValueError(_other(schema))
-        return Progress(
-            exercises={str(key): _exercise(value) for key, value in document["exercises"].items()},
-            ticks={str(key): _text(at) for key, at in document["checklist"].items()},
-        )
-    except (KeyError, TypeError, AttributeError, RecursionError, json.JSONDecodeError) as error:
-        raise ValueError("it is damaged") from error
-
-
-def _other(schema: object) -> str:
-    family, _, version = str(schema).rpartition("/")
-    newer = family == SCHEMA.rpartition("/")[0] and version.isdecimal() and int(version) > 1
-    return "a newer ros-tutor wrote it" if newer else "it is damaged"
-
-
-def _exercise(fields: dict[str, Any]) -> ExerciseProgress:
-    started, best, hints = fields["started_at"], fields["best"], fields["hints"]
-    if not isinstance(hints, int) or hints < 0:
-        raise TypeError("hints")
-    return ExerciseProgress(
-        started_at=None if started is None else _text(started),
-        attempts=tuple(_attempt(attempt) for attempt in fields["attempts"]),
-        best=None if best is None else _status(best),
-        hints=hints,
+    document = read_document(text, SCHEMA)
+    return Progress(
+        exercises=read_as(dict[str, ExerciseProgress], document.get("exercises")),
+        ticks=read_as(dict[str, str], document.get("checklist")),
     )
-
-
-def _attempt(fields: dict[str, Any]) -> Attempt:
-    passed = tuple(_text(criterion) for criterion in fields["passed"])
-    judged = tuple(_text(criterion) for criterion in fields.get("judged", ()))  # not there in files of before
-    return Attempt(_text(fields["at"]), _status(fields["verdict"]), passed, bool(fields["whole"]), judged)
-
-
-def _status(value: Any) -> Status:
-    try:
-        return Status(value)
-    except ValueError as error:
-        raise TypeError(f"no status: {value!r}") from error
-
-
-def _text(value: Any) -> str:
-    if not isinstance(value, str):
-        raise TypeError(f"no text: {value!r}")
-    return value

@@ -9,7 +9,7 @@ from collections import deque
 from collections.abc import AsyncIterator
 from pathlib import Path
 
-from tutor.live.protocol import Update, WatcherRequest, decode_update, encode
+from tutor.live.protocol import Update, WatcherRequest, decode_update, encode_request
 from tutor.tui.live.launching import WatcherCommand
 
 END_S = 1.5
@@ -57,7 +57,7 @@ class LiveChild:
         assert self._process.stdin is not None
         transport = self._process.stdin.transport
         if not transport.is_closing() and transport.get_write_buffer_size() < _MOST_UNSENT:
-            self._process.stdin.write(encode(command).encode() + b"\n")
+            self._process.stdin.write(encode_request(command).encode() + b"\n")
 
     async def updates(self) -> AsyncIterator[Update]:
         """What it tells, until it ends. Raises ValueError for a line that is not an update."""
