@@ -15,7 +15,8 @@ import pytest
 import tutor
 from tests.cli.conftest import Run
 from tutor import invocation
-from tutor.cli.parser import build, command_parsers
+from tutor.cli.grammar import command_parsers
+from tutor.cli.parser import build
 
 ROOT = Path(tutor.__file__).parents[1]
 CLONE = {invocation.VARIABLE: f"{os.getpid()} ./ros-tutor"}

@@ -8,7 +8,7 @@ from rcl_interfaces.msg import ParameterValue
 from sensor_msgs.msg import LaserScan
 from std_msgs.msg import Byte, Float64, Float64MultiArray, String
 
-from tutor.bundled_ros import interfaces
+from tutor.ros import bundled_interfaces
 from tutor.ros.fields import fill_request, request_fields
 from tutor.ros.messages import UnknownType
 from tutor.ros.yaml_format import LONGEST, number_at, numeric_fields, to_yaml
@@ -59,7 +59,7 @@ def test_every_found_field_can_be_read() -> None:
         assert all(number_at(message, path) is not None for path in numeric_fields(message)), message
 
 
-interfaces.activate()
+bundled_interfaces.activate()
 
 
 def test_a_request_is_a_form_of_its_leaves_with_their_defaults() -> None:

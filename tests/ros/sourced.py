@@ -7,7 +7,7 @@ import shutil
 import sys
 from pathlib import Path
 
-from tutor.bundled_ros import interfaces
+from tutor.ros import bundled_interfaces
 
 _SITE = Path("lib") / "python3.12" / "site-packages"
 _NOT_OF_ROS = ("numpy", "numpy.libs", "yaml", "_yaml")  # what a system Python has beside ROS, and ours has not
@@ -22,7 +22,7 @@ def install(prefix: Path) -> Path:
                 _put(own / _SITE, line.rsplit(",", 2)[0], own, prefix)
     for name in _NOT_OF_ROS:
         shutil.copytree(own / _SITE / name, prefix / _SITE / name, copy_function=_link)
-    shutil.copytree(interfaces.prefix(), prefix, copy_function=_link, dirs_exist_ok=True)
+    shutil.copytree(bundled_interfaces.prefix(), prefix, copy_function=_link, dirs_exist_ok=True)
     return prefix
 
 

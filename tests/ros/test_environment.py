@@ -14,8 +14,7 @@ from pathlib import Path
 import pytest
 
 from tests.ros import sourced
-from tutor.bundled_ros import interfaces
-from tutor.ros import environment, isolation, prefixes
+from tutor.ros import bundled_interfaces, environment, isolation, prefixes
 from tutor.ros.domain import reserve_domain
 from tutor.ros.environment import RosEnvironment, detect, learner_env
 
@@ -110,8 +109,8 @@ def test_learner_environment_is_clean(tmp_path: Path) -> None:
     )
     for name, value in unwanted.items():
         assert env.get(name) != value, name
-    assert env["PYTHONPATH"].split(":") == [str(package_root), str(interfaces.site_packages()), "/home/me/lib"]
-    assert env["AMENT_PREFIX_PATH"].split(":") == [str(interfaces.prefix()), sys.prefix]
+    assert env["PYTHONPATH"].split(":") == [str(package_root), str(bundled_interfaces.site_packages()), "/home/me/lib"]
+    assert env["AMENT_PREFIX_PATH"].split(":") == [str(bundled_interfaces.prefix()), sys.prefix]
     assert env["PATH"].split(":")[0] == str(Path(sys.prefix) / "bin")
     assert env["FASTRTPS_DEFAULT_PROFILES_FILE"] == env["FASTDDS_DEFAULT_PROFILES_FILE"] == str(isolation.PROFILE)
     expected = {

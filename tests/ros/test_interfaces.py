@@ -14,7 +14,7 @@ from typing import Any
 import pytest
 
 from tests.ros.users_domain import users_domain
-from tutor.bundled_ros import interfaces
+from tutor.ros import bundled_interfaces
 
 PACKAGE = "example_interfaces"
 SERVICE = f"{PACKAGE}/srv/AddTwoInts"
@@ -145,7 +145,7 @@ def carried_hash(name: str) -> str:
     class TypeHash(ctypes.Structure):
         _fields_ = (("version", ctypes.c_uint8), ("value", ctypes.c_uint8 * 32))
 
-    library = ctypes.CDLL(str(interfaces.library_dir() / f"lib{PACKAGE}__rosidl_generator_c.so"))
+    library = ctypes.CDLL(str(bundled_interfaces.library_dir() / f"lib{PACKAGE}__rosidl_generator_c.so"))
     get_type_hash = library[f"{name.replace('/', '__')}__get_type_hash"]
     get_type_hash.restype = ctypes.POINTER(TypeHash)
     carried = get_type_hash(None).contents
@@ -163,20 +163,20 @@ def test_the_built_library_carries_the_real_hash(suffix: str) -> None:
 
 def test_a_process_gets_at_it_through_its_environment(environment: dict[str, str]) -> None:
     environment |= {
-        "PYTHONPATH": str(interfaces.site_packages()),
-        "AMENT_PREFIX_PATH": str(interfaces.prefix()),
-        "LD_LIBRARY_PATH": str(interfaces.library_dir()),
+        "PYTHONPATH": str(bundled_interfaces.site_packages()),
+        "AMENT_PREFIX_PATH": str(bundled_interfaces.prefix()),
+        "LD_LIBRARY_PATH": str(bundled_interfaces.library_dir()),
     }
     seen = python(NODE.format(first=""), environment)
-    assert Path(seen["file"]).is_relative_to(interfaces.prefix())
+    assert Path(seen["file"]).is_relative_to(bundled_interfaces.prefix())
     assert seen["sum"] == 2**40 - 2
     for kind in ("request", "response", "event"):
         assert seen[kind] == [type_hash(f"{SERVICE}_{kind.title()}")]
 
 
 def test_activate_makes_it_work_in_the_running_process(environment: dict[str, str]) -> None:
-    seen = python(NODE.format(first="from tutor.bundled_ros.interfaces import activate; activate()"), environment)
-    assert Path(seen["file"]).is_relative_to(interfaces.prefix())
+    seen = python(NODE.format(first="from tutor.ros.bundled_interfaces import activate; activate()"), environment)
+    assert Path(seen["file"]).is_relative_to(bundled_interfaces.prefix())
     assert seen["sum"] == 2**40 - 2
 
 
@@ -185,7 +185,7 @@ def test_activate_leaves_a_real_one_alone(environment: dict[str, str], tmp_path:
     (tmp_path / PACKAGE / "__init__.py").touch()
     source = """
 import json, os, sys
-from tutor.bundled_ros.interfaces import activate
+from tutor.ros.bundled_interfaces import activate
 before = [list(sys.path), dict(os.environ)]
 activate()
 import example_interfaces
@@ -196,18 +196,20 @@ print(json.dumps({"file": example_interfaces.__file__, "untouched": before == [s
 
 
 def test_a_missing_prefix_is_named_with_its_hint(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    monkeypatch.setattr(interfaces, "prefix", lambda: tmp_path)
+    monkeypatch.setattr(bundled_interfaces, "prefix", lambda: tmp_path)
     monkeypatch.setattr(importlib.util, "find_spec", lambda name: None)
-    with pytest.raises(interfaces.InterfacesNotBuiltError, match="uv sync --inexact --reinstall-package ros-tutor"):
-        interfaces.activate()
+    with pytest.raises(
+        bundled_interfaces.InterfacesNotBuiltError, match="uv sync --inexact --reinstall-package ros-tutor"
+    ):
+        bundled_interfaces.activate()
 
 
 @pytest.mark.parametrize("kind", ["srv", "idl", "json"])
 def test_the_definition_is_installed(kind: str) -> None:
-    assert (interfaces.prefix() / "share" / PACKAGE / "srv" / f"AddTwoInts.{kind}").is_file()
+    assert (bundled_interfaces.prefix() / "share" / PACKAGE / "srv" / f"AddTwoInts.{kind}").is_file()
 
 
 def test_the_package_is_in_the_ament_index() -> None:
-    index = interfaces.prefix() / "share" / "ament_index" / "resource_index"
+    index = bundled_interfaces.prefix() / "share" / "ament_index" / "resource_index"
     assert (index / "packages" / PACKAGE).is_file()
     assert "srv/AddTwoInts.srv" in (index / "rosidl_interfaces" / PACKAGE).read_text().split()

@@ -29,12 +29,12 @@ def main(argv: Sequence[str] | None = None) -> int:
 def _run(argv: Sequence[str] | None) -> int:
     from tutor.cli import app, completion
     from tutor.cli.errors import UsageError
-    from tutor.cli.parser import parse
+    from tutor.cli.parser import build, parse
     from tutor.invocation import export_program_name
 
     export_program_name()
     if completion.is_asked():
-        completion.answer()
+        completion.answer(build)
     arguments = parse(argv)
     if arguments.command is None:
         return app.run(arguments)

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Iterator, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from tutor.cli import context, terminal
+from tutor.cli import context, grammar, terminal
 from tutor.cli.errors import FAULT, INTERRUPTED, NOT_PASSED, PASSED, UsageError
 
 if TYPE_CHECKING:
@@ -96,7 +97,7 @@ def _static(
     for lesson in lessons:
         if lesson.id in checks:
             yield from find_disagreements(lesson, checks[lesson.id])
-        yield from find_bad_commands(lesson, given, _usage)
+        yield from find_bad_commands(lesson, given, partial(_usage, arguments.parser))
     root = _submissions(arguments, lessons)
     if root is not None:
         yield from find_bad_submissions(root, course, lessons)
@@ -113,12 +114,10 @@ def _submissions(arguments: argparse.Namespace, lessons: Sequence[Lesson]) -> Pa
     return named or beside
 
 
-def _usage(argv: list[str]) -> str:
+def _usage(parser: argparse.ArgumentParser, argv: list[str]) -> str:
     """What is wrong with the arguments of `ros-tutor`, or nothing."""
-    from tutor.cli.parser import parse
-
     try:
-        parse(argv)
+        grammar.read(parser, argv)
     except UsageError as error:
         return str(error)
     return ""

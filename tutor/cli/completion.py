@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from tutor.cli import context, terminal
 from tutor.cli.errors import PASSED
+from tutor.cli.grammar import command_parsers
 from tutor.invocation import PROGRAM, command, program
 
 if TYPE_CHECKING:
@@ -56,12 +57,11 @@ def is_asked() -> bool:
     return ASKED in os.environ
 
 
-def answer() -> None:
-    """Give the shell its completions, and end the process."""
+def answer(build: Callable[..., argparse.ArgumentParser]) -> None:
+    """Give the shell its completions, and end the process. `build` makes the parser of the whole command line."""
     import argcomplete
 
     from tutor.cli import ros2
-    from tutor.cli.parser import build, command_parsers
 
     if (rest := _after_ros2(os.environ.get("COMP_LINE", ""))) is not None:
         left_out = len(os.environ["COMP_LINE"]) - len(rest)
@@ -69,9 +69,10 @@ def answer() -> None:
         os.environ["COMP_LINE"] = rest
         ros2.run(argparse.Namespace(words=[]))  # becomes ros2, which knows its verbs
     parser = build(mixing=False)
-    for name, each in command_parsers(parser).items():
+    parsers = command_parsers(parser)
+    for name, each in parsers.items():
         for action in each._actions:
-            if (completer := _completer(name, action)) is not None:
+            if (completer := _completer(name, action, list(parsers))) is not None:
                 action.completer = completer  # type: ignore[attr-defined]  # where argcomplete looks for it
     argcomplete.autocomplete(parser, exclude=["-h", "--help", "--version"])
 
@@ -82,7 +83,7 @@ def _after_ros2(line: str) -> str | None:
     return rest if rest.startswith("ros2 ") else None
 
 
-def _completer(name: str, action: argparse.Action) -> Completer | None:
+def _completer(name: str, action: argparse.Action, commands: list[str]) -> Completer | None:
     from argcomplete.completers import DirectoriesCompleter
 
     def of_course(choose: Callable[[Course, argparse.Namespace], Iterable[str]]) -> Completer:
@@ -105,9 +106,7 @@ def _completer(name: str, action: argparse.Action) -> Completer | None:
         case "FILE" if name == "run":
             return of_course(lambda course, given: [Path(file.name).stem for file in course.find(given.exercise).files])
         case "COMMAND" if name == "help":
-            from tutor.cli.parser import build, command_parsers
-
-            return lambda **_: list(command_parsers(build()))
+            return lambda **_: commands
     return None
 
 

@@ -6,6 +6,7 @@ import argparse
 
 from tutor.cli import terminal
 from tutor.cli.errors import PASSED, UsageError
+from tutor.cli.grammar import command_parsers, did_you_mean
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -15,9 +16,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Print what `--help` prints there."""
-    from tutor.cli.parser import build, command_parsers, did_you_mean
-
-    parser = build()
+    parser: argparse.ArgumentParser = arguments.parser
     if arguments.topic is not None:
         known = command_parsers(parser)
         if arguments.topic not in known:

@@ -1,13 +1,10 @@
-"""The command line's grammar."""
+"""All commands and their arguments."""
 
 from __future__ import annotations
 
 import argparse
-import sys
-from collections.abc import Callable, Iterable, Sequence
-from difflib import get_close_matches
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any, NoReturn
 
 from tutor import __version__
 from tutor.cli import (
@@ -30,47 +27,10 @@ from tutor.cli import (
     start,
     watch,
 )
-from tutor.cli.errors import UsageError
+from tutor.cli.grammar import CommandParser, Parser, read
 from tutor.invocation import program
 
 Run = Callable[[argparse.Namespace], int]
-
-
-class _Parser(argparse.ArgumentParser):
-    """Raises what is wrong, so that one place prints it."""
-
-    def __init__(self, **options: Any) -> None:
-        super().__init__(allow_abbrev=False, formatter_class=argparse.RawDescriptionHelpFormatter, **options)
-
-    def error(self, message: str) -> NoReturn:
-        raise UsageError(f"{message} (see `{self.prog} --help`)")
-
-    # argparse's own message lists everything there is, and guesses nothing.
-    def _check_value(self, action: argparse.Action, value: Any) -> None:
-        known = None if action.choices is None else [str(choice) for choice in action.choices]
-        if known is None or value in known:
-            return
-        guess = did_you_mean(str(value), known)
-        if isinstance(action, argparse._SubParsersAction):
-            self.error(f"there is no command {value!r}{guess}")
-        raise argparse.ArgumentError(action, f"invalid choice: {value!r}{guess}; choose from {', '.join(known)}")
-
-
-class _CommandParser(_Parser):
-    """Takes options between the positional arguments too: `check i1.1 --format json PATH`."""
-
-    _mixing = False
-
-    # argparse gives no other way in for a subcommand; the method below calls this one in turn.
-    def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
-        # Where all the rest of the line is another command's, options in it are not ours.
-        if self._mixing or any(action.nargs == argparse.REMAINDER for action in self._actions):
-            return super().parse_known_args(args, namespace)
-        self._mixing = True
-        try:
-            return self.parse_known_intermixed_args(args, namespace)
-        finally:
-            self._mixing = False
 
 
 _EPILOG = """\
@@ -82,58 +42,24 @@ exit codes: 0 passed, 1 not everything passed, 2 wrong usage, 3 a fault of the t
 
 def parse(argv: Sequence[str] | None) -> argparse.Namespace:
     """Read the command line. `command` is None where there is none. Raises UsageError."""
-    parser = build()
-    words = list(sys.argv[1:] if argv is None else argv)
-    words, rest = _nodes_own(words)
-    arguments, unknown = parser.parse_known_args(words)
-    if rest:
-        arguments.rest = rest
-    if unknown:
-        used = command_parsers(parser).get(arguments.command, parser)
-        options = [option for action in used._actions for option in action.option_strings]
-        guess = did_you_mean(unknown[0].partition("=")[0], options) if unknown[0].startswith("-") else ""
-        if arguments.command == "run":
-            guess = "; what is your node's own follows --, as in -- --ros-args"
-        used.error(f"unrecognized arguments: {' '.join(unknown)}{guess}")
-    return arguments
-
-
-def _nodes_own(words: list[str]) -> tuple[list[str], list[str]]:
-    """What is ours, and what the node gets: for `run`, what follows the first `--`."""
-    ours = words[: words.index("--")] if "--" in words else words
-    takes_value = {"--workspace", "--lessons"}  # whose value, too, may be "run"
-    pairs = zip(["", *ours], ours, strict=False)
-    command = next((word for before, word in pairs if not word.startswith("-") and before not in takes_value), "")
-    return (ours, words[len(ours) + 1 :]) if command == "run" else (words, [])
-
-
-def did_you_mean(word: str, known: Iterable[str]) -> str:
-    """What was probably meant, as the end of a sentence; empty where nothing is near."""
-    near = get_close_matches(word.lower(), list(known), n=1)
-    return f", did you mean {near[0]}?" if near else ""
-
-
-def command_parsers(parser: argparse.ArgumentParser) -> dict[str, argparse.ArgumentParser]:
-    """The parser of each command, by its name."""
-    subparsers = next(action for action in parser._actions if isinstance(action, argparse._SubParsersAction))
-    return dict(subparsers.choices)
+    return read(build(), argv)
 
 
 def build(*, mixing: bool = True) -> argparse.ArgumentParser:
     """The parser of the whole command line. `mixing`: options may stand between a command's other arguments."""
     everywhere = _global_options()
-    parser = _Parser(
+    parser = Parser(
         prog=program(),
         description="Hands-on ROS 2 exercises, judged by what your node really does.",
         epilog=_EPILOG,
         parents=[everywhere],
     )
-    parser.set_defaults(command=None)
+    parser.set_defaults(command=None, parser=parser)
     parser.add_argument(
         "--plain", action="store_true", help="plain lines of text instead of the app, for screen readers"
     )
     commands = parser.add_subparsers(
-        title="commands", metavar="COMMAND", parser_class=_CommandParser if mixing else _Parser
+        title="commands", metavar="COMMAND", parser_class=CommandParser if mixing else Parser
     )
 
     def add(name: str, run: Run, arguments: Callable[[argparse.ArgumentParser], None], help: str) -> None:
@@ -162,9 +88,9 @@ def build(*, mixing: bool = True) -> argparse.ArgumentParser:
     return parser
 
 
-def _global_options() -> _CommandParser:
+def _global_options() -> CommandParser:
     """Options that are good before and after the command. Suppressed defaults: the second must not undo the first."""
-    parser = _CommandParser(add_help=False, argument_default=argparse.SUPPRESS)
+    parser = CommandParser(add_help=False, argument_default=argparse.SUPPRESS)
     options = parser.add_argument_group("options for every command")
     options.add_argument(
         "--workspace",

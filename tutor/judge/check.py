@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from tutor.judge.bench import Scenario
-from tutor.judge.exceptions.table import KnownException
+from tutor.judge.known_exception import KnownException
 from tutor.judge.verdict import Verdict
 
 Judge = Callable[..., Verdict]

@@ -9,12 +9,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import IntEnum
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from tutor.judge.known_exception import KnownException
 from tutor.ros_model import Graph, QoS
-
-if TYPE_CHECKING:
-    from tutor.judge.exceptions.table import KnownException
 
 
 class Level(IntEnum):

@@ -13,8 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
-from tutor.bundled_ros import interfaces
-from tutor.ros import prefixes
+from tutor.ros import bundled_interfaces, prefixes
 from tutor.ros.isolation import PROFILE, isolated_discovery, loopback_multicast_works, prompt_discovery
 
 __all__ = ["RosEnvironment", "detect", "learner_env", "loopback_multicast_works", "tutor_env"]
@@ -173,8 +172,8 @@ def _ros_env(ros: RosEnvironment, environ: Mapping[str, str], first_on_path: lis
         env["LD_LIBRARY_PATH"] = prefixes.joined(
             [*prefixes.bundled_libraries(), *prefixes.without_ros(environ, "LD_LIBRARY_PATH")]
         )
-        python_path = [str(interfaces.site_packages()), *prefixes.without_ros(environ, "PYTHONPATH")]
-        env["AMENT_PREFIX_PATH"] = prefixes.joined([interfaces.prefix(), sys.prefix])
+        python_path = [str(bundled_interfaces.site_packages()), *prefixes.without_ros(environ, "PYTHONPATH")]
+        env["AMENT_PREFIX_PATH"] = prefixes.joined([bundled_interfaces.prefix(), sys.prefix])
         rest = {name: prefixes.without_ros(environ, name) for name in _PATHS_OF_ROS}
     else:
         python_path = prefixes.without_bundled(environ, "PYTHONPATH")

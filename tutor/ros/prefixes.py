@@ -7,7 +7,7 @@ import sys
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
-from tutor.bundled_ros import interfaces
+from tutor.ros import bundled_interfaces
 
 SITE_PACKAGES = Path("lib") / "python3.12" / "site-packages"
 _INDEX = Path("share") / "ament_index" / "resource_index"
@@ -53,7 +53,7 @@ def without_bundled(environ: Mapping[str, str], name: str) -> list[str]:
 def bundled_libraries() -> list[Path]:
     """The folders with the bundled ROS's shared libraries, always in the same order."""
     site = Path(sys.prefix) / SITE_PACKAGES
-    return [Path(sys.prefix) / "lib", interfaces.library_dir(), *sorted(site.glob("ros_*.libs"))]
+    return [Path(sys.prefix) / "lib", bundled_interfaces.library_dir(), *sorted(site.glob("ros_*.libs"))]
 
 
 def rclpy_site(prefix: Path) -> Path | None:
@@ -73,5 +73,5 @@ def _own_roots() -> tuple[Path, ...]:
     # A prefix such as /usr (no environment of its own) also holds what is not ours: then only the wheels count.
     prefix = Path(sys.prefix)
     if sys.prefix != sys.base_prefix:
-        return (prefix, interfaces.prefix())
-    return (prefix / SITE_PACKAGES, interfaces.prefix())
+        return (prefix, bundled_interfaces.prefix())
+    return (prefix / SITE_PACKAGES, bundled_interfaces.prefix())

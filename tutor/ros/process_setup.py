@@ -29,7 +29,7 @@ def prepare_for_rclpy(ros: RosEnvironment, *, isolated: bool) -> None:
     Where this process was started with library folders of the other ROS, it restarts itself, once, without them: the
     loader reads LD_LIBRARY_PATH only then. It may be called again for the same ROS. Raises RuntimeError where rclpy was
     imported before the first call or for another ROS, OSError where shared memory is full, and whatever
-    `tutor.bundled_ros.interfaces.activate` raises where the bundled interfaces are missing.
+    `tutor.ros.bundled_interfaces.activate` raises where the bundled interfaces are missing.
     """
     global _in_use
     interpreter.answer_ctrl_c()  # where this process has restarted itself
@@ -51,9 +51,9 @@ def prepare_for_rclpy(ros: RosEnvironment, *, isolated: bool) -> None:
             sys.meta_path.insert(0, _NoBundledRos())
         return
     sys.path[:] = [entry for entry in sys.path if not prefixes.is_foreign_ros(entry)]
-    from tutor.bundled_ros import interfaces
+    from tutor.ros import bundled_interfaces
 
-    interfaces.activate()
+    bundled_interfaces.activate()
 
 
 def keep_stdout() -> None:

@@ -1,7 +1,8 @@
-"""Known exceptions, as data: what they mean in a node, and the step that fixes them. See CONTRIBUTING.md."""
+"""KnownException exceptions, as data: what they mean in a node, and the step that fixes them. See CONTRIBUTING.md."""
 
 from tutor.judge.exceptions.matching import RaisedException, explain
-from tutor.judge.exceptions.table import Example, KnownException, Replace, TableError, load, load_shipped, parse
+from tutor.judge.exceptions.table import TableError, load, load_shipped, parse
+from tutor.judge.known_exception import Example, KnownException, Replace
 
 __all__ = [
     "Example",

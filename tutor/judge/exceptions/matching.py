@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from tutor.judge import edits
 from tutor.judge.edits import Edit
 from tutor.judge.exceptions.rewriting import REWRITERS
-from tutor.judge.exceptions.table import WORD, KnownException
+from tutor.judge.known_exception import WORD, KnownException
 from tutor.judge.source import Function, SourceFile
 from tutor.judge.tracebacks import Frame, Traceback, is_in_folder
 from tutor.judge.verdict import Cause

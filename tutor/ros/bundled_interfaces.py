@@ -1,4 +1,4 @@
-"""The bundled `example_interfaces` (srv/AddTwoInts), built into an ament prefix inside this package.
+"""The bundled `example_interfaces` (srv/AddTwoInts), built into an ament prefix in `bundled_ros`.
 
 A process of its own gets at it through its environment: `PYTHONPATH` with `site_packages()`, `AMENT_PREFIX_PATH` with
 `prefix()`, `LD_LIBRARY_PATH` with `library_dir()`. The running process gets at it with `activate()`.
@@ -27,7 +27,7 @@ class InterfacesNotBuiltError(RuntimeError):
 
 def prefix() -> Path:
     """The ament prefix that holds the bundled interfaces."""
-    return Path(__file__).resolve().parent.parent / "prefix"
+    return Path(__file__).resolve().parent.parent / "bundled_ros" / "prefix"
 
 
 def site_packages() -> Path:
