@@ -10,8 +10,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from tutor.content import ContentError
 from tutor.content.submissions import EXPECT, Case, Expected, read_case
+from tutor.errors import ContentError
 from tutor.judge.events import ExerciseJudged, decode
 from tutor.judge.result import CriterionResult, ExerciseResult
 from tutor.judge.verdict import Status

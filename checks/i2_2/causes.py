@@ -74,7 +74,7 @@ def diagnose_program(seen: LaunchRun, cause: Cause) -> Cause:
 def diagnose_launch(trace: Trace) -> Cause | None:
     """Why the launch did not do what it should: its file is broken, or what it starts ends or cannot be found.
 
-    Raises OnlyWithRos where it asks for what our substitute for `launch` does not have.
+    Raises NeedsInstalledRos where it asks for what our substitute for `launch` does not have.
     """
     own = written_by(trace.output, None)
     text = "\n".join(line.text for line in own)

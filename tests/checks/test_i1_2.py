@@ -26,7 +26,7 @@ from checks.i1_2.facts import (
 from checks.i1_2.reading import read, values
 from checks.i1_2.summaries import find_summaries
 from tests.checks.made import CRASH, NO_NODE, START, UP, assert_failed, assert_passed, ending, exited, trace
-from tutor.judge.bench import MachineTooBusy
+from tutor.errors import MachineTooBusy
 from tutor.judge.trace import LogRecord, Trace
 from tutor.judge.verdict import Status, Verdict
 from tutor.ros_model import TopicEndpoint

@@ -10,7 +10,7 @@ import pytest
 from checks.i2_2 import facts, judges, processes
 from checks.i2_2.facts import LaunchRun
 from tests.checks.made import FOLDER, START, assert_failed, assert_passed, ending, exited, lines
-from tutor.judge.bench import NeedsInstalledRos
+from tutor.errors import NeedsInstalledRos
 from tutor.judge.trace import LogRecord, Sample, Trace
 from tutor.judge.verdict import Status
 from tutor.ros_model import Graph, QoS, ServiceEndpoint, TopicEndpoint

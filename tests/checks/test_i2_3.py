@@ -39,7 +39,7 @@ from tests.checks.made import (
     lines,
     trace,
 )
-from tutor.judge.bench import MachineTooBusy
+from tutor.errors import MachineTooBusy
 from tutor.judge.trace import CallAnswer, LogRecord
 from tutor.judge.verdict import Status, Verdict
 

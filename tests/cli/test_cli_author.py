@@ -11,8 +11,8 @@ import pytest
 import tutor.engine.proving
 from tests.cli.conftest import Run
 from tutor.content import Course, Lesson, load_course, loader
-from tutor.engine import EngineError
 from tutor.engine.proving import Kind, Proof
+from tutor.errors import EngineError
 from tutor.judge.result import CriterionResult, ExerciseResult
 from tutor.judge.verdict import Cause, Status, Verdict, failed, fault, passed
 

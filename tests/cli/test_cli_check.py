@@ -12,7 +12,7 @@ from tests.cli.conftest import Run
 from tests.cli.fake_engine import FAILURE, FakeEngine
 from tests.report.shape import assert_report_shape
 from tutor.content import load_course
-from tutor.engine import EngineError
+from tutor.errors import EngineError
 from tutor.judge.verdict import fault, skipped
 from tutor.tui.widgets.attempts import history
 from tutor.workspace import Progress, Workspace

@@ -18,8 +18,9 @@ import pytest
 from aiohttp import web
 
 from tests.cli.conftest import Run
+from tutor import errors
 from tutor.content import load_course
-from tutor.serve import address, errors, guard, is_loopback, listen, listening
+from tutor.serve import address, guard, is_loopback, listen, listening
 from tutor.serve.guard import is_address_or_ours, is_this_machine, owner
 from tutor.workspace import Workspace, start
 

@@ -8,12 +8,13 @@ from pathlib import Path
 
 import pytest
 
-from tutor.content import ContentError, Course, Lesson, load_course
+from tutor.content import Course, Lesson, load_course
 from tutor.content.lint_checks import find_disagreements, find_stray_files
 from tutor.content.lint_commands import find_bad_commands
 from tutor.content.lint_submissions import find_bad_submissions
 from tutor.content.proof import faults, find_disproofs
 from tutor.content.submissions import read_expected
+from tutor.errors import ContentError
 from tutor.judge.check import Check, Criterion
 from tutor.judge.result import CriterionResult, ExerciseResult
 from tutor.judge.verdict import Cause, Status, Verdict, failed, fault, passed, skipped

@@ -8,7 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from tutor.content import ContentError, CriterionText, Difficulty, LessonFile, UnknownExercise, load_course
+from tutor.content import CriterionText, Difficulty, LessonFile, load_course
+from tutor.errors import ContentError, UnknownExercise
 
 
 def edit(file: Path, old: str, new: str) -> None:

@@ -19,6 +19,7 @@ import pytest
 
 from tests.ros.own_network import OWN_NETWORK, needs_own_network
 from tutor.doctor import Finding, child, examine, machine, ros2, terminal
+from tutor.errors import ProbeFailed
 from tutor.ros.environment import RosEnvironment, detect
 
 ROOT = Path(machine.__file__).parents[2]
@@ -137,7 +138,7 @@ def test_a_missing_interface(tmp_path: Path) -> None:
 def test_processes_that_cannot_find_each_other(tmp_path: Path) -> None:
     # A publisher that publishes elsewhere is as good as a network that loses everything.
     (tmp_path / "sitecustomize.py").write_text("import sys\nif 'talk' in sys.argv: sys.argv[-1] = '/elsewhere'\n")
-    with pytest.raises(child.ProbeFailed, match="no message arrived in time"):
+    with pytest.raises(ProbeFailed, match="no message arrived in time"):
         child.first_message_ms(BUNDLED, {**os.environ, "PYTHONPATH": str(tmp_path)}, limit_s=3.0)
 
 

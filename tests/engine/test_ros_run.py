@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from tests.engine.made import FILE, PUBLISHES, WAITS, Scene, node
-from tutor.engine.errors import EngineError
+from tutor.errors import EngineError
 from tutor.judge import tracebacks
 from tutor.judge.bench import Run
 from tutor.judge.causes import diagnose_process

@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from tests.engine.made import FILE, PUBLISHES, Scene, criterion, node, plain
-from tutor.engine.errors import EngineError
+from tutor.errors import EngineError
 from tutor.judge.bench import Bench
 from tutor.judge.events import CheckStarted, CriterionJudged, ExerciseJudged, Progress
 from tutor.judge.verdict import Cause, Status, Verdict, failed, passed
@@ -139,7 +139,7 @@ async def test_no_free_domain_is_the_machines_fault_with_its_hint(
     scene: Scene, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     import tutor.engine.bench as live
-    from tutor.ros.domain import NoFreeDomain
+    from tutor.errors import NoFreeDomain
 
     def none() -> Any:
         raise NoFreeDomain

@@ -9,17 +9,9 @@ import pytest
 
 from tests.checks.made import exited, trace
 from tests.judge.real import crash
+from tutor.errors import TableError
 from tutor.judge.causes import diagnose_process
-from tutor.judge.exceptions import (
-    Example,
-    KnownException,
-    RaisedException,
-    TableError,
-    explain,
-    load,
-    load_shipped,
-    parse,
-)
+from tutor.judge.exceptions import Example, KnownException, RaisedException, explain, load, load_shipped, parse
 from tutor.judge.tracebacks import Frame, Traceback
 
 FOLDER = "/home/me/ws"

@@ -8,9 +8,9 @@ from rcl_interfaces.msg import ParameterValue
 from sensor_msgs.msg import LaserScan
 from std_msgs.msg import Byte, Float64, Float64MultiArray, String
 
+from tutor.errors import UnknownType
 from tutor.ros import bundled_interfaces
 from tutor.ros.fields import fill_request, request_fields
-from tutor.ros.messages import UnknownType
 from tutor.ros.yaml_format import LONGEST, number_at, numeric_fields, to_yaml
 from tutor.ros_model import Field
 

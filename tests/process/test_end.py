@@ -10,7 +10,8 @@ from typing import Any
 
 import pytest
 
-from tutor.process import EndError, LearnerProcess
+from tutor.errors import EndError
+from tutor.process import LearnerProcess
 from tutor.process.supervisor import descendants, processes
 
 CHILD = "if os.fork() == 0:\n    note('child'); forever()\nnote('main'); forever()\n"

@@ -15,8 +15,9 @@ from typing import Any
 
 import pytest
 
+from tutor.errors import StartError
 from tutor.judge.trace import Exit
-from tutor.process import CpuMeter, LearnerProcess, StartError, pipe
+from tutor.process import CpuMeter, LearnerProcess, pipe
 from tutor.process.output import LINE_CHARACTERS
 
 LIMIT_S = 20.0
@@ -206,7 +207,7 @@ except KeyboardInterrupt:
         f"""
 import asyncio
 from pathlib import Path
-from tutor.process import LearnerProcess
+from tutor.process import CpuMeter, LearnerProcess, pipe
 assert signal.getsignal(signal.SIGINT) is signal.SIG_IGN
 async def main():
     ready = asyncio.Event()

@@ -13,8 +13,9 @@ from pathlib import Path
 import pytest
 
 from tests.ros.own_network import OWN_NETWORK, needs_own_network
+from tutor.errors import NoFreeDomain
 from tutor.ros import domain
-from tutor.ros.domain import IDS, NoFreeDomain, reserve_domain
+from tutor.ros.domain import IDS, reserve_domain
 from tutor.ros.isolation import DDS_PORTS, PORTS_OF_CHECKS
 
 FIRST, PER_DOMAIN = PORTS_OF_CHECKS
@@ -93,7 +94,8 @@ def test_a_domain_whose_port_is_taken_is_passed_over_and_where_all_are_the_error
         + """
 import socket
 from contextlib import ExitStack
-from tutor.ros.domain import IDS, NoFreeDomain, reserve_domain
+from tutor.ros.domain import IDS, reserve_domain
+from tutor.errors import NoFreeDomain
 from tutor.ros.isolation import PORTS_OF_CHECKS
 FIRST, PER_DOMAIN = PORTS_OF_CHECKS
 port = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)

@@ -7,8 +7,8 @@ from typing import Any
 import pytest
 import yaml
 
-from tutor.bundled_ros.ros2.errors import CommandError
 from tutor.bundled_ros.ros2.message_values import message_from_yaml, set_fields
+from tutor.errors import CommandError
 
 
 def of_text(type_name: str, text: str) -> Any:

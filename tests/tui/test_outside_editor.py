@@ -13,8 +13,9 @@ import pytest
 
 from tests.benchmarks.terminal import Terminal
 from tutor.content import load_course
+from tutor.errors import EditorError
 from tutor.process.supervisor import processes
-from tutor.tui.outside_editor import EditorError, editor_command
+from tutor.tui.outside_editor import editor_command
 from tutor.workspace import Workspace, start
 
 APP = "import sys; from tutor.cli import main; sys.exit(main())"

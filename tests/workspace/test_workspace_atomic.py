@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from tutor.workspace import StorageError, write_atomically
+from tutor.errors import StorageError
+from tutor.workspace import write_atomically
 
 
 @pytest.fixture

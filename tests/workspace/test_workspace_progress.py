@@ -13,9 +13,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tutor.errors import StorageError
 from tutor.judge.result import CriterionResult, ExerciseResult
 from tutor.judge.verdict import Status, Verdict
-from tutor.workspace import Attempt, ExerciseProgress, Progress, ProgressFile, StorageError, Workspace
+from tutor.workspace import Attempt, ExerciseProgress, Progress, ProgressFile, Workspace
 from tutor.workspace.progress import decode, encode
 
 

@@ -11,7 +11,8 @@ from typing import Any
 import pytest
 
 from tutor.content import Lesson
-from tutor.workspace import StorageError, Workspace, WorkspaceError, find_workspace, start, start_in
+from tutor.errors import StorageError, WorkspaceError
+from tutor.workspace import Workspace, find_workspace, start, start_in
 
 
 def everything_in(folder: Path) -> dict[str, bytes]:

@@ -8,7 +8,8 @@ from pathlib import Path
 import pytest
 
 from tutor.content import Lesson
-from tutor.workspace import SubmissionError, Workspace, find_submission, is_own, is_started, start
+from tutor.errors import SubmissionError
+from tutor.workspace import Workspace, find_submission, is_own, is_started, start
 
 
 @pytest.fixture

@@ -28,8 +28,8 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def _run(argv: Sequence[str] | None) -> int:
     from tutor.cli import app, completion
-    from tutor.cli.errors import UsageError
     from tutor.cli.parser import build, parse
+    from tutor.errors import UsageError
     from tutor.invocation import export_program_name
 
     export_program_name()

@@ -6,7 +6,7 @@ import argparse
 import sys
 
 from tutor.cli import context, terminal
-from tutor.cli.errors import UsageError
+from tutor.errors import UsageError
 from tutor.invocation import command
 
 

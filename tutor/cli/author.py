@@ -9,7 +9,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from tutor.cli import context, grammar, terminal
-from tutor.cli.errors import FAULT, INTERRUPTED, NOT_PASSED, PASSED, UsageError
+from tutor.cli.errors import FAULT, INTERRUPTED, NOT_PASSED, PASSED
+from tutor.errors import UsageError
 
 if TYPE_CHECKING:
     from tutor.content import Course, Lesson, Problem
@@ -33,7 +34,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Print one line for each finding, and a summary. First what reading shows, then what running shows."""
-    from tutor.content import ContentError
+    from tutor.errors import ContentError
 
     try:
         course = context.load_course(arguments)

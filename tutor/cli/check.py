@@ -9,7 +9,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from tutor.cli import context, terminal
-from tutor.cli.errors import FAULT, INTERRUPTED, NOT_PASSED, PASSED, UsageError
+from tutor.cli.errors import FAULT, INTERRUPTED, NOT_PASSED, PASSED
+from tutor.errors import UsageError
 
 if TYPE_CHECKING:
     from tutor.cli.judging import Engine
@@ -110,7 +111,8 @@ def _write(report: Report, arguments: argparse.Namespace) -> None:
 
 def _record(report: Report, submissions: Sequence[Submission], course: Course, workspace: Workspace) -> None:
     """Keep the attempts on the workspace's own files. That it cannot be kept does not change the verdict."""
-    from tutor.workspace import Progress, StorageError, is_own
+    from tutor.errors import StorageError
+    from tutor.workspace import Progress, is_own
 
     own = {submission.exercise for submission in submissions if is_own(submission, workspace)}
     results = [result for result in report.exercises if result.id in own]

@@ -9,7 +9,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from tutor.cli import context, terminal
-from tutor.cli.errors import PASSED, UsageError
+from tutor.cli.errors import PASSED
+from tutor.errors import UsageError
 from tutor.invocation import command
 
 if TYPE_CHECKING:

@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from tutor.cli.errors import UsageError
+from tutor.errors import UsageError
 from tutor.invocation import command
 from tutor.judge.result import CriterionResult, ExerciseResult, Report
 from tutor.judge.submission import Submission
@@ -44,7 +44,8 @@ def choose_submissions(
 
     Raises SubmissionError where there is none at all.
     """
-    from tutor.workspace import SubmissionError, find_submission, is_started
+    from tutor.errors import SubmissionError
+    from tutor.workspace import find_submission, is_started
 
     if path is None and not workspace.exists:
         find_submission(lessons[0], None, workspace)  # raises: it knows best what to say

@@ -7,7 +7,7 @@ import os
 from typing import TYPE_CHECKING
 
 from tutor.cli import terminal
-from tutor.cli.errors import UsageError
+from tutor.errors import UsageError
 from tutor.invocation import command
 
 if TYPE_CHECKING:

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 from difflib import get_close_matches
 from typing import Any, NoReturn
 
-from tutor.cli.errors import UsageError
+from tutor.errors import UsageError
 
 
 class Parser(argparse.ArgumentParser):

@@ -5,8 +5,9 @@ from __future__ import annotations
 import argparse
 
 from tutor.cli import terminal
-from tutor.cli.errors import PASSED, UsageError
+from tutor.cli.errors import PASSED
 from tutor.cli.grammar import command_parsers, did_you_mean
+from tutor.errors import UsageError
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -6,7 +6,8 @@ import argparse
 import sys
 
 from tutor.cli import context, terminal
-from tutor.cli.errors import PASSED, UsageError
+from tutor.cli.errors import PASSED
+from tutor.errors import UsageError
 from tutor.invocation import command
 
 

@@ -8,7 +8,7 @@ import shlex
 import sys
 
 from tutor.cli import context
-from tutor.cli.errors import UsageError
+from tutor.errors import UsageError
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -24,8 +24,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Become `ros2`, in the user's own ROS domain; comes back only where that cannot be."""
     from tutor import interpreter, private
-    from tutor.bundled_ros.ros2.errors import CommandError
     from tutor.bundled_ros.ros2.starting import ros2_command
+    from tutor.errors import CommandError
     from tutor.ros.environment import detect, learner_env
     from tutor.workspace import domain_of
 

@@ -8,7 +8,7 @@ import sys
 from typing import TYPE_CHECKING
 
 from tutor.cli import context, terminal
-from tutor.cli.errors import UsageError
+from tutor.errors import UsageError
 from tutor.invocation import command
 
 if TYPE_CHECKING:
@@ -28,7 +28,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Become the node; comes back only where that cannot be."""
-    from tutor.bundled_ros.ros2.errors import CommandError
+    from tutor.errors import CommandError
     from tutor.session import Session
     from tutor.workspace import RunOptions
 

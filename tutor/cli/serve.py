@@ -7,7 +7,7 @@ import secrets
 
 from tutor import interpreter
 from tutor.cli import context, terminal
-from tutor.cli.errors import INTERRUPTED, UsageError
+from tutor.cli.errors import INTERRUPTED
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -22,7 +22,8 @@ def run(arguments: argparse.Namespace) -> int:
     """Serve until Ctrl+C; each page that is open has an app of its own."""
     import asyncio
 
-    from tutor.serve import NoAddress, ServeError, address, is_loopback, listen
+    from tutor.errors import ServeError
+    from tutor.serve import address, is_loopback, listen
 
     try:
         from tutor.serve.server import AppServer
@@ -33,10 +34,7 @@ def run(arguments: argparse.Namespace) -> int:
     lessons = getattr(arguments, "lessons", None)
     more = [] if lessons is None else [str(lessons.absolute())]
     argv = interpreter.module_command("tutor.serve", str(context.choose_workspace(arguments).root.absolute()), *more)
-    try:
-        listener = listen(arguments.host, arguments.port)
-    except NoAddress as error:
-        raise UsageError(f"{error}; {error.hint}") from error
+    listener = listen(arguments.host, arguments.port)
 
     token = "" if is_loopback(listener) else secrets.token_urlsafe(16)
 

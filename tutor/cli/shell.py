@@ -10,7 +10,7 @@ import subprocess
 import sys
 
 from tutor.cli import context, terminal
-from tutor.cli.errors import UsageError
+from tutor.errors import UsageError
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

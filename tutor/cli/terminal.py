@@ -8,8 +8,8 @@ import sys
 import textwrap
 from typing import TextIO
 
+from tutor.errors import StorageError
 from tutor.printable import harmless, printable
-from tutor.workspace.errors import StorageError
 
 _PLAIN_WIDTH = 100
 _WIDEST = 120

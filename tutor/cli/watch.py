@@ -27,7 +27,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace, engine: Engine | None = None) -> int:
     """Check now, and whenever a file of the exercise, or one that no other exercise has, is saved; until Ctrl+C."""
-    from tutor.workspace import SubmissionError, find_submission
+    from tutor.errors import SubmissionError
+    from tutor.workspace import find_submission
 
     course = context.load_course(arguments)
     lesson = course.find(arguments.exercise)

@@ -1,6 +1,5 @@
 """The course: lessons and the self-assessment checklist, as plain data. Knows neither ROS nor the terminal."""
 
-from tutor.content.errors import ContentError, UnknownExercise
 from tutor.content.lint import lint_course
 from tutor.content.live import LiveTopic, LiveView, Partner
 from tutor.content.loader import load_course
@@ -20,7 +19,6 @@ __all__ = [
     "Checklist",
     "ChecklistGroup",
     "ChecklistItem",
-    "ContentError",
     "Course",
     "CriterionText",
     "Difficulty",
@@ -30,7 +28,6 @@ __all__ = [
     "LiveView",
     "Partner",
     "Problem",
-    "UnknownExercise",
     "lint_course",
     "load_course",
 ]

@@ -8,7 +8,7 @@ from typing import Any
 
 import yaml
 
-from tutor.content.errors import ContentError
+from tutor.errors import ContentError
 
 # The C parser is some ten times faster; a PyYAML built without it works just as well. Both are the safe loader.
 _Loader: type[Any] = getattr(yaml, "CSafeLoader", yaml.SafeLoader)

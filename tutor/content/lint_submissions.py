@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import Path
 
-from tutor.content.errors import ContentError
 from tutor.content.model import Course, Lesson
 from tutor.content.problem import Problem
 from tutor.content.submissions import EXPECT, RIGHT, WRONG, Case, read_case
+from tutor.errors import ContentError
 
 _EXCLUSIVE = ("fails", "bonus_failed")
 """What one of these names, no other key names: it is failed, and that is all there is to say."""

@@ -15,7 +15,6 @@ import re
 from dataclasses import replace
 from pathlib import Path
 
-from tutor.content.errors import ContentError
 from tutor.content.fields import Document, Fields
 from tutor.content.live import LiveTopic, LiveView, Partner
 from tutor.content.model import (
@@ -28,6 +27,7 @@ from tutor.content.model import (
     Lesson,
     LessonFile,
 )
+from tutor.errors import ContentError
 
 # The folders tutor, lessons and checks lie side by side, in the repository as in an installed wheel. Importing
 # `lessons` instead would let a folder of that name in a learner's PYTHONPATH take its place.

@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from pathlib import Path
 
-from tutor.content.errors import UnknownExercise
 from tutor.content.live import LiveView
+from tutor.errors import UnknownExercise
 
 
 class Difficulty(StrEnum):

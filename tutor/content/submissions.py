@@ -10,8 +10,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from tutor.content.errors import ContentError
 from tutor.content.fields import Document, Fields
+from tutor.errors import ContentError
 
 EXPECT = "expect.yaml"
 RIGHT, WRONG = "right", "wrong"

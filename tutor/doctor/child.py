@@ -13,14 +13,11 @@ from pathlib import Path
 from typing import Any
 
 from tutor import private
+from tutor.errors import ProbeFailed
 from tutor.ros.domain import reserve_domain
 from tutor.ros.environment import RosEnvironment, learner_env
 
 PROBE = Path(__file__).resolve().parent.parent / "ros" / "probe.py"
-
-
-class ProbeFailed(Exception):
-    """A probe did not do what it should; the message says how, in one line."""
 
 
 def ask(ros: RosEnvironment, environ: Mapping[str, str], program: str, limit_s: float) -> dict[str, Any]:

@@ -9,8 +9,8 @@ from pathlib import Path
 
 from tutor.doctor import child
 from tutor.doctor.finding import Finding
+from tutor.errors import NoFreeDomain, ProbeFailed
 from tutor.ros import shared_memory
-from tutor.ros.domain import NoFreeDomain
 from tutor.ros.environment import RosEnvironment
 from tutor.workspace import Workspace, domain_of, given_domain
 
@@ -65,7 +65,7 @@ def rclpy_import(ros: RosEnvironment, environ: Mapping[str, str]) -> Finding:
     """Whether `import rclpy` works as a learner's process does it, and how long it takes."""
     try:
         answer = child.ask(ros, environ, "import", limit_s=20.0)
-    except child.ProbeFailed as failure:
+    except ProbeFailed as failure:
         return Finding("rclpy", False, f"rclpy cannot be imported: {failure}", _hint_for_import(ros))
     return Finding("rclpy", True, f"imported in {answer['seconds']:.2f} s from {answer['file']}")
 
@@ -75,7 +75,7 @@ def example_interfaces(ros: RosEnvironment, environ: Mapping[str, str]) -> Findi
     name = "example_interfaces"
     try:
         child.ask(ros, environ, "interfaces", limit_s=20.0)
-    except child.ProbeFailed as failure:
+    except ProbeFailed as failure:
         hint = "sudo apt install ros-jazzy-example-interfaces" if ros.kind == "system" else _REINSTALL
         if shared_memory.problem():
             hint = _SHARED_MEMORY_FIRST
@@ -105,7 +105,7 @@ def discovery(ros: RosEnvironment, environ: Mapping[str, str]) -> Finding:
         took_ms = child.first_message_ms(ros, environ, limit_s=15.0)
     except NoFreeDomain as error:
         return Finding("Discovery", False, str(error), error.hint)
-    except child.ProbeFailed as failure:
+    except ProbeFailed as failure:
         hint = "First fix what is wrong above; then look for a firewall that blocks UDP on the loopback interface."
         return Finding("Discovery", False, f"Two ROS processes did not find each other: {failure}", hint)
     return Finding("Discovery", True, f"first message {took_ms:.0f} ms after the start of a publisher")

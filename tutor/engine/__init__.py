@@ -3,6 +3,5 @@
 from __future__ import annotations
 
 from tutor.engine.check import run_check
-from tutor.engine.errors import EngineError
 
-__all__ = ["EngineError", "run_check"]
+__all__ = ["run_check"]

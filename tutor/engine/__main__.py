@@ -12,11 +12,12 @@ import signal
 import sys
 from pathlib import Path
 
-from tutor.content import ContentError, UnknownExercise, load_course
-from tutor.engine import EngineError, run_check
+from tutor.content import load_course
+from tutor.engine import run_check
+from tutor.errors import ContentError, EngineError, SubmissionError, UnknownExercise
 from tutor.judge.events import Event, encode
 from tutor.process.prctl import die_with_parent
-from tutor.workspace import SubmissionError, find_submission
+from tutor.workspace import find_submission
 
 
 def main() -> int:

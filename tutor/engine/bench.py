@@ -11,19 +11,18 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from tutor.bundled_ros.ros2 import overlay
-from tutor.bundled_ros.ros2.errors import CommandError
 from tutor.bundled_ros.ros2.starting import ros2_command
 from tutor.engine.admission import Admission
-from tutor.engine.errors import EngineError
 from tutor.engine.log_folder import temporary_log_folder
 from tutor.engine.run import CollectedFacts, RosRun
 from tutor.engine.walls import Walls
+from tutor.errors import CommandError, EngineError, NoFreeDomain, ProcessError
 from tutor.judge.bench import Run, Scenario
 from tutor.judge.exceptions import KnownException
 from tutor.judge.submission import Submission
 from tutor.judge.verdict import MOST_CHARACTERS
-from tutor.process import LearnerProcess, ProcessError
-from tutor.ros.domain import NoFreeDomain, reserve_domain
+from tutor.process import LearnerProcess
+from tutor.ros.domain import reserve_domain
 from tutor.ros.environment import RosEnvironment, learner_env
 from tutor.ros.observer import Observer
 

@@ -12,8 +12,8 @@ from tutor import __version__
 from tutor.content import Course
 from tutor.engine import turns
 from tutor.engine.admission import Admission
-from tutor.engine.errors import EngineError
 from tutor.engine.walls import Walls
+from tutor.errors import EngineError
 from tutor.judge.check import Check
 from tutor.judge.events import CheckFinished, Event
 from tutor.judge.result import Environment, ExerciseResult, Report

@@ -9,9 +9,8 @@ from pathlib import Path
 from types import ModuleType
 
 from tutor.content import Lesson
-from tutor.engine.errors import EngineError
+from tutor.errors import EngineError, TableError
 from tutor.judge.check import Check
-from tutor.judge.exceptions import TableError
 
 
 def load_check(lesson: Lesson) -> Check:

@@ -14,9 +14,9 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any, TypeVar
 
-from tutor.engine.errors import EngineError
 from tutor.engine.idle import Idle
 from tutor.engine.source import launch_arguments, sources, uncalled_main, with_code
+from tutor.errors import EngineError, UnknownType
 from tutor.judge import tracebacks
 from tutor.judge.bench import Handler
 from tutor.judge.exceptions import KnownException
@@ -24,7 +24,7 @@ from tutor.judge.trace import CallAnswer, Echo, Ending, Exit, LogRecord, OutputL
 from tutor.judge.tracebacks import Frame
 from tutor.process import CpuMeter, CpuTime, LearnerProcess, own_cpu_time
 from tutor.ros import echo, graph, parameters
-from tutor.ros.messages import UnknownType, to_plain
+from tutor.ros.messages import to_plain
 from tutor.ros.observer import ANY_PUBLISHER, MOST_SAMPLES, Observer
 from tutor.ros.talker import Talker
 from tutor.ros_model import Graph, Parameter, echo_qos

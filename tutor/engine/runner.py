@@ -10,10 +10,10 @@ from typing import Any
 from tutor.content import Lesson
 from tutor.engine.admission import Admission
 from tutor.engine.bench import RosBench
-from tutor.engine.errors import EngineError
 from tutor.engine.unchanged_skeleton import first_todo, point_to_todo
 from tutor.engine.walls import Walls
-from tutor.judge.bench import MachineTooBusy, NeedsInstalledRos, Scenario
+from tutor.errors import Fault
+from tutor.judge.bench import Scenario
 from tutor.judge.check import Check, Criterion
 from tutor.judge.events import CheckStarted, CriterionJudged, Event, ExerciseJudged, Progress
 from tutor.judge.result import CriterionResult, ExerciseResult
@@ -109,12 +109,8 @@ class Runner:
             facts = [await self._ask(scenario) for scenario in criterion.facts]
             text = self._texts.get(criterion.id)
             return point_to_todo(criterion.judge(*facts), self._todo, text.hint if text else "")
-        except EngineError as error:
+        except Fault as error:
             return fault(str(error), error.hint)
-        except MachineTooBusy as error:
-            return fault(str(error), "close what keeps this machine busy, then check again")
-        except NeedsInstalledRos as error:
-            return fault(str(error), "install ROS 2 Jazzy, source its setup file, and check again")
         except Exception as error:  # the check's boundary: a fault of ours must not be shown as the learner's
             where = _where(error)
             return fault(

@@ -18,7 +18,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from tutor.engine import turns
-from tutor.engine.errors import EngineError
+from tutor.errors import EngineError
 from tutor.judge.result import Wall
 
 MEMORY_MB, FILE_MB, PROCESSES = 2048, 64, 512

@@ -10,19 +10,13 @@ from collections.abc import Awaitable, Callable, Mapping, Sequence
 from contextlib import AbstractAsyncContextManager
 from typing import Any, Protocol, TypeVar
 
+from tutor.errors import MachineTooBusy as MachineTooBusy
+from tutor.errors import NeedsInstalledRos as NeedsInstalledRos
 from tutor.judge.trace import CallAnswer, Echo, Ending, Exit, LogRecord, OutputLine, Sample, Served, SetAnswer, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.ros_model import Graph, Parameter, TopicEndpoint
 
 T = TypeVar("T")
-
-
-class MachineTooBusy(RuntimeError):
-    """The machine kept the node from running while it was measured: nothing can be said about the node."""
-
-
-class NeedsInstalledRos(RuntimeError):
-    """The learner uses something of a full ROS 2 that is not there without one: nothing can be said about it here."""
 
 
 Handler = Callable[[Mapping[str, Any]], Mapping[str, Any]]

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from tutor.judge.bench import Bench, MachineTooBusy, Run
+from tutor.errors import MachineTooBusy
+from tutor.judge.bench import Bench, Run
 from tutor.judge.rates import TOLERANCE, Rate, measure
 from tutor.judge.tracebacks import Frame
 

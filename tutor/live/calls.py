@@ -6,11 +6,12 @@ import asyncio
 import time
 from collections.abc import Callable
 
+from tutor.errors import UnknownType
 from tutor.live.protocol import Call
 from tutor.live.topics import MOST_TEXT
 from tutor.live.updates import CallOutcome, RequestForm
 from tutor.ros.fields import fill_request, message_fields, request_fields
-from tutor.ros.messages import UnknownType, cut
+from tutor.ros.messages import cut
 from tutor.ros.observer import Observer
 from tutor.ros.yaml_format import to_yaml
 

@@ -6,10 +6,10 @@ import asyncio
 import time
 from collections.abc import Callable
 
+from tutor.errors import UnknownType
 from tutor.live.protocol import Publish
 from tutor.live.updates import Published
 from tutor.ros.manual_publisher import ManualPublisher
-from tutor.ros.messages import UnknownType
 
 CONNECT_S = 2.0
 """How long a publisher that is new waits for those that listen, in seconds; then it publishes all the same."""

@@ -7,9 +7,10 @@ import time
 from collections import deque
 from dataclasses import dataclass, field
 
+from tutor.errors import UnknownType
 from tutor.live.statistics import TopicStatistics
 from tutor.live.updates import TopicUpdate
-from tutor.ros.messages import UnknownType, cut, interface_class
+from tutor.ros.messages import cut, interface_class
 from tutor.ros.raw_subscription import Batch, RawSubscription, deserialize
 from tutor.ros.yaml_format import number_at, numeric_fields, to_yaml
 from tutor.ros_model import Graph, QoS, Topic, TopicEndpoint, echo_qos

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from tutor.plain.conversation import CommandRefused, Conversation, DialogCommand, short_path
+from tutor.errors import CommandRefused
+from tutor.plain.conversation import Conversation, DialogCommand, short_path
 from tutor.report.assessment import Assessment, ItemStanding, assess
 from tutor.report.checklist import FORMATS, SUFFIXES
 from tutor.report.phrases import describe_evidence, near_day

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from tutor.errors import CommandRefused, EngineError, StorageError
 from tutor.judge.events import CheckStarted, CriterionJudged, Event, Progress
 from tutor.judge.result import ExerciseResult
 from tutor.plain import speech
-from tutor.plain.conversation import CommandRefused, Conversation, DialogCommand
-from tutor.workspace import StorageError, find_submission
+from tutor.plain.conversation import Conversation, DialogCommand
+from tutor.workspace import find_submission
 
 
 class Checks:
@@ -30,7 +31,7 @@ class Checks:
         self._said.clear()
         try:
             report = await engine.run_check([submission], session.course, only=None, on_event=self._tell)
-        except engine.EngineError as error:
+        except EngineError as error:
             raise CommandRefused(
                 f"The check could not be made, which is no fault of your code: {error}. {error.hint}"
             ) from error

@@ -6,14 +6,11 @@ from collections.abc import Awaitable, Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from tutor.content import Lesson, UnknownExercise
+from tutor.content import Lesson
+from tutor.errors import CommandRefused, StorageError, UnknownExercise
 from tutor.judge.verdict import Status
 from tutor.session import Session
-from tutor.workspace import Progress, State, StorageError, standing
-
-
-class CommandRefused(Exception):
-    """What was asked for cannot be done; the message says why, and what can."""
+from tutor.workspace import Progress, State, standing
 
 
 @dataclass(frozen=True, slots=True)

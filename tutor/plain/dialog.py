@@ -8,10 +8,11 @@ import sys
 from collections.abc import Callable
 from difflib import get_close_matches
 
+from tutor.errors import CommandRefused, StorageError, WorkspaceError
 from tutor.judge.verdict import Status
 from tutor.plain.checklist_commands import ChecklistCommands
 from tutor.plain.checks import Checks
-from tutor.plain.conversation import CommandRefused, Conversation, DialogCommand, short_path
+from tutor.plain.conversation import Conversation, DialogCommand, short_path
 from tutor.plain.lessons import Lessons
 from tutor.plain.lines import Lines
 from tutor.plain.nodes import Nodes
@@ -20,7 +21,6 @@ from tutor.plain.speech import counted
 from tutor.printable import printable
 from tutor.ros import stale_segments
 from tutor.session import Session
-from tutor.workspace import StorageError, WorkspaceError
 
 INTERRUPTED = 130
 

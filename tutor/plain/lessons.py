@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from tutor.content import Lesson
+from tutor.errors import CommandRefused
 from tutor.invocation import with_program_name
 from tutor.judge.verdict import Status
 from tutor.plain import speech
-from tutor.plain.conversation import CommandRefused, Conversation, DialogCommand, short_path
+from tutor.plain.conversation import Conversation, DialogCommand, short_path
 
 
 class Lessons:

@@ -6,8 +6,8 @@ import asyncio
 from collections.abc import Callable
 from pathlib import Path
 
-from tutor.bundled_ros.ros2.errors import CommandError
-from tutor.plain.conversation import CommandRefused, Conversation, DialogCommand
+from tutor.errors import CommandError, CommandRefused
+from tutor.plain.conversation import Conversation, DialogCommand
 from tutor.plain.speech import counted
 from tutor.report.plain import one_line
 from tutor.session.node import Node, NodeState, Phase

@@ -6,9 +6,9 @@ import asyncio
 import shlex
 from collections.abc import Callable, Sequence
 
-from tutor.bundled_ros.ros2.errors import CommandError
+from tutor.errors import CommandError, CommandRefused
 from tutor.judge.trace import OutputLine
-from tutor.plain.conversation import CommandRefused, Conversation, DialogCommand
+from tutor.plain.conversation import Conversation, DialogCommand
 from tutor.plain.speech import counted
 from tutor.report.plain import one_line
 from tutor.session.node import Node

@@ -1,18 +1,14 @@
 """Start, watch and end a learner's process; nothing is ever left behind."""
 
 from tutor.process.cpu_wait import CpuMeter, CpuTime, own_cpu_time
-from tutor.process.errors import EndError, ProcessError, StartError
 from tutor.process.learner import LearnerProcess, Survivor
 from tutor.process.next_wake import NextWake
 
 __all__ = [
     "CpuMeter",
     "CpuTime",
-    "EndError",
     "LearnerProcess",
     "NextWake",
-    "ProcessError",
-    "StartError",
     "Survivor",
     "own_cpu_time",
 ]

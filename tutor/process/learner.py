@@ -14,9 +14,9 @@ from pathlib import Path
 from types import TracebackType
 from typing import Self
 
+from tutor.errors import EndError, StartError
 from tutor.judge.trace import Exit, OutputLine
 from tutor.process import memory, orphans
-from tutor.process.errors import EndError, StartError
 from tutor.process.link import SupervisorLink
 from tutor.process.next_wake import NextWake
 from tutor.process.output import Output

@@ -12,17 +12,9 @@ import os
 import sys
 from pathlib import Path
 
+from tutor.errors import InterfacesNotBuiltError
+
 _PACKAGE = "example_interfaces"
-
-
-class InterfacesNotBuiltError(RuntimeError):
-    """The bundled interfaces are missing from this installation."""
-
-    def __init__(self, missing: Path) -> None:
-        super().__init__(
-            f"the bundled {_PACKAGE} is not built ({missing} is missing);"
-            " run: uv sync --inexact --reinstall-package ros-tutor"
-        )
 
 
 def prefix() -> Path:
@@ -49,7 +41,11 @@ def activate() -> None:
     if importlib.util.find_spec(_PACKAGE) is not None:
         return
     if not (site_packages() / _PACKAGE).is_dir():
-        raise InterfacesNotBuiltError(site_packages() / _PACKAGE)
+        missing = site_packages() / _PACKAGE
+        raise InterfacesNotBuiltError(
+            f"the bundled {_PACKAGE} is not built ({missing} is missing);"
+            " run: uv sync --inexact --reinstall-package ros-tutor"
+        )
     # LD_LIBRARY_PATH is only read when a process starts. A library that is loaded already is found by its name alone,
     # which is how the ROS type supports look for one another.
     for library in sorted(library_dir().glob("*.so")):

@@ -13,6 +13,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from tutor.errors import NoFreeDomain
 from tutor.ros.isolation import DDS_PORTS, PORTS_OF_CHECKS, own_ports
 
 IDS = range(235, 1230, 3)
@@ -23,15 +24,6 @@ _UDP_TABLES = (Path("/proc/net/udp"), Path("/proc/net/udp6"))
 # Each process takes them in an order of its own, and one that was just given back comes last: somebody may still have
 # a packet on its way there.
 _round = deque(random.SystemRandom().sample(IDS, len(IDS)))
-
-
-class NoFreeDomain(Exception):
-    """Every domain id is taken. `hint` says what to do."""
-
-    hint = "Wait until other checks on this machine have ended (ps -ef shows them), and try again."
-
-    def __init__(self) -> None:
-        super().__init__("No ROS domain id is free for a check on this machine.")
 
 
 @contextmanager

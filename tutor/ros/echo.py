@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import asyncio
 
+from tutor.errors import UnknownType
 from tutor.judge.trace import Echo
-from tutor.ros.messages import UnknownType
 from tutor.ros.observer import Observer
 from tutor.ros.qos import from_rclpy
 from tutor.ros_model import QoS, echo_qos

@@ -10,16 +10,14 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+from tutor.errors import UnknownType
+
 MOST_CHARACTERS, MOST_ELEMENTS = 10_000, 100_000
 """How much is kept of a text, and of all arrays of a message."""
 
 _EACH = 16
 _RECEIVED = 8
 """Bytes that are received and not kept count as a byte for this many."""
-
-
-class UnknownType(LookupError):
-    """A type name that this ROS does not have."""
 
 
 @cache

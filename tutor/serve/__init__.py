@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from tutor.serve.errors import NoAddress, ServeError
 from tutor.serve.listening import address, is_loopback, listen
 
-__all__ = ["NoAddress", "ServeError", "address", "is_loopback", "listen"]
+__all__ = ["address", "is_loopback", "listen"]

@@ -7,7 +7,7 @@ import ipaddress
 import os
 import socket
 
-from tutor.serve.errors import NoAddress, ServeError
+from tutor.errors import NoAddress, ServeError
 
 USUAL_PORT = 8000
 """Taken where it is free and none is asked for, so that a bookmark stays good."""

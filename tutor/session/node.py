@@ -9,8 +9,9 @@ from dataclasses import dataclass, replace
 from enum import Enum
 from pathlib import Path
 
+from tutor.errors import ProcessError
 from tutor.judge.trace import Exit, OutputLine
-from tutor.process import LearnerProcess, ProcessError
+from tutor.process import LearnerProcess
 
 SHOW_EVERY_S = 0.1
 """The log is shown at this rate at most, however fast the node writes."""

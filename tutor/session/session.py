@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 
 from tutor import interpreter
 from tutor.content import Course, Lesson, LessonFile, Partner
+from tutor.errors import StorageError
 from tutor.judge.result import ExerciseResult
 from tutor.session import run_options
 from tutor.session.node import NodeCommand
@@ -24,7 +25,6 @@ from tutor.workspace import (
     Placed,
     Progress,
     RunOptions,
-    StorageError,
     Workspace,
     domain_of,
     place_files,

@@ -12,6 +12,7 @@ from typing import Any
 
 from textual.app import App, SuspendNotSupported
 
+from tutor.errors import EditorError
 from tutor.process import prctl
 
 VARIABLES = ("VISUAL", "EDITOR")
@@ -19,10 +20,6 @@ VARIABLES = ("VISUAL", "EDITOR")
 
 USUAL = ("sensible-editor", "nano", "vim", "vi", "nvim", "micro", "emacs", "ed")
 """Where none is named, the first of these that is there; `sensible-editor` is Debian's and Ubuntu's choice."""
-
-
-class EditorError(Exception):
-    """There is no editor to start; the text says what to do."""
 
 
 def editor_command(

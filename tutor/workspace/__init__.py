@@ -3,7 +3,6 @@
 from tutor.workspace.app_state import AppState, AppStateFile, RunOptions
 from tutor.workspace.atomic import write_atomically
 from tutor.workspace.domain import domain_of, given_domain
-from tutor.workspace.errors import StorageError, SubmissionError, WorkspaceError
 from tutor.workspace.layout import Workspace, find_workspace
 from tutor.workspace.placing_files import Placed, place_files
 from tutor.workspace.progress import Attempt, ExerciseProgress, Progress
@@ -27,10 +26,7 @@ __all__ = [
     "Standing",
     "Started",
     "State",
-    "StorageError",
-    "SubmissionError",
     "Workspace",
-    "WorkspaceError",
     "back_up_file",
     "domain_of",
     "find_submission",

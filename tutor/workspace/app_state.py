@@ -7,9 +7,9 @@ from dataclasses import dataclass, field, fields, replace
 from datetime import UTC, datetime
 from pathlib import Path
 
+from tutor.errors import StorageError
 from tutor.json_codec import read_as, read_document, write_document
 from tutor.workspace.atomic import write_atomically
-from tutor.workspace.errors import StorageError
 from tutor.workspace.regular import read_text
 
 SCHEMA = "ros-tutor/app/1"

@@ -6,7 +6,7 @@ import os
 import stat
 from pathlib import Path
 
-from tutor.workspace.errors import StorageError
+from tutor.errors import StorageError
 
 
 def write_atomically(path: Path, text: str) -> None:

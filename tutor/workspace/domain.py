@@ -10,9 +10,9 @@ import os
 from collections.abc import Mapping
 from pathlib import Path
 
+from tutor.errors import StorageError
 from tutor.workspace import claims
 from tutor.workspace.atomic import write_atomically
-from tutor.workspace.errors import StorageError
 from tutor.workspace.layout import MARKER, Workspace
 
 VARIABLE = "ROS_DOMAIN_ID"

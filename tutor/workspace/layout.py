@@ -7,8 +7,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+from tutor.errors import WorkspaceError
 from tutor.workspace.app_state import AppStateFile
-from tutor.workspace.errors import WorkspaceError
 from tutor.workspace.progress_file import ProgressFile, to_stderr
 
 MARKER = ".ros-tutor"

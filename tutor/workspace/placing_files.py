@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
-from tutor.workspace.errors import StorageError, WorkspaceError
+from tutor.errors import StorageError, WorkspaceError
 
 
 @dataclass(frozen=True, slots=True)

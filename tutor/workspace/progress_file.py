@@ -9,9 +9,9 @@ from contextlib import contextmanager
 from datetime import UTC, datetime
 from pathlib import Path
 
+from tutor.errors import StorageError
 from tutor.printable import printable
 from tutor.workspace.atomic import write_atomically
-from tutor.workspace.errors import StorageError
 from tutor.workspace.locking import lock
 from tutor.workspace.progress import Progress, decode, encode
 from tutor.workspace.regular import read_text

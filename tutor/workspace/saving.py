@@ -6,8 +6,8 @@ import os
 from dataclasses import dataclass
 from pathlib import Path
 
+from tutor.errors import StorageError
 from tutor.workspace.atomic import write_atomically
-from tutor.workspace.errors import StorageError
 from tutor.workspace.placing_files import free_name
 
 LARGEST = 1 << 20

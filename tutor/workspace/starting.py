@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from tutor.content import Lesson
-from tutor.workspace.errors import StorageError
+from tutor.errors import StorageError
 from tutor.workspace.layout import Workspace
 from tutor.workspace.placing_files import Placed, place_files
 

@@ -8,9 +8,9 @@ from difflib import get_close_matches
 from pathlib import Path
 
 from tutor.content import Lesson, LessonFile
+from tutor.errors import SubmissionError
 from tutor.invocation import command
 from tutor.judge.submission import Submission
-from tutor.workspace.errors import SubmissionError
 from tutor.workspace.layout import Workspace, is_launch_file
 
 

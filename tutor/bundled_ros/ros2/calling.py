@@ -7,7 +7,7 @@ import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from tutor.bundled_ros.ros2.errors import CommandError
+from tutor.errors import CommandError
 
 if TYPE_CHECKING:
     from rclpy.task import Future

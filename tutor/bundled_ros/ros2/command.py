@@ -10,8 +10,8 @@ from types import FrameType
 from typing import Any, NoReturn
 
 from tutor.bundled_ros.ros2 import completing
-from tutor.bundled_ros.ros2.errors import CommandError
 from tutor.bundled_ros.ros2.parsing import PACKAGE, LazyParser, add_choices
+from tutor.errors import CommandError
 from tutor.printable import guard
 from tutor.ros import shared_memory
 

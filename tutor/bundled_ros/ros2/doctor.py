@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator
 from importlib.metadata import PackageNotFoundError, version
 
 from tutor.bundled_ros.ros2.domain import Domain, join_domain
-from tutor.bundled_ros.ros2.errors import CommandError
+from tutor.errors import CommandError
 from tutor.ros_model import is_standard_topic
 
 

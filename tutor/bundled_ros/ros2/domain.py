@@ -14,7 +14,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from tutor.bundled_ros.ros2.errors import CommandError
+from tutor.errors import CommandError
 from tutor.ros.domain import participants_here
 from tutor.ros.environment import NO_LOG_FILES
 

@@ -9,9 +9,9 @@ from pathlib import Path
 
 from tutor.bundled_ros import packages
 from tutor.bundled_ros.ros2 import overlaying
-from tutor.bundled_ros.ros2.errors import CommandError
 from tutor.bundled_ros.ros2.parsing import complete_with
 from tutor.bundled_ros.ros2.pkg.names import all_packages
+from tutor.errors import CommandError
 
 _LAUNCH_FILES = ("launch.py", "launch.xml", "launch.yaml", "launch.yml", ".launch")
 

@@ -7,7 +7,8 @@ import importlib
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from tutor.bundled_ros.ros2.errors import CommandError, yaml_problem
+from tutor.bundled_ros.ros2.yaml_errors import yaml_problem
+from tutor.errors import CommandError
 
 SetStamp = Callable[[Any], None]
 """Takes the time of now, as builtin_interfaces/msg/Time."""

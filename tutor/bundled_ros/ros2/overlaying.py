@@ -8,7 +8,7 @@ from pathlib import Path
 
 from tutor import private
 from tutor.bundled_ros.ros2 import overlay
-from tutor.bundled_ros.ros2.errors import CommandError
+from tutor.errors import CommandError
 from tutor.ros.environment import UNBUFFERED, UNBUFFERED_BY_US
 
 _OVERLAY = "ROS_TUTOR_OVERLAY"

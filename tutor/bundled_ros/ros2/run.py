@@ -10,8 +10,8 @@ from pathlib import Path
 
 from tutor.bundled_ros import packages
 from tutor.bundled_ros.ros2 import overlaying
-from tutor.bundled_ros.ros2.errors import CommandError
 from tutor.bundled_ros.ros2.parsing import complete_with
+from tutor.errors import CommandError
 
 _SAYS = "[ros2run]:"
 

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from tutor.bundled_ros.ros2.errors import CommandError
+from tutor.errors import CommandError
 
 if TYPE_CHECKING:
     from tutor.ros.environment import RosEnvironment

@@ -9,6 +9,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+from tutor.errors import TableError
 from tutor.judge.exceptions.rewriting import REWRITERS
 from tutor.judge.known_exception import WORD, Example, KnownException, Replace
 
@@ -40,10 +41,6 @@ EDITS: tuple[set[str], ...] = (
 Lines are numbers, as the words `{number}` and `{there}` give them."""
 
 _ORDER = ("launch", "parameters", "attributes", "calls", "messages", "process", "imports", "python")
-
-
-class TableError(ValueError):
-    """A table that cannot be used: says which file and entry, and what is wrong there."""
 
 
 @cache

@@ -5,10 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from tutor.errors import StorageError
 from tutor.tui import commands, wording
 from tutor.tui.control.host import HostScreen
 from tutor.tui.control.records import Records
-from tutor.workspace import Progress, StorageError
+from tutor.workspace import Progress
 
 if TYPE_CHECKING:
     from tutor.tui.dialogs.checklist import ChecklistScreen

@@ -10,12 +10,13 @@ from pathlib import Path
 from textual.timer import Timer
 
 from tutor.content import Lesson
+from tutor.errors import StorageError, WorkspaceError
 from tutor.tui import commands, messages, wording
 from tutor.tui.control.host import HostScreen
 from tutor.tui.control.records import Records
 from tutor.tui.file_watching import watch_file
 from tutor.tui.widgets.code_pane import CodePane
-from tutor.workspace import StorageError, WorkspaceError, back_up_file, overwrite_file, read_source
+from tutor.workspace import back_up_file, overwrite_file, read_source
 
 SAVE_AFTER_S = 0.6
 """What is typed is on the disk after this time, in seconds, and a write."""

@@ -190,7 +190,7 @@ class Nodes:
                 await node.over.wait()
             if self._wanted[path] != number:
                 return  # asked again meanwhile: the last one counts
-            from tutor.bundled_ros.ros2.errors import CommandError
+            from tutor.errors import CommandError
 
             try:
                 command = await asyncio.to_thread(make)

@@ -8,8 +8,9 @@ from typing import Any
 
 from textual.timer import Timer
 
+from tutor.errors import StorageError
 from tutor.tui.control.host import HostScreen
-from tutor.workspace import AppState, StorageError
+from tutor.workspace import AppState
 
 WRITE_AFTER_S = 0.3
 

@@ -7,12 +7,13 @@ from collections.abc import Callable
 from typing import Any
 
 from tutor.content import CriterionText
+from tutor.errors import StorageError
 from tutor.judge.result import ExerciseResult
 from tutor.judge.verdict import Status
 from tutor.tui import commands, messages
 from tutor.tui.control.host import HostScreen
 from tutor.tui.dialogs.hint import HintScreen
-from tutor.workspace import Progress, StorageError
+from tutor.workspace import Progress
 
 
 class Records:

@@ -17,10 +17,11 @@ from textual.content import Content
 from textual.screen import Screen
 from textual.widgets import Button, Input, Static
 
+from tutor.errors import StorageError, WorkspaceError
 from tutor.session import Session
 from tutor.tui import wording
 from tutor.tui.widgets.key_footer import KeyFooter
-from tutor.workspace import StorageError, Workspace, WorkspaceError
+from tutor.workspace import Workspace
 
 _BANNER = """\
 ┏━┓┏━┓┏━┓   ╺┳╸╻ ╻╺┳╸┏━┓┏━┓

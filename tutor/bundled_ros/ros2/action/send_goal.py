@@ -9,10 +9,10 @@ from typing import Any
 from tutor.bundled_ros.ros2.action.names import action_names, action_types
 from tutor.bundled_ros.ros2.calling import wait_for_answer, wait_until
 from tutor.bundled_ros.ros2.domain import join_domain
-from tutor.bundled_ros.ros2.errors import CommandError
 from tutor.bundled_ros.ros2.interfaces import UnknownInterface, find_interface
 from tutor.bundled_ros.ros2.message_values import message_from_yaml
 from tutor.bundled_ros.ros2.parsing import complete_with
+from tutor.errors import CommandError
 from tutor.ros.yaml_format import to_yaml
 
 STATUS = ("UNKNOWN", "ACCEPTED", "EXECUTING", "CANCELING", "SUCCEEDED", "CANCELED", "ABORTED")

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import argparse
 
-from tutor.bundled_ros.ros2.errors import CommandError
 from tutor.bundled_ros.ros2.interface.kinds import add_kind_arguments, chosen, of_kind, package_names
 from tutor.bundled_ros.ros2.interfaces import types_by_package
 from tutor.bundled_ros.ros2.parsing import complete_with
+from tutor.errors import CommandError
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

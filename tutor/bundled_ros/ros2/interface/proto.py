@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import argparse
 
-from tutor.bundled_ros.ros2.errors import CommandError
 from tutor.bundled_ros.ros2.interface.kinds import type_names
 from tutor.bundled_ros.ros2.interfaces import UnknownInterface, find_interface
 from tutor.bundled_ros.ros2.parsing import complete_with
+from tutor.errors import CommandError
 from tutor.ros.yaml_format import to_yaml
 
 _PART = {"msg": "", "srv": "Request", "action": "Goal"}

@@ -10,9 +10,9 @@ from pathlib import Path
 from typing import Any
 
 from tutor.bundled_ros import packages
-from tutor.bundled_ros.ros2.errors import CommandError
 from tutor.bundled_ros.ros2.interface.kinds import type_names
 from tutor.bundled_ros.ros2.parsing import complete_with
+from tutor.errors import CommandError
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

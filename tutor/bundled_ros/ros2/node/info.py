@@ -8,9 +8,9 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from tutor.bundled_ros.ros2.domain import add_strategy_arguments, join_domain
-from tutor.bundled_ros.ros2.errors import CommandError
 from tutor.bundled_ros.ros2.node.names import node_names, nodes
 from tutor.bundled_ros.ros2.parsing import complete_with
+from tutor.errors import CommandError
 from tutor.ros_model import NodeName
 
 NamesAndTypes = Callable[[str, str], Sequence[tuple[str, Sequence[str]]]]

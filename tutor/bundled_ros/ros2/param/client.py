@@ -10,9 +10,9 @@ from typing import Any
 
 from tutor.bundled_ros.ros2.calling import wait_for_answer, wait_until
 from tutor.bundled_ros.ros2.domain import Domain, add_strategy_arguments, join_domain
-from tutor.bundled_ros.ros2.errors import CommandError
 from tutor.bundled_ros.ros2.node.names import node_names, nodes
 from tutor.bundled_ros.ros2.parsing import complete_with
+from tutor.errors import CommandError
 from tutor.ros_model import NodeName
 
 SERVICES_LIMIT_S = 5.0

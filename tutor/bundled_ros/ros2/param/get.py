@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 
-from tutor.bundled_ros.ros2.errors import CommandError
 from tutor.bundled_ros.ros2.param.client import (
     add_node_arguments,
     add_timeout,
@@ -13,6 +12,7 @@ from tutor.bundled_ros.ros2.param.client import (
     plain_value,
 )
 from tutor.bundled_ros.ros2.parsing import complete_with
+from tutor.errors import CommandError
 from tutor.ros_model import PARAMETER_TYPES
 
 

@@ -7,10 +7,10 @@ import re
 import sys
 
 from tutor.bundled_ros.ros2.domain import Domain, add_strategy_arguments, join_domain
-from tutor.bundled_ros.ros2.errors import CommandError
 from tutor.bundled_ros.ros2.node.names import node_names, nodes
 from tutor.bundled_ros.ros2.param.client import ParameterClient
 from tutor.bundled_ros.ros2.parsing import complete_with
+from tutor.errors import CommandError
 from tutor.ros_model import PARAMETER_TYPES, NodeName
 
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
-from tutor.bundled_ros.ros2.errors import CommandError, yaml_problem
 from tutor.bundled_ros.ros2.param.client import add_node_arguments, add_timeout, parameter_client, print_results
+from tutor.bundled_ros.ros2.yaml_errors import yaml_problem
+from tutor.errors import CommandError
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

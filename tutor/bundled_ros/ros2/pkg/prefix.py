@@ -5,9 +5,9 @@ from __future__ import annotations
 import argparse
 
 from tutor.bundled_ros import packages
-from tutor.bundled_ros.ros2.errors import CommandError
 from tutor.bundled_ros.ros2.parsing import complete_with
 from tutor.bundled_ros.ros2.pkg.names import all_packages, package_names
+from tutor.errors import CommandError
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -6,9 +6,9 @@ import argparse
 import xml.etree.ElementTree as ET
 
 from tutor.bundled_ros import packages
-from tutor.bundled_ros.ros2.errors import CommandError
 from tutor.bundled_ros.ros2.parsing import complete_with
 from tutor.bundled_ros.ros2.pkg.names import all_packages, package_names
+from tutor.errors import CommandError
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

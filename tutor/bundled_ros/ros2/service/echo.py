@@ -6,11 +6,11 @@ import argparse
 
 from tutor.bundled_ros.ros2.calling import SLICE_S
 from tutor.bundled_ros.ros2.domain import join_domain
-from tutor.bundled_ros.ros2.errors import CommandError
 from tutor.bundled_ros.ros2.interfaces import UnknownInterface, find_interface
 from tutor.bundled_ros.ros2.message_format import MessageFormat, add_format_arguments
 from tutor.bundled_ros.ros2.parsing import complete_with
 from tutor.bundled_ros.ros2.service.names import service_names, service_types, services
+from tutor.errors import CommandError
 
 EVENTS = ("REQUEST_SENT", "REQUEST_RECEIVED", "RESPONSE_SENT", "RESPONSE_RECEIVED")
 """The names of service_msgs/msg/ServiceEventInfo's event types, by number."""

@@ -8,10 +8,10 @@ from collections import deque
 from typing import Any
 
 from tutor.bundled_ros.ros2.domain import add_direct_arguments, join_domain
-from tutor.bundled_ros.ros2.errors import CommandError
 from tutor.bundled_ros.ros2.topic.measuring import add_topic, add_window, arrival, receive_measured
 from tutor.bundled_ros.ros2.topic.names import wait_for_class
 from tutor.bundled_ros.ros2.topic.statistics import spread
+from tutor.errors import CommandError
 
 _PRINT_EVERY_S = 1.0
 

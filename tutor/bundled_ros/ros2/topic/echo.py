@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any
 import yaml
 
 from tutor.bundled_ros.ros2.domain import Domain, add_strategy_arguments, join_domain
-from tutor.bundled_ros.ros2.errors import CommandError
 from tutor.bundled_ros.ros2.interfaces import UnknownInterface, find_interface, message_names
 from tutor.bundled_ros.ros2.message_format import MessageFormat, add_format_arguments
 from tutor.bundled_ros.ros2.parsing import complete_with, positive_float
@@ -19,6 +18,7 @@ from tutor.bundled_ros.ros2.qos import add_qos_arguments, asks_for_qos, qos_of
 from tutor.bundled_ros.ros2.receiving import DEPTH, Received, receive
 from tutor.bundled_ros.ros2.topic.expressions import expression
 from tutor.bundled_ros.ros2.topic.names import full_name, message_class, topic_names, warn_of_no_publisher
+from tutor.errors import CommandError
 from tutor.ros_model import echo_qos
 
 if TYPE_CHECKING:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from tutor.bundled_ros.ros2.errors import CommandError
+from tutor.errors import CommandError
 
 
 def expression(text: str | None) -> Callable[[Any], bool] | None:

@@ -8,8 +8,8 @@ from collections.abc import Sequence
 from typing import Any
 
 from tutor.bundled_ros.ros2.domain import Domain, join_domain
-from tutor.bundled_ros.ros2.errors import CommandError
 from tutor.bundled_ros.ros2.interfaces import UnknownInterface, find_interface
+from tutor.errors import CommandError
 
 _LOOK_AGAIN_S = 0.05
 

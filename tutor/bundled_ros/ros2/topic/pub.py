@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING, Any
 import yaml
 
 from tutor.bundled_ros.ros2.domain import Domain, add_direct_arguments, join_domain
-from tutor.bundled_ros.ros2.errors import CommandError
 from tutor.bundled_ros.ros2.interfaces import UnknownInterface, find_interface, message_names
 from tutor.bundled_ros.ros2.message_values import set_fields
 from tutor.bundled_ros.ros2.parsing import complete_with, nonnegative_int, positive_float
 from tutor.bundled_ros.ros2.qos import add_qos_arguments, qos_of
 from tutor.bundled_ros.ros2.topic.names import full_name, topic_names, topics
+from tutor.errors import CommandError
 from tutor.ros.yaml_format import to_yaml
 
 if TYPE_CHECKING:
