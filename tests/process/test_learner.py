@@ -207,7 +207,7 @@ except KeyboardInterrupt:
         f"""
 import asyncio
 from pathlib import Path
-from tutor.process import CpuMeter, LearnerProcess, pipe
+from tutor.process import LearnerProcess
 assert signal.getsignal(signal.SIGINT) is signal.SIG_IGN
 async def main():
     ready = asyncio.Event()
