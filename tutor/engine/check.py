@@ -16,7 +16,7 @@ from tutor.engine.walls import Walls
 from tutor.errors import EngineError
 from tutor.judge.check import Check
 from tutor.judge.events import CheckFinished, Event
-from tutor.judge.result import Environment, ExerciseResult, Report
+from tutor.judge.result import Environment, Report
 from tutor.judge.submission import Submission
 
 _LATE = ("rclpy.serialization", "rosidl_generator_py", "std_msgs.msg", "rcl_interfaces.srv", "example_interfaces.srv")
@@ -64,15 +64,22 @@ async def run_check(
             importlib.import_module(name)
     unchanged.refuse_changed_modules()
 
-    async def one(submission: Submission) -> ExerciseResult:
+    def runner_of(submission: Submission) -> Runner:
         lesson = course.find(submission.exercise)
         found: Check = load_check(lesson)
-        return await Runner(found, lesson, submission, ros, only, on_event, together, walls).run()
+        return Runner(found, lesson, submission, ros, only, on_event, together, walls)
+
+    runners = [runner_of(submission) for submission in submissions]
+
+    def tell_waiting() -> None:
+        for runner in runners:
+            runner.wait_for_turn()
 
     # Whoever shares an admission among checks decides how many there are at once.
-    async with turns.turn(walls.ticket if walls else None) if admission is None else nullcontext():
+    own = walls.ticket if walls else None
+    async with turns.turn(own, on_wait=tell_waiting) if admission is None else nullcontext():
         started = time.monotonic()
-        tasks = [asyncio.ensure_future(one(submission)) for submission in submissions]
+        tasks = [asyncio.ensure_future(runner.run()) for runner in runners]
         try:
             results = await asyncio.gather(*tasks)
         finally:

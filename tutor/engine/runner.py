@@ -23,6 +23,8 @@ from tutor.ros.environment import RosEnvironment
 
 OnEvent = Callable[[Event], None]
 
+WAITING = "waiting for other checks on this machine"
+
 
 class Runner:
     """One check of one submission. `only`: the criteria to show; those that they depend on are judged in silence."""
@@ -51,12 +53,20 @@ class Runner:
         self._verdicts: dict[str, asyncio.Task[Verdict]] = {}
         self._progress: dict[Scenario[Any], tuple[float, str]] = {}
         self._todo = first_todo(lesson, submission)
+        self._announced = False
         self._started = time.monotonic()
+
+    def wait_for_turn(self) -> None:
+        """Tell that the check is to begin, once others are done."""
+        self._announce()
+        for criterion in self._shown:
+            self._on_event(Progress(self._check.exercise, criterion.id, 0.0, WAITING))
 
     async def run(self) -> ExerciseResult:
         """Judge; gives the result when every scenario has ended and nothing of the learner's is left."""
         exercise = self._check.exercise
-        self._on_event(CheckStarted(exercise, tuple(c.id for c in self._shown)))
+        self._announce()
+        self._started = time.monotonic()
         needed = _with_dependencies(self._check, self._shown)
         try:
             for criterion in needed:
@@ -76,6 +86,11 @@ class Runner:
         )
         self._on_event(ExerciseJudged(result))
         return result
+
+    def _announce(self) -> None:
+        if not self._announced:
+            self._announced = True
+            self._on_event(CheckStarted(self._check.exercise, tuple(c.id for c in self._shown)))
 
     def _share(self, scenario: Scenario[Any]) -> asyncio.Task[Any]:
         if scenario not in self._scenarios:

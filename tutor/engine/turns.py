@@ -9,7 +9,7 @@ import asyncio
 import os
 import socket
 import time
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager
 
 LIMIT_S = 300.0
@@ -24,15 +24,21 @@ def ticket() -> socket.socket:
 
 
 @asynccontextmanager
-async def turn(own: socket.socket | None = None, limit_s: float = LIMIT_S) -> AsyncIterator[None]:
+async def turn(
+    own: socket.socket | None = None, limit_s: float = LIMIT_S, on_wait: Callable[[], None] = lambda: None
+) -> AsyncIterator[None]:
     """Wait until fewer checks are under way on this machine, and count as one until the end of the block.
 
-    It ends with the process at the latest.
+    It ends with the process at the latest. `on_wait` is called once, where it has to wait.
     """
     deadline = time.monotonic() + limit_s
     with own or ticket() as held:
-        while not _taken(held) and time.monotonic() < deadline:
-            await asyncio.sleep(_LOOK_EVERY_S)
+        if not _taken(held):
+            on_wait()
+            while time.monotonic() < deadline:
+                await asyncio.sleep(_LOOK_EVERY_S)
+                if _taken(held):
+                    break
         yield
 
 
