@@ -87,12 +87,12 @@ def judge_range(found: CollectedValues, more: CollectedValues) -> Verdict:
     return failed(
         expected,
         f"{len(wrong)} of {len(values)} values outside, such as {wrong[0]:g}",
-        _why_outside(wrong, values, found.trace),
+        _diagnose_range(wrong, values, found.trace),
         [f"data: {value!r}" for value in wrong[:5]],
     )
 
 
-def _why_outside(wrong: Sequence[float], values: Sequence[float], trace: Trace | None) -> Cause:
+def _diagnose_range(wrong: Sequence[float], values: Sequence[float], trace: Trace | None) -> Cause:
     if all(math.isfinite(value) and 0 < abs(value) < 1e-300 for value in wrong):
         return Cause(
             "an int in a float field",
@@ -183,7 +183,7 @@ def judge_rate(found: RateProbes) -> Verdict:
     for agreed in agreeing_groups(found.probes):
         return passed(expected, f"{agreed[0].name} is read in {agreed[0].unit}", [str(probe) for probe in agreed])
     if not found.probes:
-        return failed(expected, "no numeric parameter is declared", _rate_not_declared(None))
+        return failed(expected, "no numeric parameter is declared", _diagnose_undeclared_rate(None))
     nearest = max(group_probes(found.probes), key=lambda group: (count_agreeing(group), len(inverted_probes(group))))
     wrong = next((probe for probe in nearest if not probe.agrees), None)
     if wrong is None:
@@ -193,10 +193,12 @@ def judge_rate(found: RateProbes) -> Verdict:
             "let it take any rate from 0.5 to 10 Hz",
         )
         return failed(expected, f"{nearest[0]}; no other value is allowed", cause)
-    return failed(expected, str(wrong), _why_rate(nearest, wrong, found.declared), [str(probe) for probe in nearest])
+    return failed(
+        expected, str(wrong), _diagnose_rate(nearest, wrong, found.declared), [str(probe) for probe in nearest]
+    )
 
 
-def _rate_not_declared(trace: Trace | None) -> Cause:
+def _diagnose_undeclared_rate(trace: Trace | None) -> Cause:
     return Cause(
         "parameter not declared",
         "the rate cannot be set from outside",
@@ -204,14 +206,14 @@ def _rate_not_declared(trace: Trace | None) -> Cause:
     )
 
 
-def _why_rate(group: Sequence[RateProbe], wrong: RateProbe, declared: tuple[Parameter, ...] | None) -> Cause:
+def _diagnose_rate(group: Sequence[RateProbe], wrong: RateProbe, declared: tuple[Parameter, ...] | None) -> Cause:
     if (cut := steps.diagnose_whole_rate(wrong.trace, wrong.name)) is not None:
         return cut
     broken = causes.diagnose_process(wrong.trace)
     if broken is not None:
         return broken
     if declared is not None and wrong.name not in {parameter.name for parameter in declared}:
-        return _rate_not_declared(wrong.trace)
+        return _diagnose_undeclared_rate(wrong.trace)
     step = steps.set_timer_period(wrong.trace, wrong.name, wrong.unit)
     if wrong.rate is not None and wrong.rate.in_bursts:
         return causes.diagnose_bursts(step)
@@ -251,10 +253,10 @@ def judge_name(found: NameProbes) -> Verdict:
         )
     evidence = [str(log) for log in probe.trace.logs[-5:]]
     observed = f"{probe.name}:={probe.value} is in none of {len(probe.trace.logs)} log messages"
-    return failed(expected, observed, _why_name(found), evidence)
+    return failed(expected, observed, _diagnose_name(found), evidence)
 
 
-def _why_name(found: NameProbes) -> Cause:
+def _diagnose_name(found: NameProbes) -> Cause:
     for probe in found.probes:
         broken = causes.diagnose_process(probe.trace) or causes.diagnose_lifecycle(probe.trace)
         if broken is not None:

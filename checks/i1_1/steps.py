@@ -101,7 +101,7 @@ def declare_name(trace: Trace, name: str) -> str:
 def diagnose_name(trace: Trace, name: str) -> Cause:
     """What keeps the sensor's name from the log messages."""
     read = file(trace)
-    if (cause := _quiet(read) or _without_f(read)) is not None:
+    if (cause := _diagnose_log_level(read) or _diagnose_missing_f(read)) is not None:
         return cause
     draw, imported = _draw(read)
     ticking = [*publishing.whole_timer_callback(read, draw, log=name), *imported] if whole.is_usual(read) else []
@@ -119,7 +119,7 @@ def anything(trace: Trace) -> str:
     return read.step(publishing.use_one_type(read, TOPIC, TYPE), whole_program(read)) or ""
 
 
-def _quiet(read: NodeFile) -> Cause | None:
+def _diagnose_log_level(read: NodeFile) -> Cause | None:
     for call in read.calls("debug"):
         if isinstance(call.func, ast.Attribute):
             info = replace_node(read.text, call.func, f"{ast.unparse(call.func.value)}.info")
@@ -129,7 +129,7 @@ def _quiet(read: NodeFile) -> Cause | None:
     return None
 
 
-def _without_f(read: NodeFile) -> Cause | None:
+def _diagnose_missing_f(read: NodeFile) -> Cause | None:
     for call in read.calls("info", "warning", "warn", "error"):
         match call.args:
             case [ast.Constant(value=str() as said) as text, *_] if re.search(r"\{(?:self\.)?\w+", said):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from checks.i1_2 import continuity, judges, scenarios
-from checks.i1_2.explaining import with_deeper_cause
+from checks.i1_2.deeper_causes import with_deeper_cause
 from tutor.judge.check import Check, Criterion
 from tutor.judge.exceptions import load
 

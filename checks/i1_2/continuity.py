@@ -80,12 +80,12 @@ def judge_restart(restart: Trial, steady: Trial, jump: Trial) -> Verdict:
             )
         )
         return failed(expected, f"{observed}; {summary}", cause, evidence)
-    if judge_slow_summary(steady, jump).passed and (changed := _sums_up_otherwise(after, restart)):
+    if judge_slow_summary(steady, jump).passed and (changed := _diagnose_summaries(after, restart)):
         return failed(expected, observed, changed, evidence)
     return passed(expected, observed, [*evidence, *told[:2]])
 
 
-def _sums_up_otherwise(after: Sequence[Summary], restart: Trial) -> Cause | None:
+def _diagnose_summaries(after: Sequence[Summary], restart: Trial) -> Cause | None:
     """What is wrong with the summaries since the restart, wherever the node has begun to count: no more is judged."""
     before = restart.breaks
     new = len(restart.sent) - before
@@ -136,7 +136,7 @@ def judge_gaps(jump: Trial, steady: Trial) -> Verdict:
             steps.compare_numbers(jump.trace, texts) or gap_steps.COMPARE,
         )
         return failed(expected, observed, cause, texts[:6])
-    if (rising := _goes_on_rising(jump, steady)) is not None:
+    if (rising := _diagnose_rising_count(jump, steady)) is not None:
         return failed(expected, observed, *rising)
     unused = list(told)
     for index, how in zip(jump.jumps, jumped, strict=True):
@@ -145,7 +145,7 @@ def judge_gaps(jump: Trial, steady: Trial) -> Verdict:
             unused.remove(own)
         elif not any(_soon(line, index, jump) and _is_of_all_jumps(line, jump) for line in told):
             since = [line.text for line in jump.lines if line.messages > index]
-            why = _why_unsaid(index, jump, steady)
+            why = _diagnose_no_warning(index, jump, steady)
             return failed(expected, f"N jumped {how}; nothing new was logged", why, since[:6])
     return passed(expected, observed, [line.text for line in told[:3]])
 
@@ -177,7 +177,7 @@ def _goes_on(told: Sequence[Line], jump: Trial) -> list[Line]:
     return []
 
 
-def _goes_on_rising(jump: Trial, steady: Trial) -> tuple[Cause, list[str]] | None:
+def _diagnose_rising_count(jump: Trial, steady: Trial) -> tuple[Cause, list[str]] | None:
     """Whether a number that tells of the first jump goes on rising with the messages after it, and the lines.
 
     It had been constant, and it does not fall back with the second jump, as what is counted since the last one does.
@@ -216,7 +216,7 @@ def _diagnose_end(trial: Trial, what: str) -> Cause:
     return steps.keep_node_up(trial.trace, causes.diagnose_process(trial.trace) or ended)
 
 
-def _why_unsaid(index: int, jump: Trial, steady: Trial) -> Cause:
+def _diagnose_no_warning(index: int, jump: Trial, steady: Trial) -> Cause:
     """Why nothing is said of the jump to the message with this index.
 
     A kind of message that came with the jump, but not with every message, was a false alarm elsewhere.

@@ -21,7 +21,11 @@ COMPARE = "compare each N with the one right before it, whether there was a gap 
 def diagnose_alarm(trace: Trace, false: Sequence[str] = ()) -> Cause | None:
     """Why it tells of gaps where there are none; `false`: log messages that do."""
     functions = source.callbacks(trace, "create_subscription")
-    found = _misread(trace, functions) or _from_the_count(trace, functions) or _not_followed(trace, functions)
+    found = (
+        _diagnose_misreading(trace, functions)
+        or _diagnose_count_compared(trace, functions)
+        or _diagnose_stale_number(trace, functions)
+    )
     return _with_step(found, steps.compare_numbers(trace, false))
 
 
@@ -29,10 +33,10 @@ def diagnose_no_messages(trace: Trace) -> Cause | None:
     """Why it tells nothing of a gap."""
     functions = source.callbacks(trace, "create_subscription")
     found = (
-        _misread(trace, functions)
-        or _from_the_count(trace, functions)
-        or _too_early(functions)
-        or _only_backwards(functions)
+        _diagnose_misreading(trace, functions)
+        or _diagnose_count_compared(trace, functions)
+        or _diagnose_early_update(functions)
+        or _diagnose_lower_only(functions)
     )
     return _with_step(found, steps.compare_numbers(trace))
 
@@ -41,7 +45,7 @@ def _with_step(found: Cause | None, step: str | None) -> Cause | None:
     return replace(found, hint=found.hint or step or COMPARE) if found else None
 
 
-def _misread(trace: Trace, functions: Sequence[Function]) -> Cause | None:
+def _diagnose_misreading(trace: Trace, functions: Sequence[Function]) -> Cause | None:
     found = find_misread(functions)
     if found is None:
         return None
@@ -56,7 +60,7 @@ def _told(trace: Trace, node: ast.AST, change: Sequence[edits.Edit]) -> str:
     return edits.describe_edits_of(source.file_holding(trace, node), change) or ""
 
 
-def _from_the_count(trace: Trace, functions: Sequence[Function]) -> Cause | None:
+def _diagnose_count_compared(trace: Trace, functions: Sequence[Function]) -> Cause | None:
     """Whether a message's number is compared with how many have come."""
     counters = _counters(trace)
     for function in functions:
@@ -86,7 +90,7 @@ def _with_the_last(trace: Trace, function: Function, node: ast.expr, number: str
     return _told(trace, node, [before, instead, edits.append_to_function(function, f"{last} = {number}")])
 
 
-def _not_followed(trace: Trace, functions: Sequence[Function]) -> Cause | None:
+def _diagnose_stale_number(trace: Trace, functions: Sequence[Function]) -> Cause | None:
     """Whether what a number is compared with does not follow the numbers, once there was a gap."""
     for function in functions:
         for number, last, is_last, _ in _compared(function):
@@ -121,7 +125,7 @@ def _left_behind(function: Function, last: str, right: str) -> tuple[str, list[e
     return text, [edits.insert_above(end.lineno, ast.unparse(always[-1]))]
 
 
-def _too_early(functions: Sequence[Function]) -> Cause | None:
+def _diagnose_early_update(functions: Sequence[Function]) -> Cause | None:
     """Whether the last number is replaced by the new one before the two are compared."""
     for function in functions:
         kept = [each for each in function.body if isinstance(each, ast.Assign)]
@@ -137,7 +141,7 @@ def _too_early(functions: Sequence[Function]) -> Cause | None:
     return None
 
 
-def _only_backwards(functions: Sequence[Function]) -> Cause | None:
+def _diagnose_lower_only(functions: Sequence[Function]) -> Cause | None:
     """Whether it looks for lower numbers only."""
     for function in functions:
         found = [(*each[:2], each[3]) for each in _compared(function) if isinstance(each[3], ast.Compare)]

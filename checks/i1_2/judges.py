@@ -51,7 +51,7 @@ def judge_slow_count(steady: Trial, jump: Trial) -> Verdict:
         return failed(
             f"{expected}: {' or '.join(map(str, totals(summary, trial)))}",
             f"the summary that came after {summary.messages} messages does not say so",
-            _why_miscounted(summary, trial),
+            _diagnose_count(summary, trial),
             [str(other) for _, other in seen],
         )
     stated = ", ".join(str(true_total(summary, trial)) for trial, summary in seen)
@@ -104,7 +104,7 @@ def _quoted_but_first(summary: Summary, trial: Trial, *, before: int) -> list[in
     return quoted
 
 
-def _why_miscounted(summary: Summary, trial: Trial) -> Cause:
+def _diagnose_count(summary: Summary, trial: Trial) -> Cause:
     name, text, words = _miscounted(summary, trial)
     return Cause(name, text, steps.count_messages(trial.trace) or words)
 
@@ -174,12 +174,12 @@ def judge_summary(steady: Trial, jump: Trial, fast: Trial) -> Verdict:
     return failed(
         f"{EXPECTED_SUMMARY}, at {FAST_HZ:g} a second, too",
         f"of {len(fast.sent)} messages, none since message {backlog.count_summarised(fast, steady)}",
-        _why_fewer(fast),
+        _diagnose_fewer_summaries(fast),
         [str(summary) for summary in find_summaries(fast)[:6]],
     )
 
 
-def _why_fewer(fast: Trial) -> Cause:
+def _diagnose_fewer_summaries(fast: Trial) -> Cause:
     """Why there are fewer summaries when messages come fast."""
     throttled = steps.remove_throttle(fast.trace)
     text = "most of them are left out when messages come fast"
@@ -205,7 +205,7 @@ def judge_slow_summary(steady: Trial, jump: Trial) -> Verdict:
     for trial, messages in ((steady, len(steady.sent)), (jump, len(jump.sent) if all_along else jump.breaks)):
         summaries = [summary for summary in find_summaries(trial) if summary.messages <= messages]
         evidence = [str(summary) for summary in summaries[:8]]
-        if (cause := _why_not_every_ten(summaries, trial, messages)) is not None:
+        if (cause := _diagnose_interval(summaries, trial, messages)) is not None:
             if _counts_wrongly(summaries, trial):
                 return skipped("not judged, because `count` did not pass: it sums up by a count that is not true")
             observed = (
@@ -213,7 +213,7 @@ def judge_slow_summary(steady: Trial, jump: Trial) -> Verdict:
             )
             return failed(expected, f"{observed}, of {messages}", cause, evidence)
         for summary in summaries:
-            if (cause := _why_incomplete(summary, trial)) is not None:
+            if (cause := _diagnose_incomplete_summary(summary, trial)) is not None:
                 return failed(expected, f"it is incomplete {summary}", cause, evidence)
     complete = find_summaries(steady)
     return passed(
@@ -223,7 +223,7 @@ def judge_slow_summary(steady: Trial, jump: Trial) -> Verdict:
     )
 
 
-def _why_not_every_ten(summaries: Sequence[Summary], trial: Trial, messages: int) -> Cause | None:
+def _diagnose_interval(summaries: Sequence[Summary], trial: Trial, messages: int) -> Cause | None:
     due = range(EVERY, messages + 1, EVERY)
     when = [summary.messages for summary in summaries]
     if len(summaries) > 3 and len(summaries) >= 0.7 * messages:
@@ -263,7 +263,7 @@ def _counts_wrongly(summaries: Sequence[Summary], trial: Trial) -> bool:
     return by_its_count and any(not true_total(summary, trial) for summary in summaries)
 
 
-def _why_incomplete(summary: Summary, trial: Trial) -> Cause | None:
+def _diagnose_incomplete_summary(summary: Summary, trial: Trial) -> Cause | None:
     first = trial.sent[0]
     recent = trial.sent[milestone(summary.messages) - 1 : summary.until]
     if first.number not in summary.quoted:

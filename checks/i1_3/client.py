@@ -38,13 +38,13 @@ def judge_client(seen: ClientRun) -> Verdict:
     words = (*calls_made, *causes.output_tail(seen.trace, 4))
     if seen.exit is None:
         observed = f"still running after {CLIENT_S:g} s; called {_listed(called)}"
-        return failed(expected, observed, _stepped(_why_hanging(seen, missing), seen), words)
+        return failed(expected, observed, _with_step(_diagnose_hang(seen, missing), seen), words)
     ended = f"ended after {seen.exit.after_s:.1f} s with {seen.exit}"
     if seen.exit.code != 0:
-        cause = _stepped(_why_not_zero(seen, missing, ended), seen)
+        cause = _with_step(_diagnose_exit_code(seen, missing, ended), seen)
         return failed(expected, f"{ended}; called {_listed(called)}", cause, words)
     if missing:
-        cause = _stepped(_why_not_called(seen, missing), seen)
+        cause = _with_step(_diagnose_not_called(seen, missing), seen)
         return failed(expected, f"{ended}; {', '.join(missing)} not called", cause, words)
     return passed(expected, f"{len(seen.served)} calls, {ended}", calls_made)
 
@@ -70,7 +70,7 @@ _STEPS: Mapping[str, Sequence[_Step]] = {
 """The smallest steps for a cause."""
 
 
-def _stepped(cause: Cause, seen: ClientRun) -> Cause:
+def _with_step(cause: Cause, seen: ClientRun) -> Cause:
     """The cause with a step that can be followed word for word: one for it, or what waits for each answer, or all."""
     assert seen.trace is not None
     trace, own = seen.trace, tracebacks.own_frame(seen.stuck, seen.trace.folder)
@@ -106,7 +106,7 @@ def _missing(seen: ClientRun) -> list[str]:
     return [name for name in SIGNS if name not in called]
 
 
-def _why_not_zero(seen: ClientRun, missing: Sequence[str], ended: str) -> Cause:
+def _diagnose_exit_code(seen: ClientRun, missing: Sequence[str], ended: str) -> Cause:
     assert seen.trace is not None
     if (strange := client_names.diagnose_client(seen, missing)) is not None and _follows_from_silence(seen.trace):
         return strange
@@ -128,7 +128,7 @@ def _follows_from_silence(trace: Trace) -> bool:
     return raised or found.type.endswith("TimeoutError") or "'NoneType'" in found.message
 
 
-def _why_not_called(seen: ClientRun, missing: Sequence[str]) -> Cause:
+def _diagnose_not_called(seen: ClientRun, missing: Sequence[str]) -> Cause:
     assert seen.trace is not None
     if seen.trace.uncalled_main and not seen.served:
         return Cause(
@@ -139,8 +139,8 @@ def _why_not_called(seen: ClientRun, missing: Sequence[str]) -> Cause:
     return (
         causes.diagnose_incompatible_service(seen.clients)
         or client_names.diagnose_client(seen, missing)
-        or _never_awaited(seen.trace)
-        or _returns_early(seen)
+        or _diagnose_unawaited(seen.trace)
+        or _diagnose_early_return(seen)
         or _diagnose_missing_calls(seen, missing)
         or Cause(
             "not called",
@@ -150,7 +150,7 @@ def _why_not_called(seen: ClientRun, missing: Sequence[str]) -> Cause:
     )
 
 
-def _why_hanging(seen: ClientRun, missing: Sequence[str]) -> Cause:
+def _diagnose_hang(seen: ClientRun, missing: Sequence[str]) -> Cause:
     assert seen.trace is not None
     if (mismatched := causes.diagnose_incompatible_service(seen.clients)) is not None:
         return mismatched
@@ -201,7 +201,7 @@ def _instead_of_spinning(trace: Trace, own: tracebacks.Frame) -> str:
     return code.as_step(kept, edits.replace_lines(own.line, "\n".join(lines))) or ""
 
 
-def _never_awaited(trace: Trace) -> Cause | None:
+def _diagnose_unawaited(trace: Trace) -> Cause | None:
     """Whether Python itself says that a coroutine was made, and nobody ran it."""
     said = (re.search(r"coroutine '(?:[\w<>]+\.)*(\w+)' was never awaited", line.text) for line in trace.output)
     name = next((found[1] for found in said if found), None)
@@ -215,7 +215,7 @@ def _never_awaited(trace: Trace) -> Cause | None:
     )
 
 
-def _returns_early(seen: ClientRun) -> Cause | None:
+def _diagnose_early_return(seen: ClientRun) -> Cause | None:
     """Whether it made the first call only, and a return stands in the loop over its calls."""
     assert seen.trace is not None
     if len(seen.served) != 1:

@@ -33,7 +33,7 @@ def judge_services(seen: ServiceCalls) -> Verdict:
     unanswered = next((answer for answer in seen.answers if answer.response is None), None)
     missing = missing_services(seen.trace.graph.servers) or ([] if unanswered else _never_called(seen))
     if missing:
-        cause = _why_missing(seen.trace, missing)
+        cause = _diagnose_missing(seen.trace, missing)
         return failed(expected, f"missing: {', '.join(missing)}", cause, causes.output_tail(seen.trace))
     if unanswered is not None:
         observed = f"{unanswered.service}: {causes.describe_no_answer(seen.trace, ANSWER_S)}"
@@ -41,7 +41,7 @@ def judge_services(seen: ServiceCalls) -> Verdict:
         cause = causes.diagnose_incompatible_service(silent) or causes.diagnose_no_answer(
             seen.trace, seen.stuck, spins=seen.spins
         )
-        cause = _unanswered(cause, seen.trace, unanswered.service, seen.stuck)
+        cause = _with_answer_step(cause, seen.trace, unanswered.service, seen.stuck)
         return failed(expected, observed, cause, causes.output_tail(seen.trace))
     return passed(expected, "all four answer", [f"{name} = {result}" for name, result in _answered(seen.answers)])
 
@@ -51,7 +51,7 @@ def _never_called(seen: ServiceCalls) -> list[str]:
     return [name for name in SIGNS if not seen.of(name)]
 
 
-def _why_missing(trace: Trace, missing: Sequence[str]) -> Cause:
+def _diagnose_missing(trace: Trace, missing: Sequence[str]) -> Cause:
     broken = causes.diagnose_process(trace)
     if broken is not None:
         asks = broken.name == names.UNHANDLED_EXCEPTION and "EOFError" in broken.text
@@ -90,7 +90,7 @@ def _first(trace: Trace, step: Callable[[Code], str | None]) -> str | None:
     return next((told for code in learner_files(trace) if (told := step(code)) is not None), None)
 
 
-def _unanswered(cause: Cause, trace: Trace, service: str, stuck: Sequence[Frame] = ()) -> Cause:
+def _with_answer_step(cause: Cause, trace: Trace, service: str, stuck: Sequence[Frame] = ()) -> Cause:
     """The cause with the step that lets a service answer."""
     found, at = tracebacks.last_traceback(trace), tracebacks.own_frame(stuck, trace.folder)
     if found is not None and found.frames[-1].function == "send_response":
@@ -119,7 +119,7 @@ def judge_operations(seen: ServiceCalls) -> Verdict:
             return failed(
                 f"{question} = {right}",
                 causes.describe_no_answer(seen.trace, ANSWER_S),
-                _unanswered(
+                _with_answer_step(
                     causes.diagnose_process(seen.trace)
                     or Cause(
                         "no answer",
@@ -137,11 +137,13 @@ def judge_operations(seen: ServiceCalls) -> Verdict:
                 f"{question} = {right}",
                 f"{answer.response['sum']}",
                 late_binding.diagnose_loop(seen.trace, seen.answers)
-                or _computing(_negatives_refused(answer, seen.answers) or _why_wrong(answer, right), seen),
+                or _with_computing_step(
+                    _diagnose_negatives(answer, seen.answers) or _diagnose_result(answer, right), seen
+                ),
                 [f"{name} answered {result}" for name, result in _answered(seen.of(answer.service))],
             )
     if late := _never_called(seen):
-        return failed(expected, f"missing: {', '.join(late)}", _why_missing(seen.trace, late))
+        return failed(expected, f"missing: {', '.join(late)}", _diagnose_missing(seen.trace, late))
     return passed(
         expected, f"{len(seen.answers)} calls", [f"{name} = {result}" for name, result in _answered(seen.answers)][:8]
     )
@@ -155,7 +157,7 @@ def _answered(answers: Sequence[CallAnswer]) -> list[tuple[str, Any]]:
     ]
 
 
-def _negatives_refused(answer: CallAnswer, answers: Sequence[CallAnswer]) -> Cause | None:
+def _diagnose_negatives(answer: CallAnswer, answers: Sequence[CallAnswer]) -> Cause | None:
     """Whether the service answers the same to whatever has a negative operand, and else rightly."""
     negative: list[tuple[int, int]] = []
     others: list[tuple[int, int]] = []
@@ -174,14 +176,14 @@ def _negatives_refused(answer: CallAnswer, answers: Sequence[CallAnswer]) -> Cau
     )
 
 
-def _computing(cause: Cause, seen: ServiceCalls) -> Cause:
+def _with_computing_step(cause: Cause, seen: ServiceCalls) -> Cause:
     """The cause with the step that lets every service that has answered wrongly compute its own."""
     answers = [(each, right_result(each.service, each.request["a"], each.request["b"])) for each in seen.answers]
     wrong = list(dict.fromkeys(a.service for a, right in answers if a.response and a.response["sum"] != right))
     return replace(cause, hint=services.compute_results(seen.trace, wrong) or cause.hint)
 
 
-def _why_wrong(answer: CallAnswer, right: int) -> Cause:
+def _diagnose_result(answer: CallAnswer, right: int) -> Cause:
     """What the wrong result looks like."""
     assert answer.response is not None
     got, a, b = answer.response["sum"], answer.request["a"], answer.request["b"]
@@ -208,7 +210,7 @@ def _why_wrong(answer: CallAnswer, right: int) -> Cause:
     return Cause("wrong result", f"{got} instead of {right}", f"look at the callback of {name}")
 
 
-def _guarded(cause: Cause, trace: Trace) -> Cause:
+def _with_guard_step(cause: Cause, trace: Trace) -> Cause:
     """The cause with the step that lets /divide answer, and say that it is an error, where b is 0."""
     found = tracebacks.last_traceback(trace)
     if found is not None and found.frames[-1].function == "send_response":
@@ -223,7 +225,7 @@ def judge_division(seen: Division) -> Verdict:
         return failed(
             expected,
             "/divide does not answer even 84 ÷ 7",
-            _unanswered(
+            _with_answer_step(
                 causes.diagnose_process(seen.trace)
                 or Cause("no answer", "the service does not answer", "see `services`"),
                 seen.trace,
@@ -235,7 +237,7 @@ def judge_division(seen: Division) -> Verdict:
         cause = causes.diagnose_process(seen.trace) or Cause(
             "no answer", "the callback does not answer when b is 0", "return the response in that case too"
         )
-        cause = _guarded(cause, seen.trace)
+        cause = _with_guard_step(cause, seen.trace)
         return failed(
             expected,
             f"10 ÷ 0: {causes.describe_no_answer(seen.trace, ANSWER_S)}",
@@ -280,7 +282,7 @@ def judge_division(seen: Division) -> Verdict:
                 "the node no longer answers after a division by zero",
                 "let the node go on: only log, and answer, whatever a is",
             )
-            cause = _guarded(cause, seen.trace)
+            cause = _with_guard_step(cause, seen.trace)
             return failed(expected, f"after it, {a} ÷ {b} got no answer", cause, causes.output_tail(seen.trace))
         if b and divides and answer.response["sum"] != right_result("/divide", a, b):
             cause = Cause(
@@ -288,7 +290,7 @@ def judge_division(seen: Division) -> Verdict:
                 "the node divides well until it is asked to divide by zero",
                 "let a division by zero change nothing: only log, and answer",
             )
-            cause = _guarded(cause, seen.trace)
+            cause = _with_guard_step(cause, seen.trace)
             return failed(expected, f"after it, {a} ÷ {b} was answered {answer.response['sum']}", cause)
     return passed(
         expected,

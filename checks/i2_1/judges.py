@@ -57,13 +57,13 @@ def _followable[**P](judge: Callable[P, Verdict]) -> Callable[P, Verdict]:
 def judge_defaults(seen: PlainStart) -> Verdict:
     expected = ", ".join(f"{name} = {_show(value)} ({kind})" for name, (kind, value) in DEFAULTS.items())
     if seen.parameters is None:
-        cause = _no_answer(seen.trace, seen.stuck)
+        cause = _diagnose_no_answer(seen.trace, seen.stuck)
         return failed(expected, "the node answers no parameter call", cause, causes.output_tail(seen.trace))
     found = {name: seen.value_of(name) for name in DEFAULTS}
     observed = ", ".join(f"{n} = {_show(p.value)} ({p.type})" if p else f"no {n}" for n, p in found.items())
     wrong = [name for name, (kind, value) in DEFAULTS.items() if not _is(found[name], kind, value)]
     if wrong:
-        cause = _why_default(wrong[0], found[wrong[0]], steps.declare_parameters(seen.trace, wrong))
+        cause = _diagnose_default(wrong[0], found[wrong[0]], steps.declare_parameters(seen.trace, wrong))
         return failed(expected, observed, cause)
     return passed(expected, observed)
 
@@ -72,7 +72,7 @@ def _is(parameter: Parameter | None, kind: str, value: Any) -> bool:
     return parameter is not None and (parameter.type, parameter.value) == (kind, value)
 
 
-def _why_default(name: str, parameter: Parameter | None, step: str) -> Cause:
+def _diagnose_default(name: str, parameter: Parameter | None, step: str) -> Cause:
     kind, value = DEFAULTS[name]
     if parameter is None:
         return Cause("parameter not declared", f"the node has no parameter {name}", step)
@@ -94,24 +94,30 @@ def judge_launch(seen: ParameterStarts) -> Verdict:
     without = [text_of(sample) for sample in samples[-2:] if seen.prefix not in text_of(sample)]
     if without:
         return failed(
-            expected, f'with {given}: "{without[-1]}"', _ignored(PREFIX, seen.trace), [text_of(s) for s in samples[:6]]
+            expected,
+            f'with {given}: "{without[-1]}"',
+            _diagnose_ignored(PREFIX, seen.trace),
+            [text_of(s) for s in samples[:6]],
         )
     if seen.rate is None or not seen.rate.agrees(LAUNCH_HZ):
         observed = f"with {given}: {describe(seen.rate, seen.messages)}, not {LAUNCH_HZ} Hz ±{TOLERANCE:.0%}"
-        return failed(expected, observed, causes.diagnose_same_name(seen.trace) or _why_launch_rate(seen))
+        return failed(expected, observed, causes.diagnose_same_name(seen.trace) or _diagnose_launch_rate(seen))
     if seen.slow_rate is None or not seen.slow_rate.agrees(SLOW_LAUNCH_HZ):
         slow = f"{RATE}:={SLOW_LAUNCH_HZ}: {describe(seen.slow_rate, seen.slow_messages)}"
         cause = (
             causes.diagnose_process(seen.slow)
-            or _made_whole(seen.slow_rate, SLOW_LAUNCH_HZ, steps.use_parameter(seen.slow, RATE))
-            or _other_rate(seen.slow)
+            or _diagnose_rounded_rate(seen.slow_rate, SLOW_LAUNCH_HZ, steps.use_parameter(seen.slow, RATE))
+            or _diagnose_other_rate(seen.slow)
         )
         return failed(expected, f"with {slow}, not {SLOW_LAUNCH_HZ} Hz ±{TOLERANCE:.0%}", cause)
     off = f"with {ENABLED}:=false {RATE}:={LAUNCH_HZ}"
     loud = seen.disabled.samples_on(TOPIC)
     if loud:
         return failed(
-            expected, f"{off}: {len(loud)} messages", _ignored(ENABLED, seen.disabled), [text_of(s) for s in loud[:3]]
+            expected,
+            f"{off}: {len(loud)} messages",
+            _diagnose_ignored(ENABLED, seen.disabled),
+            [text_of(s) for s in loud[:3]],
         )
     broken = causes.diagnose_process(seen.disabled)
     held = seen.disabled_answer.value if seen.disabled_answer else None
@@ -122,7 +128,7 @@ def judge_launch(seen: ParameterStarts) -> Verdict:
         return failed(
             expected,
             f"{off}: silence, but not because {ENABLED} is false",
-            broken or _ignored(ENABLED, seen.disabled),
+            broken or _diagnose_ignored(ENABLED, seen.disabled),
             causes.output_tail(seen.disabled),
         )
     return passed(
@@ -131,17 +137,17 @@ def judge_launch(seen: ParameterStarts) -> Verdict:
     )
 
 
-def _why_launch_rate(seen: ParameterStarts) -> Cause:
+def _diagnose_launch_rate(seen: ParameterStarts) -> Cause:
     rate, trace = seen.rate, seen.trace
     if (whole := period_slips.diagnose_integer_period(started_node(trace))) is not None:
         return whole
     if rate is not None and rate.in_bursts:
         return causes.diagnose_bursts(steps.send_once_per_tick(trace))
     if rate is not None and (rate.agrees(DEFAULT_HZ) or _are_alike(rate, seen.slow_rate)):
-        return _ignored(RATE, trace)
+        return _diagnose_ignored(RATE, trace)
     if rate is None or rate.agrees(1 / LAUNCH_HZ):
         return causes.diagnose_rate_as_period(RATE, steps.use_parameter(trace, RATE))
-    return _other_rate(trace)
+    return _diagnose_other_rate(trace)
 
 
 def _are_alike(rate: Rate, other: Rate | None) -> bool:
@@ -149,13 +155,13 @@ def _are_alike(rate: Rate, other: Rate | None) -> bool:
     return other is not None and max(rate.hz, other.hz) < 1.1 * min(rate.hz, other.hz)
 
 
-def _other_rate(trace: Trace) -> Cause:
+def _diagnose_other_rate(trace: Trace) -> Cause:
     return period_slips.diagnose_integer_period(started_node(trace)) or Cause(
         "wrong rate", f"{RATE} has an effect, but not this one", steps.use_parameter(trace, RATE)
     )
 
 
-def _made_whole(rate: Rate | None, asked: float, step: str) -> Cause | None:
+def _diagnose_rounded_rate(rate: Rate | None, asked: float, step: str) -> Cause | None:
     """A rate of 1.5 Hz becomes 1 or 2 Hz, one of 0.7 Hz becomes 1 Hz."""
     wholes = {math.floor(asked), math.ceil(asked)} - {asked}
     if rate is None or not any(abs(rate.hz - whole) < 0.1 for whole in wholes):
@@ -163,7 +169,7 @@ def _made_whole(rate: Rate | None, asked: float, step: str) -> Cause | None:
     return Cause("rate made a whole number", f"{RATE} {asked} is treated as {rate.hz:.0f}", step)
 
 
-def _ignored(name: str, trace: Trace) -> Cause:
+def _diagnose_ignored(name: str, trace: Trace) -> Cause:
     return parameter_slips.diagnose_override(started_node(trace), name) or Cause(
         "parameter ignored", f"{name} given at start-up has no effect", steps.use_parameter(trace, name)
     )
@@ -182,13 +188,13 @@ def judge_runtime(seen: RuntimeChanges, retimed: RateChanges) -> Verdict:
         return failed(
             expected,
             f'{PREFIX} set to {seen.prefix}, but the messages still read "{_last(seen.trace)}"',
-            _ignored_later(PREFIX, seen.trace),
+            _diagnose_ignored_change(PREFIX, seen.trace),
         )
     if seen.sent_while_off:
         return failed(
             expected,
             f"{ENABLED} set to false, but {len(seen.sent_while_off)} messages more than a period later",
-            _ignored_later(ENABLED, seen.trace),
+            _diagnose_ignored_change(ENABLED, seen.trace),
             [text_of(s) for s in seen.sent_while_off[:3]],
         )
     if seen.resumed is None:
@@ -217,7 +223,7 @@ def _why_not_as_before(seen: RuntimeChanges, expected: str, *, any_rate: bool) -
     said = [text_of(sample) for sample in seen.again]
     other = next((each for each in said if seen.later not in each), None)
     if other is not None:
-        return failed(expected, f'{off}: "{other}"', _ignored_later(PREFIX, seen.trace), said)
+        return failed(expected, f'{off}: "{other}"', _diagnose_ignored_change(PREFIX, seen.trace), said)
     both = next((each for each in said if seen.prefix in each), None)
     if both is not None:
         cause = Cause(
@@ -257,7 +263,7 @@ def _held_back(seen: RuntimeChanges) -> list[str]:
     return [text_of(s) for s in seen.trace.samples_on(TOPIC) if begin <= s.source_time < begin + 0.5 / hz]
 
 
-def _ignored_later(name: str, trace: Trace) -> Cause:
+def _diagnose_ignored_change(name: str, trace: Trace) -> Cause:
     compared = slips.boolean_compared_with_text(trace) if name == ENABLED else None
     if compared is not None:
         return Cause("parameter ignored", f"{name} is accepted, but compared with a text", compared)
@@ -284,7 +290,7 @@ def _not_running(seen: RuntimeChanges | BadRates | RateChanges | AtomicRequests,
         return failed(
             expected,
             "the node answers no parameter call",
-            _no_answer(trace, stuck),
+            _diagnose_no_answer(trace, stuck),
             causes.output_tail(trace),
         )
     cause = causes.diagnose_no_messages(
@@ -293,7 +299,7 @@ def _not_running(seen: RuntimeChanges | BadRates | RateChanges | AtomicRequests,
     return failed(expected, f"no message on {TOPIC} to start with", cause, causes.output_tail(trace))
 
 
-def _no_answer(trace: Trace, stuck: Sequence[Frame], *, spins: bool = False) -> Cause:
+def _diagnose_no_answer(trace: Trace, stuck: Sequence[Frame], *, spins: bool = False) -> Cause:
     """Why the node answers nothing; what keeps it waiting is left out of its callbacks."""
     cause = causes.diagnose_no_answer(trace, stuck, spins=spins)
     blocked = causes.diagnose_blocked(trace, stuck, spins=spins)
@@ -303,7 +309,7 @@ def _no_answer(trace: Trace, stuck: Sequence[Frame], *, spins: bool = False) -> 
 def _not_set(expected: str, answer: SetAnswer, trace: Trace, stuck: Sequence[Frame]) -> Verdict:
     what = ", ".join(f"{name} to {_show(value)}" for name, value in answer.values.items())
     if not answer.answered:
-        cause = _no_answer(trace, stuck, spins=True)
+        cause = _diagnose_no_answer(trace, stuck, spins=True)
         observed = f"setting {what}: {causes.describe_no_answer(trace, ANSWER_S)}"
         return failed(expected, observed, cause, causes.output_tail(trace))
     cause = causes.diagnose_refusal(answer.reason, steps.accept_value(trace, answer))
@@ -316,7 +322,7 @@ def _ended_by(bad: float, expected: str, trace: Trace) -> Verdict | None:
     told = found.raised if found is not None and trace.exit is not None else ""
     if not told.startswith("ZeroDivisionError") and "timer period must be non-negative" not in told:
         return None
-    cause = _not_refused(trace, bad)
+    cause = _diagnose_no_validation(trace, bad)
     return failed(expected, f"{RATE} set to {bad} ends the node: {told}", cause, causes.output_tail(trace))
 
 
@@ -333,7 +339,7 @@ def judge_validation(seen: BadRates, switched: RuntimeChanges) -> Verdict:
             return failed(
                 expected,
                 f"{RATE} {bad} was accepted",
-                _not_refused(seen.trace, bad),
+                _diagnose_no_validation(seen.trace, bad),
             )
         if not answer.reason.strip():
             return failed(
@@ -376,12 +382,12 @@ def judge_timer(seen: RateChanges) -> Verdict:
             return failed(
                 expected,
                 f"{RATE} set to {asked}: {describe(rate, messages)}",
-                causes.diagnose_same_name(seen.trace) or _why_timer(seen, asked, rate),
+                causes.diagnose_same_name(seen.trace) or _diagnose_timer(seen, asked, rate),
             )
     return passed(expected, ", then ".join(str(rate) for _, rate, _ in seen.steps))
 
 
-def _why_timer(seen: RateChanges, asked: float, rate: Rate | None) -> Cause:
+def _diagnose_timer(seen: RateChanges, asked: float, rate: Rate | None) -> Cause:
     if seen.trace.exit and (cause := causes.diagnose_process(seen.trace)):
         return cause
     read, trace = started_node(seen.trace), seen.trace
@@ -392,10 +398,10 @@ def _why_timer(seen: RateChanges, asked: float, rate: Rate | None) -> Cause:
     faster = seen.steps[0][1]
     left_behind = asked == DOWN_HZ and faster is not None and faster.hz > UP_HZ + DEFAULT_HZ / 2
     if rate is not None and rate.agrees(before) and not left_behind:
-        return _not_replaced(trace)
+        return _diagnose_old_period(trace)
     if rate is not None and rate.hz < UP_HZ and all(_are_alike(rate, other) for _, other, _ in seen.steps):
-        return _not_replaced(trace)
-    if (whole := _made_whole(rate, asked, steps.follow_changes(trace))) is not None:
+        return _diagnose_old_period(trace)
+    if (whole := _diagnose_rounded_rate(rate, asked, steps.follow_changes(trace))) is not None:
         return whole
     if rate is not None and rate.hz > asked:
         return diagnose_integer_period or causes.diagnose_old_timer(rate.hz, asked, steps.cancel_old_timer(trace))
@@ -404,7 +410,7 @@ def _why_timer(seen: RateChanges, asked: float, rate: Rate | None) -> Cause:
     return Cause("wrong rate", f"{rate.hz:.1f} Hz instead of {asked:g} Hz", steps.follow_changes(trace))
 
 
-def _not_replaced(trace: Trace) -> Cause:
+def _diagnose_old_period(trace: Trace) -> Cause:
     """The parameter has a new value, the timer its old period."""
     read = started_node(trace)
     if (cause := parameter_slips.diagnose_override(read, RATE)) is not None:
@@ -417,7 +423,7 @@ def _not_replaced(trace: Trace) -> Cause:
     )
 
 
-def _not_refused(trace: Trace, bad: float) -> Cause:
+def _diagnose_no_validation(trace: Trace, bad: float) -> Cause:
     """A bad number is taken."""
     read = started_node(trace)
     return parameter_slips.diagnose_uncalled_callback(read) or Cause(
@@ -445,7 +451,7 @@ def judge_atomic(seen: AtomicRequests, switched: RuntimeChanges) -> Verdict:
         return failed(
             expected,
             "the request was accepted",
-            _not_refused(seen.trace, BAD_RATES[1]),
+            _diagnose_no_validation(seen.trace, BAD_RATES[1]),
         )
     if "declared" in seen.answers[0].reason:
         return _not_set(expected, seen.answers[0], seen.trace, seen.stuck)

@@ -82,9 +82,9 @@ def diagnose_launch(trace: Trace) -> Cause | None:
     if found := _NOT_HERE.search(text):
         raise NeedsInstalledRos(_line_of(text, found.start()))
     if found := _NO_VALUE.search(text):
-        return steps.declare_argument(there, found["name"])
+        return steps.diagnose_undeclared_argument(there, found["name"])
     if found := _NO_DEFAULT.search(text):
-        return steps.add_default(there, found["name"])
+        return steps.diagnose_missing_default(there, found["name"])
     if found := _NOT_PAIRS.search(text):
         return Cause(
             "remappings not a list of pairs",
@@ -144,7 +144,7 @@ def diagnose_launch(trace: Trace) -> Cause | None:
     for process in writers(trace.output):
         if left := tracebacks.find_tracebacks(by_stream(written_by(trace.output, process))):
             return causes.diagnose_traceback(left[-1], trace)
-    if (piece := steps.split_command(there)) is not None:
+    if (piece := steps.diagnose_split_command(there)) is not None:
         return piece
     if trace.exit is not None:
         return Cause(

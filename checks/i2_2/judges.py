@@ -96,7 +96,7 @@ def judge_communicates(seen: LaunchRun) -> Verdict:
         return failed(expected, _observed(seen), diagnose_pair(seen), causes.output_tail(seen.trace))
     reasons: list[tuple[Pair, Cause]] = []
     for pair in found:
-        reason = _why_not(seen, pair)
+        reason = _diagnose_delivery(seen, pair)
         if reason is None:
             topic = pair[0].topic
             count = len(seen.trace.samples_on(topic))
@@ -108,7 +108,7 @@ def judge_communicates(seen: LaunchRun) -> Verdict:
     return failed(expected, _observed(seen), reason, causes.output_tail(seen.trace))
 
 
-def _why_not(seen: LaunchRun, pair: Pair) -> Cause | None:
+def _diagnose_delivery(seen: LaunchRun, pair: Pair) -> Cause | None:
     """Why what `pair` sends does not arrive; None where it does."""
     one, other = pair
     if one.type != other.type:

@@ -70,7 +70,7 @@ def declaration(argument: str) -> str:
     return f"DeclareLaunchArgument('{argument}', default_value='{DEFAULTS.get(argument, '')}')"
 
 
-def declare_argument(there: Launch, argument: str) -> Cause:
+def diagnose_undeclared_argument(there: Launch, argument: str) -> Cause:
     """A launch configuration is read that is not there, or not yet."""
     source = there.source
     name = "launch argument not declared"
@@ -118,7 +118,7 @@ def declare_argument(there: Launch, argument: str) -> Cause:
     )
 
 
-def add_default(there: Launch, argument: str) -> Cause:
+def diagnose_missing_default(there: Launch, argument: str) -> Cause:
     """A declared argument has no default, and none was given."""
     bare = [call for call in there.calls("DeclareLaunchArgument") if argument_of(call, 1, "default_value") is None]
     names = [argument_of(call, 0, "name") for call in bare]
@@ -235,7 +235,7 @@ def commands(source: Source) -> list[Call]:
     return [] if used else source.calls("ExecuteProcess")
 
 
-def split_command(there: Launch) -> Cause | None:
+def diagnose_split_command(there: Launch) -> Cause | None:
     """Whether a command is given as one text, which is taken for the name of a program."""
     source = there.source
     for call in source.calls("ExecuteProcess"):
@@ -258,7 +258,7 @@ def split_command(there: Launch) -> Cause | None:
     return None
 
 
-def _in_command(there: Launch, cause: str, rule: str) -> Cause | None:
+def _diagnose_command(there: Launch, cause: str, rule: str) -> Cause | None:
     started = commands(there.source)
     if not started:
         return None
@@ -272,7 +272,7 @@ def _in_command(there: Launch, cause: str, rule: str) -> Cause | None:
 def diagnose_topic_argument(there: Launch, name: str) -> Cause | None:
     """What the file does with the topic, where nothing of it reaches a node as a remapping from `name`."""
     source = there.source
-    if (cause := _in_command(there, "topic hard-coded", f"['{name}:=', {value(source, 'topic')}]")) is not None:
+    if (cause := _diagnose_command(there, "topic hard-coded", f"['{name}:=', {value(source, 'topic')}]")) is not None:
         return cause
     right, wanted = remapping(source, name), value(source, "topic")
     used = re.compile(rf"(?<!['\w]){re.escape(wanted)}(?!['\w])|LaunchConfiguration\('topic'")
@@ -316,7 +316,7 @@ def diagnose_namespace_argument(there: Launch) -> Cause | None:
     """What the file does with the namespace, where not every node is in it."""
     source = there.source
     wanted = value(source, "namespace")
-    if (cause := _in_command(there, "namespace not used", f"['__ns:=/', {wanted}]")) is not None:
+    if (cause := _diagnose_command(there, "namespace not used", f"['__ns:=/', {wanted}]")) is not None:
         return cause
     right = f"namespace={wanted}"
     pushed = next(iter(source.calls("PushRosNamespace", "PushROSNamespace")), None)

@@ -65,12 +65,12 @@ def diagnose_no_answer(seen: SingleCalls) -> Cause:
     if not seen.spins and (empty := steps.diagnose_node_not_added(started_node(seen.trace))) is not None:
         return empty
     if not seen.spins or causes.is_in_blocking_call(seen.stuck):
-        return _fixed(causes.diagnose_no_answer(seen.trace, seen.stuck), started_node(seen.trace))
+        return _with_step(causes.diagnose_no_answer(seen.trace, seen.stuck), started_node(seen.trace))
     blocked = causes.diagnose_blocked(seen.trace, seen.stuck, spins=True)
     if blocked is not None and blocked.name != "blocked executor":
-        return _fixed(blocked, started_node(seen.trace))
+        return _with_step(blocked, started_node(seen.trace))
     if (locked := causes.diagnose_lock_wait(seen.trace, seen.stuck)) is not None:
-        return _fixed(replace(locked, name="no answer"), started_node(seen.trace))
+        return _with_step(replace(locked, name="no answer"), started_node(seen.trace))
     own = tracebacks.own_frame(seen.stuck, seen.trace.folder)
     return Cause(
         "no answer",
@@ -84,7 +84,7 @@ def diagnose_no_answer(seen: SingleCalls) -> Cause:
     )
 
 
-def _fixed(cause: Cause, file: NodeFile) -> Cause:
+def _with_step(cause: Cause, file: NodeFile) -> Cause:
     """The cause, with the step that rewrites the callback, or all: it needs no more than one service and one timer."""
     return replace(cause, hint=steps.fix_answer(file) or cause.hint)
 

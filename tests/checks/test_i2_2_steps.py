@@ -198,7 +198,7 @@ def test_steps_of_one_line() -> None:
         "line 8 becomes: name = LaunchConfiguration('topic')"
     )
     bare = changed(("'topic', default_value='chatter'", "'topic'"))
-    assert steps.add_default(bare, "topic").hint == (
+    assert steps.diagnose_missing_default(bare, "topic").hint == (
         "line 13 becomes: DeclareLaunchArgument('topic', default_value='chatter'),"
     )
     unlisted = changed(("        talker,\n        listener,\n", ""))
@@ -270,11 +270,13 @@ def test_commands_instead_of_nodes_become_nodes() -> None:
     found = followed(of(COMMANDS), steps.diagnose_topic_argument(of(COMMANDS), "chatter"))
     assert "executable='listener'," in found.hint
     assert "from launch_ros.actions import Node" in found.hint
-    assert steps.split_command(of(COMMANDS)) is None
+    assert steps.diagnose_split_command(of(COMMANDS)) is None
 
 
 def test_a_command_in_one_piece() -> None:
-    found = steps.split_command(of(COMMANDS.replace("'ros2', 'run', 'demo_nodes_py', '", "'ros2 run demo_nodes_py ")))
+    found = steps.diagnose_split_command(
+        of(COMMANDS.replace("'ros2', 'run', 'demo_nodes_py', '", "'ros2 run demo_nodes_py "))
+    )
     assert found is not None
     assert "executable='listener'," in found.hint
 

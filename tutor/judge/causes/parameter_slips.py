@@ -18,10 +18,12 @@ _OVERWRITTEN = "value overwritten by the node"
 
 def diagnose_override(file: NodeFile, name: str) -> Cause | None:
     """Whether the code itself gives the parameter, or what it has read of it, another value."""
-    return _set_by_itself(file, name) or _ignoring(file, name) or _assigned_again(file, name)
+    return (
+        _diagnose_own_set(file, name) or _diagnose_ignored_overrides(file, name) or _diagnose_reassignment(file, name)
+    )
 
 
-def _set_by_itself(file: NodeFile, name: str) -> Cause | None:
+def _diagnose_own_set(file: NodeFile, name: str) -> Cause | None:
     for call in file.calls("set_parameters", "set_parameters_atomically"):
         function = file.function_around(call)
         code = ast.unparse(call) if "[" in ast.unparse(call) or function is None else ast.unparse(function)
@@ -36,7 +38,7 @@ def _set_by_itself(file: NodeFile, name: str) -> Cause | None:
     return None
 
 
-def _ignoring(file: NodeFile, name: str) -> Cause | None:
+def _diagnose_ignored_overrides(file: NodeFile, name: str) -> Cause | None:
     found: list[tuple[ast.expr, str]] = []
     first: ast.Call | None = None
     for call in file.calls("declare_parameter", "declare_parameters"):
@@ -51,7 +53,7 @@ def _ignoring(file: NodeFile, name: str) -> Cause | None:
     return Cause(_OVERWRITTEN, text, step)
 
 
-def _assigned_again(file: NodeFile, name: str) -> Cause | None:
+def _diagnose_reassignment(file: NodeFile, name: str) -> Cause | None:
     kept = parameters.find_kept_value(file, name)
     for node in ast.walk(file.tree):
         if kept is None or not isinstance(node, ast.Assign) or not isinstance(node.value, ast.Constant):
@@ -78,7 +80,7 @@ def diagnose_uncalled_callback(file: NodeFile) -> Cause | None:
             step = file.step([replace_node(file.text, given, ast.unparse(given.func))])
             text = f"{where(call)} calls the callback at once, and registers what it returns"
             return Cause("callback not registered", text, step) if step else None
-        if (twice := _defined_twice(file, given)) is not None:
+        if (twice := _diagnose_second_definition(file, given)) is not None:
             return twice
         function = file.function_around(call)
         if function is not None and file.setup is not None and function not in file.reached(file.setup):
@@ -94,7 +96,7 @@ def diagnose_uncalled_callback(file: NodeFile) -> Cause | None:
     return Cause("callback not registered", f"there is {_named(meant)}, but nothing ever calls it", step)
 
 
-def _defined_twice(file: NodeFile, given: ast.expr | None) -> Cause | None:
+def _diagnose_second_definition(file: NodeFile, given: ast.expr | None) -> Cause | None:
     name = ast.unparse(given).rpartition(".")[2] if given is not None else ""
     same = [each for each in file.functions if each.name == name]
     if len(same) < 2 or len({file.class_of(each) for each in same}) > 1:

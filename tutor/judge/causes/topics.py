@@ -45,8 +45,8 @@ def diagnose_no_messages(
         if not answers:
             cause = diagnose_no_answer(trace, stuck)
             return replace(cause, hint=step) if step and cause == diagnose_blocked(trace, stuck) else cause
-        return _idle(trace, topic, step)
-    if (cause := _misplaced(trace, publishers, topic, type_name, "create_publisher")) is not None:
+        return _diagnose_idle_publisher(trace, topic, step)
+    if (cause := _diagnose_misplaced(trace, publishers, topic, type_name, "create_publisher")) is not None:
         return replace(cause, hint=step) if cause.name == names.WRONG_TYPE and step else cause
     return Cause(
         "no publisher",
@@ -55,7 +55,7 @@ def diagnose_no_messages(
     )
 
 
-def _idle(trace: Trace, topic: str, step: str) -> Cause:
+def _diagnose_idle_publisher(trace: Trace, topic: str, step: str) -> Cause:
     """Why a publisher that is there never sends anything."""
     file = started_node(trace)
     if file.publisher and not file.calls("publish"):
@@ -88,7 +88,7 @@ def diagnose_nothing_received(
             f"there is a subscription on {ours.topic}, but nothing follows from its messages",
             "is the right callback given to create_subscription, and the subscription kept in self?",
         )
-    return _misplaced(trace, subscriptions, ours.topic, ours.type, "create_subscription") or Cause(
+    return _diagnose_misplaced(trace, subscriptions, ours.topic, ours.type, "create_subscription") or Cause(
         "no subscription",
         f"{node_names(trace)} is up, but has no subscription on {ours.topic}",
         f"create one in __init__: self.create_subscription({_class(ours.type)}, '{ours.topic}', self.callback, 10)",
@@ -207,7 +207,7 @@ def _woken(file: NodeFile) -> list[Edit]:
     return []
 
 
-def _misplaced(
+def _diagnose_misplaced(
     trace: Trace, endpoints: Sequence[TopicEndpoint], topic: str, type_name: str, create: str
 ) -> Cause | None:
     here = [endpoint for endpoint in endpoints if endpoint.topic == topic]

@@ -22,13 +22,13 @@ def with_deeper_cause(judge: Judge) -> Judge:
         verdict = judge(*trials)
         if verdict.status is not Status.FAILED or any(causes.diagnose_process(each.trace) for each in trials):
             return verdict
-        cause = _counted_twice(trials) or _kept_waiting(trials)
+        cause = _diagnose_double_count(trials) or _diagnose_waiting(trials)
         return verdict if cause is None else replace(verdict, cause=str(cause), hint=cause.hint)
 
     return judged
 
 
-def _kept_waiting(trials: Sequence[Trial]) -> Cause | None:
+def _diagnose_waiting(trials: Sequence[Trial]) -> Cause | None:
     """Whether it takes in messages late, or not at all, and its source says what it waits for meanwhile."""
     for trial in trials:
         if behind := backlog.messages_behind(trial):
@@ -44,7 +44,7 @@ def _kept_waiting(trials: Sequence[Trial]) -> Cause | None:
     return None
 
 
-def _counted_twice(trials: Sequence[Trial]) -> Cause | None:
+def _diagnose_double_count(trials: Sequence[Trial]) -> Cause | None:
     """Whether two subscriptions count each message twice."""
     for trial in trials:
         here = [each for each in trial.trace.graph.subscriptions if (each.topic, each.type) == (TOPIC, TYPE)]
