@@ -19,7 +19,7 @@ from tutor.ros.environment import detect
 from tutor.ros.process_setup import prepare_for_rclpy
 
 FULL = 1 << 20
-"""With this many bytes unread, updates of topics are left out: the next ones say it all again."""
+"""With this many bytes unread, topic updates are dropped: the next ones supersede them."""
 
 
 def main() -> int:
@@ -27,9 +27,9 @@ def main() -> int:
     prepare_for_rclpy(detect(), isolated=False)
     die_with_parent()
     # What libraries print must not get among the updates.
-    update = os.fdopen(os.dup(sys.stdout.fileno()), "wb", buffering=0)
+    pipe_file = os.fdopen(os.dup(sys.stdout.fileno()), "wb", buffering=0)
     os.dup2(sys.stderr.fileno(), sys.stdout.fileno())
-    asyncio.run(_watch(update))
+    asyncio.run(_watch(pipe_file))
     # Threads of the middleware may take their time; nothing of ours is left to be saved.
     sys.stderr.flush()
     os._exit(0)
@@ -41,21 +41,21 @@ async def _watch(pipe: BinaryIO) -> None:
     loop = asyncio.get_running_loop()
     transport, _ = await loop.connect_write_pipe(asyncio.BaseProtocol, pipe)
 
-    def say(said: Update) -> None:
-        if not (isinstance(said, TopicUpdate) and transport.get_write_buffer_size() > FULL):
-            transport.write(encode_update(said).encode() + b"\n")
+    def send(update: Update) -> None:
+        if not (isinstance(update, TopicUpdate) and transport.get_write_buffer_size() > FULL):
+            transport.write(encode_update(update).encode() + b"\n")
 
-    watcher = Watcher(_domain_id(), say)
+    watcher = Watcher(_domain_id(), send)
     running = asyncio.ensure_future(watcher.run())
 
-    def hear(line: str) -> None:
-        loop.call_soon_threadsafe(lambda: watcher.do(decode_request(line)))
+    def receive(line: str) -> None:
+        loop.call_soon_threadsafe(lambda: watcher.handle(decode_request(line)))
 
-    def over() -> None:
+    def stop() -> None:
         with contextlib.suppress(RuntimeError):  # the loop is closed: it is over already
             loop.call_soon_threadsafe(running.cancel)
 
-    read_lines(sys.stdin.buffer, hear, over)
+    read_lines(sys.stdin.buffer, receive, stop)
     try:
         await running
     except asyncio.CancelledError:

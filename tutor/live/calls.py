@@ -1,4 +1,4 @@
-"""Calls of services: any number at once, each with a limit, and to be cancelled."""
+"""Service calls: any number at once, each with a time limit, and cancellable."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ CANCELLED = "cancelled"
 
 
 def describe(type_name: str) -> RequestForm:
-    """The form of a service type, or of a message type."""
+    """The form of a service type's request, or of a message type."""
     fields = message_fields if "/msg/" in type_name else request_fields
     try:
         return RequestForm(type_name, fields(type_name))
@@ -28,11 +28,11 @@ def describe(type_name: str) -> RequestForm:
 
 
 class ServiceCalls:
-    """The calls under way. Each is told about when it is over, however it ends."""
+    """The calls in progress. Each sends a CallOutcome when it ends, however it ends."""
 
-    def __init__(self, observer: Observer, tell: Callable[[CallOutcome], object]) -> None:
+    def __init__(self, observer: Observer, send: Callable[[CallOutcome], object]) -> None:
         self._observer = observer
-        self._tell = tell
+        self._send = send
         self._running: dict[int, asyncio.Task[None]] = {}
 
     def begin(self, call: Call) -> None:
@@ -40,7 +40,7 @@ class ServiceCalls:
         self._running[call.id] = asyncio.create_task(self._run(call))
 
     def cancel(self, id: int) -> None:
-        """Wait for this one no longer."""
+        """Cancel a call, if it is still in progress."""
         if task := self._running.get(id):
             task.cancel()
 
@@ -54,7 +54,7 @@ class ServiceCalls:
         finally:
             del self._running[call.id]
         took = time.perf_counter() - began
-        self._tell(CallOutcome(call.id, call.service, call.request, text, problem, at, took))
+        self._send(CallOutcome(call.id, call.service, call.request, text, problem, at, took))
 
     async def _call(self, call: Call) -> tuple[str | None, str]:
         try:

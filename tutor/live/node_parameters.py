@@ -1,4 +1,4 @@
-"""The parameters of every node: asked for when it appears, when it says that one changed, and on demand."""
+"""The parameters of every node: read when it appears, when it reports a change, and on demand."""
 
 from __future__ import annotations
 
@@ -19,36 +19,36 @@ from tutor.ros_model import Graph
 LIMIT_S = 3.0
 """How long a node may take to answer, in seconds."""
 
-ASK_AGAIN_S = 5.0
-"""A node that did not answer is asked again after this time: it may have begun to spin."""
+RETRY_S = 5.0
+"""A node that did not answer is asked again after this time, in seconds: it may spin by then."""
 
 
 class ParameterWatch:
-    """Tells a NodeParameters for each node that offers parameters, whenever they may have changed."""
+    """Sends a NodeParameters for each node with parameter services, whenever they may have changed."""
 
-    def __init__(self, observer: Observer, tell: Callable[[NodeParameters], object]) -> None:
+    def __init__(self, observer: Observer, send: Callable[[NodeParameters], object]) -> None:
         self._observer = observer
-        self._tell = tell
+        self._send = send
         self._nodes: frozenset[str] = frozenset()
         self._asking: dict[str, asyncio.Task[None]] = {}
-        self._dirty: set[str] = set()
-        self._again: dict[str, float] = {}
+        self._changed: set[str] = set()
+        self._retry_at: dict[str, float] = {}
         watch_changes(observer, self.ask)
 
-    def look(self, graph: Graph) -> None:
-        """The graph has changed: ask the nodes that are new."""
+    def update_graph(self, graph: Graph) -> None:
+        """Ask nodes that have appeared."""
         nodes = frozenset(graph.parameter_nodes)
         new, self._nodes = nodes - self._nodes, nodes
-        self._again = {node: due for node, due in self._again.items() if node in nodes}
+        self._retry_at = {node: due for node, due in self._retry_at.items() if node in nodes}
         for node in new:
             self.ask(node)
 
     def ask(self, node: str) -> None:
-        """Ask one node, unless it is being asked: then once more afterwards."""
+        """Ask one node; where it is being asked already, once more afterwards."""
         if node not in self._nodes:
             return
         if node in self._asking:
-            self._dirty.add(node)
+            self._changed.add(node)
             return
         self._asking[node] = asyncio.create_task(self._ask(node))
 
@@ -58,13 +58,13 @@ class ParameterWatch:
             self.ask(node)
 
     def retry_silent(self) -> None:
-        """Ask those again that did not answer some time ago."""
-        for node, due in list(self._again.items()):
+        """Ask nodes again that did not answer `RETRY_S` ago."""
+        for node, due in list(self._retry_at.items()):
             if time.monotonic() >= due:
                 self.ask(node)
 
     async def set(self, request: SetParameter) -> SetOutcome:
-        """Set one parameter; the node's answer, or that none came."""
+        """Set one parameter. Gives the node's answer, or that none came."""
         answer = await set_parameters(
             self._observer,
             request.node,
@@ -88,15 +88,15 @@ class ParameterWatch:
     async def _ask(self, node: str) -> None:
         try:
             found = await get_parameters(self._observer, [node], LIMIT_S)
-            self._again.pop(node, None)
+            self._retry_at.pop(node, None)
             if found is None:
-                self._again[node] = time.monotonic() + ASK_AGAIN_S
+                self._retry_at[node] = time.monotonic() + RETRY_S
             parameters = tuple(replace(each, value=_plain(each.value)) for each in found or ())
-            self._tell(NodeParameters(node, found is not None, parameters))
+            self._send(NodeParameters(node, found is not None, parameters))
         finally:
             del self._asking[node]
-        if node in self._dirty:
-            self._dirty.discard(node)
+        if node in self._changed:
+            self._changed.discard(node)
             self.ask(node)
 
 

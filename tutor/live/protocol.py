@@ -1,4 +1,4 @@
-"""What the app and the watching process say to each other: one JSON object to a line, named by its class."""
+"""What the app and the watcher process exchange: one JSON object per line, named by its class."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ class Follow:
 
 @dataclass(frozen=True, slots=True)
 class Unfollow:
-    """End that."""
+    """Stop following a topic."""
 
     topic: str
 
 
 @dataclass(frozen=True, slots=True)
 class Clear:
-    """Count from nothing again."""
+    """Reset a topic's count and statistics."""
 
     topic: str
 
@@ -44,14 +44,14 @@ class Plot:
 
 @dataclass(frozen=True, slots=True)
 class SetVisible:
-    """Whether anybody looks: without, everything is counted but no updates of topics are sent."""
+    """Whether the Live page is on screen. While it is not, messages are counted, but no topic updates are sent."""
 
-    seen: bool
+    visible: bool
 
 
 @dataclass(frozen=True, slots=True)
 class Refresh:
-    """Look at the graph now, and ask every node for its parameters."""
+    """Read the graph now, and ask every node for its parameters."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,7 +74,7 @@ class Describe:
 
 @dataclass(frozen=True, slots=True)
 class Call:
-    """Call a service; `request` maps the paths of its fields to values. Answered by a CallOutcome of the same id."""
+    """Call a service; `request` maps field paths to values. Answered by a CallOutcome of the same id."""
 
     id: int
     service: str
@@ -85,16 +85,16 @@ class Call:
 
 @dataclass(frozen=True, slots=True)
 class Cancel:
-    """Wait for the answer to this call no longer. Answered by its CallOutcome."""
+    """Stop waiting for the answer to a call. Answered by its CallOutcome."""
 
     id: int
 
 
 @dataclass(frozen=True, slots=True)
 class Publish:
-    """Publish a message once (`rate_hz` 0) or `rate_hz` times a second, instead of what is published on the topic now.
+    """Publish a message once (`rate_hz` 0) or `rate_hz` times a second, replacing what is published on the topic now.
 
-    `values` are by the paths of its fields. Answered by Published, again and again while it goes on.
+    `values` maps field paths to values. Answered by Published, repeatedly while it goes on.
     """
 
     topic: str
@@ -105,7 +105,7 @@ class Publish:
 
 @dataclass(frozen=True, slots=True)
 class StopPublishing:
-    """Publish on this topic no longer. Answered by a Published."""
+    """Stop publishing on a topic. Answered by a Published."""
 
     topic: str
 
@@ -130,14 +130,14 @@ WatcherRequest = (
 
 @dataclass(frozen=True, slots=True)
 class Ready:
-    """The child has joined the domain."""
+    """The watcher has joined the domain."""
 
     domain: int
 
 
 @dataclass(frozen=True, slots=True)
 class WatcherError:
-    """Something went wrong in the child; one line."""
+    """Something went wrong in the watcher; one line."""
 
     text: str
 

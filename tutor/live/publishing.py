@@ -12,33 +12,33 @@ from tutor.live.updates import Published
 from tutor.ros.manual_publisher import ManualPublisher
 
 CONNECT_S = 2.0
-"""How long a publisher that is new waits for those that listen, in seconds; then it publishes all the same."""
+"""How long a new publisher waits for subscriptions to match, in seconds, before it publishes anyway."""
 
 LINGER_S = 1.0
-"""How long it stays after its only message, in seconds: a publisher that leaves at once may take it along."""
+"""How long a publisher stays after its only message, in seconds: one that leaves at once may lose it."""
 
-TELL_EVERY_S = 0.5
+REPORT_EVERY_S = 0.5
 FASTEST_HZ = 1000.0
 
 _LOOK_EVERY_S = 0.02
 
 
 class Publishing:
-    """One message for each topic. `tell` is given how it stands, at most every `TELL_EVERY_S` seconds.
+    """Publishes one message for each topic. `send` gets the state, at most every `REPORT_EVERY_S` seconds.
 
-    `expect` is told a topic and its type before, and answers whether we listen to it ourselves.
+    `expect` is called before with a topic and its type; it returns whether we subscribe to it ourselves.
     """
 
     def __init__(
-        self, manual_publisher: ManualPublisher, expect: Callable[[str, str], bool], tell: Callable[[Published], object]
+        self, manual_publisher: ManualPublisher, expect: Callable[[str, str], bool], send: Callable[[Published], object]
     ) -> None:
         self._manual_publisher = manual_publisher
         self._expect = expect
-        self._tell = tell
+        self._send = send
         self._running: dict[str, asyncio.Task[None]] = {}
 
     async def begin(self, request: Publish) -> None:
-        """Publish this, instead of what is published on the topic."""
+        """Publish this, replacing what is published on the topic."""
         await self.end(request.topic)
         self._running[request.topic] = asyncio.create_task(self._run(request))
 
@@ -51,34 +51,34 @@ class Publishing:
     async def _run(self, request: Publish) -> None:
         sent, problem = 0, ""
 
-        def say(over: bool) -> None:
+        def report(over: bool) -> None:
             listeners = self._manual_publisher.listeners(request.topic)
             update = Published(
                 request.topic, request.type, request.rate_hz, sent, listeners, time.time(), over, problem
             )
-            self._tell(update)
+            self._send(update)
 
         try:
             self._manual_publisher.add(request.topic, request.type, request.values)
             await self._connect(request.topic, self._expect(request.topic, request.type))
-            began, told = time.perf_counter(), 0.0
+            began, reported_at = time.perf_counter(), 0.0
             while sent == 0 or request.rate_hz:
                 self._manual_publisher.publish(request.topic)
                 sent += 1
-                if request.rate_hz and time.perf_counter() >= told + TELL_EVERY_S:
-                    told = time.perf_counter()
-                    say(over=False)
+                if request.rate_hz and time.perf_counter() >= reported_at + REPORT_EVERY_S:
+                    reported_at = time.perf_counter()
+                    report(over=False)
                 if request.rate_hz:
                     due = began + sent / min(request.rate_hz, FASTEST_HZ)
                     await asyncio.sleep(max(0.0, due - time.perf_counter()))
-            say(over=False)
+            report(over=False)
             await asyncio.sleep(LINGER_S)
         except UnknownType:
             problem = f"This ROS does not have the type {request.type}."
         except ValueError as error:
             problem = str(error)
         finally:
-            say(over=True)
+            report(over=True)
             self._manual_publisher.remove(request.topic)
 
     async def _connect(self, topic: str, ours: bool) -> None:

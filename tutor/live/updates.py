@@ -1,4 +1,4 @@
-"""What is seen on the user's domain, as plain data. Times `at` and `t` are seconds since the epoch."""
+"""What the watcher reports to the app, as plain data. Times `at` and `t` are seconds since the epoch."""
 
 from __future__ import annotations
 
@@ -27,10 +27,10 @@ class Timing:
 
 @dataclass(frozen=True, slots=True)
 class TopicUpdate:
-    """How a followed topic stands.
+    """The state of a followed topic.
 
-    `count` is exact: every message that was received since following began, or the last clear. `lost` are those that
-    were sent and never arrived, as the publisher's numbers tell (None with several publishers). `silent_s` is the time
+    `count` is exact: every message received since following began, or the last clear. `lost` counts those sent but
+    never received, by the publisher's sequence numbers (None with several publishers). `silent_s` is the time
     since the last message. `text` is the newest one as `ros2 topic echo` writes it, None where there is no newer one.
     `points` are (t, value) of `field`, a sample of what arrived since the last update. `problem`: why nothing can come.
     """
@@ -51,7 +51,7 @@ class TopicUpdate:
 
 @dataclass(frozen=True, slots=True)
 class NodeParameters:
-    """The parameters of one node, or that it does not answer (it does not spin)."""
+    """The parameters of one node; `answered` is False where it did not answer (it does not spin)."""
 
     node: str
     answered: bool
@@ -60,7 +60,7 @@ class NodeParameters:
 
 @dataclass(frozen=True, slots=True)
 class SetOutcome:
-    """What became of setting one parameter. `reason` is the node's own."""
+    """The result of setting one parameter. `reason` is the node's own."""
 
     id: int
     node: str
@@ -75,7 +75,7 @@ class SetOutcome:
 
 @dataclass(frozen=True, slots=True)
 class RequestForm:
-    """What a service asks for, or what a message holds. `problem` says why it is not known."""
+    """The fields of a service's request, or of a message. `problem` says why they are not known."""
 
     type: str
     fields: tuple[Field, ...] = ()
@@ -84,7 +84,7 @@ class RequestForm:
 
 @dataclass(frozen=True, slots=True)
 class CallOutcome:
-    """What became of a call. `text` is the answer as YAML, None where none came; `problem` says why."""
+    """The result of a call. `text` is the response as YAML, None where none came; `problem` says why."""
 
     id: int
     service: str
@@ -97,9 +97,9 @@ class CallOutcome:
 
 @dataclass(frozen=True, slots=True)
 class Published:
-    """How publishing on a topic stands. `rate_hz` is 0 for once. `over`: nothing more is sent; `problem` says why.
+    """The state of publishing on a topic. `rate_hz` is 0 for once. `over`: nothing more is sent; `problem` says why.
 
-    `listeners` are the subscriptions of the learner's nodes when it was last looked.
+    `listeners` is the number of the learner's subscriptions.
     """
 
     topic: str
