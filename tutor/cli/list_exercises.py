@@ -8,13 +8,13 @@ from datetime import datetime
 from typing import TYPE_CHECKING
 
 from tutor.cli import context, terminal
+from tutor.cli.course_states import exercise_states, next_command, next_lesson
 from tutor.cli.errors import PASSED
-from tutor.cli.standing import next_command, next_lesson, standings
 from tutor.invocation import command
 
 if TYPE_CHECKING:
     from tutor.content import Course, Lesson
-    from tutor.workspace import ExerciseProgress, Progress, Standing, Workspace
+    from tutor.workspace import ExerciseProgress, ExerciseState, Progress, Workspace
 
 _WORDS = {
     "passed": ("✓ passed        ", "32"),
@@ -50,10 +50,10 @@ def run(arguments: argparse.Namespace) -> int:
 def _text(course: Course, progress: Progress, workspace: Workspace) -> str:
     from tutor.workspace import domain_of
 
-    known = standings(course, progress, workspace)
+    known = exercise_states(course, progress, workspace)
     width = max((len(lesson.title) for lesson in course.lessons), default=0)
     lines = [_line(lesson, progress.of(lesson.id), known[lesson.id], width) for lesson in course.lessons]
-    passed = sum(standing.is_passed for standing in known.values())
+    passed = sum(exercise_state.is_passed for exercise_state in known.values())
     following = next_lesson(course.lessons, known)
     word = "Next" if following is not None else "You have done them all"
     lines += ["", f"{passed} of {len(lines)} passed. {word}: {next_command(following, known)}"]
@@ -62,17 +62,17 @@ def _text(course: Course, progress: Progress, workspace: Workspace) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _line(lesson: Lesson, progress: ExerciseProgress, standing: Standing, width: int) -> str:
-    state = terminal.style(*_WORDS[standing.state.value], sys.stdout)
+def _line(lesson: Lesson, progress: ExerciseProgress, exercise_state: ExerciseState, width: int) -> str:
+    state = terminal.style(*_WORDS[exercise_state.state.value], sys.stdout)
     name = f"{lesson.id:6} {lesson.title:{width}}  {lesson.difficulty.value:9}"
-    return f"{name}  {state}  {_last(progress, standing)}".rstrip()
+    return f"{name}  {state}  {_last(progress, exercise_state)}".rstrip()
 
 
-def _last(progress: ExerciseProgress, standing: Standing) -> str:
+def _last(progress: ExerciseProgress, exercise_state: ExerciseState) -> str:
     last = progress.last
     if last is None:
         return ""
-    count = "" if standing.is_passed else f"{standing.count} met, "
+    count = "" if exercise_state.is_passed else f"{exercise_state.count} met, "
     return f"{count}last check {last.verdict.value} ({_day(last.at)})"
 
 

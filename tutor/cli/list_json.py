@@ -5,11 +5,11 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING, Any
 
-from tutor.cli.standing import next_command, next_lesson, standings
+from tutor.cli.course_states import exercise_states, next_command, next_lesson
 
 if TYPE_CHECKING:
     from tutor.content import Course, Lesson
-    from tutor.workspace import ExerciseProgress, Progress, Standing, Workspace
+    from tutor.workspace import ExerciseProgress, ExerciseState, Progress, Workspace
 
 SCHEMA = "ros-tutor/list/1"
 
@@ -18,7 +18,7 @@ def render(course: Course, progress: Progress, workspace: Workspace) -> str:
     """The document, with a line's end."""
     from tutor.workspace import domain_of
 
-    known = standings(course, progress, workspace)
+    known = exercise_states(course, progress, workspace)
     following = next_lesson(course.lessons, known)
     document = {
         "schema": SCHEMA,
@@ -27,7 +27,7 @@ def render(course: Course, progress: Progress, workspace: Workspace) -> str:
             "exists": workspace.exists,
             "ros_domain_id": domain_of(workspace) if workspace.exists else None,
         },
-        "passed": sum(standing.is_passed for standing in known.values()),
+        "passed": sum(exercise_state.is_passed for exercise_state in known.values()),
         "next": {"exercise": None if following is None else following.id, "command": next_command(following, known)},
         "exercises": [
             _exercise(lesson, progress.of(lesson.id), known[lesson.id], workspace) for lesson in course.lessons
@@ -36,13 +36,15 @@ def render(course: Course, progress: Progress, workspace: Workspace) -> str:
     return json.dumps(document, ensure_ascii=False, indent=2) + "\n"
 
 
-def _exercise(lesson: Lesson, progress: ExerciseProgress, standing: Standing, workspace: Workspace) -> dict[str, Any]:
+def _exercise(
+    lesson: Lesson, progress: ExerciseProgress, exercise_state: ExerciseState, workspace: Workspace
+) -> dict[str, Any]:
     last = progress.last
     return {
         "id": lesson.id,
         "title": lesson.title,
         "difficulty": lesson.difficulty.value,
-        "standing": standing.state.value,
+        "standing": exercise_state.state.value,
         "files": [str(workspace.path_of(file.name)) for file in lesson.files],
         "criteria": [{"id": criterion.id, "bonus": criterion.bonus} for criterion in lesson.criteria],
         "hints_shown": progress.hints,

@@ -7,13 +7,13 @@ import sys
 from typing import TYPE_CHECKING
 
 from tutor.cli import context, terminal
+from tutor.cli.course_states import exercise_states, next_command, next_lesson
 from tutor.cli.errors import PASSED
-from tutor.cli.standing import next_command, next_lesson, standings
 from tutor.invocation import command
 
 if TYPE_CHECKING:
     from tutor.content import Lesson
-    from tutor.workspace import Standing, Workspace
+    from tutor.workspace import ExerciseState, Workspace
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -25,7 +25,7 @@ def run(arguments: argparse.Namespace) -> int:
     course = context.load_course(arguments)
     workspace = context.require_workspace(arguments)
     progress = context.read_progress(workspace)
-    known = standings(course, progress, workspace)
+    known = exercise_states(course, progress, workspace)
     lesson = next_lesson(course.lessons, known)
     if lesson is None:
         terminal.out(f"You have passed all {len(known)} exercises.\nNext: {next_command(None, known)}\n")
@@ -39,9 +39,9 @@ def run(arguments: argparse.Namespace) -> int:
     return PASSED
 
 
-def _so_far(lesson: Lesson, standing: Standing, workspace: Workspace) -> list[str]:
+def _so_far(lesson: Lesson, exercise_state: ExerciseState, workspace: Workspace) -> list[str]:
     lines = [f"  to edit   {context.display_path(workspace.path_of(file.name))}" for file in lesson.files]
-    if standing.is_attempted:
-        lines += [f"  not yet   {', '.join(standing.missed)}"] if standing.missed else []
+    if exercise_state.is_attempted:
+        lines += [f"  not yet   {', '.join(exercise_state.missed)}"] if exercise_state.missed else []
         lines += [f"  a hint    {command('hint', lesson.id)}"]
     return [*lines, f"  to run    {command('run', lesson.id)}", ""]

@@ -10,7 +10,7 @@ from tutor.content import Lesson
 from tutor.errors import CommandRefused, StorageError, UnknownExercise
 from tutor.judge.verdict import Status
 from tutor.session import Session
-from tutor.workspace import Progress, State, standing
+from tutor.workspace import Progress, State, exercise_state
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,11 +55,11 @@ class Conversation:
 
     def about(self, lesson: Lesson, progress: Progress) -> str:
         """A lesson in a line: its id, title and difficulty, and how it stands."""
-        return f"{lesson.id} {lesson.title}, {lesson.difficulty.value}, {self.standing(lesson, progress)}."
+        return f"{lesson.id} {lesson.title}, {lesson.difficulty.value}, {self.state_words(lesson, progress)}."
 
-    def standing(self, lesson: Lesson, progress: Progress) -> str:
+    def state_words(self, lesson: Lesson, progress: Progress) -> str:
         """How far the learner is with a lesson."""
-        found = standing(lesson, progress.of(lesson.id))
+        found = exercise_state(lesson, progress.of(lesson.id))
         return {
             State.PASSED: "passed",
             State.NOT_PASSED: f"not passed yet, {found.count} criteria met",

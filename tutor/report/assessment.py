@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from tutor.content import ChecklistItem, Course, CriterionText, Lesson
 from tutor.judge.verdict import Status
-from tutor.workspace import Attempt, ExerciseProgress, Progress, State, standing
+from tutor.workspace import Attempt, ExerciseProgress, Progress, State, exercise_state
 
 
 @dataclass(frozen=True, slots=True)
@@ -166,7 +166,7 @@ def _is_pass(attempt: Attempt) -> bool:
 
 
 def _exercise(lesson: Lesson, progress: ExerciseProgress) -> ExerciseStanding:
-    found = standing(lesson, progress)
+    found = exercise_state(lesson, progress)
     passes = [attempt for attempt in progress.attempts if _is_pass(attempt)]
     return ExerciseStanding(
         id=lesson.id,

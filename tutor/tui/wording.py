@@ -26,9 +26,9 @@ def label(lesson: Lesson) -> str:
     return lesson.id.upper()
 
 
-def standing(lesson: Lesson, progress: ExerciseProgress) -> tuple[str, str]:
+def progress_label(lesson: Lesson, progress: ExerciseProgress) -> tuple[str, str]:
     """How a lesson stands: a mark and words. The mark is ✓ only where the whole exercise has been passed."""
-    found = workspace.standing(lesson, progress)
+    found = workspace.exercise_state(lesson, progress)
     return {
         State.PASSED: ("✓", "passed"),
         State.NOT_PASSED: ("◐", f"{found.count} met"),

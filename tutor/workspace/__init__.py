@@ -3,12 +3,12 @@
 from tutor.workspace.app_state import AppState, AppStateFile, RunOptions
 from tutor.workspace.atomic import write_atomically
 from tutor.workspace.domain import domain_of, given_domain
+from tutor.workspace.exercise_states import ExerciseState, State, exercise_state, last_met
 from tutor.workspace.layout import Workspace, find_workspace
 from tutor.workspace.placing_files import Placed, place_files
 from tutor.workspace.progress import Attempt, ExerciseProgress, Progress
 from tutor.workspace.progress_file import ProgressFile
 from tutor.workspace.saving import Saved, back_up_file, overwrite_file, read_source
-from tutor.workspace.standing import Standing, State, last_met, standing
 from tutor.workspace.starting import TEMPLATE, Started, start, start_in
 from tutor.workspace.submissions import find_submission, is_own, is_started, solution
 
@@ -18,17 +18,18 @@ __all__ = [
     "AppStateFile",
     "Attempt",
     "ExerciseProgress",
+    "ExerciseState",
     "Placed",
     "Progress",
     "ProgressFile",
     "RunOptions",
     "Saved",
-    "Standing",
     "Started",
     "State",
     "Workspace",
     "back_up_file",
     "domain_of",
+    "exercise_state",
     "find_submission",
     "find_workspace",
     "given_domain",
@@ -39,7 +40,6 @@ __all__ = [
     "place_files",
     "read_source",
     "solution",
-    "standing",
     "start",
     "start_in",
     "write_atomically",

@@ -46,7 +46,7 @@ class LessonRow(ListItem):
 
     def render(self) -> Content:
         """The mark, the title; below it the difficulty, and how it stands in words."""
-        mark, standing = wording.standing(self.lesson, self.progress)
+        mark, standing = wording.progress_label(self.lesson, self.progress)
         width = self.content_size.width
         title = "\n  ".join(self._title(width))
         level = wording.LEVELS[self.lesson.difficulty]
@@ -98,5 +98,5 @@ class LessonList(RowList):
         for row in self.lesson_rows:
             row.progress = progress.of(row.lesson.id)
             row.refresh()
-        passed = sum(wording.standing(row.lesson, row.progress)[0] == "✓" for row in self.lesson_rows)
+        passed = sum(wording.progress_label(row.lesson, row.progress)[0] == "✓" for row in self.lesson_rows)
         self.border_subtitle = f"{passed} of {len(self.lesson_rows)} passed"

@@ -9,25 +9,25 @@ from tutor.invocation import command
 
 if TYPE_CHECKING:
     from tutor.content import Course, Lesson
-    from tutor.workspace import Progress, Standing, Workspace
+    from tutor.workspace import ExerciseState, Progress, Workspace
 
 
-def standings(course: Course, progress: Progress, workspace: Workspace) -> dict[str, Standing]:
+def exercise_states(course: Course, progress: Progress, workspace: Workspace) -> dict[str, ExerciseState]:
     """How the learner stands with each exercise, by its id."""
-    from tutor.workspace import is_started, standing
+    from tutor.workspace import exercise_state, is_started
 
     return {
-        lesson.id: standing(lesson, progress.of(lesson.id), has_files=is_started(lesson, None, workspace))
+        lesson.id: exercise_state(lesson, progress.of(lesson.id), has_files=is_started(lesson, None, workspace))
         for lesson in course.lessons
     }
 
 
-def next_lesson(lessons: Sequence[Lesson], known: Mapping[str, Standing]) -> Lesson | None:
+def next_lesson(lessons: Sequence[Lesson], known: Mapping[str, ExerciseState]) -> Lesson | None:
     """The first exercise that is not passed; None where all are."""
     return next((lesson for lesson in lessons if not known[lesson.id].is_passed), None)
 
 
-def next_command(lesson: Lesson | None, known: Mapping[str, Standing]) -> str:
+def next_command(lesson: Lesson | None, known: Mapping[str, ExerciseState]) -> str:
     """What to type for `next_lesson`."""
     if lesson is None:
         return command("checklist")

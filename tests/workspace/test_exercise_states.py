@@ -6,7 +6,7 @@ from tutor.content import load_course
 from tutor.judge.verdict import Status
 from tutor.report.assessment import assess
 from tutor.tui import wording
-from tutor.workspace import Attempt, ExerciseProgress, Progress, State, standing
+from tutor.workspace import Attempt, ExerciseProgress, Progress, State, exercise_state
 
 LESSON = load_course().find("i1.1")
 REQUIRED = tuple(criterion.id for criterion in LESSON.criteria if not criterion.bonus)
@@ -25,25 +25,25 @@ def progress(*attempts: Attempt) -> ExerciseProgress:
 
 def test_a_criterion_that_passed_alone_counts_everywhere() -> None:
     one = progress(attempt("range", judged=("range",)))
-    found = standing(LESSON, one)
+    found = exercise_state(LESSON, one)
     assert (found.state, found.met, found.missed) == (State.NOT_PASSED, ("range",), ())
     (row,) = (each for each in assess(load_course(), Progress({"i1.1": one})).exercises if each.id == "i1.1")
     assert (row.met, row.required) == (1, 6)
-    assert wording.standing(LESSON, one) == ("◐", "1 of 6 met")
+    assert wording.progress_label(LESSON, one) == ("◐", "1 of 6 met")
 
 
 def test_the_last_check_that_judged_a_criterion_counts() -> None:
-    found = standing(LESSON, progress(attempt("publishes", "range"), attempt("rate", judged=("rate", "range"))))
+    found = exercise_state(LESSON, progress(attempt("publishes", "range"), attempt("rate", judged=("rate", "range"))))
     assert found.met == ("publishes", "rate")
     assert found.missed == tuple(id for id in REQUIRED if id not in ("publishes", "rate"))
 
 
 def test_what_has_been_passed_stays_so() -> None:
-    found = standing(LESSON, progress(attempt(*REQUIRED, "shutdown"), attempt()))
+    found = exercise_state(LESSON, progress(attempt(*REQUIRED, "shutdown"), attempt()))
     assert (found.state, found.met, found.missed, found.bonus_met) == (State.PASSED, REQUIRED, (), ())
 
 
 def test_without_a_check_it_is_started_or_not() -> None:
-    assert standing(LESSON, ExerciseProgress("2026-01-01T00:00:00Z")).state is State.STARTED
-    assert standing(LESSON, ExerciseProgress(), has_files=True).state is State.STARTED
-    assert standing(LESSON, ExerciseProgress()).state is State.NOT_STARTED
+    assert exercise_state(LESSON, ExerciseProgress("2026-01-01T00:00:00Z")).state is State.STARTED
+    assert exercise_state(LESSON, ExerciseProgress(), has_files=True).state is State.STARTED
+    assert exercise_state(LESSON, ExerciseProgress()).state is State.NOT_STARTED

@@ -21,7 +21,7 @@ class State(Enum):
 
 
 @dataclass(frozen=True, slots=True)
-class Standing:
+class ExerciseState:
     """One exercise. `met` and `bonus_met` hold the ids of the required and the bonus criteria that are met.
 
     `missed` are the required ones that were judged and are not met; of the others, nothing is known.
@@ -64,7 +64,7 @@ def last_met(criteria: Iterable[str], progress: ExerciseProgress) -> dict[str, b
     return met
 
 
-def standing(lesson: Lesson, progress: ExerciseProgress, *, has_files: bool = False) -> Standing:
+def exercise_state(lesson: Lesson, progress: ExerciseProgress, *, has_files: bool = False) -> ExerciseState:
     """How far the learner is. `has_files`: the exercise's files are in the workspace, whoever put them there.
 
     A criterion is met where it passed in the last check that judged it. An exercise that has been passed stays so, with
@@ -80,7 +80,7 @@ def standing(lesson: Lesson, progress: ExerciseProgress, *, has_files: bool = Fa
         state = State.NOT_PASSED
     else:
         state = State.STARTED if progress.started_at or has_files else State.NOT_STARTED
-    return Standing(
+    return ExerciseState(
         state,
         required,
         bonus,
