@@ -199,7 +199,7 @@ print(json.dumps({"file": example_interfaces.__file__, "untouched": before == [s
 def test_a_missing_prefix_is_named_with_its_hint(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setattr(bundled_interfaces, "prefix", lambda: tmp_path)
     monkeypatch.setattr(importlib.util, "find_spec", lambda name: None)
-    with pytest.raises(InterfacesNotBuiltError, match="uv sync --inexact --reinstall-package ros-tutor"):
+    with pytest.raises(InterfacesNotBuiltError, match="uv sync --reinstall-package ros-tutor"):
         bundled_interfaces.activate()
 
 

@@ -28,7 +28,7 @@ def run(arguments: argparse.Namespace) -> int:
     try:
         from tutor.serve.server import AppServer
     except ImportError as error:
-        raise ServeError(f"the app cannot be served: {error.name} is not installed", _MEND) from error
+        raise ServeError(f"the app cannot be served: {error.name} is not installed", _INSTALL) from error
 
     context.load_course(arguments)  # a course that is broken is told here, not in the browser
     lessons = getattr(arguments, "lessons", None)
@@ -55,7 +55,7 @@ def run(arguments: argparse.Namespace) -> int:
     return INTERRUPTED
 
 
-_MEND = "install textual-serve (in a clone: ./.ci/uv sync)"
+_INSTALL = "install textual-serve (in a clone: ./.ci/uv sync)"
 
 
 def _port(text: str) -> int:

@@ -44,7 +44,7 @@ def activate() -> None:
         missing = site_packages() / _PACKAGE
         raise InterfacesNotBuiltError(
             f"the bundled {_PACKAGE} is not built ({missing} is missing);"
-            " run: uv sync --inexact --reinstall-package ros-tutor"
+            " in a clone, ./.ci/uv sync --reinstall-package ros-tutor builds it"
         )
     # LD_LIBRARY_PATH is only read when a process starts. A library that is loaded already is found by its name alone,
     # which is how the ROS type supports look for one another.

@@ -1,0 +1,29 @@
+"""A clone as a Python developer treats it."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import sysconfig
+from pathlib import Path
+
+import pytest
+
+CLONE = Path(__file__).resolve().parents[2]
+
+
+def test_a_plain_uv_sync_keeps_ros() -> None:
+    """The ROS wheels' records under second names look like packages that nobody asked for."""
+    uv = next((path for path in (CLONE / ".uv-tool/bin/uv", shutil.which("uv")) if path and Path(path).exists()), None)
+    if uv is None:
+        pytest.skip("there is no uv")
+    environ = {name: value for name, value in os.environ.items() if name not in ("VIRTUAL_ENV", "UV_PYTHON")}
+    command = [uv, "sync", "--frozen", "--offline", "--dry-run"]
+    ran = subprocess.run(command, cwd=CLONE, env=environ, capture_output=True, text=True, timeout=60, check=False)
+    assert ran.returncode == 0, ran.stderr
+    removed = re.findall(r"^ - (\S+)==(\S+)", ran.stderr, re.MULTILINE)
+    records = {f"{name.replace('-', '_')}-{version}.dist-info" for name, version in removed}
+    site_packages = Path(sysconfig.get_path("purelib"))
+    assert records <= {each.name for each in site_packages.glob("*.dist-info")}, ran.stderr
