@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from tutor.judge.trace import Ending, LogRecord, Sample, Trace
-from tutor.ros_model import Graph, TopicEndpoint
+from tutor.ros_model import Graph, TopicEndpoint, is_standard_topic
 
 FILE = "my_launch.py"
 NAMESPACE = "robot1"
@@ -51,16 +51,16 @@ class LaunchRun:
 
 def publishers(graph: Graph) -> list[TopicEndpoint]:
     """The publishers, but for those that ROS makes by itself."""
-    return [each for each in graph.publishers if not _plumbing(each.topic)]
+    return [each for each in graph.publishers if not _is_standard(each.topic)]
 
 
 def subscriptions(graph: Graph) -> list[TopicEndpoint]:
     """The subscriptions, but for those that ROS makes by itself."""
-    return [each for each in graph.subscriptions if not _plumbing(each.topic)]
+    return [each for each in graph.subscriptions if not _is_standard(each.topic)]
 
 
-def _plumbing(topic: str) -> bool:
-    return topic in ("/rosout", "/parameter_events", "/clock") or any(part.startswith("_") for part in topic.split("/"))
+def _is_standard(topic: str) -> bool:
+    return is_standard_topic(topic) or topic == "/clock" or any(part.startswith("_") for part in topic.split("/"))
 
 
 def find_pair(graph: Graph) -> Pair | None:

@@ -44,3 +44,13 @@ def test_parameter_nodes_are_those_with_parameter_services() -> None:
     graph = Graph(("/w", "/x", "/x", "/y"), servers=(*servers, ServiceEndpoint("/add", "a/srv/B", "/w")))
     assert graph.parameter_nodes == ("/x", "/y")
     assert [server.is_standard for server in graph.servers] == [True, True, True, False]
+    assert [(service.name, service.is_standard) for service in graph.services] == [
+        ("/add", False),
+        ("/x/list_parameters", True),
+        ("/y/list_parameters", True),
+    ]
+
+
+@pytest.mark.parametrize(("name", "standard"), [("/rosout", True), ("/parameter_events", True), ("/chatter", False)])
+def test_the_topics_that_every_node_has_are_standard(name: str, standard: bool) -> None:
+    assert Topic(name).is_standard is standard

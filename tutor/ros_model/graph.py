@@ -54,7 +54,7 @@ class ServiceEndpoint:
     @property
     def is_standard(self) -> bool:
         """Whether it is one that nodes have by themselves, such as those of their parameters."""
-        return self.type.startswith(("rcl_interfaces/", "type_description_interfaces/"))
+        return _is_standard_type(self.type)
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,6 +70,11 @@ class Topic:
         """The types that its endpoints use, each once; more than one is a mistake."""
         return tuple(dict.fromkeys(end.type for end in (*self.publishers, *self.subscriptions)))
 
+    @property
+    def is_standard(self) -> bool:
+        """Whether every node has it."""
+        return is_standard_topic(self.name)
+
 
 @dataclass(frozen=True, slots=True)
 class Service:
@@ -78,6 +83,11 @@ class Service:
     name: str
     types: tuple[str, ...]
     nodes: tuple[str, ...]
+
+    @property
+    def is_standard(self) -> bool:
+        """Whether nodes offer it by themselves, such as those of their parameters."""
+        return all(map(_is_standard_type, self.types))
 
 
 @dataclass(frozen=True, slots=True)
@@ -159,6 +169,10 @@ def _problems(publisher: TopicEndpoint, subscription: TopicEndpoint) -> Iterator
         return
     for mismatch in incompatible_policies(publisher.qos, subscription.qos):
         yield f"{_capitalised(str(mismatch))}. {_capitalised(mismatch.hint)}."
+
+
+def _is_standard_type(name: str) -> bool:
+    return name.startswith(("rcl_interfaces/", "type_description_interfaces/"))
 
 
 def _capitalised(text: str) -> str:

@@ -8,7 +8,6 @@ from collections.abc import Iterator, Sequence
 
 from tutor.ros_model import Graph, Topic, connections
 from tutor.tui.live.graph_drawing import drawing
-from tutor.tui.live.state import is_plumbing, is_plumbing_service
 from tutor.tui.widgets.line_view import Row
 
 _INDENT = "  "
@@ -16,7 +15,7 @@ _INDENT = "  "
 
 def rows_of_graph(graph: Graph, width: int, everything: bool) -> list[Row]:
     """The whole graph; without `everything` the topics and services that every node has are left out."""
-    topics = [topic for topic in graph.topics if everything or not is_plumbing(topic.name)]
+    topics = [topic for topic in graph.topics if everything or not topic.is_standard]
     rows = list(_problems(graph, width))
     rows += drawing(topics, width)
     if topics:
@@ -53,13 +52,13 @@ def _nodes(graph: Graph, width: int, everything: bool) -> Iterator[Row]:
         yield (("Nodes", "title"),)
     for node in dict.fromkeys(graph.nodes):
         yield ((f"  {node}", "name"),)
-        shown = [topic for topic in graph.topics if everything or not is_plumbing(topic.name)]
+        shown = [topic for topic in graph.topics if everything or not topic.is_standard]
         publishes = [topic.name for topic in shown if any(end.node == node for end in topic.publishers)]
         listens = [topic.name for topic in shown if any(end.node == node for end in topic.subscriptions)]
         serves = [
             service.name
             for service in graph.services
-            if node in service.nodes and (everything or not is_plumbing_service(service.name))
+            if node in service.nodes and (everything or not service.is_standard)
         ]
         if everything:
             yield from _qos(shown, node)

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 
 from tutor.content import LiveView
 from tutor.ros_model import Graph
-from tutor.tui.live.state import is_plumbing, is_plumbing_service
 
 _ALIKE = 0.8
 """From this likeness on a name is taken for a slip: /temprature and /temperature have 0.96, /add and /divide 0.2."""
@@ -31,14 +30,14 @@ def near_misses(graph: Graph, asked: LiveView) -> Iterator[NearMiss]:
     """Every slip, by its topic or service."""
     topics, services = [topic.name for topic in asked.topics], list(asked.services)
     for topic in graph.topics:
-        if is_plumbing(topic.name) or topic.name in topics:
+        if topic.is_standard or topic.name in topics:
             continue
         for does, ends in (("publishes", topic.publishers), ("listens to", topic.subscriptions)):
             for node in dict.fromkeys(end.node for end in ends):
                 if wanted := _near(topic.name, topics, node):
                     yield NearMiss(node, does, topic.name, wanted)
     for service in graph.services:
-        if is_plumbing_service(service.name) or service.name in services:
+        if service.is_standard or service.name in services:
             continue
         for node in service.nodes:
             if wanted := _near(service.name, services, node):

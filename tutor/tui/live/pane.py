@@ -33,7 +33,7 @@ from tutor.tui.live.near_miss import near_misses
 from tutor.tui.live.parameters_panel import ParametersPanel
 from tutor.tui.live.publish_dialog import PublishScreen
 from tutor.tui.live.services_panel import ServicesPanel
-from tutor.tui.live.state import LiveState, is_plumbing, is_plumbing_service
+from tutor.tui.live.state import LiveState
 from tutor.tui.live.topics_panel import Order, TopicsPanel
 from tutor.tui.widgets.strip import TabStrip
 
@@ -239,9 +239,9 @@ class LivePane(Vertical):
         state = self.state
         graph = state.graph or Graph()
         counts = {
-            "topics": sum(not is_plumbing(topic.name) for topic in graph.topics),
+            "topics": sum(not topic.is_standard for topic in graph.topics),
             "parameters": len(state.listed_parameters(everything=False)),
-            "services": sum(not is_plumbing_service(service.name) for service in graph.services),
+            "services": sum(not service.is_standard for service in graph.services),
             "graph": 0,
         }
         labels = {name: f"{label} {counts[name]}" if counts[name] else label for name, label in TABS.items()}
@@ -354,7 +354,7 @@ class LivePane(Vertical):
         panel = self.query_one(TopicsPanel)
         for topic in self.state.graph.topics:
             name = topic.name
-            if is_plumbing(name) or not topic.publishers or name in self._offered or len(self._offered) >= MOST_OFFERED:
+            if topic.is_standard or not topic.publishers or name in self._offered or len(self._offered) >= MOST_OFFERED:
                 continue
             self._offered.add(name)
             if name not in self.state.topics:

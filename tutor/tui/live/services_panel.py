@@ -20,7 +20,7 @@ from tutor.tui.live import wording
 from tutor.tui.live.history import HistoryView, call_rows, waiting_row
 from tutor.tui.live.request_form import ServiceForm
 from tutor.tui.live.row_table import RowTable
-from tutor.tui.live.state import LiveState, is_plumbing_service
+from tutor.tui.live.state import LiveState
 from tutor.tui.live.topics_panel import Order
 from tutor.tui.widgets.strip import Action, ActionBar
 
@@ -74,7 +74,7 @@ class ServicesPanel(Vertical):
     def show_list(self) -> None:
         """The graph has changed."""
         services = self.state.graph.services if self.state.graph else ()
-        listed = tuple(each for each in services if self.show_all or not is_plumbing_service(each.name))
+        listed = tuple(each for each in services if self.show_all or not each.is_standard)
         if listed == self._listed:
             return
         self._listed = listed

@@ -146,11 +146,11 @@ class LiveState:
         return self.graph.nodes if self.graph else ()
 
     def listed_topics(self) -> list[Topic]:
-        """Those in the graph, and those that are followed though nobody has them now; the plumbing last."""
+        """Those in the graph, and those that are followed though nobody has them now; the standard ones last."""
         there = {topic.name: topic for topic in self.graph.topics} if self.graph else {}
         for name in self.topics:
             there.setdefault(name, Topic(name))
-        return sorted(there.values(), key=lambda topic: (is_plumbing(topic.name), topic.name))
+        return sorted(there.values(), key=lambda topic: (topic.is_standard, topic.name))
 
     def is_asked(self, topic: str) -> bool:
         """Whether the exercise is about this topic."""
@@ -172,33 +172,10 @@ class LiveState:
             each
             for node in sorted(self.parameters)
             for each in sorted(self.parameters[node].parameters, key=lambda parameter: parameter.name)
-            if everything or not is_plumbing_parameter(each.name)
+            if everything or not is_standard_parameter(each.name)
         ]
 
 
-def is_plumbing(topic: str) -> bool:
-    """Whether every node has this topic."""
-    return topic in ("/rosout", "/parameter_events")
-
-
-def is_plumbing_service(name: str) -> bool:
-    """Whether every node offers such a service."""
-    return name.rpartition("/")[2] in _SERVICES_OF_EVERY_NODE
-
-
-def is_plumbing_parameter(name: str) -> bool:
+def is_standard_parameter(name: str) -> bool:
     """Whether nodes have such a parameter without declaring it."""
     return name in ("use_sim_time", "start_type_description_service") or name.startswith("qos_overrides.")
-
-
-_SERVICES_OF_EVERY_NODE = frozenset(
-    (
-        "describe_parameters",
-        "get_parameter_types",
-        "get_parameters",
-        "get_type_description",
-        "list_parameters",
-        "set_parameters",
-        "set_parameters_atomically",
-    )
-)

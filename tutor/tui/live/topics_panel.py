@@ -21,7 +21,7 @@ from tutor.tui.live import wording
 from tutor.tui.live.echo_view import EchoView
 from tutor.tui.live.plot_view import PlotView
 from tutor.tui.live.row_table import RowTable
-from tutor.tui.live.state import LiveState, TopicView, is_plumbing
+from tutor.tui.live.state import LiveState, TopicView
 from tutor.tui.widgets.strip import Action, ActionBar
 
 _COLUMNS = ("", "Topic", "Rate", "Count", "Pub", "Sub", "Type")
@@ -209,7 +209,7 @@ class TopicsPanel(Vertical):
         )
         timing = update.timing if update and not silent else None
         types = [wording.short_type(name) for name in topic.types]
-        if is_plumbing(topic.name):  # their types are long, and known to anyone who looks for them
+        if topic.is_standard:  # their types are long, and known to anyone who looks for them
             types = [name.rpartition("/")[2] for name in types]
         pub, sub = len(topic.publishers), len(topic.subscriptions)
         return (
