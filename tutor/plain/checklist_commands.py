@@ -5,10 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 
 from tutor.errors import CommandRefused
-from tutor.plain.conversation import Conversation, DialogCommand, short_path
+from tutor.plain.conversation import Conversation, DialogCommand
 from tutor.report.assessment import Assessment, ItemStanding, assess
 from tutor.report.checklist import FORMATS, SUFFIXES
 from tutor.report.phrases import describe_evidence, near_day
+from tutor.session.paths import short_path
 
 _MOST_EVIDENCE = 2
 _FORMATS = f"{', '.join(FORMATS[:-1])} or {FORMATS[-1]}"

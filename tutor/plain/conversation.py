@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Awaitable, Callable
 from dataclasses import dataclass, replace
-from pathlib import Path
 
 from tutor.content import Lesson
 from tutor.errors import CommandRefused, StorageError, UnknownExercise
-from tutor.judge.verdict import Status
 from tutor.session import Session
 from tutor.workspace import Progress, State, exercise_state
 
@@ -41,7 +39,7 @@ class Conversation:
         if remembered is not None:
             return remembered
         progress = self.session.progress()
-        left = [lesson for lesson in lessons if progress.of(lesson.id).best is not Status.PASSED]
+        left = [lesson for lesson in lessons if not progress.of(lesson.id).is_passed]
         return (left or [*lessons])[0]
 
     def open_lesson(self, lesson: Lesson) -> None:
@@ -78,11 +76,3 @@ class Conversation:
             return self.session.course.find(text)
         except UnknownExercise as error:
             raise CommandRefused(str(error)) from error
-
-
-def short_path(path: Path) -> str:
-    """A path as people say it."""
-    try:
-        return f"~/{path.relative_to(Path.home())}"
-    except (ValueError, RuntimeError):
-        return str(path)

@@ -9,10 +9,9 @@ from collections.abc import Callable
 from difflib import get_close_matches
 
 from tutor.errors import CommandRefused, StorageError, WorkspaceError
-from tutor.judge.verdict import Status
 from tutor.plain.checklist_commands import ChecklistCommands
 from tutor.plain.checks import Checks
-from tutor.plain.conversation import Conversation, DialogCommand, short_path
+from tutor.plain.conversation import Conversation, DialogCommand
 from tutor.plain.lessons import Lessons
 from tutor.plain.lines import Lines
 from tutor.plain.nodes import Nodes
@@ -21,6 +20,7 @@ from tutor.plain.speech import counted
 from tutor.printable import printable
 from tutor.ros import stale_segments
 from tutor.session import Session
+from tutor.session.paths import short_path
 
 INTERRUPTED = 130
 
@@ -92,7 +92,7 @@ class Dialog:
 
     def _greet(self) -> None:
         lessons, progress = self._session.lessons, self._session.progress()
-        passed = sum(progress.of(lesson.id).best is Status.PASSED for lesson in lessons)
+        passed = sum(progress.of(lesson.id).is_passed for lesson in lessons)
         root = short_path(self._session.workspace.root)
         self._say(f"ROS Tutor in plain lines. {counted(len(lessons), 'lesson')}, {passed} passed.")
         if self._session.workspace.exists:

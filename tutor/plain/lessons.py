@@ -5,9 +5,9 @@ from __future__ import annotations
 from tutor.content import Lesson
 from tutor.errors import CommandRefused
 from tutor.invocation import with_program_name
-from tutor.judge.verdict import Status
 from tutor.plain import speech
-from tutor.plain.conversation import Conversation, DialogCommand, short_path
+from tutor.plain.conversation import Conversation, DialogCommand
+from tutor.session.paths import short_path
 
 
 class Lessons:
@@ -112,7 +112,7 @@ class Lessons:
     async def solution(self, words: list[str]) -> None:
         """Read it; before a pass, only where the learner says so."""
         lesson = self._conversation.lesson
-        if self._conversation.session.progress().of(lesson.id).best is not Status.PASSED:
+        if not self._conversation.session.progress().of(lesson.id).is_passed:
             answer = await self._conversation.ask(
                 "You have not passed this lesson yet. Type yes to read our solution: "
             )

@@ -6,8 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from tutor.content import ChecklistItem, Course, CriterionText, Lesson
-from tutor.judge.verdict import Status
-from tutor.workspace import Attempt, ExerciseProgress, Progress, State, exercise_state
+from tutor.workspace import ExerciseProgress, Progress, State, exercise_state
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,7 +61,7 @@ class GroupStanding:
 
 @dataclass(frozen=True, slots=True)
 class ExerciseStanding:
-    """One exercise. `met` and `bonus_met` count the criteria that are met (see `tutor.workspace.standing`).
+    """One exercise. `met` and `bonus_met` count the criteria that are met (see `tutor.workspace.exercise_states`).
 
     `passed_at` and `last_at` are UTC times in ISO 8601, None where there is none (or it is no longer known).
     """
@@ -148,26 +147,22 @@ def _item(item: ChecklistItem, course: Course, progress: Progress) -> ItemStandi
 
 
 def _found(lesson: Lesson, criteria: list[CriterionText], progress: ExerciseProgress) -> Iterator[Evidence]:
-    if not criteria and progress.best is Status.PASSED:
-        passes = [attempt.at for attempt in progress.attempts if _is_pass(attempt)]
+    if not criteria and progress.is_passed:
+        passes = [attempt.at for attempt in progress.attempts if attempt.is_pass]
         yield Evidence(lesson.id, "", passes[-1] if passes else "")
     for criterion in criteria:
         # What the skeleton passes untouched shows nothing before the rest does its work as well.
-        counted = [attempt for attempt in progress.attempts if criterion.open or _is_pass(attempt)]
+        counted = [attempt for attempt in progress.attempts if criterion.open or attempt.is_pass]
         at = [attempt.at for attempt in counted if criterion.id in attempt.passed]
         if at:
             yield Evidence(lesson.id, criterion.id, at[-1])
-        elif progress.best is Status.PASSED and not criterion.bonus:
+        elif progress.is_passed and not criterion.bonus:
             yield Evidence(lesson.id, criterion.id, "")  # so long ago that the attempt is not kept any more
-
-
-def _is_pass(attempt: Attempt) -> bool:
-    return attempt.whole and attempt.verdict is Status.PASSED
 
 
 def _exercise(lesson: Lesson, progress: ExerciseProgress) -> ExerciseStanding:
     found = exercise_state(lesson, progress)
-    passes = [attempt for attempt in progress.attempts if _is_pass(attempt)]
+    passes = [attempt for attempt in progress.attempts if attempt.is_pass]
     return ExerciseStanding(
         id=lesson.id,
         title=lesson.title,

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from datetime import datetime
-from pathlib import Path
 from textwrap import shorten
 
 from tutor import workspace
@@ -55,14 +54,6 @@ def when(at: str) -> str:
         return at
     today = datetime.now().astimezone().date() == moment.date()
     return f"today {moment:%H:%M}" if today else f"{moment:%Y-%m-%d %H:%M}"
-
-
-def short(path: Path) -> str:
-    """A path with the home folder as ~."""
-    try:
-        return f"~/{path.relative_to(Path.home())}"
-    except (RuntimeError, ValueError):  # it is elsewhere, or nobody knows the home
-        return str(path)
 
 
 def key(name: str, *, typing: bool) -> str:

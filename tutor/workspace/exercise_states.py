@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from enum import Enum
 
 from tutor.content import Lesson
-from tutor.judge.verdict import Status
 from tutor.workspace.progress import ExerciseProgress
 
 
@@ -72,7 +71,7 @@ def exercise_state(lesson: Lesson, progress: ExerciseProgress, *, has_files: boo
     """
     required = tuple(criterion.id for criterion in lesson.criteria if not criterion.bonus)
     bonus = tuple(criterion.id for criterion in lesson.criteria if criterion.bonus)
-    passed = progress.best is Status.PASSED
+    passed = progress.is_passed
     met = last_met((*required, *bonus), progress)
     if passed:
         state = State.PASSED

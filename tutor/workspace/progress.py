@@ -29,6 +29,11 @@ class Attempt:
     whole: bool = True
     judged: tuple[str, ...] = ()
 
+    @property
+    def is_pass(self) -> bool:
+        """Whether everything required passed, and all of it was judged."""
+        return self.whole and self.verdict is Status.PASSED
+
     def asked(self, criteria: Iterable[str]) -> list[str]:
         """Those of these criteria that were judged."""
         return [id for id in criteria if self.whole or id in self.judged or id in self.passed]
@@ -46,6 +51,11 @@ class ExerciseProgress:
     def __post_init__(self) -> None:
         if self.hints < 0:
             raise ValueError("hints")
+
+    @property
+    def is_passed(self) -> bool:
+        """Whether the exercise has been passed, however long ago."""
+        return self.best is Status.PASSED
 
     @property
     def last(self) -> Attempt | None:
@@ -81,7 +91,7 @@ class Progress:
         passed = tuple(c.id for c in result.criteria if c.verdict.passed)
         judged = () if whole else tuple(c.id for c in result.criteria)
         attempt = Attempt(now(), result.verdict, passed, whole, judged)
-        best = result.verdict if whole and before.best is not Status.PASSED else before.best
+        best = result.verdict if whole and not before.is_passed else before.best
         attempts = (*before.attempts, attempt)[-MOST_ATTEMPTS:]
         started_at = before.started_at or attempt.at
         return self.with_exercise(result.id, replace(before, started_at=started_at, attempts=attempts, best=best))

@@ -6,7 +6,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from tutor.errors import StorageError
-from tutor.tui import commands, wording
+from tutor.session.paths import short_path
+from tutor.tui import commands
 from tutor.tui.control.host import HostScreen
 from tutor.tui.control.records import Records
 from tutor.workspace import Progress
@@ -87,7 +88,7 @@ class ChecklistController:
         self._host.app.push_screen(ExportScreen(self._host.model.session.workspace.root, format, file), answered)
 
     async def _write(self, format: str, path: Path, replace: bool = False) -> None:
-        name = wording.short(path)
+        name = short_path(path)
         try:
             done = await self._records.run_in_order(self._host.model.session.export, format, path, replace)
         except StorageError as error:

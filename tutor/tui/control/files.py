@@ -11,6 +11,7 @@ from textual.timer import Timer
 
 from tutor.content import Lesson
 from tutor.errors import StorageError, WorkspaceError
+from tutor.session.paths import short_path
 from tutor.tui import commands, messages, wording
 from tutor.tui.control.host import HostScreen
 from tutor.tui.control.records import Records
@@ -314,5 +315,5 @@ class Files:
             if text is not None:
                 self._disk[path] = text
                 await self._pane.show_source(path, text, visible=path == model.path)
-        where = f" Yours is kept as {wording.short(placed.backups[0])}." if placed.backups else ""
+        where = f" Yours is kept as {short_path(placed.backups[0])}." if placed.backups else ""
         self._host.say(f"{file.name} is the skeleton again.{where}", warn=True)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from enum import StrEnum
 from functools import partial
 
-from tutor.judge.verdict import Status
 from tutor.tui import commands, wording
 from tutor.tui.control.files import Files
 from tutor.tui.control.host import HostScreen
@@ -44,7 +43,7 @@ class Views:
             self.back()
             return
         lesson = self._host.model.lesson
-        passed = self._host.model.progress.of(lesson.id).best is Status.PASSED
+        passed = self._host.model.progress.of(lesson.id).is_passed
         if view in (View.SKELETON, View.CHANGES) or passed or lesson.id in self._unveiled:
             self._show(view)
             return

@@ -14,7 +14,7 @@ from textual.content import Content
 from textual.widgets import Button, Input, Static
 
 from tutor.report.checklist import FORMATS, SUFFIXES, format_of
-from tutor.tui import wording
+from tutor.session.paths import short_path
 from tutor.tui.dialogs.dialog import Dialog
 
 NAMES = {"markdown": "Markdown", "json": "JSON", "html": "HTML page"}
@@ -38,7 +38,7 @@ class ExportScreen(Dialog[tuple[str, Path]]):
         super().__init__()
         self._folder, self._format = folder, format
         name = file or folder / f"checklist{SUFFIXES[format]}"
-        self._name_text = str(name.relative_to(folder)) if name.is_relative_to(folder) else wording.short(name)
+        self._name_text = str(name.relative_to(folder)) if name.is_relative_to(folder) else short_path(name)
 
     def compose(self) -> ComposeResult:
         with Vertical(classes="window") as window:
@@ -95,7 +95,7 @@ class ExportScreen(Dialog[tuple[str, Path]]):
             button.label = f"({'•' if chosen else ' '}) {NAMES[format]}"
             button.set_class(chosen, "-chosen")
         self.query_one("#export-about", Static).update(_ABOUT[self._format])
-        place = wording.short(self.path.parent)
+        place = short_path(self.path.parent)
         if problem := self._problem():
             text = Content.assemble(("! ", "bold $warn"), (problem, "$warn"))
         elif os.path.exists(self.path):
@@ -111,7 +111,7 @@ class ExportScreen(Dialog[tuple[str, Path]]):
         if not self.query_one(Input).value.strip() or os.path.isdir(path):
             return "Give the name of a file."
         if not os.path.isdir(path.parent):
-            return f"There is no folder {wording.short(path.parent)}."
+            return f"There is no folder {short_path(path.parent)}."
         return ""
 
     @on(Button.Pressed, "#yes")

@@ -16,7 +16,6 @@ from textual.widget import Widget
 from textual.widgets import ContentSwitcher, ListView, Tab, Tabs, TextArea
 
 from tutor.content import Lesson
-from tutor.judge.verdict import Status
 from tutor.session import Session
 from tutor.session.findings import Findings
 from tutor.session.node import Phase
@@ -156,7 +155,7 @@ class MainScreen(HostScreen):
     def _count_passed(self) -> None:
         model = self.model
         lessons = model.session.lessons
-        passed = {each.id for each in lessons if model.progress.of(each.id).best is Status.PASSED}
+        passed = {each.id for each in lessons if model.progress.of(each.id).is_passed}
         others = len(lessons) - len(passed | {model.lesson.id})
         # The last pass leads to the checklist, where the course has one.
         self.query_one(CriteriaPanel).others_open = others if self.can(commands.CHECKLIST) else max(1, others)

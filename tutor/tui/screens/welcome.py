@@ -19,7 +19,7 @@ from textual.widgets import Button, Input, Static
 
 from tutor.errors import StorageError, WorkspaceError
 from tutor.session import Session
-from tutor.tui import wording
+from tutor.session.paths import short_path
 from tutor.tui.widgets.key_footer import KeyFooter
 from tutor.workspace import Workspace
 
@@ -54,7 +54,7 @@ class WelcomeScreen(Screen[bool]):
             yield Static(f"{count} exercises: write a node, run it, and have it checked.", id="welcome-text")
             with Vertical(id="welcome-place"):
                 yield Static(Content.assemble("Your work will be in ", ("  f: another folder", "$quiet")))
-                yield Input(wording.short(self._session.workspace.root), id="welcome-folder", compact=True)
+                yield Input(short_path(self._session.workspace.root), id="welcome-folder", compact=True)
                 yield Static(id="welcome-about")
             yield Button("Press Enter to begin", id="begin")
         yield KeyFooter()
@@ -121,9 +121,9 @@ def _about(root: Path | None, usual: Path) -> tuple[str, bool]:
         return "a workspace of yours is there: it is opened, with its progress", False
     there = next(folder for folder in (root, *root.parents) if folder.exists())
     if not there.is_dir():
-        return f"{wording.short(there)} is a file, not a folder", True
+        return f"{short_path(there)} is a file, not a folder", True
     if not os.access(there, os.W_OK):
-        return f"you may not write to {wording.short(there)}", True
+        return f"you may not write to {short_path(there)}", True
     if root != usual:
-        return f"an ordinary ROS 2 workspace; {wording.short(usual)} will lead to it", False
+        return f"an ordinary ROS 2 workspace; {short_path(usual)} will lead to it", False
     return "an ordinary ROS 2 workspace, yours to keep", False

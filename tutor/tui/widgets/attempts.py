@@ -21,8 +21,8 @@ def history(lesson: Lesson, progress: ExerciseProgress, *, most: int) -> Content
     lines = [_line(attempt, required) for attempt in reversed(progress.attempts[-most:])]
     count = len(progress.attempts)
     head = f"{count} attempt{'' if count == 1 else 's'}"
-    if progress.best is Status.PASSED:
-        number = next((n for n, a in enumerate(progress.attempts, 1) if a.whole and a.verdict is Status.PASSED), 0)
+    if progress.is_passed:
+        number = next((n for n, a in enumerate(progress.attempts, 1) if a.is_pass), 0)
         head += f", passed at number {number}" if number else ", passed"
     return Content("\n").join([Content.styled(head, "bold"), *lines])
 

@@ -13,7 +13,7 @@ from textual.content import Content
 from textual.widget import Widget
 from textual.widgets import Static
 
-from tutor.tui import wording
+from tutor.session.paths import short_path
 from tutor.tui.widgets.code_view import CodeView
 from tutor.tui.widgets.find_bar import FindBar
 from tutor.tui.widgets.line_view import Piece, Row
@@ -279,7 +279,7 @@ class CodePane(Vertical):
             parts.append(("f: other file  ", "$quiet"))
         if self.editor is not None:
             parts.append(("not saved yet  ", "$warn") if self.editor.changed else ("✓ saved  ", "$good"))
-        parts.append((wording.short(path.parent), "$quiet"))
+        parts.append((short_path(path.parent), "$quiet"))
         self.query_one("#code-head", Static).update(Content.assemble(*parts), layout=False)
         self.query_one("#code-looks", Static).update(self._looks(), layout=False)
 
