@@ -12,7 +12,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from difflib import get_close_matches
 from pathlib import Path
 
 from tutor.invocation import command
@@ -48,6 +47,8 @@ class UnknownExercise(UserError):
     """Nobody knows this exercise. The message names the known ones, and the one that was probably meant."""
 
     def __init__(self, text: str, known: Sequence[str]) -> None:
+        from difflib import get_close_matches  # late: every `ros2` command imports this module
+
         self.text = text
         self.known = tuple(known)
         near = get_close_matches(text.strip().lower().replace("_", "."), self.known, n=1, cutoff=0.5)

@@ -1,70 +1,44 @@
-"""The watching process, as the app sees it. The app never imports rclpy, and lives on whatever happens there."""
+"""The watching process, as the app sees it: whatever happens there, the app lives on."""
 
 from __future__ import annotations
 
 import asyncio
-import contextlib
 import signal
-from collections import deque
 from collections.abc import AsyncIterator
 from pathlib import Path
 
 from tutor.live.protocol import Update, WatcherRequest, decode_update, encode_request
+from tutor.process.line_child import LineChild
 from tutor.tui.live.launching import WatcherCommand
 
 END_S = 1.5
 """How long it may take to end once its input is closed; then it is killed."""
 
-_LONGEST_LINE = 1 << 24
 _MOST_UNSENT = 1 << 20
-_LAST_LINES = 20
 
 
-class LiveChild:
+class LiveChild(LineChild):
     """One run of `python -m tutor.live`. It ends with its input, so with the app, however that ends."""
-
-    def __init__(self, process: asyncio.subprocess.Process) -> None:
-        self._process = process
-        self._stderr: deque[str] = deque(maxlen=_LAST_LINES)
-        self._reader = asyncio.create_task(self._read_stderr())
 
     @classmethod
     async def start(cls, command: WatcherCommand) -> LiveChild:
-        """Start it, in a process group of its own and away from the learner's folder. Raises OSError.
+        """Start it, away from the learner's folder. Raises OSError.
 
         To be called on the app's own thread: the child is killed with the thread that started it.
         """
-        pipe = asyncio.subprocess.PIPE
-        process = await asyncio.create_subprocess_exec(
-            *command.argv,
-            env=dict(command.env),
-            cwd=Path("/"),
-            stdin=pipe,
-            stdout=pipe,
-            stderr=pipe,
-            limit=_LONGEST_LINE,
-            process_group=0,
-        )
-        return cls(process)
+        return await cls._start(command.argv, Path("/"), env=command.env, stdin=asyncio.subprocess.PIPE)
 
-    @property
-    def pid(self) -> int:
-        """Its process id."""
-        return self._process.pid
-
-    def send(self, command: WatcherRequest) -> None:
+    def send(self, request: WatcherRequest) -> None:
         """Have it do this. Never waits; what a dead or stuck child is told is lost."""
         assert self._process.stdin is not None
         transport = self._process.stdin.transport
         if not transport.is_closing() and transport.get_write_buffer_size() < _MOST_UNSENT:
-            self._process.stdin.write(encode_request(command).encode() + b"\n")
+            self._process.stdin.write(encode_request(request).encode() + b"\n")
 
     async def updates(self) -> AsyncIterator[Update]:
         """What it tells, until it ends. Raises ValueError for a line that is not an update."""
-        assert self._process.stdout is not None
-        async for line in self._process.stdout:
-            if text := line.decode("utf-8", "replace").strip():
-                yield decode_update(text)
+        async for line in self.lines():
+            yield decode_update(line)
 
     def detach(self) -> None:
         """Close its input: it ends soon, by itself."""
@@ -84,16 +58,9 @@ class LiveChild:
 
     def kill(self) -> None:
         """The last resort."""
-        if self._process.returncode is None:
-            with contextlib.suppress(ProcessLookupError):
-                self._process.send_signal(signal.SIGKILL)
+        self.send_signal(signal.SIGKILL)
 
     @property
-    def output_tail(self) -> str:
+    def last_error_line(self) -> str:
         """The last line that it wrote to stderr."""
-        return next((line for line in reversed(self._stderr) if line.strip()), "")
-
-    async def _read_stderr(self) -> None:
-        assert self._process.stderr is not None
-        async for line in self._process.stderr:
-            self._stderr.append(line.decode("utf-8", "replace").rstrip())
+        return next((line for line in reversed(self.output_tail) if line.strip()), "")

@@ -162,7 +162,7 @@ class LivePane(Vertical):
                     child.send(Plot(view.topic, view.path))
             async for update in child.updates():
                 self.post_message(self.Arrived(update))
-            fault = child.output_tail or fault
+            fault = child.last_error_line or fault
         except asyncio.CancelledError:
             fault = ""
             raise
