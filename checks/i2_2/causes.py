@@ -39,7 +39,6 @@ _NO_TEXT = re.compile(
     r"(?:LaunchConfiguration|Substitution)"
 )
 _UNRESOLVED = re.compile(r"<launch\S* object at 0x")
-_NO_FILE = re.compile(r"FileNotFoundError|No such file or directory|\[Errno 2\]")
 _NO_FUNCTION = re.compile(r"required function '?generate_launch_description|no attribute '?generate_launch_description")
 _ERROR = re.compile(r"^\[ERROR\] \[launch\]: |Caught exception in launch[^:]*: ")
 _REMAP = re.compile(r"(?:-r|--remap) (?P<source>[^\s:=]+):=(?P<target>\S+)")

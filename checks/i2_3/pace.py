@@ -34,7 +34,6 @@ class TimerDuring:
     expected: float
     for_s: float
     longest_s: float
-    allowed_s: float
     hz: float | None
     fault: Fault | None
 
@@ -71,7 +70,7 @@ def timer_during(
         fault = Fault.SLOW
     elif len(within) > most or _bursts(series, edges) or (hz and hz > (1 + TOLERANCE) * series.hz):
         fault = Fault.FAST
-    return TimerDuring(len(within), expected, for_s, longest, allowed, hz, fault)
+    return TimerDuring(len(within), expected, for_s, longest, hz, fault)
 
 
 def _bursts(series: Series, stamps: Sequence[float]) -> bool:

@@ -20,6 +20,16 @@ async def test_start_puts_the_skeleton_there_and_shows_it(learner: Any) -> None:
         await me.until(lambda: "started" in me.screen().partition("Calculator Service")[2])
 
 
+async def test_a_file_that_was_put_there_by_hand_is_a_start(learner: Any) -> None:
+    async with learner() as me:
+        lesson = me.session.lessons[1]
+        assert "new" in me.screen().partition("Calculator Service")[2]
+        me.session.path(lesson.files[0]).write_text("mine = 1\n")
+        assert me.session.states(me.session.progress())[lesson.id].is_started
+        me.main.records.read()
+        await me.until(lambda: "started" in me.screen().partition("Calculator Service")[2])
+
+
 async def test_start_never_touches_what_is_there(learner: Any) -> None:
     async with learner() as me:
         path: Path = me.session.path(me.session.lessons[0].files[0])

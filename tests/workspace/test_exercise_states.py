@@ -29,7 +29,7 @@ def test_a_criterion_that_passed_alone_counts_everywhere() -> None:
     assert (found.state, found.met, found.missed) == (State.NOT_PASSED, ("range",), ())
     (row,) = (each for each in assess(load_course(), Progress({"i1.1": one})).exercises if each.id == "i1.1")
     assert (row.met, row.required) == (1, 6)
-    assert wording.progress_label(LESSON, one) == ("◐", "1 of 6 met")
+    assert wording.progress_label(found) == ("◐", "1 of 6 met")
 
 
 def test_the_last_check_that_judged_a_criterion_counts() -> None:

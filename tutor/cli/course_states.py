@@ -8,18 +8,8 @@ from typing import TYPE_CHECKING
 from tutor.invocation import command
 
 if TYPE_CHECKING:
-    from tutor.content import Course, Lesson
-    from tutor.workspace import ExerciseState, Progress, Workspace
-
-
-def exercise_states(course: Course, progress: Progress, workspace: Workspace) -> dict[str, ExerciseState]:
-    """How the learner stands with each exercise, by its id."""
-    from tutor.workspace import exercise_state, is_started
-
-    return {
-        lesson.id: exercise_state(lesson, progress.of(lesson.id), has_files=is_started(lesson, None, workspace))
-        for lesson in course.lessons
-    }
+    from tutor.content import Lesson
+    from tutor.workspace import ExerciseState
 
 
 def next_lesson(lessons: Sequence[Lesson], known: Mapping[str, ExerciseState]) -> Lesson | None:

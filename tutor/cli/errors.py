@@ -6,7 +6,6 @@ from tutor.errors import ContentError, TutorError
 
 PASSED = 0
 NOT_PASSED = 1
-USAGE = 2
 FAULT = 3
 INTERRUPTED = 130
 

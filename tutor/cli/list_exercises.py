@@ -8,7 +8,7 @@ from datetime import datetime
 from typing import TYPE_CHECKING
 
 from tutor.cli import context, terminal
-from tutor.cli.course_states import exercise_states, next_command, next_lesson
+from tutor.cli.course_states import next_command, next_lesson
 from tutor.cli.errors import PASSED
 from tutor.invocation import command
 
@@ -48,9 +48,9 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _text(course: Course, progress: Progress, workspace: Workspace) -> str:
-    from tutor.workspace import domain_of
+    from tutor.workspace import domain_of, states_of
 
-    known = exercise_states(course, progress, workspace)
+    known = states_of(course.lessons, progress, workspace)
     width = max((len(lesson.title) for lesson in course.lessons), default=0)
     lines = [_line(lesson, progress.of(lesson.id), known[lesson.id], width) for lesson in course.lessons]
     passed = sum(exercise_state.is_passed for exercise_state in known.values())

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING, Any
 
-from tutor.cli.course_states import exercise_states, next_command, next_lesson
+from tutor.cli.course_states import next_command, next_lesson
 
 if TYPE_CHECKING:
     from tutor.content import Course, Lesson
@@ -16,9 +16,9 @@ SCHEMA = "ros-tutor/list/1"
 
 def render(course: Course, progress: Progress, workspace: Workspace) -> str:
     """The document, with a line's end."""
-    from tutor.workspace import domain_of
+    from tutor.workspace import domain_of, states_of
 
-    known = exercise_states(course, progress, workspace)
+    known = states_of(course.lessons, progress, workspace)
     following = next_lesson(course.lessons, known)
     document = {
         "schema": SCHEMA,

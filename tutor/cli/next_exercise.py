@@ -7,7 +7,7 @@ import sys
 from typing import TYPE_CHECKING
 
 from tutor.cli import context, terminal
-from tutor.cli.course_states import exercise_states, next_command, next_lesson
+from tutor.cli.course_states import next_command, next_lesson
 from tutor.cli.errors import PASSED
 from tutor.invocation import command
 
@@ -22,10 +22,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Print the exercise, how far the learner is, and the next command."""
+    from tutor.workspace import states_of
+
     course = context.load_course(arguments)
     workspace = context.require_workspace(arguments)
     progress = context.read_progress(workspace)
-    known = exercise_states(course, progress, workspace)
+    known = states_of(course.lessons, progress, workspace)
     lesson = next_lesson(course.lessons, known)
     if lesson is None:
         terminal.out(f"You have passed all {len(known)} exercises.\nNext: {next_command(None, known)}\n")

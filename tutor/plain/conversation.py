@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from tutor.content import Lesson
 from tutor.errors import CommandRefused, StorageError, UnknownExercise
 from tutor.session import Session
-from tutor.workspace import Progress, State, exercise_state
+from tutor.workspace import Progress, State
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,7 +57,7 @@ class Conversation:
 
     def state_words(self, lesson: Lesson, progress: Progress) -> str:
         """How far the learner is with a lesson."""
-        found = exercise_state(lesson, progress.of(lesson.id))
+        found = self.session.states(progress)[lesson.id]
         return {
             State.PASSED: "passed",
             State.NOT_PASSED: f"not passed yet, {found.count} criteria met",

@@ -22,6 +22,7 @@ from tutor.session.node import NodeCommand
 from tutor.session.shell import Shell
 from tutor.workspace import (
     AppState,
+    ExerciseState,
     Placed,
     Progress,
     RunOptions,
@@ -29,6 +30,7 @@ from tutor.workspace import (
     domain_of,
     place_files,
     start,
+    states_of,
     write_atomically,
 )
 from tutor.workspace.progress import now
@@ -123,6 +125,10 @@ class Session:
         if not self.workspace.exists:
             return Progress()
         return self.workspace.progress(self.notify).read()
+
+    def states(self, progress: Progress) -> dict[str, ExerciseState]:
+        """How far the learner is with each exercise, by its id."""
+        return states_of(self.lessons, progress, self.workspace)
 
     def record(self, result: ExerciseResult) -> Progress:
         """Keep one attempt. Raises StorageError."""

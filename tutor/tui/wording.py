@@ -5,11 +5,10 @@ from __future__ import annotations
 from datetime import datetime
 from textwrap import shorten
 
-from tutor import workspace
 from tutor.content import Difficulty, Lesson
 from tutor.judge.result import ExerciseResult
 from tutor.judge.verdict import Status
-from tutor.workspace import ExerciseProgress, State
+from tutor.workspace import ExerciseState, State
 
 MARKS = {Status.PASSED: "✓", Status.FAILED: "✗", Status.SKIPPED: "-", Status.ERROR: "!"}
 """One cell wide in every terminal font that matters."""
@@ -25,9 +24,8 @@ def label(lesson: Lesson) -> str:
     return lesson.id.upper()
 
 
-def progress_label(lesson: Lesson, progress: ExerciseProgress) -> tuple[str, str]:
+def progress_label(found: ExerciseState) -> tuple[str, str]:
     """How a lesson stands: a mark and words. The mark is ✓ only where the whole exercise has been passed."""
-    found = workspace.exercise_state(lesson, progress)
     return {
         State.PASSED: ("✓", "passed"),
         State.NOT_PASSED: ("◐", f"{found.count} met"),

@@ -3,7 +3,7 @@
 from tutor.workspace.app_state import AppState, AppStateFile, RunOptions
 from tutor.workspace.atomic import write_atomically
 from tutor.workspace.domain import domain_of, given_domain
-from tutor.workspace.exercise_states import ExerciseState, State, exercise_state, last_met
+from tutor.workspace.exercise_states import ExerciseState, State, exercise_state, last_met, states_of
 from tutor.workspace.layout import Workspace, find_workspace
 from tutor.workspace.placing_files import Placed, place_files
 from tutor.workspace.progress import Attempt, ExerciseProgress, Progress
@@ -42,5 +42,6 @@ __all__ = [
     "solution",
     "start",
     "start_in",
+    "states_of",
     "write_atomically",
 ]

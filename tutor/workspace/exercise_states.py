@@ -7,7 +7,9 @@ from dataclasses import dataclass
 from enum import Enum
 
 from tutor.content import Lesson
-from tutor.workspace.progress import ExerciseProgress
+from tutor.workspace.layout import Workspace
+from tutor.workspace.progress import ExerciseProgress, Progress
+from tutor.workspace.submissions import is_started
 
 
 class State(Enum):
@@ -87,3 +89,11 @@ def exercise_state(lesson: Lesson, progress: ExerciseProgress, *, has_files: boo
         missed=() if passed else tuple(id for id in required if met.get(id) is False),
         bonus_met=tuple(id for id in bonus if met.get(id)),
     )
+
+
+def states_of(lessons: Iterable[Lesson], progress: Progress, workspace: Workspace) -> dict[str, ExerciseState]:
+    """How far the learner is with each exercise, by its id. Looks for its files on the disk."""
+    return {
+        lesson.id: exercise_state(lesson, progress.of(lesson.id), has_files=is_started(lesson, None, workspace))
+        for lesson in lessons
+    }

@@ -63,7 +63,7 @@ class MainScreen(HostScreen):
         self.pages = Pages(self, self.preferences, lambda: bool(self.nodes.running))
         self.records = Records(self)
         self.files = Files(self, code, self.records)
-        self.views = Views(self, code, self.files)
+        Views(self, code, self.files)
         self.nodes = Nodes(self, self.files, self.preferences)
         self.checks = Checks(self, self.files, self.records, self.preferences, self._show_findings)
         self.checklist = ChecklistController(self, self.records)
@@ -228,7 +228,7 @@ class MainScreen(HostScreen):
             model.findings[known.id] = model.findings[known.id].remembering(message.progress.of(known.id))
         self.query_one(CriteriaPanel).show_findings(model.findings[model.lesson.id])
         self._count_passed()
-        self.query_one(LessonList).show_progress(message.progress)
+        self.query_one(LessonList).show_states(model.session.states(message.progress))
         self.checklist.show(message.progress)
         lesson = model.lesson
         self.query_one(CriteriaPanel).show_attempts(lesson, message.progress.of(lesson.id))

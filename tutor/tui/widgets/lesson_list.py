@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from textwrap import wrap
 
 from textual.content import Content
@@ -12,7 +12,7 @@ from textual.widgets import ListItem
 from tutor.content import Lesson
 from tutor.tui import wording
 from tutor.tui.widgets.row_list import RowList
-from tutor.workspace import ExerciseProgress, Progress
+from tutor.workspace import ExerciseProgress, ExerciseState, exercise_state
 
 _INK = {"✓": "$good", "◐": "$warn", "○": "$quiet"}
 
@@ -35,7 +35,7 @@ class LessonRow(ListItem):
     def __init__(self, lesson: Lesson) -> None:
         super().__init__()
         self.lesson = lesson
-        self.progress = ExerciseProgress()
+        self.state = exercise_state(lesson, ExerciseProgress())
 
     def _title(self, width: int) -> list[str]:
         return wrap(f"{wording.label(self.lesson)} {self.lesson.title}", max(10, width - 2))
@@ -46,13 +46,13 @@ class LessonRow(ListItem):
 
     def render(self) -> Content:
         """The mark, the title; below it the difficulty, and how it stands in words."""
-        mark, standing = wording.progress_label(self.lesson, self.progress)
+        mark, words = wording.progress_label(self.state)
         width = self.content_size.width
         title = "\n  ".join(self._title(width))
         level = wording.LEVELS[self.lesson.difficulty]
-        gap = " " * max(1, width - 2 - len(level) - len(standing))
+        gap = " " * max(1, width - 2 - len(level) - len(words))
         ink = _INK[mark]
-        return Content.assemble((f"{mark} ", ink), title, "\n  ", (level, "$quiet"), gap, (standing, ink))
+        return Content.assemble((f"{mark} ", ink), title, "\n  ", (level, "$quiet"), gap, (words, ink))
 
 
 class LessonList(RowList):
@@ -93,10 +93,10 @@ class LessonList(RowList):
                 if row.lesson is lesson:
                     self.index = index
 
-    def show_progress(self, progress: Progress) -> None:
-        """Show how each lesson stands."""
+    def show_states(self, known: Mapping[str, ExerciseState]) -> None:
+        """Show how each lesson stands, by its id."""
         for row in self.lesson_rows:
-            row.progress = progress.of(row.lesson.id)
+            row.state = known[row.lesson.id]
             row.refresh()
-        passed = sum(wording.progress_label(row.lesson, row.progress)[0] == "✓" for row in self.lesson_rows)
+        passed = sum(row.state.is_passed for row in self.lesson_rows)
         self.border_subtitle = f"{passed} of {len(self.lesson_rows)} passed"
