@@ -19,7 +19,7 @@ _LIMIT_S = 60.0
 
 
 def compile_ros_modules(ros: RosEnvironment) -> None:
-    """Have the modules that nodes use compiled, once, where the bundled ROS is not.
+    """Compile the modules that nodes use, once, where the bundled ROS is not compiled.
 
     Does nothing where they are, or where its folder cannot be written to: then starts are slow, but right.
     """

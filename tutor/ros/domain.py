@@ -28,7 +28,7 @@ _round = deque(random.SystemRandom().sample(IDS, len(IDS)))
 
 @contextmanager
 def reserve_domain() -> Iterator[int]:
-    """Hold one of `IDS` that nothing else on this machine uses; it is given back at the end of the block.
+    """Reserve one of `IDS` that nothing else on this machine uses, until the end of the block.
 
     Safe among threads, processes and users; a process that dies gives its ids back. Raises NoFreeDomain.
     """
@@ -44,7 +44,7 @@ def reserve_domain() -> Iterator[int]:
 
 
 def domains_in_use() -> frozenset[int]:
-    """The domain ids of which something on this machine has a port that a ROS node would use."""
+    """The ids of domains with a port that is bound on this machine."""
     first, per_domain = DDS_PORTS
     return frozenset((port - first) // per_domain for port in _all_bound_ports())
 
@@ -64,7 +64,7 @@ def participants_here(domain_id: int) -> int | None:
 
 
 def _is_quiet(domain: int) -> bool:
-    """Whether nothing else on this machine has the port at which participants of the domain find each other."""
+    """Whether nothing else on this machine has bound the domain's discovery port."""
     first, per_domain = PORTS_OF_CHECKS
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as port:
         return _binds(port, ("", first + per_domain * domain))

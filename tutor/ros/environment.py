@@ -69,7 +69,7 @@ class RosEnvironment:
 
 
 def detect(environ: Mapping[str, str] = os.environ) -> RosEnvironment:
-    """Find out which ROS 2 to use: a sourced ROS 2 Jazzy that is whole, else the bundled one."""
+    """Choose the ROS 2 to use: a sourced ROS 2 Jazzy that is complete, else the bundled one."""
     bundled = Path(sys.executable)
     sourced = [Path(entry) for entry in prefixes.without_bundled(environ, "AMENT_PREFIX_PATH")]
     distro = environ.get("ROS_DISTRO", "")
@@ -147,7 +147,7 @@ def _problems(environ: Mapping[str, str], distro: str, sourced: list[Path]) -> t
 
 
 def _distro_of(path: Path) -> str:
-    """The distribution that a path is in, if its place tells: /opt/ros/<distribution>."""
+    """The distribution of a path such as /opt/ros/<distribution>/lib; empty elsewhere."""
     return path.parts[3] if len(path.parts) > 3 and path.is_relative_to("/opt/ros") else ""
 
 

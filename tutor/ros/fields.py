@@ -1,4 +1,4 @@
-"""Requests and messages as forms: their leaves, with types and defaults; and a form filled in."""
+"""The leaf fields of requests and messages, with types and defaults; and messages filled in from their values."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ _BYTES = ("octet", "sequence<octet", "octet[")
 
 
 def request_fields(type_name: str) -> tuple[Field, ...]:
-    """The leaves of a service type's request, in their order. Raises UnknownType."""
+    """The leaf fields of a service type's request, in order. Raises UnknownType."""
     return tuple(_leaves(interface_class(type_name).Request(), ""))
 
 
 def message_fields(type_name: str) -> tuple[Field, ...]:
-    """The leaves of a message type, in their order. Raises UnknownType."""
+    """The leaf fields of a message type, in order. Raises UnknownType."""
     return tuple(_leaves(interface_class(type_name)(), ""))
 
 
 def fill_request(type_name: str, values: Mapping[str, Any]) -> Any:
-    """A request with these values at the paths of its leaves.
+    """A request with these values, by field path.
 
     Raises UnknownType, and ValueError with one line where a value does not fit.
     """
@@ -34,7 +34,7 @@ def fill_request(type_name: str, values: Mapping[str, Any]) -> Any:
 
 
 def fill_message(type_name: str, values: Mapping[str, Any]) -> Any:
-    """A message with these values at the paths of its leaves; raises what `fill_request` does."""
+    """A message with these values, by field path. Raises as `fill_request` does."""
     return _fill(interface_class(type_name)(), values)
 
 
@@ -71,7 +71,7 @@ def _plain(value: Any) -> Any:
 
 
 def _as_field(type_name: str, value: Any) -> Any:
-    """A value as JSON gives it, as rclpy takes it: an octet is a bytes of length one."""
+    """Convert a value from JSON to what rclpy takes: an octet is a bytes of length one."""
     if type_name.startswith(_BYTES):
         return [bytes([item]) for item in value] if isinstance(value, list) else bytes([value])
     return value

@@ -15,7 +15,7 @@ _NamesAndTypes = Sequence[tuple[str, Sequence[str]]]
 
 
 def read_graph(node: Node, *, standard_topics: bool = False) -> Graph:
-    """What `node` sees of the graph, without our own nodes; `standard_topics`: with those that every node has."""
+    """The graph as `node` sees it, without our own nodes. `standard_topics` includes those that every node has."""
     nodes = sorted(
         NodeName(name, namespace).full
         for name, namespace in node.get_node_names_and_namespaces()
@@ -32,7 +32,7 @@ def read_graph(node: Node, *, standard_topics: bool = False) -> Graph:
 
 
 def graph_fingerprint(node: Node) -> object:
-    """Something that differs where the graph does, but for an endpoint that was replaced: much cheaper to get."""
+    """A cheap value that changes when the graph does, unless one endpoint replaces another."""
     return (
         node.get_node_names_and_namespaces(),
         [
@@ -61,7 +61,7 @@ def _service_endpoints(
     for full in dict.fromkeys(nodes):
         try:
             offered = ask(*NodeName.parse(full))
-        except RuntimeError:  # the node left between the two questions
+        except RuntimeError:  # the node has left meanwhile
             continue
         for service, types in offered:
             ends = [ServiceEndpoint(service, type_name, full) for type_name in types]

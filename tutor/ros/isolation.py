@@ -38,7 +38,7 @@ def isolated_discovery() -> dict[str, str]:
 
 
 def prompt_discovery() -> dict[str, str]:
-    """The variables with which nodes that are not isolated find each other soon; they change nothing else."""
+    """The variables with which nodes that are not isolated discover each other faster; they change nothing else."""
     return dict.fromkeys(_PROFILE_VARIABLES, str(PROMPT_PROFILE))
 
 

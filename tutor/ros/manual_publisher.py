@@ -1,4 +1,4 @@
-"""What a learner publishes by hand: from a node that can be seen on the graph, as that of `ros2 topic pub` can."""
+"""What a learner publishes by hand, from a node that is visible in the graph, as that of `ros2 topic pub` is."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _DEPTH = 10
 
 
 class ManualPublisher:
-    """Publishers of one node, which is there as long as one of them is."""
+    """Publishers of one node, which exists as long as it has a publisher."""
 
     def __init__(self, context: Context) -> None:
         self._context = context
@@ -28,7 +28,7 @@ class ManualPublisher:
         self._publishers: dict[str, tuple[Publisher, Any]] = {}
 
     def add(self, topic: str, type_name: str, values: Mapping[str, Any]) -> None:
-        """Get ready to publish this message, reliably; `values` are by the paths of its fields.
+        """Create a reliable publisher for this message; `values` maps field paths to values.
 
         Raises UnknownType, and ValueError with one line where a value or the topic's name does not fit.
         """
@@ -44,26 +44,26 @@ class ManualPublisher:
         self._publishers[topic] = (publisher, message)
 
     def publish(self, topic: str) -> None:
-        """Publish the message that this topic was opened with."""
+        """Publish the message that was added for this topic."""
         publisher, message = self._publishers[topic]
         publisher.publish(message)
 
     def listeners(self, topic: str) -> int:
-        """How many subscriptions there are, but for our own."""
+        """The number of subscriptions, without our own."""
         if self._node is None:
             return 0
         found = self._node.get_subscriptions_info_by_topic(topic)
         return sum(not each.node_name.startswith(OUR_PREFIX) for each in found)
 
     def is_connected(self, topic: str, ours: bool) -> bool:
-        """Whether every subscription that is there is matched; `ours`: and one of our own is among them."""
+        """Whether every known subscription is matched; with `ours`, also that one of them is our own."""
         publisher, _ = self._publishers[topic]
         there = self._node.get_subscriptions_info_by_topic(topic) if self._node is not None else []
         found = any(each.node_name.startswith(OUR_PREFIX) for each in there)
         return 0 < len(there) <= publisher.get_subscription_count() and (found or not ours)
 
     def remove(self, topic: str) -> None:
-        """Leave a topic."""
+        """Remove the publisher of a topic."""
         if (found := self._publishers.pop(topic, None)) is not None and self._node is not None:
             self._node.destroy_publisher(found[0])
         self._leave()
@@ -74,6 +74,6 @@ class ManualPublisher:
             self._node = None
 
     def close(self) -> None:
-        """Leave all."""
+        """Remove all publishers."""
         for topic in list(self._publishers):
             self.remove(topic)

@@ -28,7 +28,7 @@ def interface_class(name: str) -> Any:
     """
     try:
         package, kind, type_name = name.split("/")
-        if not _has_interfaces(package):  # the name may be a learner's: not any module is to be run here
+        if not _has_interfaces(package):  # the name may be a learner's: do not import just any module
             raise UnknownType(name)
         found: Any = getattr(importlib.import_module(f"{package}.{kind}"), type_name)
     except (ValueError, ImportError, AttributeError) as error:
@@ -37,7 +37,7 @@ def interface_class(name: str) -> Any:
 
 
 def _has_interfaces(package: str) -> bool:
-    """Whether a top-level package brings the type support that messages and services are made with."""
+    """Whether a top-level package has type support for messages and services."""
     found = importlib.util.find_spec(package) if package.isidentifier() else None
     places = (found.submodule_search_locations or ()) if found else ()
     return any(any(Path(place).glob(f"{package}_s__rosidl_typesupport_c*.so")) for place in places)
@@ -52,19 +52,19 @@ def to_plain(message: Any) -> dict[str, Any]:
 
 
 def plain_and_size(message: Any) -> tuple[dict[str, Any], int]:
-    """A message as `to_plain` gives it, and what it costs to keep, in bytes; what is cut off counts for a share."""
+    """A message as `to_plain` gives it, and its cost in memory, in bytes; what is cut off counts in part."""
     room = _Room()
     plain = room.message(message)
     return plain, room.bytes
 
 
 def cut(text: str, most: int = MOST_CHARACTERS) -> str:
-    """The text, with an ellipsis in place of what is beyond `most` characters."""
+    """The text, cut at `most` characters with an ellipsis."""
     return text if len(text) <= most else f"{text[: most - 3]}..."
 
 
 def size_kept(text: str, kept: str) -> int:
-    """What it costs, in bytes, to keep a part of a text, with a share of what it cost to receive the whole."""
+    """The cost in memory, in bytes, of the part of a text that is kept; what is cut off counts in part."""
     return _EACH + len(kept) * (1 if kept.isascii() else 4) + len(text) // _RECEIVED
 
 

@@ -16,7 +16,7 @@ from rclpy.service import Service as ServiceServer
 
 from tutor.judge.trace import LogRecord, Sample
 from tutor.ros.messages import cut, interface_class, plain_and_size, set_fields, size_kept, to_plain
-from tutor.ros.participant import OUR_PREFIX, create_node, join_domain
+from tutor.ros.participant import OUR_PREFIX, create_node, new_context
 from tutor.ros.qos import subscription_profile
 from tutor.ros_model import QoS
 
@@ -54,7 +54,7 @@ class Observer:
         self._clients: dict[tuple[str, str], Client] = {}
         self._servers: list[ServiceServer] = []
         self._closed = False
-        self._context = join_domain(domain_id)
+        self._context = new_context(domain_id)
         self.node = create_node(self._context, f"{OUR_PREFIX}_{next(_number)}")
         self._executor = SingleThreadedExecutor(context=self._context)
         self._executor.add_node(self.node)
@@ -62,7 +62,7 @@ class Observer:
         self._thread.start()
 
     def watch_logs(self) -> None:
-        """Subscribe to `/rosout`, with what was logged before (it is transient local)."""
+        """Subscribe to `/rosout`, including earlier messages (it is transient local)."""
         qos = subscription_profile(QoS("reliable", "transient_local"), QUEUE_DEPTH)
 
         def take(message: Any) -> None:
@@ -125,12 +125,12 @@ class Observer:
             return await asyncio.wait_for(answer, max(0.0, deadline - self._loop.time()))
         except TimeoutError:
             return None
-        finally:  # whoever waits may be cancelled, too
+        finally:  # the caller may be cancelled
             if not pending.done():
                 client.remove_pending_request(pending)
 
     async def matched(self, service: str, type_name: str, limit_s: float) -> bool:
-        """Wait until our client of this service has found its server; False where it has not within the limit."""
+        """Wait until our client has discovered the server; False where it has not within the limit."""
         client = self._client(service, type_name)
         deadline = self._loop.time() + limit_s
         while not client.service_is_ready():
@@ -159,7 +159,7 @@ class Observer:
         return self._clients[key]
 
     def _counter(self, leave: Callable[[], object]) -> Callable[[int], None]:
-        """Counts what comes on one topic, in messages and bytes; calls `leave` when it is enough."""
+        """Counts the messages and bytes of one topic; calls `leave` at the limit."""
         messages = kept = 0
 
         def count(cost: int) -> None:
@@ -176,14 +176,14 @@ class Observer:
                 self._executor.spin_once()
         except ExternalShutdownException:
             pass
-        except Exception as error:  # the thread's boundary: whatever it is, the loop's thread must hear of it
+        except Exception as error:  # the thread's boundary: any error is reported on the loop's thread
             if not self._closed:
                 self._hand_to_loop(self._fail, error)
 
     def _hand_to_loop(self, callback: Callable[..., None], *args: Any) -> None:
         try:
             self._loop.call_soon_threadsafe(callback, *args)
-        except RuntimeError:  # the loop is closed: nobody is interested any more
+        except RuntimeError:  # the loop is closed
             if not self._closed:
                 raise
 

@@ -1,4 +1,4 @@
-"""Hears which nodes' parameters change."""
+"""Subscribes to parameter events."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from tutor.ros.observer import Observer
 
 
 def watch_changes(observer: Observer, on_change: Callable[[str], None]) -> None:
-    """Call `on_change(node)`, on the event loop's thread, whenever a node says that a parameter of its changed."""
+    """Call `on_change(node)` on the event loop's thread whenever a node reports that one of its parameters changed."""
     loop = asyncio.get_running_loop()
 
     def heard(event: Any) -> None:
-        with contextlib.suppress(RuntimeError):  # the loop is closed: nobody is interested any more
+        with contextlib.suppress(RuntimeError):  # the loop is closed
             loop.call_soon_threadsafe(on_change, event.node)
 
     event_type = interface_class("rcl_interfaces/msg/ParameterEvent")

@@ -11,7 +11,7 @@ _INFINITE_S = 1e9
 
 
 def from_rclpy(profile: QoSProfile) -> QoS:
-    """The policies of an endpoint that decide whether it connects."""
+    """The policies of a profile that decide whether endpoints connect."""
     return QoS(
         reliability=profile.reliability.short_key,
         durability=profile.durability.short_key,
@@ -22,7 +22,7 @@ def from_rclpy(profile: QoSProfile) -> QoS:
 
 
 def subscription_profile(qos: QoS, depth: int) -> QoSProfile:
-    """What a subscription of ours is made with: it requests this reliability and durability, and nothing else."""
+    """The profile for a subscription of ours, which requests this reliability and durability only."""
     return QoSProfile(
         history=HistoryPolicy.KEEP_LAST,
         depth=depth,

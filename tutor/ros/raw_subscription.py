@@ -1,4 +1,4 @@
-"""Topics at any rate: every message is taken, as bytes, and nothing is deserialised unless somebody wants to see it.
+"""Topics at any rate: every message is taken, as bytes, and only what is shown is deserialised.
 
 A thread waits until there is something, takes all of it, and hands it over in one batch; then it lets more gather for a
 moment. So ten thousand messages a second cost a hundred wake-ups, not ten thousand.
@@ -35,7 +35,7 @@ _WAIT_NS = 1_000_000_000
 
 @dataclass(frozen=True, slots=True)
 class Batch:
-    """Messages of one topic as they arrived: source timestamps (s) and numbers of all, the bytes of the last."""
+    """Messages of a topic in order of arrival: all source timestamps (s) and sequence numbers, the last one's bytes."""
 
     stamps: list[float]
     numbers: list[int | None]
@@ -43,11 +43,11 @@ class Batch:
 
 
 class RawSubscription:
-    """Subscriptions of a context, taken in a thread of their own. Methods may be called from any thread."""
+    """Subscriptions whose messages are taken in a thread of their own. Methods may be called from any thread."""
 
     def __init__(self, context: Context) -> None:
         self._context = context
-        # In no executor: nobody else takes its messages.
+        # In no executor: only we take its messages.
         self._node = create_node(context, f"{OUR_PREFIX}_raw_subscription")
         self._subscriptions: dict[str, tuple[Subscription, Callable[[Batch], None]]] = {}
         self._requests: deque[Callable[[], None]] = deque()
@@ -61,25 +61,25 @@ class RawSubscription:
         message_type = interface_class(type_name)
         profile = subscription_profile(qos, DEPTH)
 
-        def order() -> None:
+        def resubscribe() -> None:
             self._destroy(topic)
             subscription = self._node.create_subscription(message_type, topic, _unused_callback, profile, raw=True)
             self._subscriptions[topic] = (subscription, on_batch)
 
-        self._do(order)
+        self._request(resubscribe)
 
     def unsubscribe(self, topic: str) -> None:
-        """Leave a topic."""
-        self._do(lambda: self._destroy(topic))
+        """Destroy a topic's subscription."""
+        self._request(lambda: self._destroy(topic))
 
     def close(self) -> None:
-        """Leave all topics and end the thread. The context must still be alive."""
+        """Destroy all subscriptions and end the thread. The context must still be valid."""
         self._closing = True
         self._guard.trigger_guard_condition()
         self._thread.join(2.0)
 
-    def _do(self, order: Callable[[], None]) -> None:
-        self._requests.append(order)
+    def _request(self, action: Callable[[], None]) -> None:
+        self._requests.append(action)
         self._guard.trigger_guard_condition()
 
     def _destroy(self, topic: str) -> None:
@@ -103,9 +103,9 @@ class RawSubscription:
             self._node.destroy_node()
 
     def _wait(self) -> bool:
-        """Wait for a message or an order; whether there is a subscription to look at."""
+        """Wait for a message or a request. Returns whether there are subscriptions."""
         handles = [subscription.handle for subscription, _ in self._subscriptions.values()]
-        # Made again each time: it holds no handle longer than the wait.
+        # A new one each time, so that it holds no handle longer than the wait.
         waited = _rclpy.WaitSet(len(handles), 1, 0, 0, 0, 0, self._context.handle)
         waited.clear_entities()
         for handle in handles:
@@ -116,7 +116,7 @@ class RawSubscription:
 
 
 def deserialize(type_name: str, message: bytes) -> Any:
-    """The message that these bytes are. Raises UnknownType."""
+    """Deserialise a message. Raises UnknownType."""
     return deserialize_message(message, interface_class(type_name))
 
 

@@ -1,4 +1,4 @@
-"""A publisher of ours on the learner's domain, as a talker is: a participant of its own, that comes and goes."""
+"""A publisher of ours on the learner's domain, with a participant of its own."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from rclpy.publisher import Publisher
 
 from tutor.judge.trace import Sample
 from tutor.ros.messages import interface_class, set_fields
-from tutor.ros.participant import OUR_PREFIX, create_node, join_domain
+from tutor.ros.participant import OUR_PREFIX, create_node, new_context
 from tutor.ros_model import TopicEndpoint
 
 DEPTH = 10
-"""The queue depth of the talkers that ROS brings along; their QoS is the default one, reliable and volatile."""
+"""The queue depth of ROS's own demo talkers, whose QoS is the default: reliable and volatile."""
 
 
 class Talker:
@@ -22,7 +22,7 @@ class Talker:
 
     def __init__(self, domain_id: int, topic: str, type_name: str) -> None:
         self._type: Any = interface_class(type_name)
-        self._context = join_domain(domain_id)
+        self._context = new_context(domain_id)
         name = f"{OUR_PREFIX}_talker"
         self._node = create_node(self._context, name)
         self._publisher: Publisher = self._node.create_publisher(self._type, topic, DEPTH)
@@ -43,7 +43,7 @@ class Talker:
         return Sample(self._endpoint.topic, dict(message), now, now)
 
     def close(self) -> None:
-        """Take the publisher, its node and its participant out of the graph. Safe to call twice."""
+        """Leave the graph. Safe to call twice."""
         if self._context.ok():
             self._node.destroy_node()
             self._context.try_shutdown()

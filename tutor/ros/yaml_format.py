@@ -84,7 +84,7 @@ class _Form:
 
 
 class _Dumper(yaml.SafeDumper):
-    """Writes each value out: no anchors, even where one object stands in two places."""
+    """Writes no anchors, even where one object occurs twice."""
 
     def ignore_aliases(self, data: Any) -> bool:
         return True

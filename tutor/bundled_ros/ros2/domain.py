@@ -16,7 +16,6 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from tutor.errors import CommandError
 from tutor.ros.domain import participants_here
-from tutor.ros.environment import NO_LOG_FILES
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -64,14 +63,13 @@ def join_domain(arguments: argparse.Namespace, *, name: str | None = None) -> It
     subscriptions, timers or clients does. Raises CommandError where ROS cannot be joined.
     """
     import rclpy
-    from rclpy.context import Context
     from rclpy.exceptions import InvalidNodeNameException
     from rclpy.parameter import Parameter
-    from rclpy.signals import SignalHandlerOptions
 
-    context = Context()
+    from tutor.ros.participant import new_context
+
     # Python's own handler raises KeyboardInterrupt; rclpy's would end the context under whatever is going on.
-    rclpy.init(args=[*NO_LOG_FILES], context=context, signal_handler_options=SignalHandlerOptions.NO)
+    context = new_context()
     try:
         node = rclpy.create_node(
             name or f"_ros2cli_{os.getpid()}",
