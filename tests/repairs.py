@@ -59,7 +59,7 @@ async def repair(name: str, exercise: str, folder: Path, most: int) -> Repair:
             if turn == most:
                 return told
             told.steps.append(failed.verdict.hint)
-            files = {file.name: file.read_text() for file in sorted(copy.glob("*.py"))}
+            files = {file.name: file.read_text(errors="replace") for file in sorted(copy.glob("*.py"))}
             try:
                 for file, text in apply_step(failed.verdict.hint, files).items():
                     (copy / file).write_text(text)

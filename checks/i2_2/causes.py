@@ -19,6 +19,7 @@ from checks.i2_2.facts import (
     subscriptions,
     topics_in_use,
 )
+from checks.i2_2.loading import find_refusal
 from checks.i2_2.processes import EndedProcess, by_stream, ended_processes, writers, written_by
 from checks.i2_2.rewriting import PACKAGES, PROGRAMS, Launch, launch, nearest
 from tutor.judge import causes, tracebacks
@@ -119,6 +120,8 @@ def diagnose_launch(trace: Trace) -> Cause | None:
     raised = tracebacks.find_tracebacks(by_stream(own))
     if raised:
         return causes.diagnose_traceback(raised[-1], trace)
+    if (refusal := find_refusal(own, trace)) is not None:
+        return causes.diagnose_traceback(refusal, trace)
     if _NO_FUNCTION.search(text):
         return Cause(
             "no generate_launch_description",

@@ -53,6 +53,11 @@ class Source:
     def _file(self) -> SourceFile:
         return _PlainFile(self.text)
 
+    @property
+    def readable(self) -> bool:
+        """Whether Python can read it, and it says anything."""
+        return bool(self._file.tree.body)
+
     def own(self, name: str) -> str:
         """How the file calls a class: "Name", "N" or "a.Name"; `name` where it knows none of this name."""
         classes = _Plain(SourceFile(self.text)).classes()

@@ -219,7 +219,7 @@ def with_own_names(source: Source, cause: Cause) -> Cause:
 
     for name, module in _MODULES.items():
         known = source.own(name) != name or source.imports(name) or source.imports("*") or "import " in cause.hint
-        if source.text and not known and re.search(rf"(?<![\w.']){name}\(", cause.hint):
+        if source.readable and not known and re.search(rf"(?<![\w.']){name}\(", cause.hint):
             missing.append(f"from {module} import {name}")
     top = f"\nat the top of the file: {'; '.join(missing)}" if missing else ""
     return Cause(cause.name, named(cause.text), named(cause.hint) + top)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -108,6 +109,9 @@ def test_two_nodes_of_one_name_are_two() -> None:
 
 ERROR = "[ERROR] [launch]: Caught exception in launch (see debug for traceback): "
 LOADING = f"{ERROR}Caught multiple exceptions when trying to load file of format [py]:\n"
+ONE = LOADING.replace("multiple exceptions", "exception")
+FORMAT = " - InvalidFrontendLaunchFileError: The launch file may have a syntax error, or its format is unknown"
+OPEN, ZERO = "import launch\n\n\nlaunch.main(\n", "import launch\n\n\n\0launch.main()\n"
 OWN_LINE = f"""\
 Traceback (most recent call last):
   File "{FOLDER}/my_launch.py", line 9, in generate_launch_description
@@ -141,6 +145,23 @@ DEAD = f"""\
 )
 def test_a_launch_that_starts_nothing_says_why(out: str, cause: str, words: str) -> None:
     seen = launched(Graph(), out=out, exit=exited(1, after_s=0.4))
+    assert_failed(judges.judge_starts(seen), cause, words)
+
+
+@pytest.mark.parametrize(
+    ("out", "source", "cause", "words"),
+    [
+        (f"{LOADING} - SyntaxError: '(' was never closed (my_launch.py, line 4)", OPEN, "syntax error", "main()"),
+        (f"{LOADING} - IndentationError: unexpected indent (my_launch.py, line 4)", "", "syntax error", "line 4"),
+        (f"{ONE} - SyntaxError: source code string cannot contain null bytes", ZERO, "syntax error", "line 4 becomes"),
+        (f"{LOADING} - ValueError: not yet", "", "unhandled exception", "ValueError: not yet"),
+    ],
+)
+def test_an_installed_ros_shows_no_traceback_of_a_file_that_it_cannot_load(
+    out: str, source: str, cause: str, words: str
+) -> None:
+    seen = launched(Graph(), out=f"{out}\n{FORMAT}", exit=exited(1, after_s=0.4))
+    seen = replace(seen, trace=replace(seen.trace, sources={"my_launch.py": source}))
     assert_failed(judges.judge_starts(seen), cause, words)
 
 

@@ -326,7 +326,7 @@ def test_arguments_in_a_dict_that_nodes_share_are_not_given_twice() -> None:
 @pytest.mark.parametrize("case", find(["i2.2"])[0], ids=str)
 def test_each_submission_can_be_written_again(case: Case) -> None:
     """Where Python can read it at all."""
-    text = (case.folder / "my_launch.py").read_text()
+    text = (case.folder / "my_launch.py").read_text(errors="replace")
     try:
         ast.parse(text)
     except SyntaxError:

@@ -71,3 +71,7 @@ def test_nothing_is_told_where_python_can_read_the_file_or_no_small_change_helps
     assert make_readable(_SOUND) is None
     assert make_readable("") is None
     assert make_readable("this is a text and no program at all\n" * 5) is None
+
+
+def test_a_character_with_the_number_0_is_left_out() -> None:
+    assert make_readable("import os\n\0print(os)\n") == "line 2 becomes: print(os)"

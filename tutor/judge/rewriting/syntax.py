@@ -34,7 +34,7 @@ def make_readable(text: str, file: str = "") -> str | None:
 
 def slips(text: str) -> list[Edit] | None:
     """The same as edits."""
-    lines = text.splitlines()
+    lines = text.replace("\0", "").splitlines()
     for _ in range(_SLIPS):
         stop = _stop(lines)
         if stop is None:
