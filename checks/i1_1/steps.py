@@ -76,7 +76,7 @@ def set_timer_period(trace: Trace, name: str, unit: str = "Hz") -> str:
     """The timer's period follows a parameter, which is a rate in Hz, or a period in s or ms."""
     read = file(trace)
     code = {"Hz": f"1.0 / {read.value(name)}", "s": read.value(name), "ms": f"{read.value(name)} / 1000.0"}[unit]
-    return read.step([*publishing.set_period(read, code), *publishing.only_timer(read)], whole_program(read)) or (
+    return read.step([*publishing.set_period(read, code), *publishing.keep_one_timer(read)], whole_program(read)) or (
         f"the timer's period is {code}, and there is one timer only"
     )
 
@@ -94,7 +94,7 @@ def declare_name(trace: Trace, name: str) -> str:
     """There is a parameter for the sensor's name, and it is logged with every message."""
     read = file(trace)
     return read.step(
-        [*parameters.declare_parameter(read, name, "sensor"), *publishing.logging(read, name)], whole_program(read)
+        [*parameters.declare_parameter(read, name, "sensor"), *publishing.log_value(read, name)], whole_program(read)
     ) or (f"self.declare_parameter('{name}', 'sensor'), and put its value into a log message")
 
 
@@ -105,7 +105,7 @@ def diagnose_name(trace: Trace, name: str) -> Cause:
         return cause
     draw, imported = _draw(read)
     ticking = [*publishing.whole_timer_callback(read, draw, log=name), *imported] if whole.is_usual(read) else []
-    step = read.step(publishing.logging(read, name), ticking, whole_program(read))
+    step = read.step(publishing.log_value(read, name), ticking, whole_program(read))
     words = f"log it with each message: {read.name}.get_logger().info({read.value(name)})"
     return Cause("parameter ignored", f"{name} is declared, but its value is not logged", step or words)
 

@@ -12,7 +12,7 @@ from checks.i1_3 import client_names, client_requests, rewriting, service_steps,
 from checks.i1_3.code import Code, learner_files, with_applicable_step
 from checks.i1_3.facts import CLIENT, CLIENT_S, LATER_S, SERVER, SIGNS, ClientRun
 from tutor.judge import causes, edits, source, tracebacks
-from tutor.judge.rewriting.program import first_sound_step, main_called
+from tutor.judge.rewriting.program import call_main, first_sound_step
 from tutor.judge.trace import Trace
 from tutor.judge.verdict import Cause, Verdict, failed, passed
 
@@ -134,7 +134,7 @@ def _diagnose_not_called(seen: ClientRun, missing: Sequence[str]) -> Cause:
         return Cause(
             "no main call",
             "main() is defined, but nothing calls it",
-            first_sound_step(seen.trace, main_called) or 'end the file with: if __name__ == "__main__": main()',
+            first_sound_step(seen.trace, call_main) or 'end the file with: if __name__ == "__main__": main()',
         )
     return (
         causes.diagnose_incompatible_service(seen.clients)

@@ -109,7 +109,7 @@ def remove_waits(trace: Trace, stuck: Sequence[Frame]) -> str:
 def refuse_bad_rates(trace: Trace) -> str:
     """Bad rates are refused, before anything else is done."""
     read = started_node(trace)
-    first = [*parameters.without_pre_set(read), *parameters.refuse_bad_rates(read, RATE)]
+    first = [*parameters.remove_pre_set_callback(read), *parameters.refuse_bad_rates(read, RATE)]
     return read.step(first, *_larger(read, _following)) or (
         "return SetParametersResult(successful=False, reason='...') from an on-set-parameters callback"
     )
@@ -167,12 +167,12 @@ def _ticking(read: NodeFile) -> list[Edit]:
 
 
 def _whole(read: NodeFile) -> list[Edit]:
-    return [*_following(read), *publishing.only_timer(read), *_ticking(read)]
+    return [*_following(read), *publishing.keep_one_timer(read), *_ticking(read)]
 
 
 def _following_by_one(read: NodeFile) -> list[Edit]:
-    return [*_following(read), *publishing.only_timer(read)]
+    return [*_following(read), *publishing.keep_one_timer(read)]
 
 
 def _ticking_by_one(read: NodeFile) -> list[Edit]:
-    return [*_ticking(read), *publishing.only_timer(read)]
+    return [*_ticking(read), *publishing.keep_one_timer(read)]

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from checks.i2_3 import steps
 from checks.i2_3.facts import SERVICE, SHORTEST_S, TYPE, CallBatch, IdleRun, SingleCalls, right_sum
-from checks.i2_3.pace import Fault, TimerDuring
+from checks.i2_3.pace import Fault, TimerPace
 from checks.i2_3.ticks import HZ, Series
 from tutor.judge import causes, tracebacks
 from tutor.judge.rewriting.node import NodeFile, started_node
@@ -147,7 +147,7 @@ def diagnose_other_pace(alone: IdleRun, likely: Series | None) -> Cause:
     )
 
 
-def diagnose_disturbed_timer(seen: SingleCalls, heard: TimerDuring) -> Cause:
+def diagnose_disturbed_timer(seen: SingleCalls, heard: TimerPace) -> Cause:
     """Why the timer does not go on during a call as it does outside one."""
     if (broken := causes.diagnose_process(seen.trace)) is not None:
         return broken

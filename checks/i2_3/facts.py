@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from checks.i2_3.pace import TimerDuring, timer_during
+from checks.i2_3.pace import TimerPace, measure_timer
 from checks.i2_3.ticks import Series
 from tutor.judge.trace import CallAnswer, Ending, LogRecord, Trace
 from tutor.judge.tracebacks import Frame
@@ -188,11 +188,11 @@ def is_excused(logs: Sequence[LogRecord], call: Call, series: Sequence[Series]) 
     return call.busy and any(_timer_during_call(each, logs, call, 2 * call.cpu_wait_s).fault is None for each in right)
 
 
-def timer_during_call(series: Series, logs: Sequence[LogRecord], call: Call) -> TimerDuring:
+def timer_during_call(series: Series, logs: Sequence[LogRecord], call: Call) -> TimerPace:
     """What was heard of the timer during this call."""
     return _timer_during_call(series, logs, call, min(call.cpu_wait_s, MOST_EXCUSED_S))
 
 
-def _timer_during_call(series: Series, logs: Sequence[LogRecord], call: Call, cpu_wait_s: float) -> TimerDuring:
+def _timer_during_call(series: Series, logs: Sequence[LogRecord], call: Call, cpu_wait_s: float) -> TimerPace:
     asked, answered = call.answer.asked_at, call.answer.answered_at
-    return timer_during(series, logs, asked, answered, until=call.until, cpu_wait_s=cpu_wait_s)
+    return measure_timer(series, logs, asked, answered, until=call.until, cpu_wait_s=cpu_wait_s)

@@ -29,8 +29,8 @@ from checks.i2_3.facts import (
     right_sum,
     timer_during_call,
 )
-from checks.i2_3.pace import Fault, TimerDuring
-from checks.i2_3.ticks import HZ, Series, best
+from checks.i2_3.pace import Fault, TimerPace
+from checks.i2_3.ticks import HZ, Series, best_series
 from tutor.judge import causes, ending
 from tutor.judge.bench import MachineTooBusy
 from tutor.judge.rates import TOLERANCE
@@ -124,7 +124,7 @@ def _judge_timer(alone: IdleRun, seen: SingleCalls) -> Verdict:
         f"the timer of {HZ:g} Hz (±{TOLERANCE:.0%}) logs during a call at the pace it has outside one, without a gap "
         "or a burst"
     )
-    likely = best(alone.series)
+    likely = best_series(alone.series)
     if likely is None or not likely.is_10_hz:
         if alone.excused:
             raise MachineTooBusy("this machine is too busy to measure the timer")
@@ -154,7 +154,7 @@ def _judge_timer(alone: IdleRun, seen: SingleCalls) -> Verdict:
     return failed(expected, observed, why.diagnose_disturbed_timer(seen, call), texts[-6:])
 
 
-def _heard(call: TimerDuring, series: Series) -> str:
+def _heard(call: TimerPace, series: Series) -> str:
     pace = f", {call.hz:.1f} ticks/s" if call.hz is not None and call.fault is not Fault.GAP else ""
     return (
         f"during the call of {call.for_s:.1f} s: {call.count} messages{pace}, the longest pause {call.longest_s:.2f} s "

@@ -24,7 +24,7 @@ class Fault(Enum):
 
 
 @dataclass(frozen=True, slots=True)
-class TimerDuring:
+class TimerPace:
     """The timer's messages around one call: `count` of them during its `for_s` seconds, the longest gap touching it.
 
     `hz`: the ticks in a second, as the series tells them; None where too few messages tell it.
@@ -38,9 +38,9 @@ class TimerDuring:
     fault: Fault | None
 
 
-def timer_during(
+def measure_timer(
     series: Series, logs: Iterable[LogRecord], asked_at: float, answered_at: float, *, until: float, cpu_wait_s: float
-) -> TimerDuring:
+) -> TimerPace:
     """How the series went on while a call was made. `until`: how long the node was watched (seconds since the epoch).
 
     A node that the machine kept from running for `cpu_wait_s` may pause that much longer, and tick that much less.
@@ -70,7 +70,7 @@ def timer_during(
         fault = Fault.SLOW
     elif len(within) > most or _bursts(series, edges) or (hz and hz > (1 + TOLERANCE) * series.hz):
         fault = Fault.FAST
-    return TimerDuring(len(within), expected, for_s, longest, hz, fault)
+    return TimerPace(len(within), expected, for_s, longest, hz, fault)
 
 
 def _bursts(series: Series, stamps: Sequence[float]) -> bool:

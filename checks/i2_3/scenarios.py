@@ -27,7 +27,7 @@ from checks.i2_3.facts import (
 )
 from checks.i2_3.listening import listen, logs_since, may_be_10_hz, next_tick
 from checks.i2_3.repeats import MOST_TRIES, TRIES, needs_repeat, needs_repeat_at_once
-from checks.i2_3.ticks import Series, all_series, likely
+from checks.i2_3.ticks import Series, all_series, timer_series
 from tutor.judge.bench import Bench, Run
 from tutor.judge.ending import repeat_if_doubtful
 from tutor.judge.trace import CallAnswer
@@ -60,7 +60,7 @@ async def run_idle(bench: Bench) -> IdleRun:
         bench.report_progress(0.3, "listening to the timer")
         await listen(run, since, lambda: has_service(run.graph.servers))
         share = (run.node_cpu_wait_s() - cpu_wait_s) / max(0.1, run.now() - listened_at)
-        series = likely(all_series(logs_since(run.logs, since)))
+        series = timer_series(all_series(logs_since(run.logs, since)))
         trace = run.trace()
         bench.report_progress(0.8, "pressing Ctrl+C")
         ended = await run.interrupt() if run.exit is None else None

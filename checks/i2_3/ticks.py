@@ -18,16 +18,16 @@ from tutor.judge.trace import LogRecord
 
 HZ = 10.0
 
-EVEN = 0.5
+EVEN_SHARE = 0.5
 """Messages of different wording are one series if most intervals are within this share of their median."""
 
 CLOCKS_HZ = (1e3, 1e6, 1e9)
 """A number that rises at one of these speeds is a time in ms, µs or ns, not a count of ticks."""
 
-LEAST_S = 0.9
+MIN_SPAN_S = 0.9
 """What comes again and again within less than this, and then no more, is a greeting."""
 
-MOST = 2000
+MAX_MESSAGES = 2000
 """Of a flood of messages, the latest will do."""
 
 STARTS_OVER = 2
@@ -83,27 +83,27 @@ class Series:
         return f"{self.hz:.1f} ticks/s {by}, {len(self.ticks)} messages in {self.span_s:.1f} s"
 
 
-def likely(found: Sequence[Series]) -> tuple[Series, ...]:
+def timer_series(found: Sequence[Series]) -> tuple[Series, ...]:
     """Those that are of 10 Hz, or else the likeliest of another pace.
 
     Messages that are some of another series' are not all that the timer logs, and left out.
     """
     right = [series for series in found if series.is_10_hz]
     if not right:
-        one = best(found)
+        one = best_series(found)
         return (one,) if one else ()
     stamps = {series: {tick.stamp for tick in series.ticks} for series in right}
     return tuple(series for series in right if not any(stamps[series] < stamps[other] for other in right))
 
 
-def best(found: Iterable[Series]) -> Series | None:
+def best_series(found: Iterable[Series]) -> Series | None:
     """The series that is most likely the timer's: one with tick numbers, else the one with most messages."""
     return max(found, key=lambda series: (series.is_10_hz, series.numbered, len(series.ticks)), default=None)
 
 
 def all_series(logs: Iterable[LogRecord]) -> list[Series]:
     """Every way to see repeated messages in these logs."""
-    ordered = sorted(logs, key=lambda log: log.stamp)[-MOST:]
+    ordered = sorted(logs, key=lambda log: log.stamp)[-MAX_MESSAGES:]
     found = _alike(ordered)
     names = {log.name for log in ordered}
     if len(names) > 1:  # two nodes may use the same words
@@ -154,7 +154,7 @@ def _of_function(name: str, function: str, theirs: Sequence[LogRecord], found: S
 
 def _series(key: Key, logs: Iterable[LogRecord]) -> Series | None:
     ticks = tuple(tick for log in logs if (tick := key.of(log)))
-    return Series(key, ticks) if len(ticks) > 1 and ticks[-1].stamp - ticks[0].stamp >= LEAST_S else None
+    return Series(key, ticks) if len(ticks) > 1 and ticks[-1].stamp - ticks[0].stamp >= MIN_SPAN_S else None
 
 
 def _counting(series: Series | None) -> Series | None:
@@ -181,7 +181,7 @@ def _even(series: Series | None) -> Series | None:
         return None
     steps = [b.stamp - a.stamp for a, b in pairwise(series.ticks)]
     usual = median(steps)
-    near = sum(abs(step - usual) <= EVEN * usual for step in steps)
+    near = sum(abs(step - usual) <= EVEN_SHARE * usual for step in steps)
     return series if near >= 0.8 * len(steps) else None
 
 

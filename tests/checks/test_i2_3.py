@@ -21,9 +21,9 @@ from checks.i2_3.judges import (
     judge_timer,
 )
 from checks.i2_3.listening import logs_since
-from checks.i2_3.pace import Fault, timer_during
+from checks.i2_3.pace import Fault, measure_timer
 from checks.i2_3.repeats import MOST_AT_ONCE_TRIES, MOST_TRIES, TRIES, needs_repeat, needs_repeat_at_once
-from checks.i2_3.ticks import Series, all_series, likely
+from checks.i2_3.ticks import Series, all_series, timer_series
 from tests.checks.made import (
     CRASHED,
     KEYBOARD_INTERRUPT,
@@ -85,7 +85,7 @@ def ticking(
 
 
 def seen_in(logs: Sequence[LogRecord]) -> tuple[Series, ...]:
-    return likely(all_series(logs))
+    return timer_series(all_series(logs))
 
 
 def answer(took_s: float = 3.01, a: int = 5, b: int = 3, sum_: int | None = 8, asked_at: float = ASKED) -> CallAnswer:
@@ -473,7 +473,7 @@ def test_a_timer_without_a_call_is_not_judged() -> None:
 def test_numbers_that_tell_the_time_are_no_ticks() -> None:
     (series,) = seen_in(ticking(lambda n: f"{n * 100_000_000} ns", every=1))
     assert not series.numbered
-    assert timer_during(series, [], START, START + 3, until=START + 4, cpu_wait_s=0).fault is Fault.GAP
+    assert measure_timer(series, [], START, START + 3, until=START + 4, cpu_wait_s=0).fault is Fault.GAP
 
 
 def three(*sums: int | None, took_s: Sequence[float] = (3.0, 3.0, 3.0), cpu_wait_s: float = 0.0) -> ConcurrentCalls:

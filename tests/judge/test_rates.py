@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.checks.made import sample, samples
-from tutor.judge.rates import FEW, TOLERANCE, Rate, describe, measure
+from tutor.judge.rates import MIN_FOR_BURSTS, TOLERANCE, Rate, describe, measure
 from tutor.judge.waiting import too_few_by_cpu_wait
 
 rates = st.floats(0.05, 1000)
@@ -62,7 +62,7 @@ def test_bursts_are_no_rate(hz: float, size: int, bursts: int) -> None:
     times = [5.0 + burst * every_s + i * 1e-4 for burst in range(bursts) for i in range(size)]
     rate = measure([sample("/t", 0, at) for at in times])
     assert rate is not None
-    assert rate.in_bursts == (size > 2 or len(times) >= FEW)
+    assert rate.in_bursts == (size > 2 or len(times) >= MIN_FOR_BURSTS)
     assert not rate.in_bursts or not rate.agrees(rate.hz)
 
 

@@ -245,7 +245,7 @@ def test_a_node_without_anything_gets_publisher_timer_and_callback() -> None:
 
 def test_a_second_timer_is_removed() -> None:
     file = changed(("        self.add_on", "        self.create_timer(1.0, self.tick)\n        self.add_on"))
-    assert done(file, publishing.only_timer(file)) == NODE
+    assert done(file, publishing.keep_one_timer(file)) == NODE
 
 
 @pytest.mark.parametrize(

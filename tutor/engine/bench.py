@@ -47,7 +47,7 @@ class RosBench:
     """The `Bench` of `tutor.judge.bench` for one scenario.
 
     `expected_s`: how many seconds of the clock its check asks for; where several are to start, the longest goes first
-    (a start may say how many it asks for itself). `exceptions`: the check's own known ones. `kills`: the files whose
+    (a start may say how many it asks for itself). `exceptions`: the check's own known ones. `sigkilled`: the files whose
     process ended with SIGKILL, by itself or by others.
     """
 
@@ -59,7 +59,7 @@ class RosBench:
     expected_s: float = 0.0
     exceptions: tuple[KnownException, ...] = ()
     walls: Walls | None = None
-    kills: list[Path] = field(default_factory=list)
+    sigkilled: list[Path] = field(default_factory=list)
 
     @asynccontextmanager
     async def start(
@@ -157,7 +157,7 @@ class RosBench:
                     with _unless_ended_by_others(process):
                         yield RosRun(path, parameters, domain_id, process, observer, facts, self.exceptions)
                     if process.killed:
-                        self.kills.append(path)
+                        self.sigkilled.append(path)
             finally:
                 observer.close()
 

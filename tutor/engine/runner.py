@@ -162,7 +162,7 @@ class Runner:
 async def _seen(scenario: Scenario[Any], bench: RosBench) -> Any:
     """The facts of a scenario; where a process was killed in it, of another: who did it cannot be known from one."""
     facts = await scenario(bench)
-    return await scenario(bench) if bench.kills else facts
+    return await scenario(bench) if bench.sigkilled else facts
 
 
 def _with_dependencies(check: Check, shown: Iterable[Criterion]) -> tuple[Criterion, ...]:

@@ -16,11 +16,11 @@ WINDOW_FILLED = 0.6
 """The first and the last message of a window may be up to a period away from its ends."""
 
 
-EVEN = 0.5
+EVEN_SHARE = 0.5
 """Of messages that come one by one, half are further apart than this share of the mean period, jitter and all."""
 
-FEW = 5
-"""So few messages do not tell whether they come in bursts."""
+MIN_FOR_BURSTS = 5
+"""Fewer messages do not show whether they come in bursts."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,7 +38,7 @@ class Rate:
     @property
     def in_bursts(self) -> bool:
         """Whether most messages come right after another: as many as asked for, but not at that rate."""
-        return self.samples >= FEW and self.median_s is not None and self.median_s * self.hz < EVEN
+        return self.samples >= MIN_FOR_BURSTS and self.median_s is not None and self.median_s * self.hz < EVEN_SHARE
 
     def agrees(self, asked_hz: float) -> bool:
         """Whether this is the rate that was asked for, within the tolerance."""

@@ -50,7 +50,7 @@ class LearnerProcess:
         self._exit: Exit | None = None
         self._exited: asyncio.Future[None] = self._loop.create_future()
         self._run = uuid.uuid4().hex
-        self._out_of_memory = memory.kills()
+        self._out_of_memory = memory.oom_kills()
         self._fault = ""
         with contextlib.ExitStack() as made:
             self._stdin = Stdin(terminal=terminal)
@@ -231,7 +231,7 @@ class LearnerProcess:
         # All that the process itself wrote is in the pipes by now; others may hold them open and go on writing.
         self._drain()
         self._exit = ended
-        if self.killed and memory.kills() > self._out_of_memory:
+        if self.killed and memory.oom_kills() > self._out_of_memory:
             self._fault = "the machine ran out of memory, and the system killed the program"
         self._exited.set_result(None)
         self._changed()

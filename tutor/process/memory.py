@@ -7,7 +7,7 @@ from pathlib import Path
 _VMSTAT = Path("/proc/vmstat")
 
 
-def kills() -> int:
+def oom_kills() -> int:
     """How many processes it has killed so since it was started, by a container's own limit too; 0 where unknown."""
     try:
         counts = dict(line.split() for line in _VMSTAT.read_text().splitlines())

@@ -12,7 +12,7 @@ from tutor.judge.causes.blocking import diagnose_blocked
 from tutor.judge.causes.exceptions import diagnose_known_exception, diagnose_traceback
 from tutor.judge.edits import remove_statement
 from tutor.judge.rewriting.node import started_node
-from tutor.judge.rewriting.program import first_sound_step, main_called, whole_program
+from tutor.judge.rewriting.program import call_main, first_sound_step, whole_program
 from tutor.judge.source import called_name
 from tutor.judge.trace import Exit, OutputLine, Trace
 from tutor.judge.tracebacks import Frame, Traceback
@@ -49,7 +49,7 @@ def _diagnose_exit(trace: Trace) -> Cause:
         return Cause(
             "no main call",
             f"{ended}: main() is defined, but nothing calls it",
-            first_sound_step(trace, main_called) or 'end the file with: if __name__ == "__main__": main()',
+            first_sound_step(trace, call_main) or 'end the file with: if __name__ == "__main__": main()',
         )
     if (torn := diagnose_torn_thread(trace.exit, trace.output)) is not None:
         return torn

@@ -91,7 +91,7 @@ def register_on_set(file: NodeFile, function: Function) -> list[Edit]:
     return file.append_to_setup(f"{file.name}.{ON_SET}({'self.' if inside else ''}{function.name})")
 
 
-def without_pre_set(file: NodeFile) -> list[Edit]:
+def remove_pre_set_callback(file: NodeFile) -> list[Edit]:
     """No callback that changes the list of values before they are checked."""
     return [_without(file, each) for each in file.calls(PRE_SET)]
 

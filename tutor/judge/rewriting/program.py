@@ -97,7 +97,7 @@ def guard_spin(file: NodeFile, call: ast.Call) -> list[Edit]:
     return [*imported, replace_statement(statement, code)]
 
 
-def main_called(file: NodeFile) -> list[Edit]:
+def call_main(file: NodeFile) -> list[Edit]:
     """The call of main() at the end of the file, where nothing calls it."""
     main = next((each for each in file.tree.body if isinstance(each, Function) and each.name == "main"), None)
     return _called(file, main) if main is not None else []

@@ -58,7 +58,7 @@ def waiting_while_off(file: NodeFile, enabled: str) -> list[Edit]:
     ]
 
 
-def logging(file: NodeFile, parameter: str) -> list[Edit]:
+def log_value(file: NodeFile, parameter: str) -> list[Edit]:
     """A log message with a parameter's value, for each message that is published."""
     code = f"{file.name}.get_logger().info(str({file.value(parameter)}))"
     return [insert_above(each.lineno, code) for each in _publishing(file)[:1]]
@@ -195,7 +195,7 @@ def set_period(file: NodeFile, code: str) -> list[Edit]:
     return [replace_node(file.text, naps[0].args[0], code)] if len(naps) == 1 else []
 
 
-def only_timer(file: NodeFile) -> list[Edit]:
+def keep_one_timer(file: NodeFile) -> list[Edit]:
     """Without the other timers that call the same function, beside the first one."""
     if file.first_timer is None:
         return []
