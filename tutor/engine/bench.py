@@ -47,8 +47,8 @@ class RosBench:
     """The `Bench` of `tutor.judge.bench` for one scenario.
 
     `expected_s`: how many seconds of the clock its check asks for; where several are to start, the longest goes first
-    (a start may say how many it asks for itself). `exceptions`: the check's own known ones. `sigkilled`: the files whose
-    process ended with SIGKILL, by itself or by others.
+    (a start may say how many it asks for itself). `exceptions`: the check's own known ones. `sigkilled`: the
+    files whose process was ended by SIGKILL.
     """
 
     submission: Submission
