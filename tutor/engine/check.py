@@ -19,7 +19,20 @@ from tutor.judge.events import CheckFinished, Event
 from tutor.judge.result import Environment, Report
 from tutor.judge.submission import Submission
 
-_LATE = ("rclpy.serialization", "rosidl_generator_py", "std_msgs.msg", "rcl_interfaces.srv", "example_interfaces.srv")
+_INTERFACES = (
+    "std_msgs",
+    "rcl_interfaces",
+    "builtin_interfaces",
+    "service_msgs",
+    "type_description_interfaces",
+    "example_interfaces",
+)
+_LATE = (
+    "rclpy.serialization",
+    "rosidl_generator_py",
+    *(f"{package}.{kind}" for package in _INTERFACES for kind in ("msg", "srv")),
+    *(f"{package}.{package}_s__rosidl_typesupport_c" for package in _INTERFACES),
+)
 """What would else be imported with the first message: a module whose file changes during a check is refused, even if
 only uv has linked another environment to it."""
 
