@@ -297,10 +297,10 @@ threading.Thread(target=flood, daemon=True).start()
 
 
 async def test_a_flood_neither_hangs_nor_grows_without_bound(scene: Scene, monkeypatch: pytest.MonkeyPatch) -> None:
-    from tutor.ros import observer
+    from tutor.ros import intake
 
     most = 500
-    monkeypatch.setattr(observer, "MOST_SAMPLES", most)
+    monkeypatch.setattr(intake, "MOST_SAMPLES", most)
     async with scene.bench(node(FLOODS)).start(FILE, watch=CHATTER) as run:
         assert await run.until(lambda: len(run.samples_on("/chatter")) >= most and len(run.logs) >= most, UP_S)
         assert await run.until(lambda: run.trace().dropped_lines > 3000, UP_S)
@@ -328,9 +328,9 @@ node.create_timer(0.02, big)
 async def test_big_messages_are_cut_and_no_more_is_taken_than_can_be_kept(
     scene: Scene, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from tutor.ros import messages, observer
+    from tutor.ros import intake, messages, observer
 
-    monkeypatch.setattr(observer, "MOST_BYTES", 1_000_000)
+    monkeypatch.setattr(intake, "MOST_BYTES", 1_000_000)
     async with scene.bench(node(BIG)).start(FILE, watch=CHATTER) as run:
         assert await run.until(lambda: len(run.samples_on("/chatter")) >= 5 and len(run.logs) >= 6, UP_S)
         declared = await run.parameters(10)

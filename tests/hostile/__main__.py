@@ -59,12 +59,17 @@ class Peak:
         self.mb = 0.0
 
     def look(self, root: int) -> None:
-        """Read it for `root` and those of its descendants that are ours."""
+        """Read it for `root` and those of its descendants that are ours.
+
+        A fork that is about to become another program has its parent's command line, and its parent's memory, still.
+        """
         together_kb = 0
-        for pid in (root, *(p.pid for p in descendants(root))):
+        commands: dict[int, bytes] = {}
+        for pid, parent in ((root, 0), *((p.pid, p.parent) for p in descendants(root))):
             try:
-                words = Path(f"/proc/{pid}/cmdline").read_bytes().split(b"\0")
-                if not any(word.endswith(OURS) for word in words):
+                commands[pid] = Path(f"/proc/{pid}/cmdline").read_bytes()
+                ours = any(word.endswith(OURS) for word in commands[pid].split(b"\0"))
+                if not ours or commands[pid] == commands.get(parent):
                     continue
                 status = Path(f"/proc/{pid}/status").read_text()
             except OSError:  # it has just ended

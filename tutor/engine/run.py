@@ -24,8 +24,9 @@ from tutor.judge.trace import CallAnswer, Echo, Ending, Exit, LogRecord, OutputL
 from tutor.judge.tracebacks import Frame
 from tutor.process import CpuMeter, CpuTime, LearnerProcess, own_cpu_time
 from tutor.ros import echo, graph, parameters
+from tutor.ros.intake import MOST_SAMPLES
 from tutor.ros.messages import to_plain
-from tutor.ros.observer import ANY_PUBLISHER, MOST_SAMPLES, Observer
+from tutor.ros.observer import ANY_PUBLISHER, AnswerTooLarge, Observer
 from tutor.ros.talker import Talker
 from tutor.ros_model import Graph, Parameter, echo_qos
 
@@ -238,11 +239,10 @@ class RosRun:
         asked = time.time()
         if matched := await self._while_alive(self._observer.matched(service, type, NEVER_S), limit_s, False):
             asked = time.time()
-        response = (
-            None
-            if not matched
-            else await self._while_alive(self._observer.call(service, type, request, NEVER_S), limit_s, None)
-        )
+        response = None
+        with contextlib.suppress(AnswerTooLarge):
+            if matched:
+                response = await self._while_alive(self._observer.call(service, type, request, NEVER_S), limit_s, None)
         return CallAnswer(
             service=service,
             request=dict(request),

@@ -48,7 +48,7 @@ class Watcher:
 
     def __init__(self, domain_id: int, send: Callable[[Update], object]) -> None:
         self._send = send
-        self._observer = Observer(domain_id)
+        self._observer = Observer(domain_id, guarded=False)
         self._raw_subscription = RawSubscription(self._observer.node.context)
         self._graph = Graph()
         self._topics = FollowedTopics(self._raw_subscription)

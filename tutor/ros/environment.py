@@ -114,6 +114,8 @@ def tutor_env(ros: RosEnvironment, *, isolated: bool, environ: Mapping[str, str]
     """
     env = _ros_env(ros, environ, first_on_path=[])
     env.update(_discovery(ros, isolated, environ))
+    if isolated:
+        env["RMW_FASTRTPS_USE_QOS_FROM_XML"] = "1"  # how our own endpoints keep what they receive: see the profile
     for name in ("ROS_DOMAIN_ID", "ROS_LOG_DIR"):
         if name in environ:
             env[name] = environ[name]

@@ -75,6 +75,15 @@ def set_fields(message: Any, values: Mapping[str, Any]) -> Any:
     return message
 
 
+def stand_in(message_type: Any, text: str) -> Any:
+    """A message in place of one that cannot be looked into: its own texts say so, all else is as by default."""
+    message = message_type()
+    for name, type_name in message.get_fields_and_field_types().items():
+        if type_name == "string":
+            setattr(message, name, text)
+    return message
+
+
 class _Room:
     """What one message may take."""
 

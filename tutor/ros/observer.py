@@ -3,39 +3,47 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
+import functools
 import itertools
 import threading
 import time
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
 from rclpy.client import Client
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.qos import qos_profile_services_default
 from rclpy.service import Service as ServiceServer
 
 from tutor.judge.trace import LogRecord, Sample
+from tutor.ros import memory_guard
+from tutor.ros.intake import Intake
 from tutor.ros.messages import cut, interface_class, plain_and_size, set_fields, size_kept, to_plain
 from tutor.ros.participant import OUR_PREFIX, create_node, new_context
-from tutor.ros.qos import subscription_profile
 from tutor.ros_model import QoS
 
 ANY_PUBLISHER = QoS("best_effort", "volatile")
 """What every publisher offers at least."""
 
-QUEUE_DEPTH = 1000
-"""Queue depth of our subscriptions: a default-QoS subscriber can lose a burst that this one gets whole."""
-
-MOST_SAMPLES = 20_000
-"""A topic is no longer listened to after this many samples: a flood must not exhaust us."""
-
-MOST_BYTES = 8_000_000
-"""Nor after this many bytes."""
-
 LINE_CHARACTERS = 2000
 """A log message is cut at this many characters, as a line of the output is."""
 
 _number = itertools.count(1)
+
+
+class AnswerTooLarge(Exception):
+    """The answer to a request is larger than what may be received."""
+
+
+class _Gate(MutuallyExclusiveCallbackGroup):
+    """What is received is taken while it is open."""
+
+    closed = False
+
+    def can_execute(self, entity: Any) -> bool:
+        return not self.closed and bool(super().can_execute(entity))  # type: ignore[no-untyped-call]
 
 
 class Observer:
@@ -45,7 +53,8 @@ class Observer:
     and handed over with `call_soon_threadsafe`.
     """
 
-    def __init__(self, domain_id: int, on_change: Callable[[], None] = lambda: None) -> None:
+    def __init__(self, domain_id: int, on_change: Callable[[], None] = lambda: None, *, guarded: bool = True) -> None:
+        """`guarded`: it leaves what is too large to be received (see `tutor.ros.memory_guard`)."""
         self.samples: dict[str, list[Sample]] = {}
         self.logs: list[LogRecord] = []
         self.fault: Exception | None = None
@@ -53,46 +62,48 @@ class Observer:
         self._on_change = on_change
         self._clients: dict[tuple[str, str], Client] = {}
         self._servers: list[ServiceServer] = []
+        self._answers: set[asyncio.Future[Any]] = set()
+        self._large_answers = 0
+        self._gate: _Gate = _Gate()  # type: ignore[no-untyped-call]
+        self._intakes: list[Intake] = []
         self._closed = False
+        threads = memory_guard.threads()
         self._context = new_context(domain_id)
         self.node = create_node(self._context, f"{OUR_PREFIX}_{next(_number)}")
+        self.threads = memory_guard.threads() - threads
         self._executor = SingleThreadedExecutor(context=self._context)
         self._executor.add_node(self.node)
         self._thread = threading.Thread(target=self._spin, name=f"observer-{domain_id}", daemon=True)
         self._thread.start()
+        if guarded:
+            memory_guard.guard(self)
 
     def watch_logs(self) -> None:
         """Subscribe to `/rosout`, including earlier messages (it is transient local)."""
-        qos = subscription_profile(QoS("reliable", "transient_local"), QUEUE_DEPTH)
 
-        def take(message: Any) -> None:
+        def take(message: Any, _source_time: float) -> int:
             stamp = message.stamp.sec + message.stamp.nanosec * 1e-9
             level = message.level if isinstance(message.level, int) else message.level[0]
             text, name, function = (
                 cut(each, LINE_CHARACTERS) for each in (message.msg, message.name, message.function)
             )
             self._hand_to_loop(self._log, LogRecord(level, name, text, stamp, time.time(), function))
-            count(size_kept(message.msg, text))
+            return size_kept(message.msg, text)
 
-        count = self._counter(lambda: self.node.destroy_subscription(subscription))
-        subscription = self.node.create_subscription(interface_class("rcl_interfaces/msg/Log"), "/rosout", take, qos)
+        qos = QoS("reliable", "transient_local")
+        self._intakes.append(Intake(self.node, "/rosout", "rcl_interfaces/msg/Log", qos, self._gate, take))
 
     def watch(self, topic: str, type_name: str, requested: QoS = ANY_PUBLISHER) -> None:
         """Collect the samples of a topic. Raises UnknownType."""
-        message_type = interface_class(type_name)
+        interface_class(type_name)
         self.samples[topic] = []
-        qos = subscription_profile(requested, QUEUE_DEPTH)
 
-        def take(message: Any, info: Any) -> None:
+        def take(message: Any, source_time: float) -> int:
             plain, cost = plain_and_size(message)
-            source = info["source_timestamp"] * 1e-9
-            self._hand_to_loop(self._sample, Sample(topic, plain, source, time.time()))
-            count(cost)
+            self._hand_to_loop(self._sample, Sample(topic, plain, source_time, time.time()))
+            return cost
 
-        # rclpy gives the message's info to a callback that takes two arguments; its annotations know one only.
-        callback: Any = take
-        count = self._counter(lambda: self.node.destroy_subscription(subscription))
-        subscription = self.node.create_subscription(message_type, topic, callback, qos)
+        self._intakes.append(Intake(self.node, topic, type_name, requested, self._gate, take))
 
     def serve(
         self,
@@ -109,10 +120,17 @@ class Observer:
             self._hand_to_loop(on_served, asked, answered)
             return set_fields(response, answered)
 
-        self._servers.append(self.node.create_service(interface_class(type_name), service, answer))
+        self._servers.append(
+            self.node.create_service(interface_class(type_name), service, answer, callback_group=self._gate)
+        )
 
-    async def call(self, service: str, type_name: str, request: Mapping[str, Any], limit_s: float) -> Any | None:
-        """Call a service once its server is matched; None where no answer came within the limit."""
+    async def call(
+        self, service: str, type_name: str, request: Mapping[str, Any], limit_s: float, *, large: bool = False
+    ) -> Any | None:
+        """Call a service once its server is matched; None where no answer came within the limit.
+
+        `large`: that its answer may be of any size is to be expected. Raises AnswerTooLarge.
+        """
         deadline = self._loop.time() + limit_s
         if not await self.matched(service, type_name, limit_s):
             return None
@@ -121,13 +139,22 @@ class Observer:
         answer: asyncio.Future[Any] = self._loop.create_future()
         pending = client.call_async(filled)
         pending.add_done_callback(lambda done: self._hand_to_loop(_settle, answer, done))
+        self._answers.add(answer)
+        self._large_answers += large
         try:
             return await asyncio.wait_for(answer, max(0.0, deadline - self._loop.time()))
         except TimeoutError:
             return None
         finally:  # the caller may be cancelled
+            self._answers.discard(answer)
+            self._large_answers -= large
             if not pending.done():
                 client.remove_pending_request(pending)
+
+    def forget(self, service: str, type_name: str) -> None:
+        """Make another client for the next call: one keeps the memory of the largest answer that it has had."""
+        if client := self._clients.pop((service, type_name), None):
+            self._executor.create_task(self.node.destroy_client, client)
 
     async def matched(self, service: str, type_name: str, limit_s: float) -> bool:
         """Wait until our client has discovered the server; False where it has not within the limit."""
@@ -139,36 +166,60 @@ class Observer:
             await asyncio.sleep(0.005)
         return True
 
+    def pause(self, paused: bool) -> None:
+        """Take nothing of what has been received, or take it again. Called in any thread."""
+        if self._gate.closed != paused:
+            self._gate.closed = paused
+            with contextlib.suppress(AttributeError):  # the executor has been shut down meanwhile
+                self._executor.wake()
+
+    async def until_taken_again(self, limit_s: float) -> None:
+        """Wait while nothing is taken of what has been received."""
+        deadline = self._loop.time() + limit_s
+        while self._gate.closed and self._loop.time() < deadline:
+            await asyncio.sleep(0.01)
+
+    def shed(self) -> None:
+        """Leave the services of which a large answer is awaited, or else the topics, or else all services.
+
+        Called in any thread. What is left is left where messages are taken, too.
+        """
+        left: list[Callable[[], object]] = [intake.leave for intake in self._intakes]
+        if left and not self._large_answers:
+            self._intakes = []
+        else:
+            clients, self._clients = self._clients, {}
+            left = [functools.partial(self.node.destroy_client, client) for client in clients.values()]
+            left += [functools.partial(self.node.destroy_service, server) for server in self._servers]
+            self._hand_to_loop(self._refuse_answers)
+        with contextlib.suppress(AttributeError):  # the executor has been shut down meanwhile
+            for leave in left:
+                self._executor.create_task(leave)
+
     def close(self) -> None:
         """Leave the domain. Safe to call twice."""
         if self._closed:
             return
         self._closed = True
+        memory_guard.release(self)
         self._executor.shutdown(timeout_sec=0)
         self._context.try_shutdown()
         self._thread.join(5.0)
         self.node.destroy_node()
 
+    def _refuse_answers(self) -> None:
+        for answer in self._answers:
+            if not answer.done():
+                answer.set_exception(AnswerTooLarge())
+
     def _client(self, service: str, type_name: str) -> Client:
         key = (service, type_name)
         if key not in self._clients:
             self._clients[key] = self.node.create_client(
-                interface_class(type_name), service, qos_profile=qos_profile_services_default
+                interface_class(type_name), service, qos_profile=qos_profile_services_default, callback_group=self._gate
             )
             self._executor.wake()
         return self._clients[key]
-
-    def _counter(self, leave: Callable[[], object]) -> Callable[[int], None]:
-        """Counts the messages and bytes of one topic; calls `leave` at the limit."""
-        messages = kept = 0
-
-        def count(cost: int) -> None:
-            nonlocal messages, kept
-            messages, kept = messages + 1, kept + cost
-            if messages >= MOST_SAMPLES or kept > MOST_BYTES:
-                leave()
-
-        return count
 
     def _spin(self) -> None:
         try:

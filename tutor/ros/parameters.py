@@ -9,7 +9,7 @@ from typing import Any
 
 from tutor.judge.trace import SetAnswer
 from tutor.ros.messages import cut, interface_class
-from tutor.ros.observer import Observer
+from tutor.ros.observer import AnswerTooLarge, Observer
 from tutor.ros_model import PARAMETER_TYPES, Parameter
 
 _FIELDS = (
@@ -28,6 +28,20 @@ _FIELDS = (
 
 MOST_PARAMETERS, MOST_ELEMENTS = 500, 1000
 """This many parameters of a node are asked for, and this many elements of an array are kept. Texts are cut, too."""
+
+LONGEST_NAME = 1000
+
+MOST_BYTES = 64_000_000
+"""No more than this is received of the values of a node's texts and arrays, one after the other."""
+
+TOO_LARGE = (0, "(too large to be read)")
+"""In place of a type and a value: of a parameter that is not read."""
+
+_SMALL = frozenset((1, 2, 3))
+"""The types whose values have a fixed size."""
+
+_LARGE = 1_000_000
+_ELEMENT_BYTES = 8
 
 
 async def get_parameters(observer: Observer, nodes: Iterable[str], limit_s: float) -> tuple[Parameter, ...] | None:
@@ -56,7 +70,10 @@ async def set_parameters(
     )
     wanted = [_message(name, value, (types or {}).get(name)) for name, value in values.items()]
     asked = time.time()
-    answer = await observer.call(f"{node}/{verb}", f"rcl_interfaces/srv/{kind}", {"parameters": wanted}, limit_s)
+    try:
+        answer = await observer.call(f"{node}/{verb}", f"rcl_interfaces/srv/{kind}", {"parameters": wanted}, limit_s)
+    except AnswerTooLarge:
+        return SetAnswer(values, True, False, TOO_LARGE[1], asked, time.time())
     if answer is None:
         return SetAnswer(values, False, False, "", asked, time.time())
     results = [answer.result] if atomic else answer.results
@@ -71,56 +88,108 @@ async def set_parameters(
 
 
 async def _ask_one(observer: Observer, node: str, limit_s: float) -> tuple[Parameter, ...] | None:
-    listed = await observer.call(f"{node}/list_parameters", "rcl_interfaces/srv/ListParameters", {}, limit_s)
+    try:
+        listed = await observer.call(f"{node}/list_parameters", "rcl_interfaces/srv/ListParameters", {}, limit_s)
+    except AnswerTooLarge:
+        return ()
     if listed is None:
         return None
-    names = list(listed.result.names)[:MOST_PARAMETERS]
+    names = [name for name in listed.result.names[:MOST_PARAMETERS] if len(name) <= LONGEST_NAME]
     if not names:
         return ()
-    values, described = await asyncio.gather(
-        observer.call(f"{node}/get_parameters", "rcl_interfaces/srv/GetParameters", {"names": names}, limit_s),
-        observer.call(
-            f"{node}/describe_parameters", "rcl_interfaces/srv/DescribeParameters", {"names": names}, limit_s
-        ),
-    )
-    if described is None:
-        return None
-    # A declared parameter without a value makes get_parameters answer with nothing at all; ask one by one then.
-    if values is None or len(values.values) != len(names):
-        singly = await asyncio.gather(
-            *(
-                observer.call(f"{node}/get_parameters", "rcl_interfaces/srv/GetParameters", {"names": [name]}, limit_s)
-                for name in names
-            )
+    asked = {"names": names}
+    try:
+        described = await observer.call(
+            f"{node}/describe_parameters", "rcl_interfaces/srv/DescribeParameters", asked, limit_s
         )
-        held = [one.values[0] if one is not None and one.values else None for one in singly]
-    else:
-        held = list(values.values)
-    return tuple(
-        _parameter(node, name, value, descriptor)
-        for name, value, descriptor in zip(names, held, described.descriptors, strict=False)
-    )
+        if described is None:
+            return None
+        descriptors = dict(zip(names, described.descriptors, strict=False))
+    except AnswerTooLarge:
+        descriptors = {name: interface_class("rcl_interfaces/msg/ParameterDescriptor")() for name in names}
+    small = [name for name, descriptor in descriptors.items() if descriptor.type in _SMALL]
+    values = _Values(observer, node, limit_s)
+    await values.ask(small)
+    await values.ask_in_turn([name for name in descriptors if name not in set(small)])
+    return tuple(_parameter(node, name, values.found.get(name), descriptor) for name, descriptor in descriptors.items())
 
 
-def _parameter(node: str, name: str, value: Any, descriptor: Any) -> Parameter:
-    kind = value.type if value is not None and value.type else descriptor.type
-    field = _FIELDS[value.type] if value is not None else None
+class _Values:
+    """The values of a node's parameters, asked for without ever having much of them at a time.
+
+    One answer holds all that were asked for, and cannot be had in part. So those that are small by their type are asked
+    for together; of the others a few, and more only while they are small, too.
+    """
+
+    def __init__(self, observer: Observer, node: str, limit_s: float) -> None:
+        self.found: dict[str, Any] = {}
+        self._observer = observer
+        self._node = node
+        self._limit_s = limit_s
+
+    async def ask_in_turn(self, names: list[str]) -> None:
+        """Ask for parameters of any size; from `MOST_BYTES` on, no more of them."""
+        at_once, received = 1, 0
+        while names:
+            some, names = names[:at_once], names[at_once:]
+            if received > MOST_BYTES:
+                self.found.update(dict.fromkeys(some, TOO_LARGE))
+                continue
+            size = await self.ask(some, large=True)
+            at_once = 1 if size > _LARGE else 2 * at_once
+            received += size
+
+    async def ask(self, names: list[str], *, large: bool = False) -> int:
+        """Ask for these parameters in one request; gives the size of the answer, in bytes."""
+        if not names:
+            return 0
+        service, type_name = f"{self._node}/get_parameters", "rcl_interfaces/srv/GetParameters"
+        try:
+            answer = await self._observer.call(service, type_name, {"names": names}, self._limit_s, large=large)
+        except AnswerTooLarge:
+            await self._observer.until_taken_again(self._limit_s)  # what comes of it meanwhile is none of the next one
+            if len(names) > 1:
+                return sum([await self.ask([name], large=large) for name in names])
+            self.found[names[0]] = TOO_LARGE
+            return MOST_BYTES // 4
+        values = list(answer.values) if answer is not None else []
+        # A declared parameter without a value makes get_parameters answer with nothing at all; ask one by one then.
+        if len(values) != len(names) and len(names) > 1:
+            return sum(await asyncio.gather(*(self.ask([name], large=large) for name in names)))
+        size = sum(_size(value) for value in values)
+        self.found.update({name: _value(value) for name, value in zip(names, values, strict=False)})
+        if size > _LARGE:
+            self._observer.forget(service, type_name)
+        return size
+
+
+def _parameter(node: str, name: str, found: tuple[int, Any] | None, descriptor: Any) -> Parameter:
+    kind, value = found or (0, None)
     ranges = [*descriptor.floating_point_range, *descriptor.integer_range]
     return Parameter(
         node=node,
         name=name,
-        type=PARAMETER_TYPES[kind],
-        value=_kept(getattr(value, field)) if field else None,
+        type=PARAMETER_TYPES[kind or descriptor.type],
+        value=value,
         read_only=descriptor.read_only,
         minimum=float(ranges[0].from_value) if ranges else None,
         maximum=float(ranges[0].to_value) if ranges else None,
     )
 
 
-def _kept(value: Any) -> Any:
-    if isinstance(value, str):
-        return cut(value)
-    return value[:MOST_ELEMENTS] if hasattr(value, "__len__") else value
+def _value(value: Any) -> tuple[int, Any]:
+    """A value with the number of its type, cut to what is kept of it."""
+    field = _FIELDS[value.type]
+    held = getattr(value, field) if field else None
+    if isinstance(held, str):
+        return value.type, cut(held)
+    return value.type, held[:MOST_ELEMENTS] if held is not None and hasattr(held, "__len__") else held
+
+
+def _size(value: Any) -> int:
+    field = _FIELDS[value.type]
+    held = getattr(value, field) if field else None
+    return _ELEMENT_BYTES * len(held) if held is not None and hasattr(held, "__len__") else _ELEMENT_BYTES
 
 
 def _message(name: str, value: Any, type_name: str | None = None) -> Any:

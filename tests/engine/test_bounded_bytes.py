@@ -1,0 +1,99 @@
+"""However large what a node sends is, little of it is held: real nodes, real DDS."""
+
+from __future__ import annotations
+
+import asyncio
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from tests.engine.made import FILE, PUBLISHES, Scene, node
+from tutor.judge.bench import Run
+
+CHATTER = {"/chatter": "std_msgs/msg/String"}
+UP_S = 30.0
+MB = 1_000_000
+
+RELIABLY = """
+publisher = node.create_publisher(String, "chatter", 10)
+node.create_timer(0.2, lambda: publisher.publish({}))
+"""
+LARGE_PARAMETERS = """
+node.declare_parameter("rate", 2.5)
+for number in range(3):
+    node.declare_parameter(f"large_{number}", "x" * 20_000_000)
+node.declare_parameter("name", "thermometer")
+"""
+
+
+def resident_mb() -> float:
+    """The memory that this process has now."""
+    return int(Path("/proc/self/statm").read_text().split()[1]) * 4 / 1024
+
+
+async def _received(scene: Scene, message: str, *, count: int) -> list[str]:
+    from tutor.ros.observer import Observer
+    from tutor.ros_model import QoS
+
+    async with scene.bench(node(RELIABLY.format(message))).start(FILE) as run:
+        observer = Observer(run._domain_id)  # type: ignore[attr-defined]
+        try:
+            observer.watch("/chatter", CHATTER["/chatter"], QoS("reliable", "volatile"))
+            assert await run.until(lambda: len(observer.samples["/chatter"]) >= count, UP_S)
+            return [sample.message["data"] for sample in observer.samples["/chatter"]]
+        finally:
+            observer.close()
+
+
+async def test_a_message_that_is_too_large_to_be_looked_into_is_counted(scene: Scene) -> None:
+    texts = await _received(scene, 'String(data="x" * 3_000_000)', count=3)
+    assert set(texts) == {"(a message of 3.0 MB, too large to be looked into)"}
+
+
+async def test_bytes_that_are_no_message_are_no_fault_of_ours(scene: Scene) -> None:
+    texts = await _received(scene, "bytes([0, 1, 0, 0, 255, 255, 255, 127])", count=2)
+    assert set(texts) == {"(8 bytes that are no String)"}
+
+
+async def test_a_flood_of_what_is_too_large_is_left_and_others_are_heard_on(scene: Scene) -> None:
+    flood = node(
+        'publisher = node.create_publisher(String, "chatter", 10)',
+        'message = String(data="x" * 100_000_000)',
+        "node.create_timer(0.1, lambda: publisher.publish(message))",
+    )
+    bench = replace(scene.bench(flood), submission=scene.submission(node=flood, quiet=node(PUBLISHES)))
+    async with bench.start("quiet.py", watch=CHATTER) as quiet:
+        await _heard(quiet, 5)
+        before, most = resident_mb(), 0.0
+        async with bench.start(FILE, watch=CHATTER) as loud:
+            assert await loud.until(lambda: bool(loud.graph.publishers), UP_S)
+            for _ in range(100):
+                await asyncio.sleep(0.03)  # the pace of looking
+                most = max(most, resident_mb())
+            assert not loud.samples_on("/chatter")
+            await _heard(quiet, len(quiet.samples_on("/chatter")) + 20)
+    assert most - before < 100
+
+
+async def _heard(run: Run, count: int) -> None:
+    assert await run.until(lambda: len(run.samples_on("/chatter")) >= count, UP_S)
+
+
+async def test_what_is_too_large_of_the_parameters_is_said_and_the_others_are_read(
+    scene: Scene, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from tutor.ros import memory_guard
+
+    monkeypatch.setattr(memory_guard, "MOST_BYTES", 4 * MB)
+    async with scene.bench(node(LARGE_PARAMETERS)).start(FILE) as run:
+        assert await run.until(
+            lambda: any(s.name == "/learner/set_parameters_atomically" for s in run.graph.services), UP_S
+        )
+        before = resident_mb()
+        declared = await run.parameters(30.0)
+        assert resident_mb() - before < 100
+    found = {each.name: (each.type, each.value) for each in declared or ()}
+    assert found["rate"] == ("double", 2.5)
+    assert found["name"] == ("string", "thermometer")
+    assert {found[f"large_{number}"] for number in range(3)} == {("string", "(too large to be read)")}
