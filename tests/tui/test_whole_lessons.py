@@ -14,6 +14,7 @@ from tests.running import runs
 from tests.tui.conftest import Learner, at
 from tutor.content import load_course
 from tutor.session import Session
+from tutor.session.node import NodeState
 from tutor.tui.live.request_form import FieldRow
 from tutor.workspace import AppState, Workspace
 
@@ -147,13 +148,28 @@ async def test_the_log_is_beside_live_where_there_is_room(session: Session) -> N
         assert "INFO" not in me.screen()
 
 
+async def run_to_its_end(me: Learner) -> NodeState:
+    """Press r, and wait until the node has ended."""
+    shown = me.node
+    await me.press("r")
+    await me.until(lambda: me.node not in (None, shown) and me.node.over.is_set(), "it has ended")
+    assert me.node is not None
+    return me.node.state
+
+
 async def test_our_server_answers_my_client_and_my_own_server_runs_beside_it_too(session: Session) -> None:
     async with doing(session, "i1.3") as me:
         await me.press("f")
         await me.sees("calculator_client.py")
         await me.press("b")
         await me.sees("● running  our server", "Calculator is up")
-        await me.press("r")
+        for _ in range(3):
+            client = await run_to_its_end(me)
+            if not client.failed:
+                break
+            # rmw gives the reader of an answer 100 ms to be found, which on a busy machine is too short: the answer is
+            # dropped, and the client says so.
+            assert any("did not answer within" in line.text for line in client.lines), client
         await me.sees("calculator_client.py", "add(10, 5) = 15", "■ ended")
         await me.press("b")
         await me.sees("■ our server")
