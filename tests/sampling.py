@@ -13,6 +13,7 @@ from tutor.content.submissions import RIGHT, WRONG, Case
 from tutor.judge.causes.names import MEANINGS
 
 SHARED = tuple(f"tutor/{package}/" for package in ("engine", "judge", "process", "ros", "bundled_ros"))
+ROOT = Path(__file__).parents[1]
 CONTRACT = frozenset(name.casefold() for name in MEANINGS)
 
 
@@ -36,10 +37,11 @@ def sample(cases: Sequence[Case]) -> list[Case]:
 def changed(cases: Sequence[Case], paths: Iterable[str]) -> list[Case]:
     """The cases that a change of these files (relative to the clone) may concern.
 
-    Each case whose own files changed, all of an exercise whose check, skeleton or solution did, and the sample where
-    something did that all checks share.
+    Each case whose own files changed (or one that a link of its leads to), all of an exercise whose check, skeleton or
+    solution did, and the sample where something did that all checks share.
     """
     folders = {"/".join(Path(path).parts[:5]) for path in paths if path.startswith("tests/submissions/")}
+    files = {(ROOT / path).resolve() for path in paths}
     exercises = {
         Path(path).parts[1] for path in paths if path.startswith(("checks/", "lessons/")) and path.count("/") > 1
     }
@@ -48,7 +50,8 @@ def changed(cases: Sequence[Case], paths: Iterable[str]) -> list[Case]:
 
     def is_concerned(case: Case) -> bool:
         exercise = case.exercise.replace(".", "_")
-        return exercise in exercises or f"tests/submissions/{exercise}/{case.kind}/{case.folder.name}" in folders
+        own = f"tests/submissions/{exercise}/{case.kind}/{case.folder.name}" in folders
+        return exercise in exercises or own or any(link.resolve() in files for link in _links(case.folder))
 
     return [case for case in cases if case in chosen or is_concerned(case)]
 
@@ -61,6 +64,10 @@ def shows(case: Case) -> frozenset[tuple[str, str]]:
     expected = case.expected
     broken = {(case.exercise, criterion) for criterion in (*expected.fails, *expected.bonus_failed)}
     return frozenset(broken | {("cause", name) for name in _first(expected.causes.values()) if name in CONTRACT})
+
+
+def _links(folder: Path) -> list[Path]:
+    return [path for path in folder.rglob("*") if path.is_symlink()]
 
 
 def _first(causes: Iterable[Sequence[str]]) -> list[str]:

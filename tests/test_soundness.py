@@ -19,7 +19,7 @@ import pytest
 
 from tests import soundness
 from tests.hostile import find_hostile
-from tests.judging import Outcome, compare, find, holds_here, judge
+from tests.judging import ROOT, Outcome, compare, find, holds_here, judge
 from tests.sampling import changed, sample, shows
 from tutor.content.submissions import Case, Expected
 from tutor.judge.result import CriterionResult, ExerciseResult
@@ -142,6 +142,24 @@ def test_of_what_changed_only_what_it_concerns_is_judged() -> None:
     assert names("checks/x1_1/judges.py") == ["r1", "one", "two"]
     assert names("lessons/x1_2/solution/a.py") == ["three"]
     assert names("tutor/judge/rates.py") == [case.folder.name for case in sample(cases)]
+
+
+def test_a_changed_file_concerns_those_that_link_to_it() -> None:
+    path = "tests/submissions/i1_3/right/client-thread-call/calculator_server.py"
+    assert {case.folder.name for case in changed(EVERY, [path])} == {
+        "client-thread-call",
+        "client-best-effort",
+        "client-os-exit",
+    }
+
+
+def test_no_client_or_server_is_there_twice() -> None:
+    """Where two submissions of i1.3 differ in one program only, the second links to the other program of the first."""
+    first: dict[tuple[str, bytes], Path] = {}
+    for file in sorted(ROOT.glob("i1_3/*/*/*.py")):
+        if not file.is_symlink():
+            other = first.setdefault((file.name, file.read_bytes()), file)
+            assert other == file, f"{file} is the same as {other}: make it a link"
 
 
 def _outcome(name: str, verdict: str, took_s: float, *wrong: str) -> Outcome:
