@@ -6,10 +6,13 @@ import os
 import re
 import shutil
 import subprocess
+import sys
 import sysconfig
 from pathlib import Path
 
 import pytest
+
+from tutor.ros.bytecode import _is_compiled
 
 CLONE = Path(__file__).resolve().parents[2]
 
@@ -27,3 +30,16 @@ def test_a_plain_uv_sync_keeps_ros() -> None:
     records = {f"{name.replace('-', '_')}-{version}.dist-info" for name, version in removed}
     site_packages = Path(sysconfig.get_path("purelib"))
     assert records <= {each.name for each in site_packages.glob("*.dist-info")}, ran.stderr
+
+
+def test_our_modules_are_compiled_and_what_learners_get_a_copy_of_is_not() -> None:
+    """Our programs write no bytecode: otherwise each of their starts compiles all of it again."""
+    if Path(sys.prefix) != CLONE / ".venv":
+        pytest.skip("this is not the clone's own environment")
+    command = [str(CLONE / ".ci/uv"), "run", "--quiet", "--frozen", "--offline", "python", "-I", "-c", ""]
+    subprocess.run(command, cwd=CLONE, check=True, timeout=60)
+    modules = [*CLONE.glob("tutor/**/*.py"), *CLONE.glob("checks/**/*.py")]
+    copied = [each for each in modules if {"template", "share"} & set(each.parts)]
+    assert [each for each in modules if each not in copied and not _is_compiled(each)] == []
+    assert copied
+    assert [each for each in copied if _is_compiled(each)] == []
