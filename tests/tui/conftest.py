@@ -6,8 +6,12 @@ import threading
 from collections.abc import AsyncIterator, Callable
 from contextlib import AbstractAsyncContextManager, asynccontextmanager
 from pathlib import Path
+from typing import Any
 
 import pytest
+from textual.css.model import RuleSet
+from textual.css.stylesheet import Stylesheet
+from textual.document._syntax_aware_document import SyntaxAwareDocument
 from textual.keys import _character_to_key
 from textual.pilot import Pilot
 from textual.widget import Widget
@@ -24,6 +28,31 @@ from tutor.tui.widgets.code_pane import CodePane
 from tutor.tui.widgets.criteria import CriteriaPanel
 from tutor.tui.widgets.editor import CodeEditor
 from tutor.tui.widgets.line_view import LineView
+
+
+def _remember_what_textual_compiles() -> None:
+    """Style sheets and queries are the same in every app of a run; each would parse them again, a tenth of its time."""
+    parse_rules, prepare_query = Stylesheet._parse_rules, SyntaxAwareDocument.prepare_query
+    rules: dict[object, list[RuleSet]] = {}
+    queries: dict[object, object] = {}
+
+    def remembered_rules(self: Stylesheet, *args: Any, **options: Any) -> list[RuleSet]:
+        key = (args, frozenset(options.items()), frozenset(self._variables.items()))
+        if key not in rules:
+            rules[key] = parse_rules(self, *args, **options)
+        return rules[key]
+
+    def remembered_query(self: SyntaxAwareDocument, query: str) -> Any:
+        key = (self.language, query)
+        if key not in queries:
+            queries[key] = prepare_query(self, query)
+        return queries[key]
+
+    Stylesheet._parse_rules = remembered_rules  # type: ignore[method-assign]
+    SyntaxAwareDocument.prepare_query = remembered_query  # type: ignore[method-assign]
+
+
+_remember_what_textual_compiles()
 
 
 class Learner(Person[TutorApp]):
