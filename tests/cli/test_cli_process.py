@@ -165,6 +165,30 @@ def test_all_exercises_fit_on_a_common_terminal_with_a_bar_for_each_criterion() 
     assert drawn[-1].startswith("Stopping")
 
 
+def test_a_criterion_that_waits_says_what_is_known_so_far_in_words_that_are_not_final() -> None:
+    from rich.console import Console
+
+    course = load_course()
+    display = ProgressDisplay(course, vanishing=True)
+    lesson, so_far = course.lessons[0], "/node is up, nothing published on /sensor/temperature yet"
+    waiting = lesson.criteria[0].id
+
+    def drawn(width: int) -> str:
+        output = io.StringIO()
+        display._console = Console(file=output, width=width, height=24, force_terminal=True, color_system=None)
+        display._console.print(display._draw())
+        return next(line for line in output.getvalue().split("\n") if waiting in line).rstrip()
+
+    display._lines[lesson.id] = {each.id: _Line() for each in lesson.criteria}
+    display._lines[lesson.id][waiting] = _Line(0.1, "waiting for the first message", so_far=so_far)
+    assert drawn(160).endswith(f"waiting for the first message; so far: {so_far}")
+    assert "so far: /node is up, nothing published" in drawn(80)
+    done = CriterionResult(waiting, "x", False, FAILURE, 1.0)
+    display._lines[lesson.id][waiting] = _Line(0.1, "waiting", done, so_far)
+    assert "so far" not in drawn(160)
+    assert "no spin: no callback ran" in drawn(160)
+
+
 def test_no_color_and_dumb_terminals_are_honoured(env: dict[str, str]) -> None:
     _, out, err = in_terminal(command("check", "i1.1", "--solution"), {**env, "NO_COLOR": "1"})
     assert "\x1b[3" not in out

@@ -35,7 +35,7 @@ reports = st.builds(
 )
 events = st.one_of(
     st.builds(CheckStarted, text, texts),
-    st.builds(Progress, text, text, st.floats(0, 1), text),
+    st.builds(Progress, text, text, st.floats(0, 1), text, text),
     st.builds(CriterionJudged, text, criteria),
     st.builds(ExerciseJudged, exercises),
     st.builds(CheckFinished, reports),
@@ -72,6 +72,11 @@ def test_a_round_trip_changes_nothing(event: Event) -> None:
 def test_what_is_not_an_event_is_refused(line: str) -> None:
     with pytest.raises(ValueError, match="not understood"):
         decode(line)
+
+
+def test_progress_of_an_engine_that_knows_nothing_so_far_is_read_too() -> None:
+    line = '{"event": "Progress", "exercise": "a", "criterion": "b", "fraction": 0.5, "doing": "c"}'
+    assert decode(line) == Progress("a", "b", 0.5, "c", so_far="")
 
 
 def test_an_unknown_status_is_refused() -> None:

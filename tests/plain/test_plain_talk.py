@@ -88,6 +88,7 @@ def test_lesson_check_hints_and_checklist_by_a_pipe(tmp_path: Path, env: dict[st
         "Already there, and not changed: ~/ros_tutor_ws/src/my_package/my_package/temperature_publisher.py",
         "shutdown (bonus): Ctrl+C ends the node cleanly.",
         "Waiting for the first message.",
+        "So far: /node is up, but silent.",
         "publishes: passed.",
         "rate: failed.",
         "i1.1 Sensor Publisher: not passed yet. 5 of 6 passed, bonus 1 of 1, after 1.0 s.",
@@ -109,6 +110,7 @@ def test_lesson_check_hints_and_checklist_by_a_pipe(tmp_path: Path, env: dict[st
     ):
         assert f"{line}\n" in said, line
     assert said.count("aiting for the first message") == 1  # though every criterion waits for it
+    assert said.count("/node is up, but silent") == 1
     assert re.search(r"^1: not ticked: .* Evidence: i1\.1 .*passed, today\.$", said, re.MULTILINE)
     assert re.search(r"^Hint 1 of 3: \w", said, re.MULTILINE)
     assert said.endswith("Command: \nThe input has ended.\nGoodbye. Your progress is kept.\n")

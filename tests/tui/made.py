@@ -215,8 +215,8 @@ def started(exercise: str = "i1.1") -> list[Event]:
     return [CheckStarted(exercise, (*CRITERIA, "shutdown"))]
 
 
-def doing(criterion: str, fraction: float, text: str, exercise: str = "i1.1") -> Event:
-    return Progress(exercise, criterion, fraction, text)
+def doing(criterion: str, fraction: float, text: str, exercise: str = "i1.1", so_far: str = "") -> Event:
+    return Progress(exercise, criterion, fraction, text, so_far)
 
 
 def ending(rate: Verdict, exercise: str = "i1.1", shutdown: Verdict | None = None) -> list[Event]:

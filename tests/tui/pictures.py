@@ -234,7 +234,7 @@ class Album:
             await pilot.press("c")
             names = [c.id for c in lesson.criteria]
             say: list[Event] = [CheckStarted(lesson.id, tuple(names))]
-            say += [made.doing(names[n], f, t, lesson.id) for n, f, t in STEPS if n < len(names)]
+            say += [made.doing(names[n], f, t, lesson.id, so_far) for n, f, t, so_far in STEPS if n < len(names)]
             say += [CriterionJudged(lesson.id, made.result(names[0], made.GOOD))]
             await asyncio.to_thread(session.engine.say, *say)
             await until(pilot, lambda: main.model.findings[lesson.id].criteria[0].verdict is not None)
@@ -281,10 +281,18 @@ class Album:
 
 
 STEPS = (
-    (1, 0.8, "listening for 2 s more"),
-    (2, 0.35, "collecting 20 values, 7 so far"),
-    (3, 0.5, "subscribing as ros2 topic echo does"),
-    (4, 0.6, "setting publish_rate to 5.0, and measuring the rate that follows from it"),
+    (1, 0.8, "listening for 2 s more", ""),
+    (2, 0.35, "collecting 20 values, 7 so far", ""),
+    (
+        3,
+        0.5,
+        "subscribing as ros2 topic echo does",
+        "nothing published on /sensor/temperature yet, /temperature_publisher is up",
+    ),
+    (
+        *(4, 0.6, "setting publish_rate to 5.0, and measuring the rate that follows from it"),
+        "likely no messages: there is a publisher on /sensor/temperature, but nothing calls publish()",
+    ),
 )
 
 

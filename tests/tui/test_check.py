@@ -33,6 +33,25 @@ async def test_while_checking_each_criterion_tells_what_is_done_to_the_node(lear
 
 
 @pytest.mark.parametrize("size", SIZES)
+async def test_while_a_criterion_waits_it_says_what_is_known_so_far_and_its_verdict_takes_that_place(
+    learner: Any, size: Any
+) -> None:
+    async with learner(size) as me:
+        await begin(me)
+        await me.told(made.doing("publishes", 0.1, "waiting for the first message", so_far="/node is up, but silent"))
+        await me.sees("so far: /node is up, but silent")
+        await me.told(made.doing("publishes", 0.1, "waiting", so_far="likely [b]no spin[/b]: it never spins"))
+        await me.until(lambda: "so far: likely [b]no spin[/b]" in me.criterion("publishes"))
+        await me.told(made.doing("publishes", 0.8, "pressing Ctrl+C"))
+        await me.until(lambda: "pressing Ctrl+C" in me.criterion("publishes"))
+        assert "so far" not in me.criterion("publishes")
+        await me.told(made.doing("publishes", 0.1, "waiting", so_far="/node is up"))
+        await me.told(*made.ending(made.BAD))
+        await me.until(lambda: "✓ publishes" in me.criterion("publishes"))
+        assert "so far" not in me.screen()
+
+
+@pytest.mark.parametrize("size", SIZES)
 async def test_a_failure_is_shown_with_its_diagnosis(learner: Any, size: Any) -> None:
     async with learner(size) as me:
         await begin(me)

@@ -21,10 +21,14 @@ from tutor.content import Course
 from tutor.judge.events import CheckStarted, CriterionJudged, Event, Progress
 from tutor.judge.result import CriterionResult
 from tutor.printable import printable
-from tutor.report.plain import MARKS, seconds
+from tutor.report.plain import MARKS, describe_waiting, seconds
 from tutor.report.text import STYLES
 
 _PER_SECOND = 10
+_WAITED = 22
+_COLUMNS = 1 + _WAITED + 3 * 2
+"""Of a line, what all but the criterion's name and the words at its end take."""
+
 _EIGHTHS = "▁▂▃▄▅▆▇█"
 
 
@@ -35,6 +39,7 @@ class _Line:
     fraction: float = 0.0
     doing: str = ""
     result: CriterionResult | None = None
+    so_far: str = ""
 
 
 class ProgressDisplay:
@@ -71,7 +76,7 @@ class ProgressDisplay:
             if line is None:
                 return
             line.fraction = max(line.fraction, min(event.fraction, 1.0))
-            line.doing = event.doing
+            line.doing, line.so_far = event.doing, event.so_far
         elif isinstance(event, CriterionJudged):
             line = self._lines.get(event.exercise, {}).get(event.result.id)
             if line is not None:
@@ -101,15 +106,17 @@ class ProgressDisplay:
     def _exercise(self, exercise: str) -> RenderableType:
         lines = self._lines[exercise]
         heading = Text(f"{exercise} {self._titles.get(exercise, '')}", "bold")
-        grid = _grid(max((len(criterion) for criterion in lines), default=0))
+        width = max((len(criterion) for criterion in lines), default=0)
+        grid = _grid(width)
         for criterion, line in lines.items():
-            grid.add_row(*self._row(criterion, line))
+            grid.add_row(*self._row(criterion, line, width))
         return Group(heading, grid, "")
 
-    def _row(self, criterion: str, line: _Line) -> tuple[RenderableType, ...]:
+    def _row(self, criterion: str, line: _Line, width: int) -> tuple[RenderableType, ...]:
         if line.result is None:
+            said = describe_waiting(line.doing, line.so_far, self._console.width - width - _COLUMNS)
             bar = ProgressBar(total=1.0, completed=line.fraction, width=20, complete_style="cyan")
-            return self._spinner, Text(criterion), bar, Text(printable(line.doing), "dim")
+            return self._spinner, Text(criterion), bar, Text(printable(said), "dim")
         verdict = line.result.verdict
         style = STYLES[verdict.status]
         said = "" if verdict.passed else (verdict.cause or verdict.observed)
@@ -143,14 +150,15 @@ class ProgressDisplay:
             (line, exercise, criterion)
             for exercise in exercises
             for criterion, line in list(self._lines[exercise].items())
-            if line.result is None and line.doing
+            if line.result is None and (line.doing or line.so_far)
         ]
         names = [f"{exercise} {criterion}" for _, exercise, criterion in under_way[: max(rows, 0)]]
         if not names:
             return []
-        grid = _grid(max(map(len, names)))
+        width = max(map(len, names))
+        grid = _grid(width)
         for name, (line, _, criterion) in zip(names, under_way, strict=False):
-            spinner, _, *rest = self._row(criterion, line)
+            spinner, _, *rest = self._row(criterion, line, width)
             grid.add_row(spinner, Text(name), *rest)
         return ["", grid]
 
@@ -167,6 +175,6 @@ def _grid(width: int) -> Table:
     grid = Table.grid(padding=(0, 2, 0, 0), expand=True)
     grid.add_column(width=1)
     grid.add_column(width=width, no_wrap=True)
-    grid.add_column(width=22, no_wrap=True)
+    grid.add_column(width=_WAITED, no_wrap=True)
     grid.add_column(ratio=1, no_wrap=True, overflow="ellipsis")
     return grid

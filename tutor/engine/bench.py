@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import os
 from collections.abc import AsyncIterator, Callable, Iterator, Mapping
-from contextlib import asynccontextmanager, contextmanager, suppress
+from contextlib import AbstractAsyncContextManager, asynccontextmanager, contextmanager, nullcontext, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TypeVar
@@ -48,7 +48,7 @@ class RosBench:
 
     `expected_s`: how many seconds of the clock its check asks for; where several are to start, the longest goes first
     (a start may say how many it asks for itself). `exceptions`: the check's own known ones. `sigkilled`: the
-    files whose process was ended by SIGKILL.
+    files whose process was ended by SIGKILL. `follow`: what looks on while a start runs, given its watched topics.
     """
 
     submission: Submission
@@ -59,6 +59,9 @@ class RosBench:
     expected_s: float = 0.0
     exceptions: tuple[KnownException, ...] = ()
     walls: Walls | None = None
+    follow: Callable[[RosRun, Mapping[str, str]], AbstractAsyncContextManager[None]] = lambda run, watched: (
+        nullcontext()
+    )
     sigkilled: list[Path] = field(default_factory=list)
 
     @asynccontextmanager
@@ -102,7 +105,9 @@ class RosBench:
         self,
         path: Path,
         command: _MakeArgv,
-        *given: Any,
+        parameters: Mapping[str, Any],
+        watch: Mapping[str, str],
+        *,
         terminal: bool = False,
         nodes: int = 1,
         expected_s: float,
@@ -110,8 +115,9 @@ class RosBench:
         """Run a command as `_run` does, when it is its turn: others may start when it has this many nodes."""
         async with (
             self.admission.start(expected_s) as up,
-            self._run(path, command, *given, terminal=terminal) as run,
+            self._run(path, command, parameters, watch, terminal=terminal) as run,
             _report_when_up(run, nodes, up),
+            self.follow(run, watch),
         ):
             yield run
 
@@ -124,7 +130,7 @@ class RosBench:
         watch: Mapping[str, str],
         *,
         terminal: bool,
-    ) -> AsyncIterator[Run]:
+    ) -> AsyncIterator[RosRun]:
         """Run a command, made from its environment and a folder for its logs, on a domain of its own."""
         facts = CollectedFacts()
         with (

@@ -91,6 +91,14 @@ class RosRun:
         self._graph: tuple[float, Graph] = (0.0, Graph())
         self._meter = CpuMeter(process.pid)
         self._cpu_time: tuple[float, CpuTime] = (0.0, CpuTime())
+        self._asking = 0
+        self.interrupted_at: float | None = None
+        """When Ctrl+C was pressed, in seconds since the epoch."""
+
+    @property
+    def unanswered(self) -> bool:
+        """Whether a request of ours waits for its answer."""
+        return self._asking > 0
 
     @property
     def started_at(self) -> float:
@@ -268,6 +276,7 @@ class RosRun:
 
     async def interrupt(self, limit_s: float = 5.0) -> Ending:
         pressed = time.time()
+        self.interrupted_at = pressed
         self._process.interrupt()
         await self.wait_for_exit(limit_s)
         ended = self.exit
@@ -316,10 +325,12 @@ class RosRun:
         """The answer, or `otherwise` where none comes within the limit, or before the process ends."""
         task = asyncio.ensure_future(asking)
         task.add_done_callback(lambda _: self._facts.change())
+        self._asking += 1
         try:
             await self.until(task.done, limit_s)
             return task.result() if task.done() else otherwise
         finally:
+            self._asking -= 1
             task.cancel()
 
     @cached_property

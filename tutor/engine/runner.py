@@ -10,6 +10,8 @@ from typing import Any
 from tutor.content import Lesson
 from tutor.engine.admission import Admission
 from tutor.engine.bench import RosBench
+from tutor.engine.provisional import Provisional
+from tutor.engine.so_far import SoFar
 from tutor.engine.unchanged_skeleton import first_todo, point_to_todo
 from tutor.engine.walls import Walls
 from tutor.errors import Fault
@@ -51,7 +53,8 @@ class Runner:
         self._walls = walls
         self._scenarios: dict[Scenario[Any], asyncio.Task[Any]] = {}
         self._verdicts: dict[str, asyncio.Task[Verdict]] = {}
-        self._progress: dict[Scenario[Any], tuple[float, str]] = {}
+        self._progress: dict[Scenario[Any], tuple[float, str, SoFar]] = {}
+        self._published: set[str] = set()
         self._todo = first_todo(lesson, submission)
         self._announced = False
         self._started = time.monotonic()
@@ -95,19 +98,21 @@ class Runner:
     def _share(self, scenario: Scenario[Any]) -> asyncio.Task[Any]:
         if scenario not in self._scenarios:
 
-            def tell(fraction: float, text: str) -> None:
-                self._tell(scenario, fraction, text)
+            def tell(fraction: float, text: str, so_far: SoFar) -> None:
+                self._tell(scenario, fraction, text, so_far)
 
+            provisional = Provisional(tell, self._lesson.live, self._published)
             known = self._check.exceptions
             bench = RosBench(
                 self._submission,
                 self._ros,
                 self._ask,
-                tell,
+                provisional.report,
                 self._admission,
                 self._check.expected_s,
                 known,
                 self._walls,
+                provisional.follow,
             )
             self._scenarios[scenario] = asyncio.ensure_future(_seen(scenario, bench))
         return self._scenarios[scenario]
@@ -143,13 +148,15 @@ class Runner:
         self._on_event(CriterionJudged(self._check.exercise, result))
         return result
 
-    def _tell(self, scenario: Scenario[Any], fraction: float, text: str) -> None:
-        self._progress[scenario] = (fraction, text)
+    def _tell(self, scenario: Scenario[Any], fraction: float, text: str, so_far: SoFar) -> None:
+        self._progress[scenario] = (fraction, text, so_far)
         for criterion in self._shown:
             if scenario in criterion.facts and not self._judged(criterion):
-                fractions = [self._progress.get(each, (0.0, ""))[0] for each in criterion.facts]
-                fraction = sum(fractions) / len(fractions)
-                self._on_event(Progress(self._check.exercise, criterion.id, fraction, text))
+                told = [self._progress.get(each, (0.0, "", SoFar())) for each in criterion.facts]
+                fraction = sum(each for each, _, _ in told) / len(told)
+                doing = text or next((each for _, each, _ in told if each), "")
+                known = max((each for _, _, each in told), key=lambda each: each.weight)
+                self._on_event(Progress(self._check.exercise, criterion.id, fraction, doing, known.text))
 
     def _judged(self, criterion: Criterion) -> bool:
         task = self._verdicts.get(criterion.id)

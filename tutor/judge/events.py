@@ -23,12 +23,16 @@ class CheckStarted:
 
 @dataclass(frozen=True, slots=True)
 class Progress:
-    """How far one criterion is (`fraction`, 0 to 1), and what is being done to the node right now."""
+    """How far one criterion is (`fraction`, 0 to 1), and what is being done to the node right now.
+
+    `so_far`: what is known of the node by now, while the criterion still waits; not final, and often empty.
+    """
 
     exercise: str
     criterion: str
     fraction: float
     doing: str
+    so_far: str = ""
 
 
 @dataclass(frozen=True, slots=True)

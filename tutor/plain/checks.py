@@ -7,6 +7,7 @@ from tutor.judge.events import CheckStarted, CriterionJudged, Event, Progress
 from tutor.judge.result import ExerciseResult
 from tutor.plain import speech
 from tutor.plain.conversation import Conversation, DialogCommand
+from tutor.report.plain import one_line
 from tutor.workspace import find_submission
 
 
@@ -51,6 +52,9 @@ class Checks:
             case Progress() if event.doing and event.doing not in self._said:  # one run serves many criteria
                 self._said.add(event.doing)
                 self._conversation.say(f"{event.doing[0].upper()}{event.doing[1:]}.")
+            case Progress() if event.so_far and event.so_far not in self._said:
+                self._said.add(event.so_far)
+                self._conversation.say(f"So far: {one_line(event.so_far)}.")
             case CriterionJudged():
                 self._conversation.say(speech.headline(event.result))
 

@@ -15,6 +15,18 @@ def one_line(text: str, most: int = 300) -> str:
     return text if len(text) <= most else f"{text[: most - 3].rstrip()}..."
 
 
+def describe_waiting(doing: str, so_far: str, most: int) -> str:
+    """What is done to a node that a criterion waits for, and what is known so far, in words that are not final.
+
+    Where both do not fit into `most` characters, it is what is known.
+    """
+    if not so_far:
+        return doing
+    known = f"so far: {one_line(so_far)}"
+    both = f"{doing}; {known}" if doing else known
+    return both if len(both) <= most else known
+
+
 def evidence_lines(verdict: Verdict, most: int = 500) -> list[str]:
     """The evidence as `printable` lines of at most `most` characters."""
     lines = [line for text in verdict.evidence for line in printable(text).split("\n")]

@@ -16,6 +16,7 @@ from tutor.workspace import ExerciseProgress, last_met
 class Finding:
     """One criterion: how far its check is (`fraction`, 0 to 1), what is being done, and in the end its verdict.
 
+    `so_far`: what is known while it still waits, not final (see `tutor.judge.events.Progress`).
     `before`: whether it was met when it was last checked before the app was started; None where it was not.
     """
 
@@ -25,6 +26,7 @@ class Finding:
     checking: bool = False
     fraction: float = 0.0
     doing: str = ""
+    so_far: str = ""
     verdict: Verdict | None = None
     duration_s: float = 0.0
     before: bool | None = None
@@ -83,8 +85,10 @@ class Findings:
                 shown = [known.get(id, Finding(id, id, bonus=False)) for id in criteria]
                 rest = [replace(f, checking=False) for f in self.criteria if f.id not in criteria]
                 return replace(self, criteria=(*(replace(f, checking=True) for f in shown), *rest))
-            case Progress(exercise, criterion, fraction, doing) if exercise == self.exercise:
-                return self._with(criterion, lambda f: replace(f, checking=True, fraction=fraction, doing=doing))
+            case Progress(exercise, criterion, fraction, doing, so_far) if exercise == self.exercise:
+                return self._with(
+                    criterion, lambda f: replace(f, checking=True, fraction=fraction, doing=doing, so_far=so_far)
+                )
             case CriterionJudged(exercise, result) if exercise == self.exercise:
                 return self._judge(result)
             case ExerciseJudged(result) if result.id == self.exercise:
@@ -98,8 +102,11 @@ class Findings:
 
     def stopped(self, note: str = "") -> Findings:
         """The check is over, or was cancelled: what has no verdict now gets none."""
-        idle = tuple(f if f.verdict else replace(f, checking=False, fraction=0.0, doing="") for f in self.criteria)
-        return replace(self, criteria=idle, checking=False, note=note)
+
+        def idle(found: Finding) -> Finding:
+            return found if found.verdict else replace(found, checking=False, fraction=0.0, doing="", so_far="")
+
+        return replace(self, criteria=tuple(map(idle, self.criteria)), checking=False, note=note)
 
     def broken(self, what: str, hint: str, evidence: tuple[str, ...]) -> Findings:
         """The check itself failed: what has no verdict yet could not be judged, and that is a fault of ours."""

@@ -34,6 +34,7 @@ from tutor.judge.causes.topics import (
     diagnose_lifecycle,
     diagnose_no_messages,
     diagnose_nothing_received,
+    diagnose_unused_publisher,
     diagnose_wrong_topic,
 )
 
@@ -62,6 +63,7 @@ __all__ = [
     "diagnose_torn_thread",
     "diagnose_traceback",
     "diagnose_types",
+    "diagnose_unused_publisher",
     "diagnose_wrong_topic",
     "is_in_blocking_call",
     "output_tail",

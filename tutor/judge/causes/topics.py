@@ -27,6 +27,7 @@ from tutor.judge.verdict import Cause
 from tutor.ros_model import ServiceEndpoint, TopicEndpoint, incompatible_policies
 
 _ASLEEP = "lifecycle node not activated"
+_PUBLISH = "publish from a timer's callback, and keep the timer in self"
 
 
 def diagnose_no_messages(
@@ -57,16 +58,23 @@ def diagnose_no_messages(
 
 def _diagnose_idle_publisher(trace: Trace, topic: str, step: str) -> Cause:
     """Why a publisher that is there never sends anything."""
+    return diagnose_unused_publisher(trace, topic, step) or Cause(
+        "no messages", f"there is a publisher on {topic}, but it sent nothing", step or _PUBLISH
+    )
+
+
+def diagnose_unused_publisher(trace: Trace, topic: str, step: str = "") -> Cause | None:
+    """Whether the source shows why a publisher that is there never sends anything: nothing calls it, or too rarely."""
     file = started_node(trace)
+    if (slip := period_slips.diagnose_period_unit(file)) is not None:
+        return slip
     if file.publisher and not file.calls("publish"):
         text = f"there is a publisher on {topic}, but nothing calls publish()"
     elif file.publisher and not file.timers:
         text = f"there is a publisher on {topic}, but no timer calls what publishes"
     else:
-        text = f"there is a publisher on {topic}, but it sent nothing"
-    return period_slips.diagnose_period_unit(file) or Cause(
-        "no messages", text, step or "publish from a timer's callback, and keep the timer in self"
-    )
+        return None
+    return Cause("no messages", text, step or _PUBLISH)
 
 
 def diagnose_nothing_received(

@@ -20,6 +20,7 @@ from textual.widgets import ContentSwitcher, Static
 from textual.worker import Worker
 
 from tutor.content import Lesson
+from tutor.content.near_miss import near_misses
 from tutor.live.protocol import Follow, Plot, Publish, SetVisible, StopPublishing, Unfollow, Update, WatcherRequest
 from tutor.live.protocol import WatcherError as ChildTrouble
 from tutor.live.updates import CallOutcome, NodeParameters, Published, RequestForm, SetOutcome, TopicUpdate
@@ -29,7 +30,6 @@ from tutor.tui.live import wording
 from tutor.tui.live.child import LiveChild
 from tutor.tui.live.graph_panel import GraphPanel
 from tutor.tui.live.launching import WatcherCommand
-from tutor.tui.live.near_miss import near_misses
 from tutor.tui.live.parameters_panel import ParametersPanel
 from tutor.tui.live.publish_dialog import PublishScreen
 from tutor.tui.live.services_panel import ServicesPanel

@@ -11,6 +11,7 @@ from textual.widgets import ListItem, ListView, Static
 
 from tutor.content import Lesson
 from tutor.judge.verdict import Status
+from tutor.report.plain import describe_waiting
 from tutor.session.findings import Finding, Findings
 from tutor.tui import wording
 from tutor.tui.widgets.attempts import history
@@ -47,8 +48,10 @@ class CriterionRow(ListItem):
             head = Content.assemble((f"{mark} ", f"bold {shade}"), name, " ")
         elif found.checking:
             head = Content.assemble(("◐ ", "$busy"), name, " ")
-            word = _bar(found.fraction, 14 if width > 50 else 8)
-            said, ink = found.doing or "waiting", "$busy" if found.doing else "$quiet"
+            word = _bar(found.fraction, (14 if width > 50 else 8) if not found.so_far or width > 100 else 0)
+            left = width - head.cell_length - word.cell_length - 2
+            said = describe_waiting(found.doing, found.so_far, left) or "waiting"
+            ink = "$busy" if found.doing or found.so_far else "$quiet"
         else:
             head = Content.assemble((f"{wording.MARKS[Status.PASSED] if found.before else '○'} ", "$quiet"), name, " ")
         gap = "  " if word else ""

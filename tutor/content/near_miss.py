@@ -6,7 +6,7 @@ import difflib
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from tutor.content import LiveView
+from tutor.content.live import LiveView
 from tutor.ros_model import Graph
 
 _ALIKE = 0.8
