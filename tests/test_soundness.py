@@ -13,6 +13,7 @@ import threading
 import time
 from collections.abc import Iterator
 from concurrent.futures import Future
+from contextlib import nullcontext
 from pathlib import Path
 
 import pytest
@@ -27,7 +28,9 @@ from tutor.judge.verdict import Status, Verdict
 
 JOBS = 6
 EVERY, BROKEN = find()
-ALL = [case for case in [*sample(EVERY), *find_hostile()] if holds_here(case)]
+_HERE = [case for case in [*sample(EVERY), *find_hostile()] if holds_here(case)]
+ALL = sorted(_HERE, key=lambda case: not case.expected.keeps_busy)
+"""Those first that take all of the CPU: they are judged one at a time, among the others."""
 
 
 @pytest.fixture(scope="module")
@@ -35,8 +38,8 @@ def outcomes() -> Iterator[dict[str, Future[Outcome]]]:
     """The outcome of each case, as it comes: several are judged at a time, since a check mostly waits."""
     futures: dict[str, Future[Outcome]] = {str(case): Future() for case in ALL}
 
-    async def one(case: Case, free: asyncio.Semaphore) -> None:
-        async with free:
+    async def one(case: Case, free: asyncio.Semaphore, alone: asyncio.Lock) -> None:
+        async with alone if case.expected.keeps_busy else nullcontext(), free:
             try:
                 futures[str(case)].set_result(await judge(case))
             except Exception as error:
@@ -44,7 +47,8 @@ def outcomes() -> Iterator[dict[str, Future[Outcome]]]:
 
     async def everything() -> None:
         free = asyncio.Semaphore(JOBS)
-        await asyncio.gather(*(one(case, free) for case in ALL))
+        alone = asyncio.Lock()
+        await asyncio.gather(*(one(case, free, alone) for case in ALL))
 
     loop = asyncio.new_event_loop()
     task = loop.create_task(everything())

@@ -127,6 +127,11 @@ class Trial:
         spans = [b.at - a.at for index, (a, b) in enumerate(pairwise(self.sent), start=1) if index != self.breaks]
         return max(spans) - median(spans) if spans else 0.0
 
+    @property
+    def slowed(self) -> bool:
+        """Whether the machine may be why the node did not do well: see `tutor.judge.bench.was_slowed`."""
+        return bool(self.sent) and max(self.cpu_wait_s, self.most_late_s) >= ROUGH_S
+
     def delay_s(self, index: int) -> float:
         """How late the machine may have let the node take in this message: what it was kept from running thereafter."""
         owed = [each.cpu_wait_s for each in self.sent[index:]] + [self.sent[0].cpu_wait_s + self.cpu_wait_s]

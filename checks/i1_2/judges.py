@@ -9,9 +9,8 @@ from checks.i1_2.facts import EVERY, FAST_HZ, OURS, Trial
 from checks.i1_2.reading import labelled, read
 from checks.i1_2.summaries import Summary, find_summaries, in_time, milestone, totals
 from tutor.judge import causes, ending
-from tutor.judge.bench import MachineTooBusy
 from tutor.judge.trace import LogRecord
-from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped
+from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped, undecided
 
 EXPECTED_SUMMARY = f"one summary for every {EVERY} messages, with the first and the last message's content"
 BUSY_S = 0.5
@@ -28,7 +27,7 @@ def judge_count(steady: Trial, jump: Trial, fast: Trial) -> Verdict:
         return verdict
     lost = backlog.find_lost(fast, steady)
     if lost.excused if lost else not backlog.fast_enough(fast):
-        raise MachineTooBusy("this machine is too busy to send messages fast")
+        return undecided("to send messages fast")
     if lost is None:
         return verdict
     return failed(
@@ -159,7 +158,7 @@ def judge_rate(steady: Trial, jump: Trial) -> Verdict:
             evidence,
         )
     if rates.doubtful(stated, summaries, steady):
-        raise MachineTooBusy("this machine is too busy to send messages at an even rate")
+        return undecided("to send messages at an even rate")
     return passed(expected, f"{', '.join(number.text for number in stated)} messages per second", evidence)
 
 
@@ -170,7 +169,7 @@ def judge_summary(steady: Trial, jump: Trial, fast: Trial) -> Verdict:
     if not backlog.missing_summary(fast, steady):
         return verdict
     if not backlog.fast_enough(fast) or fast.allowance_s > BUSY_S:
-        raise MachineTooBusy("this machine is too busy to send messages fast")
+        return undecided("to send messages fast")
     return failed(
         f"{EXPECTED_SUMMARY}, at {FAST_HZ:g} a second, too",
         f"of {len(fast.sent)} messages, none since message {backlog.count_summarised(fast, steady)}",

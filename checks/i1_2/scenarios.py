@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Awaitable, Callable, Iterable
-from contextlib import suppress
+from collections.abc import Iterable
 from dataclasses import replace
 
-from checks.i1_2 import backlog, continuity, judges
 from checks.i1_2.facts import (
     ABSENT_S,
     AGAIN_AFTER,
@@ -20,7 +18,6 @@ from checks.i1_2.facts import (
     QUIET_S,
     RESTART_AFTER,
     RESTART_MESSAGES,
-    ROUGH_S,
     SOON_S,
     SOONER_HZ,
     STEADY_HZ,
@@ -31,10 +28,10 @@ from checks.i1_2.facts import (
     Trial,
 )
 from checks.i1_2.summaries import find_summaries, milestone
-from tutor.judge.bench import Bench, MachineTooBusy, Publisher, Run
+from tutor.judge.bench import Bench, Publisher, Run
 from tutor.judge.ending import repeat_if_doubtful
 from tutor.judge.tracebacks import Frame
-from tutor.judge.waiting import TRIES, wait_until_log_quiet, wait_until_seen
+from tutor.judge.waiting import wait_until_log_quiet, wait_until_seen
 
 SPIN_S = 2.0
 """A node that is subscribed and spins answers a request within this time; for one that sleeps first, twice as long."""
@@ -53,29 +50,18 @@ FAST_ASKS_S = MATCH_S + FAST_MESSAGES / FAST_HZ
 @repeat_if_doubtful
 async def steady(bench: Bench) -> Trial:
     """Feed it evenly from 0 on, then press Ctrl+C."""
-
-    async def once() -> Trial:
-        async with bench.start(FILE) as run, run.publisher(TOPIC, TYPE) as talker:
-            bench.report_progress(0.05, "waiting for the subscription")
-            spins = await _wait_for_match(run, talker, QUIET_S)
-            if not talker.subscribers:
-                return Trial(run.trace(), spins=spins, ending=await run.interrupt() if run.exit is None else None)
-            waited_s = run.node_cpu_wait_s()
-            sent: list[Sent] = []
-            await _send(bench, run, talker, sent, range(STEADY_MESSAGES), random.uniform(*STEADY_HZ))
-            trial = Trial(run.trace(), tuple(sent), cpu_wait_s=run.node_cpu_wait_s() - waited_s, spins=spins)
-            trial = await _collect_last_logs(run, trial)
-            bench.report_progress(0.95, "pressing Ctrl+C")
-            return replace(trial, ending=await run.interrupt() if run.exit is None else None)
-
-    async def fair(trial: Trial) -> bool:
-        nothing = replace(trial, sent=())
-        of_steady = (judges.judge_slow_count, judges.judge_rate, judges.judge_slow_summary)
-        with suppress(MachineTooBusy):
-            return all(judge(trial, nothing).passed for judge in of_steady)
-        return False
-
-    trial = await _repeat_if_slowed(once, fair)
+    async with bench.start(FILE) as run, run.publisher(TOPIC, TYPE) as talker:
+        bench.report_progress(0.05, "waiting for the subscription")
+        spins = await _wait_for_match(run, talker, QUIET_S)
+        if not talker.subscribers:
+            return Trial(run.trace(), spins=spins, ending=await run.interrupt() if run.exit is None else None)
+        waited_s = run.node_cpu_wait_s()
+        sent: list[Sent] = []
+        await _send(bench, run, talker, sent, range(STEADY_MESSAGES), random.uniform(*STEADY_HZ))
+        trial = Trial(run.trace(), tuple(sent), cpu_wait_s=run.node_cpu_wait_s() - waited_s, spins=spins)
+        trial = await _collect_last_logs(run, trial)
+        bench.report_progress(0.95, "pressing Ctrl+C")
+        trial = replace(trial, ending=await run.interrupt() if run.exit is None else None)
     if trial.sent and not trial.spins and not trial.lines and trial.trace.exit is None:
         return replace(trial, stuck=await _stuck(bench))
     return trial
@@ -83,98 +69,64 @@ async def steady(bench: Bench) -> Trial:
 
 async def jump(bench: Bench) -> Trial:
     """Feed it from some number on, and leave some out; later, leave out one more."""
-
-    async def once() -> Trial:
-        async with bench.start(FILE) as run, run.publisher(TOPIC, TYPE) as talker:
-            spins = await _wait_for_match(run, talker, MATCH_S)
-            if not talker.subscribers:
-                return Trial(run.trace(), spins=spins)
-            waited_s = run.node_cpu_wait_s()
-            sent: list[Sent] = []
-            # Past 100 before the jump: a node that compares texts, or the last two digits, goes wrong there.
-            first = random.randint(90, 97)
-            skipped = first + JUMP_AFTER + random.randint(4, 8)
-            await _send(bench, run, talker, sent, range(first, first + JUMP_AFTER), SOONER_HZ)
-            until = skipped + AGAIN_AFTER - JUMP_AFTER
-            await _send(bench, run, talker, sent, range(skipped, until), SOONER_HZ)
-            await _send(bench, run, talker, sent, range(until + 1, until + 1 + JUMP_MESSAGES - AGAIN_AFTER), SOONER_HZ)
-            breaks, again = (after if len(sent) > after else 0 for after in (JUMP_AFTER, AGAIN_AFTER))
-            lost = run.node_cpu_wait_s() - waited_s
-            trial = Trial(run.trace(), tuple(sent), breaks, cpu_wait_s=lost, spins=spins, again=again)
-            return await _collect_last_logs(run, trial)
-
-    async def fair(trial: Trial) -> bool:
-        even = await bench.facts(steady)
-        told = bool(trial.breaks) and continuity.judge_gaps(trial, even).passed
-        return told and judges.judge_slow_count(even, trial).passed and judges.judge_slow_summary(even, trial).passed
-
-    return await _repeat_if_slowed(once, fair)
+    async with bench.start(FILE) as run, run.publisher(TOPIC, TYPE) as talker:
+        spins = await _wait_for_match(run, talker, MATCH_S)
+        if not talker.subscribers:
+            return Trial(run.trace(), spins=spins)
+        waited_s = run.node_cpu_wait_s()
+        sent: list[Sent] = []
+        # Past 100 before the jump: a node that compares texts, or the last two digits, goes wrong there.
+        first = random.randint(90, 97)
+        skipped = first + JUMP_AFTER + random.randint(4, 8)
+        await _send(bench, run, talker, sent, range(first, first + JUMP_AFTER), SOONER_HZ)
+        until = skipped + AGAIN_AFTER - JUMP_AFTER
+        await _send(bench, run, talker, sent, range(skipped, until), SOONER_HZ)
+        await _send(bench, run, talker, sent, range(until + 1, until + 1 + JUMP_MESSAGES - AGAIN_AFTER), SOONER_HZ)
+        breaks, again = (after if len(sent) > after else 0 for after in (JUMP_AFTER, AGAIN_AFTER))
+        lost = run.node_cpu_wait_s() - waited_s
+        trial = Trial(run.trace(), tuple(sent), breaks, cpu_wait_s=lost, spins=spins, again=again)
+        return await _collect_last_logs(run, trial)
 
 
 async def fast(bench: Bench) -> Trial:
     """Feed it for a short while as fast as many a sensor does."""
-
-    async def once() -> Trial:
-        async with bench.start(FILE, expected_s=FAST_ASKS_S) as run, run.publisher(TOPIC, TYPE) as talker:
-            spins = await _wait_for_match(run, talker, MATCH_S)
-            if not talker.subscribers:
-                return Trial(run.trace(), spins=spins)
-            waited_s = run.node_cpu_wait_s()
-            sent: list[Sent] = []
-            first = random.randint(0, 50)
-            await _send(bench, run, talker, sent, range(first, first + FAST_MESSAGES), FAST_HZ)
-            lost = run.node_cpu_wait_s() - waited_s
-            return await _collect_last_logs(run, Trial(run.trace(), tuple(sent), cpu_wait_s=lost, spins=spins))
-
-    async def fair(trial: Trial) -> bool:
-        even = await bench.facts(steady)
-        whole = backlog.find_lost(trial, even) is None and not backlog.missing_summary(trial, even)
-        return whole and backlog.fast_enough(trial)
-
-    return await _repeat_if_slowed(once, fair)
+    async with bench.start(FILE, expected_s=FAST_ASKS_S) as run, run.publisher(TOPIC, TYPE) as talker:
+        spins = await _wait_for_match(run, talker, MATCH_S)
+        if not talker.subscribers:
+            return Trial(run.trace(), spins=spins)
+        waited_s = run.node_cpu_wait_s()
+        sent: list[Sent] = []
+        first = random.randint(0, 50)
+        await _send(bench, run, talker, sent, range(first, first + FAST_MESSAGES), FAST_HZ)
+        lost = run.node_cpu_wait_s() - waited_s
+        return await _collect_last_logs(run, Trial(run.trace(), tuple(sent), cpu_wait_s=lost, spins=spins))
 
 
 async def restart(bench: Bench) -> Trial:
     """Feed it, take the publisher away, and let another one start over at 0."""
-
-    async def once() -> Trial:
-        async with bench.start(FILE) as run:
-            sent: list[Sent] = []
-            async with run.publisher(TOPIC, TYPE) as talker:
-                spins = await _wait_for_match(run, talker, MATCH_S)
-                if not talker.subscribers:
-                    return Trial(run.trace(), spins=spins)
-                waited_s = run.node_cpu_wait_s()
-                # So low that the second publisher sends again what has come before: a node that takes that for a
-                # repetition fails.
-                first = random.randint(3, 6)
-                await _send(bench, run, talker, sent, range(first, first + RESTART_AFTER), SOONER_HZ)
-                await _pause(run, SOON_S / 2)
-                gone_at = run.now()  # before it goes: the node may tell of that at once
-            await _pause(run, ABSENT_S)
-            async with run.publisher(TOPIC, TYPE) as talker:
-                await run.until(lambda: talker.subscribers > 0, SPIN_S)
-                if talker.subscribers:
-                    await _pause(run, MATCH_S)
-                    again = RESTART_MESSAGES - RESTART_AFTER
-                    await _send(bench, run, talker, sent, range(again), SOONER_HZ)
-                lost = run.node_cpu_wait_s() - waited_s
-                breaks = RESTART_AFTER if len(sent) >= RESTART_AFTER else 0
-                return await _collect_last_logs(run, Trial(run.trace(), tuple(sent), breaks, gone_at, lost, spins))
-
-    async def fair(trial: Trial) -> bool:
-        return continuity.judge_restart(trial, await bench.facts(steady), await bench.facts(jump)).passed
-
-    return await _repeat_if_slowed(once, fair)
-
-
-async def _repeat_if_slowed(once: Callable[[], Awaitable[Trial]], fair: Callable[[Trial], Awaitable[bool]]) -> Trial:
-    """Try again where the node did not do well, and the machine may be to blame."""
-    for _ in range(TRIES):
-        trial = await once()
-        if max(trial.cpu_wait_s, trial.most_late_s) < ROUGH_S or not trial.sent or await fair(trial):
-            break
-    return trial
+    async with bench.start(FILE) as run:
+        sent: list[Sent] = []
+        async with run.publisher(TOPIC, TYPE) as talker:
+            spins = await _wait_for_match(run, talker, MATCH_S)
+            if not talker.subscribers:
+                return Trial(run.trace(), spins=spins)
+            waited_s = run.node_cpu_wait_s()
+            # So low that the second publisher sends again what has come before: a node that takes that for a
+            # repetition fails.
+            first = random.randint(3, 6)
+            await _send(bench, run, talker, sent, range(first, first + RESTART_AFTER), SOONER_HZ)
+            await _pause(run, SOON_S / 2)
+            gone_at = run.now()  # before it goes: the node may tell of that at once
+        await _pause(run, ABSENT_S)
+        async with run.publisher(TOPIC, TYPE) as talker:
+            await run.until(lambda: talker.subscribers > 0, SPIN_S)
+            if talker.subscribers:
+                await _pause(run, MATCH_S)
+                again = RESTART_MESSAGES - RESTART_AFTER
+                await _send(bench, run, talker, sent, range(again), SOONER_HZ)
+            lost = run.node_cpu_wait_s() - waited_s
+            breaks = RESTART_AFTER if len(sent) >= RESTART_AFTER else 0
+            return await _collect_last_logs(run, Trial(run.trace(), tuple(sent), breaks, gone_at, lost, spins))
 
 
 async def _wait_for_match(run: Run, talker: Publisher, settled_s: float) -> bool:

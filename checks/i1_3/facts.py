@@ -102,12 +102,17 @@ class Division:
     at_end: tuple[OutputLine, ...] = ()
 
 
+ROUGH_S = 0.15
+"""Where the machine takes this much from a client, it is tried again before it is said to have given up too soon."""
+
+
 @dataclass(frozen=True)
 class ClientRun:
     """A run of the client against servers of ours. None of it where the submission has no client.
 
     `up_s`: how long after its start our servers came up; None where it had ended by then. `stuck`: where it was when it
-    did not end; `clients`: the service clients that it had.
+    did not end; `clients`: the service clients that it had. `cpu_wait_s`: how long the machine kept it, or us, from
+    running until our servers were up.
     """
 
     trace: Trace | None
@@ -116,6 +121,12 @@ class ClientRun:
     stuck: tuple[Frame, ...] = ()
     clients: tuple[ServiceEndpoint, ...] = ()
     up_s: float | None = None
+    cpu_wait_s: float = 0.0
+
+    @property
+    def slowed(self) -> bool:
+        """Whether it looked for our servers later than it would have, or we brought them up later."""
+        return self.cpu_wait_s >= ROUGH_S and not self.served
 
 
 def right_result(service: str, a: int, b: int) -> int:

@@ -8,7 +8,6 @@ from dataclasses import replace
 from math import inf
 from typing import Any
 
-from checks.i1_3 import client
 from checks.i1_3.facts import (
     AFTER_ZERO,
     AFTERWARDS_S,
@@ -36,10 +35,6 @@ from tutor.judge.trace import CallAnswer, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.waiting import wait_until_log_quiet, wait_until_seen
 from tutor.ros_model import Graph, ServiceEndpoint
-
-TRIES = 3
-ROUGH_S = 0.15
-"""Where the machine takes this much from a client, it is tried again before it is said to have given up too soon."""
 
 DYING_S = 10.0
 """A process whose node is going ends within this time."""
@@ -158,16 +153,6 @@ async def run_client(bench: Bench) -> ClientRun:
     """Run the client, and bring up four servers of ours when it has been there for a while."""
     if not bench.has_file(CLIENT):
         return ClientRun(None)
-    for _ in range(TRIES):
-        seen, lost_s = await _demonstrated(bench)
-        # Where the machine made it look for our servers later than it would, or us bring them up later: once more.
-        if lost_s < ROUGH_S or not client.gave_up_early(seen):
-            break
-    return seen
-
-
-async def _demonstrated(bench: Bench) -> tuple[ClientRun, float]:
-    """One run of the client; and how long the machine kept it, or us, from running until our servers were up."""
     async with bench.start(CLIENT) as run:
         bench.report_progress(0.2, "running the client, before there is a server")
         clients: set[ServiceEndpoint] = set()  # what it had while it ran: afterwards, the graph no longer knows
@@ -199,7 +184,7 @@ async def _demonstrated(bench: Bench) -> tuple[ClientRun, float]:
         trace, served, ended = run.trace(), tuple(run.served), run.exit
         stuck = await run.dump_stacks() if ended is None else ()
         up_s = None if up_at is None else up_at - run.started_at
-        return ClientRun(trace, served, ended, stuck, tuple(clients), up_s), lost_s
+        return ClientRun(trace, served, ended, stuck, tuple(clients), up_s, lost_s)
 
 
 def operands() -> list[tuple[int, int]]:

@@ -282,8 +282,8 @@ async def bad_launches(bench: Bench) -> tuple[Trace, ...]:
         async with bench.start(FILE, parameters={RATE: bad}, watch={TOPIC: TYPE}, expected_s=0.5) as run:
             bench.report_progress(0.3, f"starting with {RATE}:={bad}")
             said = lambda: run.exit is not None or bool(messages_naming_rate(run.trace()))  # noqa: E731
-            await wait_until_seen(run, said, idle_s=IDLE_S)
-            await run.until(lambda: run.exit is not None, 1.0)  # what it says may come in more than one message
+            if await wait_until_seen(run, said, idle_s=IDLE_S):
+                await run.until(lambda: run.exit is not None, 1.0)  # what it says may come in more than one message
             return run.trace()
 
     return tuple(await asyncio.gather(*(one(bad) for bad in BAD_RATES)))

@@ -7,7 +7,7 @@ from typing import Any
 
 from tutor.judge.trace import CallAnswer, Ending, Exit, LogRecord, OutputLine, Sample, SetAnswer, Trace
 from tutor.judge.tracebacks import Frame
-from tutor.judge.verdict import Status, Verdict
+from tutor.judge.verdict import Status, Undecided, Verdict
 from tutor.ros_model import Graph, Parameter, ServiceEndpoint, TopicEndpoint
 
 FOLDER = "/home/me/ws"
@@ -137,6 +137,10 @@ def assert_passed(verdict: Verdict) -> None:
     assert verdict.expected
     assert verdict.observed
     assert verdict.cause == ""
+
+
+def assert_undecided(verdict: Verdict) -> None:
+    assert isinstance(verdict, Undecided), verdict
 
 
 def assert_failed(verdict: Verdict, cause: str, *words: str) -> None:

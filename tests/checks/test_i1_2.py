@@ -25,8 +25,18 @@ from checks.i1_2.facts import (
 )
 from checks.i1_2.reading import read, values
 from checks.i1_2.summaries import find_summaries
-from tests.checks.made import CRASH, NO_NODE, START, UP, assert_failed, assert_passed, ending, exited, trace
-from tutor.errors import MachineTooBusy
+from tests.checks.made import (
+    CRASH,
+    NO_NODE,
+    START,
+    UP,
+    assert_failed,
+    assert_passed,
+    assert_undecided,
+    ending,
+    exited,
+    trace,
+)
 from tutor.judge.trace import LogRecord, Trace
 from tutor.judge.verdict import Status, Verdict
 from tutor.ros_model import TopicEndpoint
@@ -1316,8 +1326,7 @@ def test_a_summary_that_is_left_out_when_messages_come_fast_is_missing() -> None
     assert_failed(judges.judge_summary(even, jumped, seen), "log throttled", "lines 2 to 3 become: log.info('a')")
     plain = replace(seen, trace=replace(seen.trace, sources={}))
     assert_failed(judges.judge_summary(even, jumped, plain), "missing summary", "callback")
-    with pytest.raises(MachineTooBusy):
-        judges.judge_summary(even, jumped, replace(seen, cpu_wait_s=1.2))
+    assert_undecided(judges.judge_summary(even, jumped, replace(seen, cpu_wait_s=1.2)))
 
 
 @pytest.mark.parametrize("late_s", [0.0005, 0.1, 0.5, 1.0])
@@ -1328,13 +1337,11 @@ def test_summaries_may_be_late_when_messages_come_fast(late_s: float) -> None:
 
 
 def test_what_a_busy_machine_may_have_cost_is_not_a_verdict() -> None:
-    with pytest.raises(MachineTooBusy):
-        judged_fast(NapsALittle, cpu_wait_s=1.2)
+    assert_undecided(judged_fast(NapsALittle, cpu_wait_s=1.2))
     assert_failed(judged_fast(Naps, cpu_wait_s=0.2), "cannot keep up")
     assert_passed(judged_fast(Counter, cpu_wait_s=3.0))
     slowly = fed(Counter(), range(FAST_MESSAGES), 19.0)
-    with pytest.raises(MachineTooBusy):
-        judges.judge_count(steady(Counter()), jump(Counter()), slowly)
+    assert_undecided(judges.judge_count(steady(Counter()), jump(Counter()), slowly))
     assert_failed(judges.judge_count(steady(CountsFromOne()), jump(CountsFromOne()), slowly), "off by one")
 
 
@@ -1427,8 +1434,7 @@ def test_a_node_that_took_in_the_first_message_late_measured_a_higher_rate() -> 
 
 def test_a_pace_at_which_the_seconds_seem_to_be_the_rate_is_not_a_pace_to_judge_by() -> None:
     cut = states(rate="{cut}")
-    with pytest.raises(MachineTooBusy):
-        judges.judge_rate(steady(cut(), 4.4), jump(cut()))
+    assert_undecided(judges.judge_rate(steady(cut(), 4.4), jump(cut())))
     assert_passed(judges.judge_rate(steady(Counter(), 4.4), jump(Counter())))
 
 

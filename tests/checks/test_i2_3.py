@@ -32,6 +32,7 @@ from tests.checks.made import (
     UP,
     assert_failed,
     assert_passed,
+    assert_undecided,
     ending,
     exited,
     frame,
@@ -39,7 +40,6 @@ from tests.checks.made import (
     lines,
     trace,
 )
-from tutor.errors import MachineTooBusy
 from tutor.judge.trace import CallAnswer, LogRecord
 from tutor.judge.verdict import Status, Verdict
 
@@ -129,16 +129,14 @@ def test_a_busy_machine_may_take_longer_but_never_less() -> None:
     assert_failed(blocks(single_calls((), answer(4.0), cpu_wait_s=0.6)), "too slow", "4.0 s")
     assert_failed(blocks(single_calls((), answer(4.5), cpu_wait_s=1.0)), "too slow", "4.5 s")
     assert_failed(blocks(single_calls((), answer(4.5), answer(4.1))), "too slow", "4.1 s")
-    with pytest.raises(MachineTooBusy):
-        blocks(single_calls((), answer(4.2), cpu_wait_s=1.0))
+    assert_undecided(blocks(single_calls((), answer(4.2), cpu_wait_s=1.0)))
 
 
 def test_one_late_call_on_a_calm_machine_is_enough() -> None:
     busy, calm = single_calls((), answer(4.05), cpu_wait_s=0.9), single_calls((), answer(4.2), cpu_wait_s=0.3)
     for calls in (busy.calls + calm.calls, calm.calls + busy.calls):
         assert_failed(blocks(replace(busy, calls=calls)), "too slow", "4.0 s")
-    with pytest.raises(MachineTooBusy):
-        blocks(replace(busy, calls=busy.calls * 2))
+    assert_undecided(blocks(replace(busy, calls=busy.calls * 2)))
 
 
 def calls_made(each: Call, logs: Sequence[LogRecord] = (), *, most: int = MOST_TRIES, calm_at: int = 99) -> int:
@@ -331,14 +329,13 @@ def test_a_gap_of_more_than_a_second_is_one(start: float, length: float, every: 
 def test_a_gap_that_the_machine_made_is_excused() -> None:
     blocked = ticking(every=1, stands_still=(0.5, 1.6))
     assert_passed(judge_timer(idle_run(ticking(every=1)), single_calls(blocked, cpu_wait_s=1.0)))
-    with pytest.raises(MachineTooBusy):
-        judge_timer(idle_run(ticking(every=1)), single_calls(ticking(every=1, stands_still=(0.5, 2)), cpu_wait_s=0.7))
+    for_long = ticking(every=1, stands_still=(0.5, 2))
+    assert_undecided(judge_timer(idle_run(ticking(every=1)), single_calls(for_long, cpu_wait_s=0.7)))
     long = single_calls(ticking(every=1, stands_still=(0.3, 3.3)), cpu_wait_s=0.7)
     assert_failed(judge_timer(idle_run(ticking(every=1)), long), "blocked executor")
-    with pytest.raises(MachineTooBusy):  # all of the call stands still: no machine is so busy that this passes
-        judge_timer(idle_run(ticking()), single_calls(ticking(stands_still=(0.3, 3.3)), cpu_wait_s=2.5))
-    with pytest.raises(MachineTooBusy):
-        judge_timer(idle_run(ticking(hz=7), excused=True), single_calls())
+    # All of the call stands still: no machine is so busy that this passes.
+    assert_undecided(judge_timer(idle_run(ticking()), single_calls(ticking(stands_still=(0.3, 3.3)), cpu_wait_s=2.5)))
+    assert_undecided(judge_timer(idle_run(ticking(hz=7), excused=True), single_calls()))
 
 
 def test_missed_ticks_made_up_for_are_a_gap_and_a_burst() -> None:
@@ -508,8 +505,7 @@ def test_parallel() -> None:
     assert_failed(
         judge_parallel(single_calls(), three(*sums, took_s=(3.0, 3.0, 6.0))), "one call at a time", "2.0 times"
     )
-    with pytest.raises(MachineTooBusy):
-        judge_parallel(single_calls(), three(*sums, took_s=(3.0, 3.0, 6.0), cpu_wait_s=2.6))
+    assert_undecided(judge_parallel(single_calls(), three(*sums, took_s=(3.0, 3.0, 6.0), cpu_wait_s=2.6)))
     assert_failed(
         judge_parallel(single_calls(), three(*sums, took_s=(3.0, 6.0, 9.0), cpu_wait_s=5.0)), "one call at a time"
     )
@@ -524,8 +520,7 @@ def test_three_on_a_calm_machine_are_enough_to_tell() -> None:
             "2.0 times",
         )
     for made in ((busy,), (busy, busy), (calm, busy, busy)):  # the first may have been held up by the connection
-        with pytest.raises(MachineTooBusy):
-            judge_parallel(single_calls(), ConcurrentCalls(trace(graph=SERVING), made))
+        assert_undecided(judge_parallel(single_calls(), ConcurrentCalls(trace(graph=SERVING), made)))
 
 
 def two_at_a_time(cpu_wait_s: float) -> ConcurrentCalls:

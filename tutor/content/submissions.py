@@ -26,7 +26,8 @@ class Expected:
     a criterion ("" stands for all that fail) to texts, one of which is in its cause, `steps` likewise to what is in its
     next step. `gone` is in the command line of
     no process afterwards. `ros` is the only kind of ROS that this holds for, where it is not empty. `exit` is the exit
-    code of `ros-tutor check`, where it is told; with 3, criteria may end in an error.
+    code of `ros-tutor check`, where it is told; with 3, criteria may end in an error. `keeps_busy`: its processes take
+    all of the CPU that they get, so that several of them at once would keep each other from running.
     """
 
     says: str
@@ -41,6 +42,7 @@ class Expected:
     gone: str = ""
     ros: str = ""
     exit: int | None = None
+    keeps_busy: bool = False
 
     @property
     def named(self) -> Mapping[str, tuple[str, ...]]:
@@ -93,6 +95,7 @@ def read_expected(file: Path) -> Expected:
         gone=fields.text("gone", optional=True),
         ros=fields.text("ros", optional=True),
         exit=None if (code := fields.number("exit")) is None else int(code),
+        keeps_busy=fields.flag("keeps_busy", default=False),
     )
     fields.done()
     return expected

@@ -14,17 +14,23 @@ import os
 from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager
 
+from tutor.engine.alone import ScenariosAtWork
+
 MORE_THAN_CORES = 1
 """Starts in flight beyond one for each core: a start waits, too, for the disk and for its peers."""
 
 
 class Admission:
-    """How many may start at a time: `slots` (by default one for each core that is ours, and one more)."""
+    """How many may start at a time: `slots` (by default one for each core that is ours, and one more).
+
+    `scenarios`: those that are at work, of all checks that share this.
+    """
 
     def __init__(self, slots: int | None = None) -> None:
         self._free = slots or len(os.sched_getaffinity(0)) + MORE_THAN_CORES
         self._waiting: list[tuple[float, int, asyncio.Future[None]]] = []
         self._number = itertools.count()
+        self.scenarios = ScenariosAtWork()
 
     @asynccontextmanager
     async def start(self, expected_s: float) -> AsyncIterator[Callable[[], None]]:

@@ -16,7 +16,7 @@ from typing import Any, TypeVar
 
 from tutor.engine.idle import Idle
 from tutor.engine.source import launch_arguments, sources, uncalled_main, with_code
-from tutor.errors import EngineError, UnknownType
+from tutor.errors import EngineError, MachineTooBusy, UnknownType
 from tutor.judge import tracebacks
 from tutor.judge.bench import Handler
 from tutor.judge.exceptions import KnownException
@@ -215,7 +215,7 @@ class RosRun:
                     # A shorter wait is a look, from which nothing follows; a node that has had CPU time was let run.
                     starved = late_s > most_s and self._cpu().ran_s - ran_s < LITTLE_CPU_S
                     if starved and limit_s >= 1.0:
-                        raise EngineError(TOO_BUSY, "close what keeps it busy, then check again")
+                        raise MachineTooBusy(TOO_BUSY)
                     return False
                 deadline, granted_s = deadline + owed_s, granted_s + owed_s
             with contextlib.suppress(TimeoutError):

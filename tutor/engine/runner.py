@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import time
+from collections import Counter
 from collections.abc import Callable, Iterable
 from typing import Any
 
@@ -11,21 +12,28 @@ from tutor.content import Lesson
 from tutor.engine.admission import Admission
 from tutor.engine.bench import RosBench
 from tutor.engine.provisional import Provisional
+from tutor.engine.run import TOO_BUSY
 from tutor.engine.so_far import SoFar
 from tutor.engine.unchanged_skeleton import first_todo, point_to_todo
 from tutor.engine.walls import Walls
-from tutor.errors import Fault
-from tutor.judge.bench import Scenario
+from tutor.errors import Fault, MachineTooBusy
+from tutor.judge.bench import Scenario, was_slowed
 from tutor.judge.check import Check, Criterion
 from tutor.judge.events import CheckStarted, CriterionJudged, Event, ExerciseJudged, Progress
 from tutor.judge.result import CriterionResult, ExerciseResult
 from tutor.judge.submission import Submission
-from tutor.judge.verdict import Verdict, bounded, fault, skipped
+from tutor.judge.verdict import Status, Undecided, Verdict, bounded, fault, skipped
 from tutor.ros.environment import RosEnvironment
 
 OnEvent = Callable[[Event], None]
 
 WAITING = "waiting for other checks on this machine"
+
+MOST_REPEATS = 2
+"""A scenario is repeated at most this many times because of a busy machine."""
+
+REPEAT_WITHIN_S = 60.0
+"""Nothing is repeated once the check has taken this long: the machine, or the node itself, stays busy."""
 
 
 class Runner:
@@ -53,6 +61,7 @@ class Runner:
         self._walls = walls
         self._scenarios: dict[Scenario[Any], asyncio.Task[Any]] = {}
         self._verdicts: dict[str, asyncio.Task[Verdict]] = {}
+        self._repeats: Counter[Scenario[Any]] = Counter()
         self._progress: dict[Scenario[Any], tuple[float, str, SoFar]] = {}
         self._published: set[str] = set()
         self._todo = first_todo(lesson, submission)
@@ -97,38 +106,68 @@ class Runner:
 
     def _share(self, scenario: Scenario[Any]) -> asyncio.Task[Any]:
         if scenario not in self._scenarios:
-
-            def tell(fraction: float, text: str, so_far: SoFar) -> None:
-                self._tell(scenario, fraction, text, so_far)
-
-            provisional = Provisional(tell, self._lesson.live, self._published)
-            known = self._check.exceptions
-            bench = RosBench(
-                self._submission,
-                self._ros,
-                self._ask,
-                provisional.report,
-                self._admission,
-                self._check.expected_s,
-                known,
-                self._walls,
-                provisional.follow,
-            )
-            self._scenarios[scenario] = asyncio.ensure_future(_seen(scenario, bench))
+            self._scenarios[scenario] = asyncio.ensure_future(self._facts(scenario))
         return self._scenarios[scenario]
+
+    def _repeat(self, scenario: Scenario[Any], last: asyncio.Task[Any], *, alone: bool) -> bool:
+        """Run the scenario again, unless this was done since its `last` run, or too often. Gives whether it was run."""
+        if self._scenarios[scenario] is last:
+            if self._repeats[scenario] >= MOST_REPEATS or self._elapsed() > REPEAT_WITHIN_S:
+                return False
+            self._repeats[scenario] += 1
+            self._scenarios[scenario] = asyncio.ensure_future(self._facts(scenario, alone=alone))
+        return True
 
     async def _ask(self, scenario: Scenario[Any]) -> Any:
         # Shielded: one scenario that is cancelled must not take down another that was asked by several.
         return await asyncio.shield(self._share(scenario))
+
+    async def _ask_from_scenario(self, scenario: Scenario[Any]) -> Any:
+        with self._admission.scenarios.waiting():
+            return await self._ask(scenario)
+
+    async def _facts(self, scenario: Scenario[Any], *, alone: bool = False) -> Any:
+        """The facts of a scenario; repeated alone where the machine did not let the node run in it."""
+        for _ in range(MOST_REPEATS):
+            try:
+                return await self._run_scenario(scenario, alone=alone)
+            except MachineTooBusy:
+                if self._elapsed() > REPEAT_WITHIN_S:
+                    raise
+                alone = True
+        return await self._run_scenario(scenario, alone=alone)
+
+    async def _run_scenario(self, scenario: Scenario[Any], *, alone: bool) -> Any:
+        def tell(fraction: float, text: str, so_far: SoFar) -> None:
+            self._tell(scenario, fraction, text, so_far)
+
+        provisional = Provisional(tell, self._lesson.live, self._published)
+        bench = RosBench(
+            self._submission,
+            self._ros,
+            self._ask_from_scenario,
+            provisional.report,
+            self._admission,
+            self._check.expected_s,
+            self._check.exceptions,
+            self._walls,
+            provisional.follow,
+        )
+        async with self._admission.scenarios.at_work(alone=alone):
+            if alone and self._elapsed() > REPEAT_WITHIN_S:
+                raise MachineTooBusy(TOO_BUSY)
+            facts = await scenario(bench)
+            # Where a process was killed, the scenario is repeated: who did it cannot be known from one.
+            return await scenario(bench) if bench.sigkilled else facts
 
     async def _judge(self, criterion: Criterion) -> Verdict:
         for dependency in criterion.after:
             if not (await asyncio.shield(self._verdicts[dependency])).passed:
                 return skipped(f"not judged, because `{dependency}` did not pass")
         try:
-            facts = [await self._ask(scenario) for scenario in criterion.facts]
+            verdict = await self._judge_facts(criterion)
             text = self._texts.get(criterion.id)
-            return point_to_todo(criterion.judge(*facts), self._todo, text.hint if text else "")
+            return point_to_todo(verdict, self._todo, text.hint if text else "")
         except Fault as error:
             return fault(str(error), error.hint)
         except Exception as error:  # the check's boundary: a fault of ours must not be shown as the learner's
@@ -138,6 +177,23 @@ class Runner:
                 "this is a fault of ros-tutor, not of your code; please report it with the line below",
                 [where],
             )
+
+    async def _judge_facts(self, criterion: Criterion) -> Verdict:
+        """Judge; again with new facts, where the machine may be why the criterion is not met."""
+        while True:
+            runs = [self._share(scenario) for scenario in criterion.facts]
+            facts = [await asyncio.shield(run) for run in runs]
+            if any(self._scenarios[scenario] is not run for scenario, run in zip(criterion.facts, runs, strict=True)):
+                continue  # repeated meanwhile
+            verdict = criterion.judge(*facts)
+            undecided = isinstance(verdict, Undecided)
+            again = [
+                self._repeat(scenario, run, alone=undecided)
+                for scenario, run, seen in zip(criterion.facts, runs, facts, strict=True)
+                if undecided or (verdict.status is Status.FAILED and was_slowed(seen))
+            ]
+            if not any(again):
+                return verdict
 
     async def _show(self, criterion: Criterion) -> CriterionResult:
         verdict = bounded(await self._verdicts[criterion.id])
@@ -164,12 +220,6 @@ class Runner:
 
     def _elapsed(self) -> float:
         return time.monotonic() - self._started
-
-
-async def _seen(scenario: Scenario[Any], bench: RosBench) -> Any:
-    """The facts of a scenario; where a process was killed in it, of another: who did it cannot be known from one."""
-    facts = await scenario(bench)
-    return await scenario(bench) if bench.sigkilled else facts
 
 
 def _with_dependencies(check: Check, shown: Iterable[Criterion]) -> tuple[Criterion, ...]:

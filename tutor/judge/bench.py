@@ -167,4 +167,13 @@ class Bench(Protocol):
 
 
 Scenario = Callable[[Bench], Awaitable[T]]
-"""Does something to the learner's node and gives the facts seen; the key under which the facts are kept."""
+"""Does something to the learner's node and gives the facts seen; the key under which the facts are kept.
+
+Facts may have an attribute `slowed` (see `was_slowed`). A scenario in which the machine was too busy for any facts
+raises MachineTooBusy, and is repeated alone.
+"""
+
+
+def was_slowed(facts: object) -> bool:
+    """Whether facts say that the machine slowed the node down: a criterion that fails by them is judged by new ones."""
+    return bool(getattr(facts, "slowed", False))

@@ -9,6 +9,8 @@ from enum import Enum
 MOST_CHARACTERS, MOST_OF_A_HINT, MOST_OF_A_LINE, MOST_LINES = 2000, 10_000, 500, 20
 """How long the texts of a verdict are at most, its hint (which may be a whole program), and its evidence."""
 
+BUSY_HINT = "close what keeps this machine busy, then check again"
+
 
 class Status(Enum):
     """How a criterion ended.
@@ -73,6 +75,20 @@ def bounded(verdict: Verdict) -> Verdict:
 
 def _cut(text: str, most: int) -> str:
     return text if len(text) <= most else f"{text[: most - 3]}..."
+
+
+class Undecided(Verdict):
+    """The machine was too busy to tell the learner's doing from its own: see `undecided`."""
+
+    __slots__ = ()
+
+
+def undecided(to_do: str) -> Undecided:
+    """The machine was too busy to judge the criterion; `to_do` completes that sentence: "to measure the timer".
+
+    The engine repeats the scenarios alone, and has the criterion judged again; what stays undecided is an error.
+    """
+    return Undecided(Status.ERROR, cause=f"this machine is too busy {to_do}", hint=BUSY_HINT)
 
 
 def passed(expected: str, observed: str, evidence: Iterable[str] = ()) -> Verdict:
