@@ -107,15 +107,15 @@ def main() -> int:
     parser.add_argument("--at-once", type=int, default=4, help="this many of them at a time (4)")
     parser.add_argument("--isolate", action="store_true", help="all of them with --isolate")
     arguments = parser.parse_args()
-    walls = ["--isolate"] if arguments.isolate else []
+    options = ["--isolate"] if arguments.isolate else []
     exercises = [lesson.id for lesson in load_course().lessons]
-    with joined(*walls) as codes:
+    with joined(*options) as codes:
         beside = check_solutions(
-            [exercises[i % len(exercises)] for i in range(arguments.checks)], arguments.at_once, *walls
+            [exercises[i % len(exercises)] for i in range(arguments.checks)], arguments.at_once, *options
         )
     _table(f"beside one that joins every domain, checked over and over (exit codes {codes}):", beside)
     exercise, times = MANY
-    together = check_solutions([exercise] * times, times, *walls)
+    together = check_solutions([exercise] * times, times, *options)
     _table(f"{times} checks at once:", together)
     return 1 if any(one.exit for one in [*beside, *together]) else 0
 

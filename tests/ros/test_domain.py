@@ -15,8 +15,8 @@ import pytest
 from tests.ros.own_network import OWN_NETWORK, needs_own_network
 from tutor.errors import NoFreeDomain
 from tutor.ros import domain
+from tutor.ros.discovery import DDS_PORTS, PORTS_OF_CHECKS
 from tutor.ros.domain import IDS, reserve_domain
-from tutor.ros.isolation import DDS_PORTS, PORTS_OF_CHECKS
 
 FIRST, PER_DOMAIN = PORTS_OF_CHECKS
 
@@ -96,7 +96,7 @@ import socket
 from contextlib import ExitStack
 from tutor.ros.domain import IDS, reserve_domain
 from tutor.errors import NoFreeDomain
-from tutor.ros.isolation import PORTS_OF_CHECKS
+from tutor.ros.discovery import PORTS_OF_CHECKS
 FIRST, PER_DOMAIN = PORTS_OF_CHECKS
 port = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
 port.bind(("", FIRST + PER_DOMAIN * IDS[41]))

@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 from tests.ros import sourced
-from tutor.ros import bundled_interfaces, environment, isolation, prefixes
+from tutor.ros import bundled_interfaces, discovery, environment, prefixes
 from tutor.ros.domain import reserve_domain
 from tutor.ros.environment import RosEnvironment, detect, learner_env
 
@@ -112,7 +112,7 @@ def test_learner_environment_is_clean(tmp_path: Path) -> None:
     assert env["PYTHONPATH"].split(":") == [str(package_root), str(bundled_interfaces.site_packages()), "/home/me/lib"]
     assert env["AMENT_PREFIX_PATH"].split(":") == [str(bundled_interfaces.prefix()), sys.prefix]
     assert env["PATH"].split(":")[0] == str(Path(sys.prefix) / "bin")
-    assert env["FASTRTPS_DEFAULT_PROFILES_FILE"] == env["FASTDDS_DEFAULT_PROFILES_FILE"] == str(isolation.PROFILE)
+    assert env["FASTRTPS_DEFAULT_PROFILES_FILE"] == env["FASTDDS_DEFAULT_PROFILES_FILE"] == str(discovery.PROFILE)
     expected = {
         "ROS_DOMAIN_ID": "42",
         "ROS_LOG_DIR": str(tmp_path),
@@ -131,14 +131,14 @@ def test_run_keeps_the_users_own_discovery(tmp_path: Path) -> None:
     users = {"ROS_STATIC_PEERS": "192.0.2.1", "FASTDDS_BUILTIN_TRANSPORTS": "UDPv4", "ROS_LOCALHOST_ONLY": "1"}
     env = env_for(detect(PLAIN), {**PLAIN, **users}, tmp_path, isolated=False)
     assert users.items() <= env.items()
-    prompt = str(isolation.PROMPT_PROFILE)  # which changes only how soon nodes are found
+    prompt = str(discovery.PROMPT_PROFILE)  # which changes only how soon nodes are found
     assert env["FASTRTPS_DEFAULT_PROFILES_FILE"] == prompt
     own = {"FASTDDS_DEFAULT_PROFILES_FILE": "/own.xml"}
     env = env_for(detect(PLAIN), {**PLAIN, **own}, tmp_path, isolated=False)
     assert own.items() <= env.items()
     assert "FASTRTPS_DEFAULT_PROFILES_FILE" not in env
     # What isolates this process itself is not the user's wish.
-    ours = {"FASTRTPS_DEFAULT_PROFILES_FILE": str(isolation.PROFILE)}
+    ours = {"FASTRTPS_DEFAULT_PROFILES_FILE": str(discovery.PROFILE)}
     env = env_for(detect(PLAIN), {**PLAIN, **ours}, tmp_path, isolated=False)
     assert env["FASTRTPS_DEFAULT_PROFILES_FILE"] == prompt
 
@@ -146,14 +146,14 @@ def test_run_keeps_the_users_own_discovery(tmp_path: Path) -> None:
 def test_without_loopback_multicast_ros_finds_localhost_by_itself(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(isolation, "loopback_multicast_works", lambda: False)
+    monkeypatch.setattr(discovery, "loopback_multicast_works", lambda: False)
     env = env_for(detect(PLAIN), PLAIN, tmp_path)
     assert env["ROS_AUTOMATIC_DISCOVERY_RANGE"] == "LOCALHOST"
-    assert env["FASTRTPS_DEFAULT_PROFILES_FILE"] == str(isolation.PROFILE)  # for its ports
+    assert env["FASTRTPS_DEFAULT_PROFILES_FILE"] == str(discovery.PROFILE)  # for its ports
 
 
 def test_multicast_over_an_interface_that_is_not_here_does_not_come_back() -> None:
-    assert not isolation.multicast_works("203.0.113.9")
+    assert not discovery.multicast_works("203.0.113.9")
 
 
 def test_another_distribution_is_told_and_cleaned_away(tmp_path: Path) -> None:

@@ -20,7 +20,7 @@ from tests.ros2cli.bench import Bench
 from tests.ros2cli.lesson_commands import Command, commands
 from tutor.content import load_course
 from tutor.content.model import Lesson
-from tutor.ros.isolation import PROFILE
+from tutor.ros.discovery import PROFILE
 from tutor.workspace import Workspace
 
 TUTOR = [sys.executable, "-P", "-c", "import sys; from tutor.cli import main; sys.exit(main())"]

@@ -15,7 +15,7 @@ import pytest
 from tests.ros.users_domain import users_domain
 from tests.ros2cli.bench import TALKER, Bench, Ran
 from tests.ros2cli.typing_at import terminal
-from tutor.ros.isolation import PROFILE
+from tutor.ros.discovery import PROFILE
 
 TUTOR = [sys.executable, "-P", "-c", "import sys; from tutor.cli import main; sys.exit(main())"]
 NODE = """

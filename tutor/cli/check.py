@@ -80,9 +80,9 @@ def _engine(*, isolate: bool) -> Engine:
         return run_check
     from functools import partial
 
-    from tutor.engine.walls import Walls
+    from tutor.engine.isolation import Isolation
 
-    return partial(run_check, walls=Walls.prove())  # before anything else: this process has one thread yet
+    return partial(run_check, isolation=Isolation.set_up())  # before anything else: this process has one thread yet
 
 
 def _prove_fitting(arguments: argparse.Namespace) -> None:

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from tutor.doctor.finding import Finding
 from tutor.ros import shared_memory
-from tutor.ros.isolation import loopback_multicast_works, prove_loopback
+from tutor.ros.discovery import loopback_multicast_works, prove_loopback
 
 _NEEDED_PYTHON = (3, 12)
 _MEMORY_OF_A_NODE = 700_000  # measured: a segment, and the ports at which it listens

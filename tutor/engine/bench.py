@@ -13,9 +13,9 @@ from typing import Any, TypeVar
 from tutor.bundled_ros.ros2 import overlay
 from tutor.bundled_ros.ros2.starting import ros2_command
 from tutor.engine.admission import Admission
+from tutor.engine.isolation import Isolation
 from tutor.engine.log_folder import temporary_log_folder
 from tutor.engine.run import CollectedFacts, RosRun
-from tutor.engine.walls import Walls
 from tutor.errors import CommandError, EngineError, NoFreeDomain, ProcessError
 from tutor.judge.bench import Run, Scenario
 from tutor.judge.exceptions import KnownException
@@ -58,7 +58,7 @@ class RosBench:
     admission: Admission = field(default_factory=Admission)
     expected_s: float = 0.0
     exceptions: tuple[KnownException, ...] = ()
-    walls: Walls | None = None
+    isolation: Isolation | None = None
     follow: Callable[[RosRun, Mapping[str, str]], AbstractAsyncContextManager[None]] = lambda run, watched: (
         nullcontext()
     )
@@ -154,11 +154,11 @@ class RosBench:
                 env["TMPDIR"] = str(log_dir)  # what is left there goes with the run
                 env["PYTHONFAULTHANDLER"] = "1"  # see RosRun.dump_stacks
                 argv = command(env, log_dir)
-                walls = self.walls.around(package_folder(path), log_dir, env) if self.walls else ()
+                wrapper = self.isolation.wrap(package_folder(path), log_dir, env) if self.isolation else ()
                 # A program may have removed its own folder: then the next start of it says so.
                 cwd = path.parent if path.parent.is_dir() else log_dir
                 async with await LearnerProcess.start(
-                    argv, env=env, cwd=cwd, terminal=terminal, walls=walls, on_change=facts.change
+                    argv, env=env, cwd=cwd, terminal=terminal, wrapper=wrapper, on_change=facts.change
                 ) as process:
                     with _unless_ended_by_others(process):
                         yield RosRun(path, parameters, domain_id, process, observer, facts, self.exceptions)

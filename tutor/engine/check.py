@@ -12,7 +12,7 @@ from tutor import __version__
 from tutor.content import Course
 from tutor.engine import turns
 from tutor.engine.admission import Admission
-from tutor.engine.walls import Walls
+from tutor.engine.isolation import Isolation
 from tutor.errors import EngineError
 from tutor.judge.check import Check
 from tutor.judge.events import CheckFinished, Event
@@ -44,18 +44,18 @@ async def run_check(
     only: frozenset[str] | None = None,
     on_event: Callable[[Event], None] = lambda event: None,
     admission: Admission | None = None,
-    walls: Walls | None = None,
+    isolation: Isolation | None = None,
 ) -> Report:
     """Judge each submission, in parallel; nothing that was started is left when this returns, is cancelled or raises.
 
-    `only`: the ids of the criteria to show (None: all). `admission`: shared among checks that run at once. `walls`:
+    `only`: the ids of the criteria to show (None: all). `admission`: shared among checks that run at once. `isolation`:
     put around all that is started of the submissions. Raises EngineError where checks cannot be run here at all.
     """
     from tutor.engine import unchanged
     from tutor.engine.modules import load_check
     from tutor.ros import bytecode, process_setup
+    from tutor.ros.discovery import prove_loopback
     from tutor.ros.environment import detect
-    from tutor.ros.isolation import prove_loopback
 
     together = admission or Admission()
     try:
@@ -80,7 +80,7 @@ async def run_check(
     def runner_of(submission: Submission) -> Runner:
         lesson = course.find(submission.exercise)
         found: Check = load_check(lesson)
-        return Runner(found, lesson, submission, ros, only, on_event, together, walls)
+        return Runner(found, lesson, submission, ros, only, on_event, together, isolation)
 
     runners = [runner_of(submission) for submission in submissions]
 
@@ -89,7 +89,7 @@ async def run_check(
             runner.wait_for_turn()
 
     # Whoever shares an admission among checks decides how many there are at once.
-    own = walls.ticket if walls else None
+    own = isolation.ticket if isolation else None
     async with turns.turn(own, on_wait=tell_waiting) if admission is None else nullcontext():
         started = time.monotonic()
         tasks = [asyncio.ensure_future(runner.run()) for runner in runners]
@@ -103,7 +103,7 @@ async def run_check(
         environment=Environment(ros_distro=ros.distro, ros=ros.kind, rmw=ros.rmw, ros_tutor=__version__),
         exercises=tuple(results),
         duration_s=time.monotonic() - started,
-        walls=walls.standing if walls else (),
+        isolation=isolation.restrictions if isolation else (),
     )
     on_event(CheckFinished(report))
     return report

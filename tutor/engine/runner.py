@@ -11,11 +11,11 @@ from typing import Any
 from tutor.content import Lesson
 from tutor.engine.admission import Admission
 from tutor.engine.bench import RosBench
+from tutor.engine.isolation import Isolation
 from tutor.engine.provisional import Provisional
 from tutor.engine.run import TOO_BUSY
 from tutor.engine.so_far import SoFar
 from tutor.engine.unchanged_skeleton import first_todo, point_to_todo
-from tutor.engine.walls import Walls
 from tutor.errors import Fault, MachineTooBusy
 from tutor.judge.bench import Scenario, was_slowed
 from tutor.judge.check import Check, Criterion
@@ -48,7 +48,7 @@ class Runner:
         only: frozenset[str] | None,
         on_event: OnEvent,
         admission: Admission | None = None,
-        walls: Walls | None = None,
+        isolation: Isolation | None = None,
     ) -> None:
         self._check = check
         self._texts = {text.id: text for text in lesson.criteria}
@@ -58,7 +58,7 @@ class Runner:
         self._shown = tuple(c for c in check.criteria if only is None or c.id in only)
         self._on_event = on_event
         self._admission = admission or Admission()
-        self._walls = walls
+        self._isolation = isolation
         self._scenarios: dict[Scenario[Any], asyncio.Task[Any]] = {}
         self._verdicts: dict[str, asyncio.Task[Verdict]] = {}
         self._repeats: Counter[Scenario[Any]] = Counter()
@@ -150,7 +150,7 @@ class Runner:
             self._admission,
             self._check.expected_s,
             self._check.exceptions,
-            self._walls,
+            self._isolation,
             provisional.follow,
         )
         async with self._admission.scenarios.at_work(alone=alone):

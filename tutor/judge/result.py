@@ -57,8 +57,8 @@ class Environment:
 
 
 @dataclass(frozen=True, slots=True)
-class Wall:
-    """Something that kept the submission from the rest of the machine. `detail`: how far; where it did not, why."""
+class Restriction:
+    """What the submission was kept from, if it `stands`. `detail`: how far; where it does not stand, why."""
 
     name: str
     stands: bool
@@ -67,12 +67,12 @@ class Wall:
 
 @dataclass(frozen=True, slots=True)
 class Report:
-    """Everything that one `check` found. `walls`: none, unless it was asked to isolate the submission."""
+    """Everything that one `check` found. `isolation`: empty, unless it was asked for."""
 
     environment: Environment
     exercises: tuple[ExerciseResult, ...]
     duration_s: float
-    walls: tuple[Wall, ...] = ()
+    isolation: tuple[Restriction, ...] = ()
 
     @property
     def verdict(self) -> Status:

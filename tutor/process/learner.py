@@ -71,7 +71,7 @@ class LearnerProcess:
         env: Mapping[str, str],
         cwd: Path,
         terminal: bool = False,
-        walls: Sequence[str] = (),
+        wrapper: Sequence[str] = (),
         on_change: Callable[[], None] | None = None,
     ) -> Self:
         """Start `argv` with exactly the environment `env` (and a mark of ours) in the folder `cwd`.
@@ -79,7 +79,7 @@ class LearnerProcess:
         It gets a session and process group of its own, default signal handling, no input, and pipes for its output.
         `terminal`: its input is a terminal where nobody types. `ros2 launch` looks there whether Ctrl+C reaches the
         nodes without its help; where it does not, each node would get two.
-        `walls`: the command behind which it runs (see `SupervisorLink.start`).
+        `wrapper`: the command that runs it (see `SupervisorLink.start`).
         `on_change` is called on the event loop after new output and after the exit.
         Raises StartError if it cannot be started; then nothing is left of the attempt.
         """
@@ -88,7 +88,7 @@ class LearnerProcess:
         except OSError as error:
             raise StartError(f"The program cannot be started: {error}.") from error
         try:
-            await learner._launch(argv, env, cwd, walls)
+            await learner._launch(argv, env, cwd, wrapper)
         except BaseException:
             await learner.end()
             raise
@@ -178,7 +178,7 @@ class LearnerProcess:
         if gone.result():
             raise EndError(gone.result())
 
-    async def _launch(self, argv: Sequence[str], env: Mapping[str, str], cwd: Path, walls: Sequence[str]) -> None:
+    async def _launch(self, argv: Sequence[str], env: Mapping[str, str], cwd: Path, wrapper: Sequence[str]) -> None:
         environment = {**env, orphans.MARK: self._run}
         if not argv or any("\0" in text for text in (*argv, *environment.values(), str(cwd))):
             raise StartError("The program cannot be started: its command is empty or holds a NUL character.")
@@ -190,7 +190,7 @@ class LearnerProcess:
             os.fsencode(os.path.abspath(cwd)),
         )
         try:
-            await self._link.start(request, self._stdin.reader, self._stdout.writer, self._stderr.writer, walls)
+            await self._link.start(request, self._stdin.reader, self._stdout.writer, self._stderr.writer, wrapper)
         except OSError as error:
             raise StartError(f"The program cannot be started: {error}.") from error
         finally:

@@ -52,13 +52,13 @@ class SupervisorLink(asyncio.Protocol):
         self._received = b""
         self._finished = False
         self._ours: set[int] = set()  # the supervisor, and what is between it and us
-        self._walled = False
+        self._wrapped = False
         self._takeover: asyncio.TimerHandle | None = None
 
-    async def start(self, request: bytes, stdin: int, stdout: int, stderr: int, walls: Sequence[str]) -> None:
+    async def start(self, request: bytes, stdin: int, stdout: int, stderr: int, wrapper: Sequence[str]) -> None:
         """Start the supervisor, with these descriptors for its processes and for itself, and hand it a request.
 
-        `walls`: the command in front of its own that puts it into a process namespace of its own, as the child of the
+        `wrapper`: the command in front of its own that puts it into a process namespace of its own, as the child of the
         first one there; the kernel ends all of them with that one, and that one ends with us.
 
         Raises OSError if there can be no supervisor.
@@ -66,11 +66,11 @@ class SupervisorLink(asyncio.Protocol):
         prctl.guard()
         prctl.adopt_orphans(True)
         ours, theirs = socket.socketpair()
-        owner = 1 if walls else os.getpid()
+        owner = 1 if wrapper else os.getpid()
         with theirs:
             try:
                 self._supervisor = subprocess.Popen(
-                    [*walls, sys.executable, "-I", "-S", str(_SUPERVISOR), str(theirs.fileno()), str(owner)],
+                    [*wrapper, sys.executable, "-I", "-S", str(_SUPERVISOR), str(theirs.fileno()), str(owner)],
                     stdin=stdin,
                     stdout=stdout,
                     stderr=stderr,
@@ -85,7 +85,7 @@ class SupervisorLink(asyncio.Protocol):
                 raise
         orphans.supervisors.add(self._supervisor.pid)
         self._ours.add(self._supervisor.pid)
-        self._walled = bool(walls)
+        self._wrapped = bool(wrapper)
         try:
             self._control, _ = await self._loop.create_unix_connection(lambda: self, sock=ours)
         except BaseException:
@@ -148,7 +148,7 @@ class SupervisorLink(asyncio.Protocol):
         if word == "started":
             pid, epoch = rest.split()
             self.pid, self.started_at = int(pid), float(epoch)
-            if self._walled:
+            if self._wrapped:
                 self.pid = self._seen_from_here(self.pid)
             self._set_ready("")
         elif word == "failed":
@@ -165,7 +165,7 @@ class SupervisorLink(asyncio.Protocol):
             self._finished = True
 
     def _seen_from_here(self, pid: int) -> int:
-        """The number that a charge of the supervisor's has here; behind walls it has another one there."""
+        """The pid that a process of the supervisor's has here; in a namespace of its own it has another one."""
         assert self._supervisor is not None
         found = {p.pid: p for p in descendants(self._supervisor.pid)}
         one = next((p for p in found if innermost(p) == pid), None)

@@ -21,8 +21,8 @@ def render(report: Report) -> str:
         "environment": asdict(report.environment),
         "exercises": [_exercise(exercise) for exercise in report.exercises],
     }
-    if report.walls:
-        document["walls"] = [asdict(wall) for wall in report.walls]
+    if report.isolation:
+        document["walls"] = [asdict(each) for each in report.isolation]
     return json.dumps(document, ensure_ascii=False, indent=2, allow_nan=False) + "\n"
 
 

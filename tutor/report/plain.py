@@ -44,11 +44,11 @@ def details(verdict: Verdict) -> list[tuple[str, str]]:
     return [(label, printable(text).strip()) for label, text in pairs if text.strip()]
 
 
-def walls(report: Report) -> list[str]:
-    """A line for the walls that stood around the submission, and one for those that did not; none where none should."""
+def isolation_lines(report: Report) -> list[str]:
+    """A line for what was isolated, and one for what was not; none where isolation was not asked for."""
     lines = []
     for label, stands in (("isolated", True), ("not isolated", False)):
-        if found := [f"{wall.name} ({wall.detail})" for wall in report.walls if wall.stands is stands]:
+        if found := [f"{each.name} ({each.detail})" for each in report.isolation if each.stands is stands]:
             lines.append(f"{label}: {'; '.join(found)}")
     return lines
 

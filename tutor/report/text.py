@@ -14,7 +14,7 @@ from rich.text import Text
 from tutor.judge.result import CriterionResult, ExerciseResult, Report
 from tutor.judge.verdict import Status
 from tutor.printable import printable
-from tutor.report.plain import MARKS, describe, details, seconds, tally, walls
+from tutor.report.plain import MARKS, describe, details, isolation_lines, seconds, tally
 
 STYLES = {Status.PASSED: "green", Status.FAILED: "red", Status.SKIPPED: "yellow", Status.ERROR: "magenta"}
 
@@ -127,8 +127,12 @@ def _summary(report: Report) -> RenderableType:
     verdict = report.verdict
     passed = sum(exercise.verdict is Status.PASSED for exercise in report.exercises)
     of = f"  {passed} of {len(report.exercises)} exercises passed" if len(report.exercises) > 1 else ""
+    took = f"  in {seconds(report.duration_s)}"
     return Text.assemble(
         (f"{MARKS[verdict]} {verdict.value}", f"bold {STYLES[verdict]}"),
         of,
-        ("\n".join([f"  in {seconds(report.duration_s)}", describe(report.environment), *walls(report)]), "dim"),
+        (
+            "\n".join([took, describe(report.environment), *isolation_lines(report)]),
+            "dim",
+        ),
     )

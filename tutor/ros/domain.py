@@ -14,7 +14,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from tutor.errors import NoFreeDomain
-from tutor.ros.isolation import DDS_PORTS, PORTS_OF_CHECKS, own_ports
+from tutor.ros.discovery import DDS_PORTS, PORTS_OF_CHECKS, own_ports
 
 IDS = range(235, 1230, 3)
 """The ids of checks. Their ports are below those that Linux gives away by itself (32768). A node that is told to use

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Literal
 
 from tutor.ros import bundled_interfaces, prefixes
-from tutor.ros.isolation import PROFILE, isolated_discovery, loopback_multicast_works, prompt_discovery
+from tutor.ros.discovery import PROFILE, isolated_discovery, loopback_multicast_works, prompt_discovery
 
 __all__ = ["RosEnvironment", "detect", "learner_env", "loopback_multicast_works", "tutor_env"]
 

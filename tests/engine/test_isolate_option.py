@@ -1,4 +1,4 @@
-"""`check --isolate`: what a submission behind the walls can reach, and that it says so where there can be none."""
+"""`check --isolate`: what an isolated submission can reach, and that it says so where isolation is not possible."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ from tutor.interpreter import module_command
 
 FILE = "temperature_publisher.py"
 
-# Run as a program of ours: puts the walls up, and PROBE behind them.
+# Run as a program of ours: isolates PROBE.
 BEHIND = """
 import os, subprocess, sys
 from pathlib import Path
-from tutor.engine.walls import Walls
+from tutor.engine.isolation import Isolation
 submission, logs, probe = map(Path, sys.argv[1:4])
 environ = dict(os.environ)
-command = Walls.prove().around(submission, logs, environ)
+command = Isolation.set_up().wrap(submission, logs, environ)
 ran = subprocess.run([*command, sys.executable, "-S", str(submission / probe), *sys.argv[4:]], env=environ)
 sys.exit(ran.returncode)
 """
@@ -79,14 +79,14 @@ print(json.dumps({
 
 @cache
 def _refused() -> str:
-    """Why no walls can be put up here; empty where they can."""
-    prove = "from tutor.engine.walls import Walls; print(Walls.prove())"
+    """Why nothing can be isolated here; empty where it can."""
+    prove = "from tutor.engine.isolation import Isolation; print(Isolation.set_up())"
     ran = subprocess.run([sys.executable, "-c", prove], capture_output=True, text=True, check=False)
     return ran.stderr.strip().rpartition("\n")[2]
 
 
 @pytest.fixture
-def walls() -> None:
+def isolation() -> None:
     """Skips where there can be none."""
     if _refused():
         pytest.skip(_refused())
@@ -118,7 +118,7 @@ def reached(tmp_path: Path, outsider: int, port: int) -> Mapping[str, Any]:
     return found
 
 
-@pytest.mark.usefixtures("walls")
+@pytest.mark.usefixtures("isolation")
 def test_a_submission_reaches_nothing_but_what_it_needs(tmp_path: Path) -> None:
     with socket.create_server(("127.0.0.1", 0)) as outside:
         found = reached(tmp_path, os.getpid(), outside.getsockname()[1])
@@ -139,18 +139,18 @@ def test_a_submission_reaches_nothing_but_what_it_needs(tmp_path: Path) -> None:
     }
 
 
-@pytest.mark.usefixtures("walls")
+@pytest.mark.usefixtures("isolation")
 def test_our_solution_passes_behind_them_and_the_report_names_them() -> None:
     code, report, said = check("--solution", "--isolate")
     assert code == 0, (report, said)
     assert_report_shape(report)
-    stands = {wall["name"]: wall["stands"] for wall in report["walls"]}
+    stands = {each["name"]: each["stands"] for each in report["walls"]}
     process_limit = stands.pop("process limit")  # the kernel holds root to none
     assert process_limit or os.geteuid() == 0
     assert stands == dict.fromkeys(("user", "network", "processes", "files", "memory limit", "file limit"), True)
 
 
-@pytest.mark.usefixtures("walls")
+@pytest.mark.usefixtures("isolation")
 def test_what_a_submission_does_to_its_own_files_is_undone(tmp_path: Path) -> None:
     solution = load_course().find("i1.1").folder / "solution" / FILE
     source = f"import pathlib\npathlib.Path(__file__).write_text('gone')\n{solution.read_text()}"
@@ -160,24 +160,24 @@ def test_what_a_submission_does_to_its_own_files_is_undone(tmp_path: Path) -> No
     assert (tmp_path / FILE).read_text() == source
 
 
-@pytest.mark.usefixtures("walls")
-def test_a_node_that_dies_or_hangs_is_told_as_without_walls(tmp_path: Path) -> None:
+@pytest.mark.usefixtures("isolation")
+def test_a_node_that_dies_or_hangs_is_reported_as_without_isolation(tmp_path: Path) -> None:
     (tmp_path / FILE).write_text("import os, signal\nos.kill(os.getpid(), signal.SIGSEGV)\n")
-    dies = [check(str(tmp_path), *walls, "--criterion", "publishes") for walls in ([], ["--isolate"])]
+    dies = [check(str(tmp_path), *options, "--criterion", "publishes") for options in ([], ["--isolate"])]
     (tmp_path / FILE).write_text(
         "import rclpy, time\nrclpy.init()\nn = rclpy.create_node('n')\nwhile True: time.sleep(1)\n"
     )
-    hangs = [check(str(tmp_path), *walls, "--criterion", "publishes") for walls in ([], ["--isolate"])]
-    for (code, one, _), (walled_code, walled, said) in (dies, hangs):
-        assert code == walled_code == 1, said
-        assert cause(one) == cause(walled)
+    hangs = [check(str(tmp_path), *options, "--criterion", "publishes") for options in ([], ["--isolate"])]
+    for (code, one, _), (isolated_code, isolated, said) in (dies, hangs):
+        assert code == isolated_code == 1, said
+        assert cause(one) == cause(isolated)
 
 
 def cause(report: Any) -> str:
     return re.sub(r"\d+\.\d+ s", "some time", report["exercises"][0]["criteria"][0]["cause"])
 
 
-@pytest.mark.usefixtures("walls")
+@pytest.mark.usefixtures("isolation")
 def test_a_folder_too_large_to_be_copied_is_not_the_learners_fault(tmp_path: Path) -> None:
     (tmp_path / FILE).write_text("print('hello')\n")
     with (tmp_path / "large").open("wb") as file:

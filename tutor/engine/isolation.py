@@ -1,4 +1,4 @@
-"""Walls around a learner's processes, for `ros-tutor check --isolate`: bubblewrap's namespaces and the kernel's limits.
+"""Isolates a learner's processes for `ros-tutor check --isolate`, by bubblewrap's namespaces and the kernel's limits.
 
 We stay outside, with the user's files and the report; only the network is shared, where the observers meet the nodes.
 """
@@ -19,7 +19,7 @@ from pathlib import Path
 
 from tutor.engine import turns
 from tutor.errors import EngineError
-from tutor.judge.result import Wall
+from tutor.judge.result import Restriction
 
 MEMORY_MB, FILE_MB, PROCESSES = 2048, 64, 512
 """The memory that a process may write to (our solutions' nodes: 165 to 230 MB), the size of a file, and how many
@@ -37,8 +37,8 @@ _SIOCSIFFLAGS, _IFF_UP = 0x8914, 0x1
 
 
 @dataclass(frozen=True, slots=True)
-class Walls:
-    """Walls that can be put up here: `Walls.prove` has tried. `ticket`: see `turns`."""
+class Isolation:
+    """How processes are isolated on this machine: `Isolation.set_up` has tried it. `ticket`: see `turns`."""
 
     bwrap: str
     prlimit: str
@@ -46,57 +46,59 @@ class Walls:
     limits_processes: bool = True
 
     @classmethod
-    def prove(cls) -> Walls:
-        """Move this process into a network of its own, and see that walls can be put up. It must have one thread only.
+    def set_up(cls) -> Isolation:
+        """Move this process into a network of its own, and try to isolate another. It must have one thread only.
 
-        Raises EngineError where they cannot: nothing is then to be checked as if they stood.
+        Raises EngineError where it fails: nothing must then be checked as if it were isolated.
         """
         bwrap, prlimit = shutil.which("bwrap"), shutil.which("prlimit")
         if bwrap is None or prlimit is None:
             raise EngineError(f"--isolate needs {'prlimit' if bwrap else 'bubblewrap'}, which is not here", _INSTALL)
-        walls = cls(bwrap, prlimit, turns.ticket())  # of the network that all checks have in common
+        isolation = cls(bwrap, prlimit, turns.ticket())  # of the network that all checks have in common
         try:
             _own_network()
         except OSError as error:
             raise EngineError(
                 f"--isolate: this machine allows no network of its own ({error.strerror})", _ALLOW
             ) from error
-        tried = subprocess.run([*walls._around([], {}), "true"], capture_output=True, text=True, check=False)
+        tried = subprocess.run([*isolation._command([], {}), "true"], capture_output=True, text=True, check=False)
         if tried.returncode:
             said = (tried.stderr.strip().splitlines() or [f"exit code {tried.returncode}"])[-1]
-            raise EngineError(f"--isolate: bubblewrap cannot put up its walls here ({said})", _ALLOW)
+            raise EngineError(f"--isolate: bubblewrap cannot isolate anything here ({said})", _ALLOW)
         forked = subprocess.run(
-            [*walls._around([], {}, processes=1), "sh", "-c", "(true); true"], capture_output=True, check=False
+            [*isolation._command([], {}, processes=1), "sh", "-c", "(true); true"], capture_output=True, check=False
         )
-        return replace(walls, limits_processes=forked.returncode != 0)
+        return replace(isolation, limits_processes=forked.returncode != 0)
 
-    def around(self, submission: Path, logs: Path, env: dict[str, str]) -> list[str]:
-        """The command that puts its arguments behind the walls, to be run with `env`, which is changed to fit.
+    def wrap(self, submission: Path, logs: Path, env: dict[str, str]) -> list[str]:
+        """The command to put in front of another to isolate it; to be run with `env`, which is changed to fit.
 
-        What they may write to is a copy of the submission, which they find in its own place, and `logs`. Raises
+        It may write to a copy of the submission, which it finds in its own place, and to `logs`. Raises
         EngineError where the submission cannot be copied.
         """
         env |= {"HOME": "/tmp", "TMPDIR": "/tmp"}
         copy = logs / "submission"
         _copy(submission, copy)
-        return self._around(list(_readable(env)), {submission: copy, logs: logs})
+        return self._command(list(_readable(env)), {submission: copy, logs: logs})
 
     @property
-    def standing(self) -> tuple[Wall, ...]:
-        """For the report: which walls stand, and why one does not."""
+    def restrictions(self) -> tuple[Restriction, ...]:
+        """For the report: what is restricted, and why something is not."""
         count = f"{PROCESSES} of one start, threads included"
         root = "the kernel holds root to none: check as another user"
         return (
-            Wall("user", True, "a namespace of its own, without any right of the user's over others"),
-            Wall("network", True, "the loopback interface of the check's own network, and no other"),
-            Wall("processes", True, "only its own can be seen or ended"),
-            Wall("files", True, "the system and ROS to read, no home; a copy of the submission and /tmp to write"),
-            Wall("memory limit", True, f"{MEMORY_MB} MB for each process"),
-            Wall("file limit", True, f"{FILE_MB} MB for each file"),
-            Wall("process limit", self.limits_processes, count if self.limits_processes else root),
+            Restriction("user", True, "a namespace of its own, without any right of the user's over others"),
+            Restriction("network", True, "the loopback interface of the check's own network, and no other"),
+            Restriction("processes", True, "only its own can be seen or ended"),
+            Restriction(
+                "files", True, "the system and ROS to read, no home; a copy of the submission and /tmp to write"
+            ),
+            Restriction("memory limit", True, f"{MEMORY_MB} MB for each process"),
+            Restriction("file limit", True, f"{FILE_MB} MB for each file"),
+            Restriction("process limit", self.limits_processes, count if self.limits_processes else root),
         )
 
-    def _around(self, readable: list[Path], writable: Mapping[Path, Path], processes: int = PROCESSES) -> list[str]:
+    def _command(self, readable: list[Path], writable: Mapping[Path, Path], processes: int = PROCESSES) -> list[str]:
         in_memory = ("--size", str(FILE_MB << 20), "--tmpfs")
         words = [self.bwrap, "--die-with-parent", "--unshare-user", "--unshare-pid", "--unshare-ipc", "--unshare-uts"]
         words += [
