@@ -352,16 +352,16 @@ async def test_ctrl_c_reaches_what_a_launch_started_once(scene: Scene) -> None:
 
 
 async def test_of_those_that_wait_the_one_that_asks_for_longer_starts_first(scene: Scene) -> None:
-    from tutor.engine.admission import Admission
+    from tutor.engine.start_limiter import StartLimiter
 
     began: list[float] = []
-    bench = replace(scene.bench(WAITS), admission=Admission(slots=1), expected_s=2.0)
+    bench = replace(scene.bench(WAITS), start_limiter=StartLimiter(slots=1), expected_s=2.0)
 
     async def start(expected_s: float | None) -> None:
         async with bench.start(FILE, expected_s=expected_s):
             began.append(bench.expected_s if expected_s is None else expected_s)
 
-    async with bench.admission.start(0.0) as up:
+    async with bench.start_limiter.slot(0.0) as up:
         waiting = [asyncio.create_task(start(expected_s)) for expected_s in (0.5, None, 7.0)]
         await asyncio.sleep(0)  # all three ask for their turn
         up()

@@ -12,10 +12,10 @@ from typing import Any, TypeVar
 
 from tutor.bundled_ros.ros2 import overlay
 from tutor.bundled_ros.ros2.starting import ros2_command
-from tutor.engine.admission import Admission
 from tutor.engine.isolation import Isolation
 from tutor.engine.log_folder import temporary_log_folder
 from tutor.engine.run import CollectedFacts, RosRun
+from tutor.engine.start_limiter import StartLimiter
 from tutor.errors import CommandError, EngineError, NoFreeDomain, ProcessError
 from tutor.judge.bench import Run, Scenario
 from tutor.judge.exceptions import KnownException
@@ -55,7 +55,7 @@ class RosBench:
     ros: RosEnvironment
     share: Callable[[Scenario[Any]], Any]
     tell: Callable[[float, str], None]
-    admission: Admission = field(default_factory=Admission)
+    start_limiter: StartLimiter = field(default_factory=StartLimiter)
     expected_s: float = 0.0
     exceptions: tuple[KnownException, ...] = ()
     isolation: Isolation | None = None
@@ -114,7 +114,7 @@ class RosBench:
     ) -> AsyncIterator[Run]:
         """Run a command as `_run` does, when it is its turn: others may start when it has this many nodes."""
         async with (
-            self.admission.start(expected_s) as up,
+            self.start_limiter.slot(expected_s) as up,
             self._run(path, command, parameters, watch, terminal=terminal) as run,
             _report_when_up(run, nodes, up),
             self.follow(run, watch),

@@ -11,8 +11,8 @@ from contextlib import nullcontext, suppress
 from tutor import __version__
 from tutor.content import Course
 from tutor.engine import turns
-from tutor.engine.admission import Admission
 from tutor.engine.isolation import Isolation
+from tutor.engine.start_limiter import StartLimiter
 from tutor.errors import EngineError
 from tutor.judge.check import Check
 from tutor.judge.events import CheckFinished, Event
@@ -43,13 +43,13 @@ async def run_check(
     *,
     only: frozenset[str] | None = None,
     on_event: Callable[[Event], None] = lambda event: None,
-    admission: Admission | None = None,
+    start_limiter: StartLimiter | None = None,
     isolation: Isolation | None = None,
 ) -> Report:
     """Judge each submission, in parallel; nothing that was started is left when this returns, is cancelled or raises.
 
-    `only`: the ids of the criteria to show (None: all). `admission`: shared among checks that run at once. `isolation`:
-    put around all that is started of the submissions. Raises EngineError where checks cannot be run here at all.
+    `only`: the ids of the criteria to show (None: all). `start_limiter`: shared among checks that run at once.
+    `isolation`: isolates all that is started of the submissions. Raises EngineError where checks cannot be run here.
     """
     from tutor.engine import unchanged
     from tutor.engine.modules import load_check
@@ -57,7 +57,7 @@ async def run_check(
     from tutor.ros.discovery import prove_loopback
     from tutor.ros.environment import detect
 
-    together = admission or Admission()
+    together = start_limiter or StartLimiter()
     try:
         prove_loopback()
     except OSError as error:
@@ -88,9 +88,9 @@ async def run_check(
         for runner in runners:
             runner.wait_for_turn()
 
-    # Whoever shares an admission among checks decides how many there are at once.
+    # A caller that shares a limiter among checks decides how many run at once.
     own = isolation.ticket if isolation else None
-    async with turns.turn(own, on_wait=tell_waiting) if admission is None else nullcontext():
+    async with turns.turn(own, on_wait=tell_waiting) if start_limiter is None else nullcontext():
         started = time.monotonic()
         tasks = [asyncio.ensure_future(runner.run()) for runner in runners]
         try:

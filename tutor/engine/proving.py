@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from tutor.content import Course, Lesson
-from tutor.engine.admission import Admission
 from tutor.engine.check import run_check
+from tutor.engine.start_limiter import StartLimiter
 from tutor.judge.result import ExerciseResult
 from tutor.judge.submission import Submission
 
@@ -38,11 +38,11 @@ async def prove(lessons: Sequence[Lesson], course: Course, on_proof: Callable[[P
 
     Nothing that was started is left when this returns, is cancelled or raises. Raises EngineError.
     """
-    free, admission = asyncio.Semaphore(AT_ONCE), Admission()
+    free, start_limiter = asyncio.Semaphore(AT_ONCE), StartLimiter()
 
     async def one(lesson: Lesson, kind: Kind) -> Proof:
         async with free:
-            report = await run_check([_submission(lesson, kind)], course, admission=admission)
+            report = await run_check([_submission(lesson, kind)], course, start_limiter=start_limiter)
         proof = Proof(lesson, kind, report.exercises[0])
         on_proof(proof)
         return proof

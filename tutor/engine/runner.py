@@ -9,12 +9,12 @@ from collections.abc import Callable, Iterable
 from typing import Any
 
 from tutor.content import Lesson
-from tutor.engine.admission import Admission
 from tutor.engine.bench import RosBench
 from tutor.engine.isolation import Isolation
 from tutor.engine.provisional import Provisional
 from tutor.engine.run import TOO_BUSY
 from tutor.engine.so_far import SoFar
+from tutor.engine.start_limiter import StartLimiter
 from tutor.engine.unchanged_skeleton import first_todo, point_to_todo
 from tutor.errors import Fault, MachineTooBusy
 from tutor.judge.bench import Scenario, was_slowed
@@ -47,7 +47,7 @@ class Runner:
         ros: RosEnvironment,
         only: frozenset[str] | None,
         on_event: OnEvent,
-        admission: Admission | None = None,
+        start_limiter: StartLimiter | None = None,
         isolation: Isolation | None = None,
     ) -> None:
         self._check = check
@@ -57,7 +57,7 @@ class Runner:
         self._ros = ros
         self._shown = tuple(c for c in check.criteria if only is None or c.id in only)
         self._on_event = on_event
-        self._admission = admission or Admission()
+        self._start_limiter = start_limiter or StartLimiter()
         self._isolation = isolation
         self._scenarios: dict[Scenario[Any], asyncio.Task[Any]] = {}
         self._verdicts: dict[str, asyncio.Task[Verdict]] = {}
@@ -123,7 +123,7 @@ class Runner:
         return await asyncio.shield(self._share(scenario))
 
     async def _ask_from_scenario(self, scenario: Scenario[Any]) -> Any:
-        with self._admission.scenarios.waiting():
+        with self._start_limiter.scenarios.waiting():
             return await self._ask(scenario)
 
     async def _facts(self, scenario: Scenario[Any], *, alone: bool = False) -> Any:
@@ -147,13 +147,13 @@ class Runner:
             self._ros,
             self._ask_from_scenario,
             provisional.report,
-            self._admission,
+            self._start_limiter,
             self._check.expected_s,
             self._check.exceptions,
             self._isolation,
             provisional.follow,
         )
-        async with self._admission.scenarios.at_work(alone=alone):
+        async with self._start_limiter.scenarios.at_work(alone=alone):
             if alone and self._elapsed() > REPEAT_WITHIN_S:
                 raise MachineTooBusy(TOO_BUSY)
             facts = await scenario(bench)

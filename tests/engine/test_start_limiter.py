@@ -6,14 +6,14 @@ import asyncio
 
 import pytest
 
-from tutor.engine.admission import Admission
+from tutor.engine.start_limiter import StartLimiter
 
 
 class Starts:
     """Processes that start when they are let in, and are up when told."""
 
     def __init__(self, slots: int) -> None:
-        self.admission = Admission(slots)
+        self.start_limiter = StartLimiter(slots)
         self.began: list[str] = []
         self.up: dict[str, asyncio.Event] = {}
         self.over: dict[str, asyncio.Event] = {}
@@ -22,7 +22,7 @@ class Starts:
         self.up[name], self.over[name] = asyncio.Event(), asyncio.Event()
 
         async def start() -> None:
-            async with self.admission.start(expected_s) as up:
+            async with self.start_limiter.slot(expected_s) as up:
                 self.began.append(name)
                 await self.up[name].wait()
                 up()
@@ -76,7 +76,7 @@ async def test_an_end_before_it_is_up_frees_the_slot_once() -> None:
 @pytest.mark.parametrize("given_it", [False, True])
 async def test_anyone_who_gives_up_waiting_takes_no_slot_along(given_it: bool) -> None:
     starts = Starts(1)
-    async with starts.admission.start(1) as up:
+    async with starts.start_limiter.slot(1) as up:
         gives_up = starts.begin("a", 1)
         await settle()
         if given_it:  # and cancelled before it could do anything with it

@@ -1,4 +1,4 @@
-"""Lets processes start a few at a time, those with the longest way to go first.
+"""Limits how many processes start at a time; those whose scenario takes longest go first.
 
 A start costs about half a second of CPU time: Python, rclpy, a participant of its own, and one of ours that watches it.
 Thirty starts at once on two cores would all be up only when the last one is, and each then begins to wait for what
@@ -20,7 +20,7 @@ MORE_THAN_CORES = 1
 """Starts in flight beyond one for each core: a start waits, too, for the disk and for its peers."""
 
 
-class Admission:
+class StartLimiter:
     """How many may start at a time: `slots` (by default one for each core that is ours, and one more).
 
     `scenarios`: those that are at work, of all checks that share this.
@@ -33,26 +33,26 @@ class Admission:
         self.scenarios = ScenariosAtWork()
 
     @asynccontextmanager
-    async def start(self, expected_s: float) -> AsyncIterator[Callable[[], None]]:
+    async def slot(self, expected_s: float) -> AsyncIterator[Callable[[], None]]:
         """Wait for a slot; the start that is expected to take longest goes first.
 
         Gives what to call when the process is up; the slot is free then, or at the end of the block.
         """
-        await self._enter(expected_s)
+        await self._acquire(expected_s)
         held = True
 
         def up() -> None:
             nonlocal held
             if held:
                 held = False
-                self._leave()
+                self._release()
 
         try:
             yield up
         finally:
             up()
 
-    async def _enter(self, expected_s: float) -> None:
+    async def _acquire(self, expected_s: float) -> None:
         if self._free:
             self._free -= 1
             return
@@ -62,10 +62,10 @@ class Admission:
             await turn
         except asyncio.CancelledError:
             if turn.done() and not turn.cancelled():  # it was given a slot at the same moment
-                self._leave()
+                self._release()
             raise
 
-    def _leave(self) -> None:
+    def _release(self) -> None:
         while self._waiting:
             _, _, turn = heapq.heappop(self._waiting)
             if not turn.done():
