@@ -42,6 +42,11 @@ def logs(environ: Mapping[str, str] = os.environ) -> Path:
     return Path(environ.get("ROS_LOG_DIR") or home() / "log")
 
 
+def is_ours(path: Path) -> bool:
+    """Whether a path is in `home`: not a place of the user's own. Raises OSError."""
+    return path.is_relative_to(home())
+
+
 def made(name: str) -> tuple[Path, int]:
     """A new folder in `home`, and its descriptor, to be kept open for as long as the folder is used. Raises OSError."""
     around = os.open(home(), _FOLDER)

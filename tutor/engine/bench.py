@@ -13,7 +13,6 @@ from typing import Any, TypeVar
 from tutor.bundled_ros.ros2 import overlay
 from tutor.bundled_ros.ros2.starting import ros2_command
 from tutor.engine.isolation import Isolation
-from tutor.engine.log_folder import temporary_log_folder
 from tutor.engine.run import CollectedFacts, RosRun
 from tutor.engine.start_limiter import StartLimiter
 from tutor.errors import CommandError, EngineError, NoFreeDomain, ProcessError
@@ -22,6 +21,7 @@ from tutor.judge.exceptions import KnownException
 from tutor.judge.submission import Submission
 from tutor.judge.verdict import MOST_CHARACTERS
 from tutor.process import LearnerProcess
+from tutor.process.log_folder import temporary_log_folder
 from tutor.ros.domain import reserve_domain
 from tutor.ros.environment import RosEnvironment, learner_env
 from tutor.ros.observer import Observer

@@ -9,9 +9,10 @@ from dataclasses import dataclass, replace
 from enum import Enum
 from pathlib import Path
 
+from tutor import private
 from tutor.errors import ProcessError
 from tutor.judge.trace import Exit, OutputLine
-from tutor.process import LearnerProcess
+from tutor.process import LearnerProcess, log_folder
 
 SHOW_EVERY_S = 0.1
 """The log is shown at this rate at most, however fast the node writes."""
@@ -105,11 +106,14 @@ class Node:
         async with process:
             self.pid = process.pid
             self._say(replace(self.state, phase=Phase.RUNNING, since=process.started_at))
-            stopping = asyncio.create_task(self._stop_when_asked(process))
+            beside = [asyncio.create_task(self._stop_when_asked(process))]
+            if (logs := command.env.get("ROS_LOG_DIR")) and private.is_ours(Path(logs)):
+                beside.append(asyncio.create_task(log_folder.limit(Path(logs))))
             try:
                 await self._follow(process)
             finally:
-                stopping.cancel()
+                for task in beside:
+                    task.cancel()
         self._say(replace(self._with_output(process, phase=Phase.ENDED), ended_at=time.time()))
 
     def stop(self) -> None:

@@ -1,9 +1,10 @@
-"""The folder that a learner's process logs into: kept small while it runs, gone afterwards, whatever became of it."""
+"""The folder that a learner's process logs into: kept small while it runs; in a check, gone afterwards."""
 
 from __future__ import annotations
 
 import asyncio
 import contextlib
+import heapq
 import itertools
 import os
 import stat
@@ -15,10 +16,13 @@ from uuid import uuid4
 from tutor import private
 
 MOST_BYTES = 16_000_000
-"""What its log files may take on the disk; they are emptied when it is more. Nobody reads them in a check."""
+"""What the log files may take on the disk in a check, where nobody reads them; they are emptied when it is more."""
+
+MOST_OF_THE_APP = 256_000_000
+"""The same for all nodes that the app has run, whose log files people may want to read."""
 
 LOOK_EVERY_S = 0.2
-MOST_ENTRIES = 100
+MOST_ENTRIES, MOST_OPENED = 10_000, 100
 
 _FOLDER = os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW | os.O_CLOEXEC
 _FILE = os.O_WRONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_NOCTTY | os.O_CLOEXEC
@@ -48,6 +52,18 @@ def temporary_log_folder() -> Iterator[Path]:
         os.close(folder)
 
 
+async def limit(path: Path, most: int = MOST_OF_THE_APP) -> None:
+    """Keep the log files in a folder small until this is cancelled. The folder may come into being later."""
+    while True:
+        with contextlib.suppress(OSError):
+            folder = os.open(path, _FOLDER)
+            try:
+                keep_small(folder, most)
+            finally:
+                os.close(folder)
+        await asyncio.sleep(LOOK_EVERY_S)
+
+
 def keep_small(folder: int, most: int = MOST_BYTES) -> None:
     """Empty the log files in an open folder, and in the folders in it, if they take more than `most` bytes of disk."""
     with contextlib.ExitStack() as opened, contextlib.suppress(OSError):
@@ -59,18 +75,28 @@ def keep_small(folder: int, most: int = MOST_BYTES) -> None:
 
 
 def _opened(folder: int, ending: str, flags: int, opened: contextlib.ExitStack) -> Iterator[int]:
-    """What stands in a folder, opened: no links, and no file that has another name elsewhere."""
+    """What stands in a folder, opened, the largest if it is much: no links, and no file with another name elsewhere."""
+    folders = flags == _FOLDER
     with os.scandir(folder) as entries:
-        for entry in itertools.islice(entries, MOST_ENTRIES):
-            is_folder = entry.is_dir(follow_symlinks=False)
-            if is_folder != (flags == _FOLDER) or not entry.name.endswith(ending):
-                continue
-            with contextlib.suppress(OSError):
-                handle = os.open(entry.name, flags, dir_fd=folder)
-                opened.callback(os.close, handle)
-                found = os.fstat(handle)
-                if is_folder or (stat.S_ISREG(found.st_mode) and found.st_nlink == 1):
-                    yield handle
+        found = [
+            (_blocks(entry), entry.name)
+            for entry in itertools.islice(entries, MOST_ENTRIES)
+            if entry.is_dir(follow_symlinks=False) == folders and entry.name.endswith(ending)
+        ]
+    for _, name in heapq.nlargest(MOST_OPENED, found):
+        with contextlib.suppress(OSError):
+            handle = os.open(name, flags, dir_fd=folder)
+            opened.callback(os.close, handle)
+            status = os.fstat(handle)
+            if folders or (stat.S_ISREG(status.st_mode) and status.st_nlink == 1):
+                yield handle
+
+
+def _blocks(entry: os.DirEntry[str]) -> int:
+    try:
+        return entry.stat(follow_symlinks=False).st_blocks
+    except OSError:
+        return 0
 
 
 def _remove(folder: int, path: Path) -> None:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import asyncio
 import os
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
-from tutor.engine.log_folder import keep_small, temporary_log_folder
+from tutor.process.log_folder import MOST_OPENED, keep_small, limit, temporary_log_folder
 
 
 def link(folder: Path, elsewhere: Path) -> None:
@@ -82,3 +83,21 @@ def test_log_files_are_emptied_when_they_grow_too_big_and_nothing_else_is(tmp_pa
     assert {(tmp_path / name).stat().st_size for name in ("logs/notes.txt", "elsewhere/a.log", "elsewhere/b.log")} == {
         len(big)
     }
+
+
+async def test_a_large_one_among_many_is_emptied_for_as_long_as_the_folder_is_limited(tmp_path: Path) -> None:
+    logs = tmp_path / "log"
+    limiting = asyncio.create_task(limit(logs, most=150_000))
+    try:
+        await asyncio.sleep(0)  # the folder is not there yet
+        logs.mkdir()
+        for number in range(MOST_OPENED + 20):
+            (logs / f"{number}.log").write_bytes(b"x")
+        for text in ("once", "again"):
+            (logs / "node.log").write_bytes(text.encode() * 50_000)
+            async with asyncio.timeout(20):
+                while (logs / "node.log").stat().st_size:
+                    await asyncio.sleep(0.02)
+        assert (logs / "0.log").stat().st_size <= 1
+    finally:
+        limiting.cancel()

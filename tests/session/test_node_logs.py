@@ -1,0 +1,45 @@
+"""The log files of nodes that the app runs do not fill the disk."""
+
+from __future__ import annotations
+
+import asyncio
+import sys
+from pathlib import Path
+
+import pytest
+
+from tutor import private
+from tutor.process import log_folder
+from tutor.session.node import Node, NodeCommand
+
+LOGS = """
+import os, pathlib, time
+log = pathlib.Path(os.environ["ROS_LOG_DIR"]) / "node.log"
+log.write_bytes(b"x" * 300_000)
+end = time.monotonic() + 20
+while log.stat().st_size and time.monotonic() < end:
+    time.sleep(0.02)
+print("emptied" if not log.stat().st_size else "as it was", flush=True)
+"""
+
+
+@pytest.mark.parametrize("ours", [True, False])
+async def test_log_files_are_kept_small_in_our_own_folder_only(
+    ours: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(private, "home", lambda: tmp_path / "ours")
+    monkeypatch.setattr(log_folder, "limit", lambda path: _limit(path))
+    logs = tmp_path / ("ours" if ours else "theirs") / "log"
+    logs.mkdir(parents=True)
+    program = LOGS if ours else LOGS.replace("+ 20", "+ 1")
+    env = {"ROS_LOG_DIR": str(logs), "PYTHONUNBUFFERED": "1"}
+    node = Node(NodeCommand("node.py", (sys.executable, "-c", program), env, tmp_path), lambda state: None)
+    await asyncio.wait_for(node.run(), 40)
+    assert [line.text for line in node.state.lines] == ["emptied" if ours else "as it was"]
+
+
+_limit_of_the_app = log_folder.limit
+
+
+async def _limit(path: Path) -> None:
+    await _limit_of_the_app(path, most=150_000)
