@@ -19,6 +19,8 @@ class FakeEngine:
     verdicts: dict[str, Verdict] = field(default_factory=dict)
     raises: BaseException | None = None
     asked: list[tuple[list[Submission], frozenset[str] | None]] = field(default_factory=list)
+    first: bool = False
+    """Whether it was last asked to end at the first failure, which it does not."""
 
     async def __call__(
         self,
@@ -27,8 +29,10 @@ class FakeEngine:
         *,
         only: frozenset[str] | None,
         on_event: Callable[[Event], None],
+        first: bool = False,
     ) -> Report:
         self.asked.append((list(submissions), only))
+        self.first = first
         if self.raises is not None:
             raise self.raises
         report = Report(

@@ -85,6 +85,22 @@ def test_options_may_stand_between_the_exercise_and_the_path(run: Run, engine: F
     assert (home / "there" / "temperature_publisher.py").is_file()
 
 
+def test_first_asks_the_engine_to_end_at_the_first_failure(run: Run, engine: FakeEngine) -> None:
+    wanted = []
+    for more in ((), ("--first",)):
+        assert run("check", "i1.1", "--solution", *more).code == 0
+        wanted.append(engine.first)
+    assert wanted == [False, True]
+    because = "not judged, because the check ended at its first failure, `publishes`"
+    engine.verdicts = {"publishes": FAILURE, "rate": skipped(because)}
+    ran = run("check", "i1.1", "--solution", "--first", "--format", "json")
+    assert ran.code == 1
+    document = json.loads(ran.out)
+    assert_report_shape(document)
+    (rate,) = (each for each in document["exercises"][0]["criteria"] if each["id"] == "rate")
+    assert (rate["status"], rate["cause"]) == ("skipped", because)
+
+
 def test_other_formats(run: Run, engine: FakeEngine) -> None:
     assert ElementTree.fromstring(run("check", "i1.1", "--solution", "--format", "junit").out).tag == "testsuites"
     assert run("check", "i1.1", "--solution", "--format", "markdown").out.startswith("# ros-tutor: passed\n")

@@ -22,7 +22,9 @@ import pytest
 from tests.cli.fake_engine import FAILURE
 from tutor.cli.progress_display import ProgressDisplay, _Line
 from tutor.content import load_course
+from tutor.judge.events import CriterionJudged
 from tutor.judge.result import CriterionResult
+from tutor.judge.verdict import Cause, failed
 
 LIMIT_S = 30.0
 
@@ -187,6 +189,31 @@ def test_a_criterion_that_waits_says_what_is_known_so_far_in_words_that_are_not_
     display._lines[lesson.id][waiting] = _Line(0.1, "waiting", done, so_far)
     assert "so far" not in drawn(160)
     assert "no spin: no callback ran" in drawn(160)
+
+
+@pytest.mark.parametrize("exercises", [1, 6])
+def test_the_first_failure_stands_above_all_else_with_its_cause_and_stays(exercises: int) -> None:
+    from rich.console import Console
+
+    course = load_course()
+    display = ProgressDisplay(course, vanishing=True)
+    output = io.StringIO()
+    display._console = Console(file=output, width=80, height=24, force_terminal=True, color_system=None)
+    for lesson in course.lessons[:exercises]:
+        display._lines[lesson.id] = {each.id: _Line(0.5, "waiting") for each in lesson.criteria}
+    lesson, second = course.lessons[0], failed("a", "b", Cause("another", "it is another " * 50, "do that"))
+    for name, verdict, bonus in (("shutdown", FAILURE, True), ("rate", FAILURE, False), ("range", second, False)):
+        display.show(CriterionJudged(lesson.id, CriterionResult(name, name, bonus, verdict, 1.0)))
+    display._console.print(display._draw())
+    drawn = output.getvalue().rstrip("\n").split("\n")
+    where = "" if exercises == 1 else "i1.1 "
+    assert drawn[:3] == [
+        f"┃ ✗ {where}rate failed after 1.0 s",
+        "┃ no spin: no callback ran",
+        "┃ next step: call rclpy.spin(node)",
+    ]
+    assert len(drawn) <= 24
+    assert any("waiting" in row for row in drawn[3:])
 
 
 def test_no_color_and_dumb_terminals_are_honoured(env: dict[str, str]) -> None:

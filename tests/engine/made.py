@@ -108,6 +108,7 @@ class Scene:
         source: str = WAITS,
         only: frozenset[str] | None = None,
         on_event: Callable[[Event], None] | None = None,
+        first: bool = False,
     ) -> ExerciseResult:
         """Run a check of these criteria on a script; its events are kept in `events`."""
         from tutor.engine.runner import Runner
@@ -118,7 +119,8 @@ class Scene:
                 on_event(event)
 
         check = Check("t1", criteria)
-        return await Runner(check, lesson(check), self.submission(node=source), self.ros, only, hear).run()
+        submission = self.submission(node=source)
+        return await Runner(check, lesson(check), submission, self.ros, only, hear, first=first).run()
 
     def left(self) -> list[int]:
         """The living processes that were started by this test."""

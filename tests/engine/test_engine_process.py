@@ -15,7 +15,7 @@ from pathlib import Path
 import pytest
 
 from tests.engine.made import WAITS
-from tutor.judge.events import CheckFinished, CheckStarted, CriterionJudged, Event, ExerciseJudged, decode
+from tutor.judge.events import CheckFinished, CheckStarted, CriterionJudged, Event, ExerciseJudged, Progress, decode
 from tutor.judge.verdict import Status
 from tutor.process.supervisor import descendants, processes
 
@@ -129,6 +129,19 @@ def test_a_failure_is_an_answer_too(tmp_path: Path) -> None:
     finished = events[-1]
     assert isinstance(finished, CheckFinished)
     assert finished.report.verdict is Status.FAILED
+
+
+def test_an_untouched_skeleton_is_told_what_is_missing_and_with_first_its_check_ends_there() -> None:
+    with engine("i1.1", SOLUTION.with_name("skeleton"), "--first") as started:
+        code, events, err = started.end()
+    assert (code, err) == (0, "")
+    known = [event.so_far for event in events if isinstance(event, Progress) and event.criterion == "publishes"]
+    assert any("no publisher on /sensor/temperature yet, /temperature_publisher is up" in each for each in known)
+    (exercise,) = (event.result for event in events if isinstance(event, ExerciseJudged))
+    statuses = {each.id: each.verdict.status for each in exercise.criteria}
+    assert [id for id, status in statuses.items() if status is Status.FAILED] == ["publishes"]
+    assert statuses["rate"] is Status.SKIPPED
+    assert exercise.verdict is Status.FAILED
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])

@@ -27,13 +27,15 @@ from tutor.cli import main
 from tests.cli.fake_engine import FAILURE, FakeEngine
 
 class Slow(FakeEngine):
-    async def __call__(self, submissions, course, *, only, on_event):
+    async def __call__(self, submissions, course, *, only, on_event, first=False):
         if "--slow" in sys.argv:
             try:
                 print("begun", flush=True)
                 await asyncio.sleep(60)
             finally:
                 print("cleaned up", flush=True)
+        if first:
+            print("asked to end at the first failure", flush=True)
         return await super().__call__(submissions, course, only=only, on_event=on_event)
 
 tutor.engine.run_check = Slow({"rate": FAILURE})
@@ -60,7 +62,20 @@ def says(*lines: str) -> str:
 
 def test_lesson_check_hints_and_checklist_by_a_pipe(tmp_path: Path, env: dict[str, str]) -> None:
     typed = says(
-        *("lessons", "read 1", "tick 1", "log", "stop", "start", "start", "criteria", "hint", "check", "why rate"),
+        *(
+            "lessons",
+            "read 1",
+            "tick 1",
+            "log",
+            "stop",
+            "start",
+            "start",
+            "criteria",
+            "hint",
+            "check 2",
+            "check first",
+            "why rate",
+        ),
         *("solution", "no", "2", "next", "i1.1", "chek", "9", "checklist", "tick 1 timers", "untick 2", "tick 99"),
         *("export html", "export pdf", "", "help"),
     )
@@ -89,6 +104,8 @@ def test_lesson_check_hints_and_checklist_by_a_pipe(tmp_path: Path, env: dict[st
         "shutdown (bonus): Ctrl+C ends the node cleanly.",
         "Waiting for the first message.",
         "So far: /node is up, but silent.",
+        "Say check, or check first, which ends at the first failure.",
+        "asked to end at the first failure",
         "publishes: passed.",
         "rate: failed.",
         "i1.1 Sensor Publisher: not passed yet. 5 of 6 passed, bonus 1 of 1, after 1.0 s.",
@@ -111,6 +128,7 @@ def test_lesson_check_hints_and_checklist_by_a_pipe(tmp_path: Path, env: dict[st
         assert f"{line}\n" in said, line
     assert said.count("aiting for the first message") == 1  # though every criterion waits for it
     assert said.count("/node is up, but silent") == 1
+    assert "rate: failed.\nCause: no spin: no callback ran\nsensor-name: passed." in said  # not only at the end
     assert re.search(r"^1: not ticked: .* Evidence: i1\.1 .*passed, today\.$", said, re.MULTILINE)
     assert re.search(r"^Hint 1 of 3: \w", said, re.MULTILINE)
     assert said.endswith("Command: \nThe input has ended.\nGoodbye. Your progress is kept.\n")

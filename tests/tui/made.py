@@ -107,10 +107,12 @@ class FakeServices(Session):
         folder.mkdir(parents=True, exist_ok=True)
         super().__init__(lessons or course(folder / "course"), Workspace(folder / "ws"))
         self.engine = FakeEngine(folder)
+        self.first = False
         if started:
             self.start(self.lessons[0])
 
-    def check_command(self, lesson: Lesson) -> Sequence[str]:
+    def check_command(self, lesson: Lesson, *, first: bool = False) -> Sequence[str]:
+        self.first = first
         return self.engine.command
 
     def node_command(self, file: LessonFile, options: RunOptions) -> NodeCommand:

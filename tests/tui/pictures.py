@@ -240,6 +240,10 @@ class Album:
             await until(pilot, lambda: main.model.findings[lesson.id].criteria[0].verdict is not None)
             if not passing:
                 await self.take(pilot, "checking")
+                failed = CriterionJudged(lesson.id, made.result("rate", made.BAD))
+                await asyncio.to_thread(session.engine.say, failed)
+                await until(pilot, lambda: main.chosen_criterion == "rate")
+                await self.take(pilot, "checking-failed")
             await asyncio.to_thread(session.engine.say, *made.whole(lesson, made.GOOD if passing else made.BAD))
             session.engine.close()
             await until(pilot, lambda: main.checks.running is None)

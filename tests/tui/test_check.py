@@ -69,6 +69,50 @@ async def test_a_failure_is_shown_with_its_diagnosis(learner: Any, size: Any) ->
         await me.sees("2 of 3 met")
 
 
+@pytest.mark.parametrize("size", SIZES)
+async def test_the_first_failure_is_shown_at_once_while_the_check_goes_on_and_stays(learner: Any, size: Any) -> None:
+    async with learner(size) as me:
+        await begin(me)
+        await me.told(CriterionJudged("i1.1", made.result("shutdown", made.BAD, bonus=True)))
+        await me.told(CriterionJudged("i1.1", made.result("rate", made.BAD)))
+        await me.sees("✗ rate  ", "Next step  Give create_timer", "rate used as a period", "checking")
+        await me.told(CriterionJudged("i1.1", made.result("publishes", made.BAD)))
+        await me.until(lambda: "✗ publishes" in me.criterion("publishes"))
+        await me.told(*made.ending(made.BAD))
+        await me.sees("2 of 3 passed")
+        assert me.main.chosen_criterion == "rate"
+        assert "✗ rate" in me.diagnosis()
+
+
+async def test_a_criterion_that_is_chosen_while_it_waits_says_all_that_is_known_until_its_verdict(learner: Any) -> None:
+    async with learner() as me:
+        await begin(me)
+        await me.told(made.doing("range", 0.2, "collecting values", so_far="no messages yet, " + "words " * 20 + "end"))
+        await me.press("5")
+        await me.pilot.click(me.main.query("CriterionRow")[1])
+        await me.until(lambda: "So far, and not final: no messages yet" in me.diagnosis(), "the words so far, whole")
+        assert "end" in me.diagnosis()
+        await me.told(CriterionJudged("i1.1", made.result("rate", made.BAD)))
+        await me.until(lambda: "✗ rate" in me.criterion("rate"))
+        assert "range" in me.diagnosis()  # what was chosen stays
+        await me.told(CriterionJudged("i1.1", made.result("range", made.GOOD)))
+        await me.until(lambda: "54 values from 20.03 to 29.87" in me.diagnosis())
+        assert "So far" not in me.diagnosis()
+
+
+async def test_a_check_ends_at_its_first_failure_where_that_is_wanted(learner: Any) -> None:
+    async with learner() as me:
+        await me.press("F")
+        await me.sees("A check now ends at its first failure")
+        await begin(me)
+        await me.told(*made.ending(made.BAD))
+        me.session.engine.close()
+        await me.until(lambda: me.main.checks.running is None)
+        assert me.session.first
+        await me.press("F", "c")
+        await me.until(lambda: not me.session.first)
+
+
 async def test_choosing_another_criterion_shows_what_was_measured(learner: Any) -> None:
     async with learner() as me:
         await begin(me)

@@ -21,13 +21,14 @@ async def again(me: Any) -> Any:
 
 async def test_the_app_opens_where_it_was_left(learner: Any) -> None:
     async with learner() as me:
-        await me.press("n", "t", "w", "l", "2")
+        await me.press("n", "t", "w", "F", "l", "2")
         await me.until(lambda: me.session.app_state().page == "code", "written")
         await me.press("q")
         await me.until(lambda: me.app.return_code == 0)
         lesson, page, theme, state = await again(me)
         assert (lesson, page, theme) == ("i1.3", "code", "ros-tutor-light")
         assert (state.check_on_save, state.restart_on_save, state.lessons_shown) == (True, False, False)
+        assert state.first_failure
 
 
 async def test_a_damaged_memory_is_set_aside_with_a_message(learner: Any) -> None:

@@ -7,6 +7,7 @@ import multiprocessing
 import signal
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -63,6 +64,14 @@ def test_the_best_result_stays_and_only_a_whole_check_makes_it(file: ProgressFil
     assert attempt(Status.PASSED, whole=True) is Status.PASSED
     assert attempt(Status.FAILED, whole=True) is Status.PASSED
     assert len(file.read().of("i1.1").attempts) == 4
+
+
+def test_what_was_not_judged_after_the_first_failure_is_as_it_was(file: ProgressFile) -> None:
+    file.change(lambda p: p.with_attempt(result(Status.PASSED), whole=True))
+    ended = replace(result(Status.FAILED, bonus=Status.SKIPPED), unjudged=("shutdown",))
+    last = file.change(lambda p: p.with_attempt(ended, whole=True)).of("i1.1").last
+    assert last is not None
+    assert (last.whole, last.judged, last.passed) == (False, ("publishes",), ())
 
 
 def test_a_fault_of_the_tool_is_no_attempt(file: ProgressFile) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import sys
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -24,11 +25,12 @@ _FORMATS = ("text", "json", "junit", "markdown")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """EXERCISE [PATH] [--solution] [--criterion ID]... [--format F] [--output FILE]."""
+    """EXERCISE [PATH] [--solution] [--criterion ID]... [--first] [--format F] [--output FILE]."""
     parser.add_argument("exercise", metavar="EXERCISE", help="for example i2.1; or all, which judges them in parallel")
     parser.add_argument("path", metavar="PATH", nargs="?", type=Path, help="a file or folder (or the workspace's own)")
     parser.add_argument("--solution", action="store_true", help="judge our own solution instead")
     parser.add_argument("--criterion", metavar="ID", action="append", help="judge only this one (repeatable)")
+    add_first(parser)
     parser.add_argument(
         "--isolate",
         action="store_true",
@@ -36,6 +38,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--format", choices=_FORMATS, default="text", help="text (default), json, junit or markdown")
     parser.add_argument("--output", metavar="FILE", type=Path, help="write the report there instead of to stdout")
+
+
+def add_first(parser: argparse.ArgumentParser) -> None:
+    """The option that ends a check at its first failure."""
+    parser.add_argument("--first", action="store_true", help="end the check at the first criterion that fails")
 
 
 def run(arguments: argparse.Namespace, engine: Engine | None = None) -> int:
@@ -47,7 +54,7 @@ def run(arguments: argparse.Namespace, engine: Engine | None = None) -> int:
 
     _prove_fitting(arguments)
     if engine is None:
-        engine = _engine(isolate=arguments.isolate)
+        engine = _engine(isolate=arguments.isolate, first=arguments.first)
     course = context.load_course(arguments)
     workspace = context.require_workspace(arguments)
     lessons = choose_lessons(arguments.exercise, arguments.criterion, course)
@@ -73,16 +80,15 @@ def run(arguments: argparse.Namespace, engine: Engine | None = None) -> int:
     return _CODES[report.verdict.value]
 
 
-def _engine(*, isolate: bool) -> Engine:
+def _engine(*, isolate: bool, first: bool) -> Engine:
     from tutor.engine import run_check  # late: nothing but a check needs ROS
 
     if not isolate:
-        return run_check
-    from functools import partial
-
+        return partial(run_check, first=True) if first else run_check
     from tutor.engine.isolation import Isolation
 
-    return partial(run_check, isolation=Isolation.set_up())  # before anything else: this process has one thread yet
+    isolation = Isolation.set_up()  # before anything else: this process has one thread yet
+    return partial(run_check, isolation=isolation, first=first)
 
 
 def _prove_fitting(arguments: argparse.Namespace) -> None:

@@ -17,9 +17,11 @@ from rich.table import Table
 from rich.text import Text
 
 from tutor.cli import terminal
+from tutor.cli.failure_banner import first_failure
 from tutor.content import Course
 from tutor.judge.events import CheckStarted, CriterionJudged, Event, Progress
 from tutor.judge.result import CriterionResult
+from tutor.judge.verdict import Status
 from tutor.printable import printable
 from tutor.report.plain import MARKS, describe_waiting, seconds
 from tutor.report.text import STYLES
@@ -51,6 +53,7 @@ class ProgressDisplay:
     def __init__(self, course: Course, *, vanishing: bool) -> None:
         self._titles = {lesson.id: lesson.title for lesson in course.lessons}
         self._lines: dict[str, dict[str, _Line]] = {}
+        self._failure: tuple[str, CriterionResult] | None = None
         self._stopping = False
         self._spinner = Spinner("dots", style="cyan")
         self._console = Console(
@@ -81,6 +84,9 @@ class ProgressDisplay:
             line = self._lines.get(event.exercise, {}).get(event.result.id)
             if line is not None:
                 line.result = event.result
+            failed = event.result.verdict.status is Status.FAILED and not event.result.bonus
+            if self._failure is None and failed:
+                self._failure = event.exercise, event.result
 
     def stopping(self) -> None:
         """Say at the bottom that the end takes a moment."""
@@ -95,13 +101,23 @@ class ProgressDisplay:
         exercises = list(self._lines)  # a copy: another thread draws while events come in
         needed = sum(len(self._lines[exercise]) + 2 for exercise in exercises)
         rows = self._console.height - 2
+        failure = self._first_failure(rows // 2 - 1, several=len(exercises) > 1)
+        rows -= len(failure)
+        parts: list[RenderableType]
         if len(exercises) > 1 and needed > rows:
             parts = [self._summaries(exercises), *self._under_way(exercises, rows - len(exercises) - 1)]
         else:
             parts = [self._exercise(exercise) for exercise in exercises]
         if self._stopping:
             parts.append(Text("Stopping what was started ...", "yellow"))
-        return Group(*parts)
+        return Group(*failure, *parts)
+
+    def _first_failure(self, most: int, *, several: bool) -> list[Text]:
+        if self._failure is None:
+            return []
+        exercise, result = self._failure
+        name = f"{exercise} {result.id}" if several else result.id
+        return first_failure(name, result, self._console, most)
 
     def _exercise(self, exercise: str) -> RenderableType:
         lines = self._lines[exercise]

@@ -18,10 +18,11 @@ _SOURCES = (".py", ".xml", ".yaml", ".yml")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """EXERCISE [PATH] [--criterion ID]...."""
+    """EXERCISE [PATH] [--criterion ID]... [--first]."""
     parser.add_argument("exercise", metavar="EXERCISE", help="for example i2.1")
     parser.add_argument("path", metavar="PATH", nargs="?", type=Path, help="a file or folder (or the workspace's own)")
     parser.add_argument("--criterion", metavar="ID", action="append", help="judge only this one (repeatable)")
+    check.add_first(parser)
     parser.set_defaults(solution=False, isolate=False, format="text", output=None)
 
 

@@ -29,6 +29,7 @@ def main() -> int:
     parser.add_argument("exercise")
     parser.add_argument("path", type=Path)
     parser.add_argument("--criterion", action="append")
+    parser.add_argument("--first", action="store_true")
     parser.add_argument("--lessons", type=Path)
     arguments = parser.parse_args()
     try:
@@ -49,7 +50,8 @@ def main() -> int:
             except BrokenPipeError:  # nobody is there any more: all that is left to do is to clean up
                 task.cancel()
 
-        task = asyncio.ensure_future(run_check([submission], course, only=only, on_event=show))
+        check = run_check([submission], course, only=only, on_event=show, first=arguments.first)
+        task = asyncio.ensure_future(check)
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             loop.add_signal_handler(number, task.cancel)
         await task

@@ -45,11 +45,14 @@ async def run_check(
     on_event: Callable[[Event], None] = lambda event: None,
     start_limiter: StartLimiter | None = None,
     isolation: Isolation | None = None,
+    first: bool = False,
 ) -> Report:
     """Judge each submission, in parallel; nothing that was started is left when this returns, is cancelled or raises.
 
     `only`: the ids of the criteria to show (None: all). `start_limiter`: shared among checks that run at once.
-    `isolation`: isolates all that is started of the submissions. Raises EngineError where checks cannot be run here.
+    `isolation`: isolates all that is started of the submissions. `first`: each submission's check ends at the first
+    required criterion that fails; those not judged by then are skipped. Raises EngineError where checks cannot be run
+    here.
     """
     from tutor.engine import unchanged
     from tutor.engine.modules import load_check
@@ -80,7 +83,7 @@ async def run_check(
     def runner_of(submission: Submission) -> Runner:
         lesson = course.find(submission.exercise)
         found: Check = load_check(lesson)
-        return Runner(found, lesson, submission, ros, only, on_event, together, isolation)
+        return Runner(found, lesson, submission, ros, only, on_event, together, isolation, first=first)
 
     runners = [runner_of(submission) for submission in submissions]
 

@@ -5,11 +5,12 @@ from __future__ import annotations
 import asyncio
 import time
 from collections import Counter
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 from tutor.content import Lesson
 from tutor.engine.bench import RosBench
+from tutor.engine.first_failure import judge_until_failure, skip, skip_after
 from tutor.engine.isolation import Isolation
 from tutor.engine.provisional import Provisional
 from tutor.engine.run import TOO_BUSY
@@ -22,7 +23,7 @@ from tutor.judge.check import Check, Criterion
 from tutor.judge.events import CheckStarted, CriterionJudged, Event, ExerciseJudged, Progress
 from tutor.judge.result import CriterionResult, ExerciseResult
 from tutor.judge.submission import Submission
-from tutor.judge.verdict import Status, Undecided, Verdict, bounded, fault, skipped
+from tutor.judge.verdict import Status, Undecided, Verdict, bounded, fault
 from tutor.ros.environment import RosEnvironment
 
 OnEvent = Callable[[Event], None]
@@ -37,7 +38,10 @@ REPEAT_WITHIN_S = 60.0
 
 
 class Runner:
-    """One check of one submission. `only`: the criteria to show; those that they depend on are judged in silence."""
+    """One check of one submission. `only`: the criteria to show; those that they depend on are judged in silence.
+
+    `first`: it ends at the first required criterion that fails.
+    """
 
     def __init__(
         self,
@@ -49,6 +53,8 @@ class Runner:
         on_event: OnEvent,
         start_limiter: StartLimiter | None = None,
         isolation: Isolation | None = None,
+        *,
+        first: bool = False,
     ) -> None:
         self._check = check
         self._texts = {text.id: text for text in lesson.criteria}
@@ -59,6 +65,7 @@ class Runner:
         self._on_event = on_event
         self._start_limiter = start_limiter or StartLimiter()
         self._isolation = isolation
+        self._first = first
         self._scenarios: dict[Scenario[Any], asyncio.Task[Any]] = {}
         self._verdicts: dict[str, asyncio.Task[Verdict]] = {}
         self._repeats: Counter[Scenario[Any]] = Counter()
@@ -86,7 +93,7 @@ class Runner:
                     self._share(scenario)
             for criterion in needed:
                 self._verdicts[criterion.id] = asyncio.create_task(self._judge(criterion))
-            results = await asyncio.gather(*(self._show(criterion) for criterion in self._shown))
+            results, unjudged = await self._judge_shown()
         finally:
             await _end([*self._verdicts.values(), *self._scenarios.values()])
         result = ExerciseResult(
@@ -95,9 +102,19 @@ class Runner:
             submission=tuple(self._submission.files),
             criteria=tuple(results),
             duration_s=self._elapsed(),
+            unjudged=unjudged,
         )
         self._on_event(ExerciseJudged(result))
         return result
+
+    async def _judge_shown(self) -> tuple[Sequence[CriterionResult], tuple[str, ...]]:
+        """The results of all that is shown, and which of them were not judged, because the check ends before."""
+        if not self._first:
+            return await asyncio.gather(*(self._show(criterion) for criterion in self._shown)), ()
+        judged, failure = await judge_until_failure(self._shown, self._show)
+        rest = [criterion for criterion in self._shown if criterion.id not in judged]
+        results = {**judged, **{each.id: self._tell_verdict(each, skip(each, judged, failure)) for each in rest}}
+        return [results[criterion.id] for criterion in self._shown], tuple(each.id for each in rest)
 
     def _announce(self) -> None:
         if not self._announced:
@@ -163,7 +180,7 @@ class Runner:
     async def _judge(self, criterion: Criterion) -> Verdict:
         for dependency in criterion.after:
             if not (await asyncio.shield(self._verdicts[dependency])).passed:
-                return skipped(f"not judged, because `{dependency}` did not pass")
+                return skip_after(dependency)
         try:
             verdict = await self._judge_facts(criterion)
             text = self._texts.get(criterion.id)
@@ -196,7 +213,9 @@ class Runner:
                 return verdict
 
     async def _show(self, criterion: Criterion) -> CriterionResult:
-        verdict = bounded(await self._verdicts[criterion.id])
+        return self._tell_verdict(criterion, bounded(await self._verdicts[criterion.id]))
+
+    def _tell_verdict(self, criterion: Criterion, verdict: Verdict) -> CriterionResult:
         text = self._texts.get(criterion.id)
         result = CriterionResult(
             criterion.id, text.text if text else criterion.id, criterion.bonus, verdict, self._elapsed()

@@ -21,13 +21,17 @@ class CriterionResult:
 
 @dataclass(frozen=True, slots=True)
 class ExerciseResult:
-    """One exercise, judged. `submission` holds the names of the files that were judged: none where none were there."""
+    """One exercise, judged. `submission` holds the names of the files that were judged: none where none were there.
+
+    `unjudged`: the ids of the criteria that were skipped since the check was to end at its first failure.
+    """
 
     id: str
     title: str
     submission: tuple[str, ...]
     criteria: tuple[CriterionResult, ...]
     duration_s: float
+    unjudged: tuple[str, ...] = ()
 
     @property
     def missing(self) -> str:

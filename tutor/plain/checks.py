@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 from tutor.errors import CommandRefused, EngineError, StorageError
 from tutor.judge.events import CheckStarted, CriterionJudged, Event, Progress
-from tutor.judge.result import ExerciseResult
+from tutor.judge.result import CriterionResult, ExerciseResult
+from tutor.judge.verdict import Status
 from tutor.plain import speech
 from tutor.plain.conversation import Conversation, DialogCommand
 from tutor.report.plain import one_line
@@ -18,20 +21,27 @@ class Checks:
         self._conversation = conversation
         self._found: dict[str, ExerciseResult] = {}
         self._said: set[str] = set()
+        self._failed = False
         self.commands = (
-            DialogCommand("check", "check your node by what it does", self.check),
+            DialogCommand(
+                "check", "check your node by what it does; check first ends at the first failure", self.check
+            ),
             DialogCommand("why", "read the diagnosis of a criterion again, with the evidence", self.why, "CRITERION"),
         )
 
     async def check(self, words: list[str]) -> None:
         """Judge, and say what each criterion came to."""
+        if words not in ([], ["first"]):
+            raise CommandRefused("Say check, or check first, which ends at the first failure.")
         session, lesson = self._conversation.session, self._conversation.lesson
         submission = find_submission(lesson, None, session.workspace)
         from tutor import engine  # late: nothing but a check needs ROS
 
         self._said.clear()
+        self._failed = False
         try:
-            report = await engine.run_check([submission], session.course, only=None, on_event=self._tell)
+            run_check = partial(engine.run_check, first=True) if words else engine.run_check
+            report = await run_check([submission], session.course, only=None, on_event=self._tell)
         except EngineError as error:
             raise CommandRefused(
                 f"The check could not be made, which is no fault of your code: {error}. {error.hint}"
@@ -57,6 +67,14 @@ class Checks:
                 self._conversation.say(f"So far: {one_line(event.so_far)}.")
             case CriterionJudged():
                 self._conversation.say(speech.headline(event.result))
+                self._say_first_cause(event.result)
+
+    def _say_first_cause(self, result: CriterionResult) -> None:
+        """Why the first required criterion failed, as soon as that is final; of the others, it is said at the end."""
+        if self._failed or result.bonus or result.verdict.status is not Status.FAILED:
+            return
+        self._failed = True
+        self._conversation.say(f"Cause: {one_line(result.verdict.cause, 1000)}".replace("`", ""))
 
     def _sum_up(self, result: ExerciseResult) -> None:
         self._conversation.say(speech.outcome(result))

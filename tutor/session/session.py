@@ -157,9 +157,13 @@ class Session:
         write_atomically(path, render_checklist(assess(self.course, self.progress()), format, at=now()))
         return True
 
-    def check_command(self, lesson: Lesson) -> Sequence[str]:
-        """The command that checks the workspace's own files and prints events, to be run in the workspace."""
+    def check_command(self, lesson: Lesson, *, first: bool = False) -> Sequence[str]:
+        """The command that checks the workspace's own files and prints events, to be run in the workspace.
+
+        `first`: it ends at the first failure.
+        """
         more = () if self.extra is None else ("--lessons", str(self.extra))
+        more = ("--first", *more) if first else more
         return interpreter.module_command("tutor.engine", lesson.id, str(self.workspace.root), *more)
 
     def node_command(self, file: LessonFile, options: RunOptions) -> NodeCommand:

@@ -65,6 +65,7 @@ RESTART_ON_SAVE = Command("restart_on_save", ("W",), "Restart on save", "Restart
 CHECK = Command("check", ("c", "f9"), "Check", "Check your node against the criteria", footer=True)
 CANCEL = Command("cancel", ("c", "f9", "escape"), "Cancel", "Cancel the running check", footer=True)
 WATCH = Command("watch", ("w",), "Watch", "Check on each save: on or off")
+FIRST_FAILURE = Command("first_failure", ("F",), "First failure", "End checks at the first failure: on or off")
 EVIDENCE = Command("evidence", ("i",), "Evidence", "Show or hide the evidence")
 ATTEMPTS = Command("attempts", ("a",), "Attempts", "Show your attempts over time")
 HINT = Command("hint", ("h",), "Hint", "Show the next hint", footer=True)
@@ -120,7 +121,7 @@ QUIT = Command(
 
 GROUPS: tuple[tuple[str, tuple[Command, ...]], ...] = (
     ("Your node", (RUN, STOP, RESTART, PARTNER, OTHER_FILE, OPTIONS, RESTART_ON_SAVE)),
-    ("The check", (CHECK, CANCEL, WATCH, EVIDENCE, ATTEMPTS, HINT)),
+    ("The check", (CHECK, CANCEL, WATCH, FIRST_FAILURE, EVIDENCE, ATTEMPTS, HINT)),
     (
         "Your code",
         (START, EDIT, SAVE, FIND, FIND_NEXT, OWN_EDITOR, NEXT_FILE, SKELETON, CHANGES, SOLUTION, AGAINST, RESET),

@@ -28,7 +28,10 @@ class RunOptions:
 
 @dataclass(frozen=True, slots=True)
 class AppState:
-    """What is remembered. Empty texts mean: nothing yet. `runs` has the run options of each exercise."""
+    """What is remembered. Empty texts mean: nothing yet. `runs` has the run options of each exercise.
+
+    `first_failure`: a check ends at its first failure.
+    """
 
     lesson: str = ""
     page: str = ""
@@ -36,6 +39,7 @@ class AppState:
     lessons_shown: bool = True
     zoomed: bool = False
     check_on_save: bool = False
+    first_failure: bool = False
     restart_on_save: bool = False
     side_by_side: bool = True
     runs: Mapping[str, RunOptions] = field(default_factory=dict)

@@ -84,12 +84,16 @@ class Progress:
         return self.with_exercise(exercise, replace(before, started_at=before.started_at or now()))
 
     def with_attempt(self, result: ExerciseResult, *, whole: bool) -> Progress:
-        """A copy with one more attempt. Only a whole check can be the best; a fault of ours is no attempt at all."""
+        """A copy with one more attempt. Only a whole check can be the best; a fault of ours is no attempt at all.
+
+        What was not judged, since the check ended at its first failure, is as it was.
+        """
         if result.verdict is Status.ERROR:
             return self
         before = self.of(result.id)
         passed = tuple(c.id for c in result.criteria if c.verdict.passed)
-        judged = () if whole else tuple(c.id for c in result.criteria)
+        whole = whole and not result.unjudged
+        judged = () if whole else tuple(c.id for c in result.criteria if c.id not in result.unjudged)
         attempt = Attempt(now(), result.verdict, passed, whole, judged)
         best = result.verdict if whole and not before.is_passed else before.best
         attempts = (*before.attempts, attempt)[-MOST_ATTEMPTS:]

@@ -6,8 +6,8 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
+from tutor import invocation
 from tutor.content import Lesson
-from tutor.invocation import command
 from tutor.judge.events import Event, ExerciseJudged
 from tutor.judge.verdict import Status
 from tutor.session.check_process import CheckEnded, CheckProcess
@@ -20,7 +20,7 @@ from tutor.tui.control.records import Records
 
 CRASHED = (
     "This is a fault of ros-tutor or of the machine, not of your code. Check again; if it stays, run: "
-    f"{command('doctor')}"
+    f"{invocation.command('doctor')}"
 )
 
 
@@ -44,6 +44,7 @@ class Checks:
         host.register(commands.CHECK, self.check, lambda: self.running is None)
         host.register(commands.CANCEL, self.cancel, lambda: self.running is not None)
         host.register(commands.WATCH, self.watch)
+        host.register(commands.FIRST_FAILURE, self.end_at_first_failure)
 
     def check(self) -> None:
         """Save and check the lesson that is shown."""
@@ -63,6 +64,12 @@ class Checks:
         self._preferences.update(check_on_save=on)
         self._host.say("Each save now begins a check." if on else "A save no longer begins a check.")
         self._host.refresh_bindings()
+
+    def end_at_first_failure(self) -> None:
+        """Switch whether checks end at their first failure."""
+        on = not self._host.model.state.first_failure
+        self._preferences.update(first_failure=on)
+        self._host.say("A check now ends at its first failure." if on else "A check now judges every criterion.")
 
     def saved(self, message: messages.FileSaved) -> None:
         """A file was saved: check again, where that is wanted."""
@@ -85,9 +92,10 @@ class Checks:
             self._tell(replace(found, outdated=outdated))
 
     def _begin(self, lesson: Lesson) -> None:
-        session = self._host.model.session
-        self.running = CheckProcess(lesson.id, session.check_command(lesson), session.workspace.root, self._post)
-        self._tell(self._host.model.findings[lesson.id].begun())
+        model = self._host.model
+        command = model.session.check_command(lesson, first=model.state.first_failure)
+        self.running = CheckProcess(lesson.id, command, model.session.workspace.root, self._post)
+        self._tell(model.findings[lesson.id].begun())
         self._host.refresh_bindings()
         self._host.work(self._run, lesson, self.running, group="check")
 

@@ -127,6 +127,7 @@ class CriteriaPanel(Container):
         self._following: Lesson | None = None
         self._typing = False
         self._reading = self._entered = False
+        self._told: Finding | None = None
         self.others_open = 0
         """How many other exercises are not passed yet."""
 
@@ -147,8 +148,31 @@ class CriteriaPanel(Container):
         self._show(findings)
         if findings.checking and not (before and before.checking):
             self.remove_class("-detail")
+        if findings.checking:
+            self._follow()
         if before and before.checking and not findings.checking:
             self._turn_to_result()
+
+    def _follow(self) -> None:
+        """During a check: the first failure as soon as it is final, unless another criterion was chosen."""
+        found = self._findings
+        if found is None:
+            return
+        if self.has_class("-detail"):
+            if (chosen := self.chosen) is not None and chosen != self._told:
+                self._tell(chosen)
+            return
+        failed = [n for n, f in enumerate(found.criteria) if _has_failed(f) and not f.bonus]
+        if failed:
+            self.query_one("#criteria-list", ListView).index = failed[0]
+            self._tell(found.criteria[failed[0]])
+
+    def _tell(self, finding: Finding) -> None:
+        """Show the diagnosis of this criterion."""
+        assert self._findings is not None
+        self._told = finding
+        self.query_one(Diagnosis).show_finding(finding, self._findings)
+        self.add_class("-detail")
 
     def show_attempts(self, lesson: Lesson, progress: ExerciseProgress) -> None:
         """Show the latest attempts, where there is room for them."""
@@ -212,8 +236,10 @@ class CriteriaPanel(Container):
         self.set_class(bool(findings.result and findings.result.verdict is Status.PASSED), "-passed")
 
     def _turn_to_result(self) -> None:
-        """After a check: the first failure, or, where all is well, the good news."""
+        """After a check: the first failure, or, where all is well, the good news. A failure that is read is left."""
         found = self._findings
+        if found is not None and self.has_class("-detail") and (chosen := self.chosen) and _has_failed(chosen):
+            return
         listed = self.query_one("#criteria-list", ListView)
         listed.index = None
         self.remove_class("-detail")
@@ -234,13 +260,17 @@ class CriteriaPanel(Container):
         row = event.item
         if not isinstance(row, CriterionRow) or self._findings is None:
             return
-        if isinstance(event, ListView.Highlighted) and self._findings.checking:
+        selected, checking = isinstance(event, ListView.Selected), self._findings.checking
+        if checking and not selected and not self.has_class("-detail"):
             return
-        if row.finding.verdict is not None or isinstance(event, ListView.Selected):
-            self.query_one(Diagnosis).show_finding(row.finding, self._findings)
-            self.add_class("-detail")
+        if row.finding.verdict is not None or selected or checking:
+            self._tell(row.finding)
         elif not self._findings.judged:
             self.remove_class("-detail")
+
+
+def _has_failed(finding: Finding) -> bool:
+    return finding.verdict is not None and finding.verdict.status is Status.FAILED
 
 
 def _headline(findings: Findings, *, typing: bool) -> str:

@@ -13,6 +13,7 @@ from textual.widgets import Static
 from tutor.content import Lesson
 from tutor.judge.result import ExerciseResult
 from tutor.judge.verdict import Status
+from tutor.report.plain import one_line
 from tutor.session.findings import Finding, Findings
 from tutor.tui import wording
 
@@ -132,6 +133,8 @@ class Diagnosis(VerticalScroll):
                 mark = wording.MARKS[Status.PASSED] if finding.before else "○"
         name = Content.assemble((f"{mark}{said} ", f"bold {ink}"), (finding.id, "bold"), "  ", (finding.text, "$quiet"))
         more = "  bonus: never changes the verdict" if finding.bonus else ""
+        if verdict is None and finding.so_far:
+            more += f"\n\n{finding.doing}\n\nSo far, and not final: {one_line(finding.so_far)}"
         if verdict is None and not finding.checking:
             met = "Met" if finding.before else "Not met"
             known = (
