@@ -122,6 +122,7 @@ class Findings:
                 text=result.text,
                 bonus=result.bonus,
                 checking=True,
+                so_far="",
                 verdict=result.verdict,
                 duration_s=result.duration_s,
             ),

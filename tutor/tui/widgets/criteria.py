@@ -48,7 +48,9 @@ class CriterionRow(ListItem):
             head = Content.assemble((f"{mark} ", f"bold {shade}"), name, " ")
         elif found.checking:
             head = Content.assemble(("◐ ", "$busy"), name, " ")
-            word = _bar(found.fraction, (14 if width > 50 else 8) if not found.so_far or width > 100 else 0)
+            full = 14 if width > 50 else 8
+            narrow = width - head.cell_length < full + _PERCENT or (found.so_far and width <= 100)
+            word = _bar(found.fraction, 0 if narrow else full)
             left = width - head.cell_length - word.cell_length - 2
             said = describe_waiting(found.doing, found.so_far, left) or "waiting"
             ink = "$busy" if found.doing or found.so_far else "$quiet"
@@ -58,7 +60,11 @@ class CriterionRow(ListItem):
         left = width - head.cell_length - word.cell_length - len(gap)
         if left < 12:  # a stump of a sentence says nothing
             gap, said = "", ""
-        return Content.assemble(head, word, gap, (wording.fitted(said, left), ink)).truncate(width, ellipsis=True)
+        said = said if found.so_far else wording.fitted(said, left)
+        return Content.assemble(head, word, gap, (said, ink)).truncate(width, ellipsis=True)
+
+
+_PERCENT = len(" 100%")
 
 
 def _bar(fraction: float, width: int) -> Content:
