@@ -14,7 +14,7 @@ from typing import ClassVar
 from textual.app import ComposeResult
 
 from tests.ros.users_domain import users_domain
-from tutor import private
+from tutor import private_folders
 from tutor.ros.environment import detect, learner_env
 from tutor.tui import messages
 from tutor.tui.live.launching import WatcherCommand, watcher_command
@@ -44,7 +44,7 @@ class World:
         env = learner_env(
             ros,
             domain_id=self.domain,
-            log_dir=private.logs({}),
+            log_dir=private_folders.logs({}),
             package_root=None,
             isolated=False,
             environ=self.environ,

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from tests.tui import made
-from tutor import private
+from tutor import private_folders
 from tutor.tui.terminal.completion import complete
 from tutor.tui.terminal.output_view import OutputView
 from tutor.tui.terminal.prompt import Prompt
@@ -169,6 +169,6 @@ async def test_what_a_program_offers_lies_where_a_killed_apps_files_are_swept(tm
     env = {"PATH": f"{tmp_path}:{os.environ['PATH']}"}
     await complete("ros2 topic ", 11, env, tmp_path)
     folder = Path(where.read_text()).parent
-    assert folder.parent == private.home()
-    assert folder.name.startswith("complete.")  # as all that `private` sweeps
+    assert folder.parent == private_folders.base()
+    assert folder.name.startswith("complete.")  # as all that `private_folders` removes
     assert not folder.exists()

@@ -22,9 +22,9 @@ from tutor.content import Course
 from tutor.judge.events import CheckStarted, CriterionJudged, Event, Progress
 from tutor.judge.result import CriterionResult
 from tutor.judge.verdict import Status
-from tutor.printable import printable
 from tutor.report.plain import MARKS, describe_waiting, seconds
 from tutor.report.text import STYLES
+from tutor.terminal_text import printable
 
 _PER_SECOND = 10
 _WAITED = 22

@@ -23,7 +23,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Become `ros2`, in the user's own ROS domain; comes back only where that cannot be."""
-    from tutor import interpreter, private
+    from tutor import interpreter, private_folders
     from tutor.bundled_ros.ros2.starting import ros2_command
     from tutor.errors import CommandError
     from tutor.ros.environment import detect, learner_env
@@ -37,7 +37,7 @@ def run(arguments: argparse.Namespace) -> int:
         env = learner_env(
             ros,
             domain_id=domain,
-            log_dir=private.logs(),
+            log_dir=private_folders.logs(),
             package_root=None,
             isolated=False,
         )

@@ -20,7 +20,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Run the user's shell, or one command line in it; gives its exit code."""
-    from tutor import private
+    from tutor import private_folders
     from tutor.bundled_ros.ros2 import sourced
     from tutor.bundled_ros.ros2.terminal import interactive, users_shell
     from tutor.ros.environment import detect
@@ -32,7 +32,7 @@ def run(arguments: argparse.Namespace) -> int:
         raise UsageError(str(error)) from error
     workspace, ros = context.choose_workspace(arguments), detect()
     domain = domain_of(workspace)
-    with private.folder("shell") as tools:
+    with private_folders.temporary("shell") as tools:
         env = sourced.sourced_environment(ros, workspace.root, domain, tools)
         setup = sourced.setup_file(ros, workspace.root, shell)
         if arguments.line is not None:

@@ -9,7 +9,7 @@ import textwrap
 from typing import TextIO
 
 from tutor.errors import StorageError
-from tutor.printable import harmless, printable
+from tutor.terminal_text import escape_controls, printable
 
 _PLAIN_WIDTH = 100
 _WIDEST = 120
@@ -23,7 +23,7 @@ def out(text: str) -> None:
     if sys.stdout is None:
         return
     try:
-        sys.stdout.write(_encodable(harmless(text, colors=wants_color(sys.stdout)), sys.stdout))
+        sys.stdout.write(_encodable(escape_controls(text, colors=wants_color(sys.stdout)), sys.stdout))
         sys.stdout.flush()
     except BrokenPipeError:
         _to_nowhere(sys.stdout)

@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from tutor import private
+from tutor import private_folders
 from tutor.errors import ProbeFailed
 from tutor.ros.domain import reserve_domain
 from tutor.ros.environment import RosEnvironment, learner_env
@@ -22,7 +22,7 @@ PROBE = Path(__file__).resolve().parent.parent / "ros" / "probe.py"
 
 def ask(ros: RosEnvironment, environ: Mapping[str, str], program: str, limit_s: float) -> dict[str, Any]:
     """Run one program of the probe to its end, and return its answer. Raises ProbeFailed."""
-    with private.folder("doctor") as folder:
+    with private_folders.temporary("doctor") as folder:
         env = learner_env(ros, domain_id=0, log_dir=folder, package_root=None, isolated=True, environ=environ)
         try:
             done = subprocess.run(
@@ -45,7 +45,7 @@ def first_message_ms(ros: RosEnvironment, environ: Mapping[str, str], limit_s: f
     Returns the milliseconds from the start of the publisher's process to the first message in the other. Raises
     ProbeFailed, NoFreeDomain.
     """
-    with private.folder("doctor") as folder, reserve_domain() as domain:
+    with private_folders.temporary("doctor") as folder, reserve_domain() as domain:
         env = learner_env(ros, domain_id=domain, log_dir=folder, package_root=None, isolated=True, environ=environ)
         deadline = time.monotonic() + limit_s
         with _running(ros, env, folder, "listen") as listener:

@@ -17,10 +17,10 @@ from tutor.plain.lines import Lines
 from tutor.plain.nodes import Nodes
 from tutor.plain.ros2_commands import Ros2Commands
 from tutor.plain.speech import counted
-from tutor.printable import printable
 from tutor.ros import stale_segments
 from tutor.session import Session
 from tutor.session.paths import short_path
+from tutor.terminal_text import printable
 
 INTERRUPTED = 130
 

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 from tutor.judge.result import CriterionResult, ExerciseResult
 from tutor.judge.verdict import Status
-from tutor.printable import printable
 from tutor.report.plain import details, evidence_lines, one_line, seconds, tally
+from tutor.terminal_text import printable
 
 WORDS = {
     Status.PASSED: "passed",

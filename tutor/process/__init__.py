@@ -2,7 +2,7 @@
 
 from tutor.process.cpu_wait import CpuMeter, CpuTime, own_cpu_time
 from tutor.process.learner import LearnerProcess, Survivor
-from tutor.process.next_wake import NextWake
+from tutor.process.wake_time import NextWake
 
 __all__ = [
     "CpuMeter",

@@ -18,11 +18,11 @@ from tutor.errors import EndError, StartError
 from tutor.judge.trace import Exit, OutputLine
 from tutor.process import memory, orphans
 from tutor.process.link import SupervisorLink
-from tutor.process.next_wake import NextWake
 from tutor.process.output import Output
 from tutor.process.pipe import PipeReader
 from tutor.process.stdin import Stdin
 from tutor.process.supervisor import pack_request
+from tutor.process.wake_time import NextWake
 
 _START_LIMIT_S = 20.0
 

@@ -15,8 +15,8 @@ from pathlib import Path
 from tutor.judge.trace import Exit
 from tutor.process import orphans, prctl
 from tutor.process.cpu_wait import recent_processes
-from tutor.process.next_wake import NextWake, next_wake
 from tutor.process.supervisor import Process, among, descendants, innermost, kill
+from tutor.process.wake_time import NextWake, next_wake
 
 _SUPERVISOR = Path(__file__).with_name("supervisor.py")
 # How long the supervisor may take to end everything before we step in, and how long we then may take.

@@ -13,7 +13,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from uuid import uuid4
 
-from tutor import private
+from tutor import private_folders
 
 MOST_BYTES = 16_000_000
 """What the log files may take on the disk in a check, where nobody reads them; they are emptied when it is more."""
@@ -35,7 +35,7 @@ def temporary_log_folder() -> Iterator[Path]:
     Needs a running event loop.
     """
     loop = asyncio.get_running_loop()
-    path, folder = private.made("check")  # it stays the folder that we made, whatever takes its place
+    path, folder = private_folders.create("check")  # it stays the folder that we made, whatever takes its place
 
     next_look = loop.call_later(LOOK_EVERY_S, lambda: look())
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from html import escape as escape_html
 
-from tutor.printable import printable
 from tutor.report.assessment import Assessment, ExerciseStanding, GroupStanding, ItemStanding
 from tutor.report.checklist import TITLE
 from tutor.report.phrases import calendar_day, describe_evidence
+from tutor.terminal_text import printable
 
 # Text colours have a contrast of at least 4.5 to 1 on their ground, in light, dark and print.
 _STYLE = """\

@@ -7,7 +7,7 @@ from dataclasses import asdict
 from typing import Any
 
 from tutor.judge.result import CriterionResult, ExerciseResult, Report
-from tutor.printable import printable
+from tutor.terminal_text import printable
 
 SCHEMA = "ros-tutor/report/1"
 

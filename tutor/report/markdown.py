@@ -8,8 +8,8 @@ from html import escape as escape_html
 
 from tutor.judge.result import CriterionResult, ExerciseResult, Report
 from tutor.judge.verdict import Status
-from tutor.printable import printable
 from tutor.report.plain import MARKS, describe, details, evidence_lines, one_line, seconds, tally
+from tutor.terminal_text import printable
 
 _SPECIAL = re.compile(r"([\\`*_{}\[\]<>#|~$]|&(?=#?\w+;))")
 _MENTION = re.compile(r"@(?=\w)")

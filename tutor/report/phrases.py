@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from datetime import date, datetime, timedelta
 
-from tutor.printable import printable
 from tutor.report.assessment import Evidence, Source
+from tutor.terminal_text import printable
 
 Day = Callable[[str], str]
 """Says the day of a time of the progress file (UTC, ISO 8601)."""

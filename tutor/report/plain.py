@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from tutor.judge.result import Environment, ExerciseResult, Report
 from tutor.judge.verdict import Status, Verdict
-from tutor.printable import printable
+from tutor.terminal_text import printable
 
 MARKS = {Status.PASSED: "✓", Status.FAILED: "✗", Status.SKIPPED: "-", Status.ERROR: "!"}
 

@@ -13,8 +13,8 @@ from rich.text import Text
 
 from tutor.judge.result import CriterionResult, ExerciseResult, Report
 from tutor.judge.verdict import Status
-from tutor.printable import printable
 from tutor.report.plain import MARKS, describe, details, isolation_lines, seconds, tally
+from tutor.terminal_text import printable
 
 STYLES = {Status.PASSED: "green", Status.FAILED: "red", Status.SKIPPED: "yellow", Status.ERROR: "magenta"}
 

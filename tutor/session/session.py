@@ -197,13 +197,13 @@ class Session:
 
     def _world(self, package: Path | None) -> tuple[RosEnvironment, dict[str, str]]:
         """The ROS that nodes are run with, and their environment; `package` is the folder of a Python package."""
-        from tutor import private
+        from tutor import private_folders
         from tutor.ros import shared_memory
         from tutor.ros.environment import detect, learner_env
 
         ros = detect()
         shared_memory.prove_enough()
-        log_dir = private.logs()
+        log_dir = private_folders.logs()
         return ros, learner_env(ros, domain_id=self.domain, log_dir=log_dir, package_root=package, isolated=False)
 
     def command_line(self, file: LessonFile, options: RunOptions) -> str:
@@ -212,12 +212,12 @@ class Session:
 
     def shell(self) -> Shell:
         """Where the commands of the terminal page are run: as in `ros-tutor shell`. Raises OSError, ValueError."""
-        from tutor import private
+        from tutor import private_folders
         from tutor.bundled_ros.ros2.sourced import sourced_environment
         from tutor.ros.environment import detect  # late: the first paint does not wait for it
 
         if self._tools is None:
-            self._tools = private.lasting("terminal")
+            self._tools = private_folders.until_exit("terminal")
         env = sourced_environment(detect(), self.workspace.root, self.domain, self._tools)
         return Shell(env, self.workspace.root)
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from tutor.judge.trace import Level, OutputLine
-from tutor.printable import plain
+from tutor.terminal_text import strip_ansi
 
 _ROS_LOG = re.compile(r"(?:\[[\w.-]+-\d+\] )?\[(DEBUG|INFO|WARN|ERROR|FATAL)\] \[(\d+\.\d+)\] \[([^\]]*)\]: ?(.*)")
 _PLACE = re.compile(r'\s*File "([^"]+)", line (\d+)')
@@ -40,7 +40,7 @@ class LogLine:
 
 def parse_line(line: OutputLine) -> LogLine:
     """What a line of output is."""
-    text = plain(line.text)
+    text = strip_ansi(line.text)
     stderr = line.stream == "stderr"
     if found := _ROS_LOG.match(text):
         level, stamp, name, said = found.groups()

@@ -10,16 +10,16 @@ from textual.app import App
 from textual.color import Color
 from textual.filter import LineFilter
 
-from tutor.printable import drawn
+from tutor.terminal_text import strip_controls
 
 
 class _TextOnly(LineFilter):
-    """The border to the terminal: every line that is drawn passes it."""
+    """The border to the terminal: every line that is strip_controls passes it."""
 
     def apply(self, segments: list[Segment], background: Color) -> list[Segment]:
         if all(text.isprintable() for text, _, _ in segments):
             return segments
-        return [Segment(drawn(text), style, control) for text, style, control in segments]
+        return [Segment(strip_controls(text), style, control) for text, style, control in segments]
 
 
 _TEXT_ONLY = _TextOnly()

@@ -10,7 +10,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 from tutor.errors import StorageError
-from tutor.printable import printable
+from tutor.terminal_text import printable
 from tutor.workspace.atomic import write_atomically
 from tutor.workspace.locking import lock
 from tutor.workspace.progress import Progress, decode, encode

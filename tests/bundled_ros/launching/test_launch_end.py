@@ -14,7 +14,7 @@ import pytest
 from tests.bundled_ros.launching.case import launch_file
 from tests.bundled_ros.launching.launcher import Launcher, Ran
 from tests.ros.users_domain import users_domain
-from tutor import interpreter, private
+from tutor import interpreter, private_folders
 
 LIMIT_S = 60.0
 WAITER = "Node(package='demo', executable='waiter', output='screen')"
@@ -142,5 +142,5 @@ def test_those_of_a_killed_launch_go_at_the_next_start(tmp_path: Path, monkeypat
             launch.wait()
     assert all(each.exists() for each in left)
     monkeypatch.setattr(tempfile, "tempdir", str(temporary))
-    with private.folder("check"):
+    with private_folders.temporary("check"):
         assert not list(temporary.rglob("launch_params_*"))

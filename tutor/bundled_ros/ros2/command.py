@@ -12,8 +12,8 @@ from typing import Any, NoReturn
 from tutor.bundled_ros.ros2 import completing
 from tutor.bundled_ros.ros2.parsing import PACKAGE, LazyParser, add_choices
 from tutor.errors import CommandError
-from tutor.printable import guard
 from tutor.ros import shared_memory
+from tutor.terminal_text import guard_terminal
 
 COMMANDS = {
     "action": "See actions, and send goals to them",
@@ -68,7 +68,7 @@ def _run(argv: Sequence[str]) -> int:
     if completing.is_asked():
         completing.answer(parser)
     arguments = parser.parse_args(argv)
-    sys.stdout, sys.stderr = guard(sys.stdout), guard(sys.stderr)
+    sys.stdout, sys.stderr = guard_terminal(sys.stdout), guard_terminal(sys.stderr)
     if not arguments.use_python_default_buffering:
         _write_by_lines(sys.stdout)
     try:

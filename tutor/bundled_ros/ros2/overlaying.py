@@ -6,7 +6,7 @@ import os
 import sys
 from pathlib import Path
 
-from tutor import private
+from tutor import private_folders
 from tutor.bundled_ros.ros2 import overlay
 from tutor.errors import CommandError
 from tutor.ros.environment import UNBUFFERED, UNBUFFERED_BY_US
@@ -28,7 +28,7 @@ def overlay_workspace(near: Path) -> None:
     if Path(os.environ.get(_OVERLAY, "/nowhere")).is_dir():
         return  # of the `ros2` that started us
     try:
-        folder = private.lasting("ros2-overlay")
+        folder = private_folders.until_exit("ros2-overlay")
         overlay.make_overlay(folder / "prefix", near, os.environ)
     except OSError as error:
         raise CommandError(f"the packages cannot be read: {error}") from error

@@ -8,7 +8,7 @@ import shutil
 from collections.abc import Mapping
 from pathlib import Path
 
-from tutor import interpreter, private
+from tutor import interpreter, private_folders
 from tutor.bundled_ros.ros2 import sources
 from tutor.ros.environment import RosEnvironment, learner_env
 from tutor.ros.prefixes import entries, is_bundled, joined
@@ -33,7 +33,7 @@ def sourced_environment(
     if ros.kind == "system":
         env = {**environ}
     else:
-        log_dir = private.logs(environ)
+        log_dir = private_folders.logs(environ)
         env = learner_env(ros, domain_id=domain_id, log_dir=log_dir, package_root=None, isolated=False, environ=environ)
         for name in _OF_CHECKS_ONLY:
             env.pop(name, None)

@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from tutor import private
+from tutor import private_folders
 
 LIMIT_S = 5.0
 """How long a program may take to say what it offers: topics and nodes are looked up."""
@@ -80,7 +80,7 @@ def paths(typed: str, cwd: Path) -> list[str]:
 
 async def _ask(program: str, command: str, env: Mapping[str, str], cwd: Path) -> list[str]:
     """Ask a program that completes itself, in the way in which a shell does (argcomplete's)."""
-    with private.folder("complete") as folder:
+    with private_folders.temporary("complete") as folder:
         answer = folder / "answer"
         answer.touch()
         asked = {

@@ -10,8 +10,8 @@ from textual import events
 from textual.binding import BindingType
 
 from tutor.judge.trace import OutputLine
-from tutor.printable import plain
 from tutor.session.node import NodeState, Phase
+from tutor.terminal_text import strip_ansi
 from tutor.tui.widgets.line_view import LineView, Row
 
 _LEVELS = {"[WARN]": "warn", "[ERROR]": "error", "[FATAL]": "error"}
@@ -86,7 +86,7 @@ def broke(state: NodeState) -> bool:
 
 
 def _line(line: OutputLine) -> Row:
-    text = plain(line.text, tab=8)
+    text = strip_ansi(line.text, tab=8)
     kind = next((kind for mark, kind in _LEVELS.items() if mark in text[:40]), "")
     return ((text, kind),)
 

@@ -16,9 +16,9 @@ from textual.containers import Horizontal, Vertical
 from textual.content import Content
 from textual.widgets import Input, Static
 
-from tutor.printable import plain
 from tutor.session.node import Node, NodeState
 from tutor.session.shell import Shell
+from tutor.terminal_text import strip_ansi
 from tutor.tui import messages
 from tutor.tui.terminal.completion import complete
 from tutor.tui.terminal.history import History
@@ -246,7 +246,7 @@ class TerminalPane(Vertical):
             return  # typed on meanwhile
         prompt.value = found.line
         prompt.cursor_position = found.cursor
-        self._offer("  ".join(plain(offer) for offer in found.offers))
+        self._offer("  ".join(strip_ansi(offer) for offer in found.offers))
 
     @on(Input.Changed, "#terminal-prompt")
     def _typing(self, event: Input.Changed) -> None:
@@ -260,7 +260,7 @@ class TerminalPane(Vertical):
 
 
 def _label(name: str, state: NodeState) -> str:
-    command = plain(state.command).replace("\n", " ")
+    command = strip_ansi(state.command).replace("\n", " ")
     short = command if len(command) <= LABEL else command[: LABEL - 1] + "…"
     mark = "●" if state.alive else ("!" if broke(state) else "■")
     return f"{mark} {name} {short}"

@@ -11,7 +11,7 @@ from contextlib import contextmanager
 
 import pytest
 
-from tutor.process.next_wake import NextWake, next_wake
+from tutor.process.wake_time import NextWake, next_wake
 
 LIMIT_S = 30.0
 

@@ -11,13 +11,13 @@ from pathlib import Path
 
 import pytest
 
-from tutor import private
+from tutor import private_folders
 
 KEEPS_TWO = """
 import sys, tempfile, time
-from tutor import private
+from tutor import private_folders
 tempfile.tempdir = sys.argv[1]
-one, two = private.made("run")[0], private.lasting("ros2")
+one, two = private_folders.create("run")[0], private_folders.until_exit("ros2")
 (one / "x").touch()
 print(one, two, sep="\\n", flush=True)
 time.sleep(600)
@@ -31,19 +31,19 @@ def temporary(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def test_the_users_folder_is_made_once_and_closed_to_others(temporary: Path) -> None:
-    assert private.home() == private.home() == temporary / f"ros-tutor-{os.getuid()}"
-    assert private.home().stat().st_mode & 0o777 == 0o700
-    private.home().chmod(0o777)
-    assert private.home().stat().st_mode & 0o777 == 0o700
-    assert private.logs({}) == private.home() / "log"
-    assert private.logs({"ROS_LOG_DIR": "/x"}) == Path("/x")
+    assert private_folders.base() == private_folders.base() == temporary / f"ros-tutor-{os.getuid()}"
+    assert private_folders.base().stat().st_mode & 0o777 == 0o700
+    private_folders.base().chmod(0o777)
+    assert private_folders.base().stat().st_mode & 0o777 == 0o700
+    assert private_folders.logs({}) == private_folders.base() / "log"
+    assert private_folders.logs({"ROS_LOG_DIR": "/x"}) == Path("/x")
 
 
 def prove_it_goes_elsewhere(temporary: Path) -> None:
-    found = private.home()
-    assert found == private.home() != temporary / f"ros-tutor-{os.getuid()}"
+    found = private_folders.base()
+    assert found == private_folders.base() != temporary / f"ros-tutor-{os.getuid()}"
     assert found.stat().st_mode & 0o777 == 0o700
-    with private.folder("run") as made:
+    with private_folders.temporary("run") as made:
         assert made.parent == found
 
 
@@ -68,12 +68,12 @@ def test_what_a_killed_process_has_left_goes_at_the_next_start_and_a_living_ones
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as other:
         assert other.stdout is not None
         left = [Path(other.stdout.readline().strip()) for _ in range(2)]
-        with private.folder("check") as own:
+        with private_folders.temporary("check") as own:
             assert all(path.is_dir() for path in (*left, own))
         assert not own.exists()
         other.send_signal(signal.SIGKILL)
     assert all(path.is_dir() for path in left)
-    with private.folder("check"):
+    with private_folders.temporary("check"):
         assert not any(path.exists() for path in left)
 
 
@@ -85,4 +85,4 @@ def test_where_nothing_can_be_written_the_message_says_what_to_do(
 
     monkeypatch.setattr(tempfile, "gettempdir", nowhere)
     with pytest.raises(OSError, match="set TMPDIR"):
-        private.home()
+        private_folders.base()

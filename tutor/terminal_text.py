@@ -14,7 +14,7 @@ _SURROGATE = re.compile("[\ud800-\udfff]")
 _REPLACEMENT = "\N{REPLACEMENT CHARACTER}"
 
 
-def harmless(text: str, *, colors: bool = False) -> str:
+def escape_controls(text: str, *, colors: bool = False) -> str:
     """Show control characters, and those that turn the direction of text, as escapes; with `colors`, all but colours.
 
     Line ends and tabs stay.
@@ -24,23 +24,23 @@ def harmless(text: str, *, colors: bool = False) -> str:
 
 
 def printable(text: str) -> str:
-    """`harmless` text with spaces for tabs; what is not valid Unicode becomes a replacement character."""
-    return harmless(_SURROGATE.sub(_REPLACEMENT, text.replace("\r\n", "\n").expandtabs(4)))
+    """As `escape_controls`, with spaces for tabs; what is not valid Unicode becomes a replacement character."""
+    return escape_controls(_SURROGATE.sub(_REPLACEMENT, text.replace("\r\n", "\n").expandtabs(4)))
 
 
-def plain(text: str, tab: int = 4) -> str:
+def strip_ansi(text: str, tab: int = 4) -> str:
     """One line of a program's output without its colours, titles and moves of the cursor; tabs as spaces."""
     if text.isprintable():
         return text
-    return _drawn(_SEQUENCE.sub("", text).rstrip("\r"), _REPLACEMENT).expandtabs(tab)
+    return _replace_controls(_SEQUENCE.sub("", text).rstrip("\r"), _REPLACEMENT).expandtabs(tab)
 
 
-def drawn(text: str) -> str:
+def strip_controls(text: str) -> str:
     """Text that takes as many cells of a screen as the one given, with nothing in it that a terminal obeys."""
-    return text if text.isprintable() else _drawn(text.replace("\t", "").replace("\n", ""), "")
+    return text if text.isprintable() else _replace_controls(text.replace("\t", "").replace("\n", ""), "")
 
 
-def guard(stream: TextIO) -> TextIO:
+def guard_terminal(stream: TextIO) -> TextIO:
     """The stream; where it is a terminal, one in front of it to which nothing but text and colours comes through."""
     return _ToTerminal(stream) if isinstance(stream, io.TextIOWrapper) and stream.isatty() else stream
 
@@ -50,9 +50,9 @@ class _ToTerminal(io.TextIOWrapper):
         super().__init__(stream.buffer, stream.encoding, stream.errors, line_buffering=True)
 
     def write(self, text: str) -> int:
-        super().write(harmless(text, colors=True))
+        super().write(escape_controls(text, colors=True))
         return len(text)
 
 
-def _drawn(text: str, instead: str) -> str:
+def _replace_controls(text: str, instead: str) -> str:
     return _SURROGATE.sub(_REPLACEMENT, _CONTROL.sub(instead, text))

@@ -18,7 +18,7 @@ from pathlib import Path
 _FOLDER = os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW | os.O_CLOEXEC
 
 
-def home() -> Path:
+def base() -> Path:
     """The user's own folder, made where it is missing: another one where somebody has taken its name.
 
     Raises OSError where no temporary file can be written.
@@ -38,18 +38,18 @@ def home() -> Path:
 
 
 def logs(environ: Mapping[str, str] = os.environ) -> Path:
-    """Where nodes that the user runs keep their log files: where they say, else in `home`. Raises OSError."""
-    return Path(environ.get("ROS_LOG_DIR") or home() / "log")
+    """Where nodes that the user runs keep their log files: where they say, else in `base`. Raises OSError."""
+    return Path(environ.get("ROS_LOG_DIR") or base() / "log")
 
 
 def is_ours(path: Path) -> bool:
-    """Whether a path is in `home`: not a place of the user's own. Raises OSError."""
-    return path.is_relative_to(home())
+    """Whether a path is in `base`: not a place of the user's own. Raises OSError."""
+    return path.is_relative_to(base())
 
 
-def made(name: str) -> tuple[Path, int]:
-    """A new folder in `home`, and its descriptor, to be kept open for as long as the folder is used. Raises OSError."""
-    around = os.open(home(), _FOLDER)
+def create(name: str) -> tuple[Path, int]:
+    """A new folder in `base`, and its descriptor, to be kept open for as long as the folder is used. Raises OSError."""
+    around = os.open(base(), _FOLDER)
     try:
         fcntl.flock(around, fcntl.LOCK_EX)  # a folder that has just been made is not locked yet
         place = Path(os.readlink(f"/proc/self/fd/{around}"))
@@ -63,9 +63,9 @@ def made(name: str) -> tuple[Path, int]:
 
 
 @contextmanager
-def folder(name: str) -> Iterator[Path]:
+def temporary(name: str) -> Iterator[Path]:
     """A new folder, gone after the block. Raises OSError."""
-    path, handle = made(name)
+    path, handle = create(name)
     try:
         yield path
     finally:
@@ -73,9 +73,9 @@ def folder(name: str) -> Iterator[Path]:
         os.close(handle)
 
 
-def lasting(name: str) -> Path:
+def until_exit(name: str) -> Path:
     """A new folder that lasts as long as this process. Raises OSError."""
-    path, _ = made(name)
+    path, _ = create(name)
     atexit.register(_remove, path)
     return path
 
