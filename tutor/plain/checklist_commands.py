@@ -6,7 +6,7 @@ from pathlib import Path
 
 from tutor.errors import CommandRefused
 from tutor.plain.conversation import Conversation, DialogCommand
-from tutor.report.assessment import Assessment, ItemStanding, assess
+from tutor.report.assessment import AssessedItem, Assessment, assess
 from tutor.report.checklist import FORMATS, SUFFIXES
 from tutor.report.phrases import describe_evidence, near_day
 from tutor.session.paths import short_path
@@ -37,17 +37,17 @@ class ChecklistCommands:
 
     async def read(self, words: list[str]) -> None:
         """A line for each item, numbered through the groups."""
-        standing = self._now()
+        assessment = self._now()
         number = 0
-        for group in standing.groups:
+        for group in assessment.groups:
             self._conversation.say(f"{group.title}, {group.ticked} of {len(group.items)} ticked:")
             for item in group.items:
                 number += 1
                 self._conversation.say(f"{number}: {_about(item)}")
-        if standing.ready:
-            self._conversation.say(f"{standing.ready_title} {' '.join(standing.ready_text.split())}")
+        if assessment.ready:
+            self._conversation.say(f"{assessment.ready_title} {' '.join(assessment.ready_text.split())}")
         self._conversation.say(
-            f"{standing.ticked} of {number} ticked. tick 1 ticks the first, untick 1 takes that away."
+            f"{assessment.ticked} of {number} ticked. tick 1 ticks the first, untick 1 takes that away."
         )
 
     async def tick(self, words: list[str]) -> None:
@@ -68,10 +68,10 @@ class ChecklistCommands:
         for item in chosen:
             self._conversation.session.tick(item.id, ticked)
             self._conversation.say(f"{'Ticked' if ticked else 'No longer ticked'}: {item.text}.")
-        standing = self._now()
-        self._conversation.say(f"{standing.ticked} of {len(items)} ticked.")
-        if standing.ready:
-            self._conversation.say(standing.ready_title)
+        assessment = self._now()
+        self._conversation.say(f"{assessment.ticked} of {len(items)} ticked.")
+        if assessment.ready:
+            self._conversation.say(assessment.ready_title)
 
     async def export(self, words: list[str]) -> None:
         """Write it; a file that is there is replaced only where the learner says so."""
@@ -91,12 +91,12 @@ class ChecklistCommands:
         self._conversation.say(f"Written: {short_path(path)}")
 
 
-def _about(item: ItemStanding) -> str:
+def _about(item: AssessedItem) -> str:
     shown = "; ".join(describe_evidence(item.evidence, near_day, most=_MOST_EVIDENCE))
     return f"{'ticked' if item.ticked else 'not ticked'}: {item.text}.{f' Evidence: {shown}.' if shown else ''}"
 
 
-def _find(word: str, items: tuple[ItemStanding, ...]) -> ItemStanding:
+def _find(word: str, items: tuple[AssessedItem, ...]) -> AssessedItem:
     """An item by its number or its id. Raises Refused."""
     if word.isdecimal() and 1 <= int(word) <= len(items):
         return items[int(word) - 1]

@@ -1,4 +1,4 @@
-"""Where a learner stands: the checklist with its ticks and what the checks have shown, and each exercise's progress."""
+"""How far a learner is: the checklist with its ticks and what the checks have shown, and each exercise's progress."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class Source:
 
 
 @dataclass(frozen=True, slots=True)
-class ItemStanding:
+class AssessedItem:
     """One item: when it was ticked (None where it is not), what shows it, the latest first, and what could."""
 
     id: str
@@ -46,12 +46,12 @@ class ItemStanding:
 
 
 @dataclass(frozen=True, slots=True)
-class GroupStanding:
+class AssessedGroup:
     """The items of one subject."""
 
     id: str
     title: str
-    items: tuple[ItemStanding, ...]
+    items: tuple[AssessedItem, ...]
 
     @property
     def ticked(self) -> int:
@@ -60,7 +60,7 @@ class GroupStanding:
 
 
 @dataclass(frozen=True, slots=True)
-class ExerciseStanding:
+class AssessedExercise:
     """One exercise. `met` and `bonus_met` count the criteria that are met (see `tutor.workspace.exercise_states`).
 
     `passed_at` and `last_at` are UTC times in ISO 8601, None where there is none (or it is no longer known).
@@ -80,8 +80,8 @@ class ExerciseStanding:
     last_at: str | None
 
     @property
-    def standing(self) -> str:
-        """How it stands, in words."""
+    def status(self) -> str:
+        """How far the learner is with it, in words."""
         if self.passed:
             return "passed"
         if self.attempts:
@@ -93,13 +93,13 @@ class ExerciseStanding:
 class Assessment:
     """All of it. `ready_title` and `ready_text` are for anyone who has ticked every item."""
 
-    groups: tuple[GroupStanding, ...]
-    exercises: tuple[ExerciseStanding, ...]
+    groups: tuple[AssessedGroup, ...]
+    exercises: tuple[AssessedExercise, ...]
     ready_title: str = ""
     ready_text: str = ""
 
     @property
-    def items(self) -> tuple[ItemStanding, ...]:
+    def items(self) -> tuple[AssessedItem, ...]:
         """Every item, in the order of the groups."""
         return tuple(item for group in self.groups for item in group.items)
 
@@ -124,7 +124,7 @@ def assess(course: Course, progress: Progress) -> Assessment:
     checklist = course.checklist
     return Assessment(
         groups=tuple(
-            GroupStanding(group.id, group.title, tuple(_item(item, course, progress) for item in group.items))
+            AssessedGroup(group.id, group.title, tuple(_item(item, course, progress) for item in group.items))
             for group in checklist.groups
         ),
         exercises=tuple(_exercise(lesson, progress.of(lesson.id)) for lesson in course.lessons),
@@ -133,7 +133,7 @@ def assess(course: Course, progress: Progress) -> Assessment:
     )
 
 
-def _item(item: ChecklistItem, course: Course, progress: Progress) -> ItemStanding:
+def _item(item: ChecklistItem, course: Course, progress: Progress) -> AssessedItem:
     found: list[Evidence] = []
     sources: list[Source] = []
     for lesson in course.lessons:
@@ -143,7 +143,7 @@ def _item(item: ChecklistItem, course: Course, progress: Progress) -> ItemStandi
         sources.append(Source(lesson.id, tuple(criterion.id for criterion in criteria)))
         found += _found(lesson, criteria, progress.of(lesson.id))
     found.sort(key=lambda each: each.at, reverse=True)  # stable: those of one moment stay in the lesson's order
-    return ItemStanding(item.id, item.text, progress.ticks.get(item.id), tuple(found), tuple(sources))
+    return AssessedItem(item.id, item.text, progress.ticks.get(item.id), tuple(found), tuple(sources))
 
 
 def _found(lesson: Lesson, criteria: list[CriterionText], progress: ExerciseProgress) -> Iterator[Evidence]:
@@ -160,10 +160,10 @@ def _found(lesson: Lesson, criteria: list[CriterionText], progress: ExerciseProg
             yield Evidence(lesson.id, criterion.id, "")  # so long ago that the attempt is not kept any more
 
 
-def _exercise(lesson: Lesson, progress: ExerciseProgress) -> ExerciseStanding:
+def _exercise(lesson: Lesson, progress: ExerciseProgress) -> AssessedExercise:
     found = exercise_state(lesson, progress)
     passes = [attempt for attempt in progress.attempts if attempt.is_pass]
-    return ExerciseStanding(
+    return AssessedExercise(
         id=lesson.id,
         title=lesson.title,
         difficulty=lesson.difficulty.value,

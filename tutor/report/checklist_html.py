@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from html import escape as escape_html
 
-from tutor.report.assessment import Assessment, ExerciseStanding, GroupStanding, ItemStanding
+from tutor.report.assessment import AssessedExercise, AssessedGroup, AssessedItem, Assessment
 from tutor.report.checklist import TITLE
 from tutor.report.phrases import calendar_day, describe_evidence
 from tutor.terminal_text import printable
@@ -85,7 +85,7 @@ def _lines(assessment: Assessment, at: str) -> Iterator[str]:
     yield "</html>"
 
 
-def _group(group: GroupStanding, number: int) -> Iterator[str]:
+def _group(group: AssessedGroup, number: int) -> Iterator[str]:
     yield f'<section aria-labelledby="group-{number}">'
     count = f"<small>{group.ticked} of {len(group.items)}</small>"
     yield f'<h2 id="group-{number}">{_text(group.title)} {count}</h2>'
@@ -95,7 +95,7 @@ def _group(group: GroupStanding, number: int) -> Iterator[str]:
     yield "</section>"
 
 
-def _item(item: ItemStanding) -> str:
+def _item(item: AssessedItem) -> str:
     box = f'<input type="checkbox" disabled{" checked" if item.ticked else ""}>'
     said = "; ".join(describe_evidence(item.evidence, calendar_day))
     shown = f' <span class="evidence">{_text(said)}</span>' if said else ""
@@ -109,7 +109,7 @@ def _exercises(assessment: Assessment) -> Iterator[str]:
     yield '<div class="scroll">'
     yield "<table>"
     yield "<thead><tr>"
-    yield '<th scope="col">Exercise</th><th scope="col">Difficulty</th><th scope="col">Standing</th>'
+    yield '<th scope="col">Exercise</th><th scope="col">Difficulty</th><th scope="col">Status</th>'
     yield '<th scope="col" class="number">Criteria</th><th scope="col" class="number">Bonus</th>'
     yield '<th scope="col" class="number">Attempts</th>'
     yield "</tr></thead>"
@@ -121,14 +121,14 @@ def _exercises(assessment: Assessment) -> Iterator[str]:
     yield "</section>"
 
 
-def _row(exercise: ExerciseStanding) -> str:
+def _row(exercise: AssessedExercise) -> str:
     mark = '<span aria-hidden="true">✓</span> ' if exercise.passed else ""
     when = f", {_time(exercise.passed_at)}" if exercise.passed_at else ""
     kind = ' class="passed"' if exercise.passed else ""
     bonus = f"{exercise.bonus_met} of {exercise.bonus}" if exercise.bonus else "none"
     return (
         f'<tr><th scope="row">{_text(exercise.id)} {_text(exercise.title)}</th><td>{_text(exercise.difficulty)}</td>'
-        f"<td{kind}>{mark}{exercise.standing}{when}</td>"
+        f"<td{kind}>{mark}{exercise.status}{when}</td>"
         f'<td class="number">{exercise.met} of {exercise.required}</td><td class="number">{bonus}</td>'
         f'<td class="number">{exercise.attempts}</td></tr>'
     )

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from typing import Any
 
-from tutor.report.assessment import Assessment, ExerciseStanding, GroupStanding, ItemStanding
+from tutor.report.assessment import AssessedExercise, AssessedGroup, AssessedItem, Assessment
 
 SCHEMA = "ros-tutor/checklist/1"
 
@@ -24,7 +24,7 @@ def render(assessment: Assessment, *, at: str) -> str:
     return json.dumps(document, ensure_ascii=False, indent=2, allow_nan=False) + "\n"
 
 
-def _group(group: GroupStanding) -> dict[str, Any]:
+def _group(group: AssessedGroup) -> dict[str, Any]:
     return {
         "id": group.id,
         "title": group.title,
@@ -34,7 +34,7 @@ def _group(group: GroupStanding) -> dict[str, Any]:
     }
 
 
-def _item(item: ItemStanding) -> dict[str, Any]:
+def _item(item: AssessedItem) -> dict[str, Any]:
     return {
         "id": item.id,
         "text": item.text,
@@ -47,12 +47,12 @@ def _item(item: ItemStanding) -> dict[str, Any]:
     }
 
 
-def _exercise(exercise: ExerciseStanding) -> dict[str, Any]:
+def _exercise(exercise: AssessedExercise) -> dict[str, Any]:
     return {
         "id": exercise.id,
         "title": exercise.title,
         "difficulty": exercise.difficulty,
-        "standing": exercise.standing,
+        "standing": exercise.status,
         "passed": exercise.passed,
         "passed_at": exercise.passed_at,
         "criteria": {"passed": exercise.met, "total": exercise.required},

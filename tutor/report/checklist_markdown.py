@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from tutor.report.assessment import Assessment, ExerciseStanding, ItemStanding
+from tutor.report.assessment import AssessedExercise, AssessedItem, Assessment
 from tutor.report.checklist import TITLE
 from tutor.report.markdown import escape
 from tutor.report.phrases import calendar_day, describe_evidence
@@ -34,22 +34,22 @@ def _lines(assessment: Assessment, at: str) -> Iterator[str]:
         yield ""
         yield "## Exercises"
         yield ""
-        yield "| exercise | difficulty | standing | criteria | bonus | attempts |"
+        yield "| exercise | difficulty | status | criteria | bonus | attempts |"
         yield "|---|---|---|--:|--:|--:|"
         yield from (_row(exercise) for exercise in assessment.exercises)
 
 
-def _task(item: ItemStanding) -> str:
+def _task(item: AssessedItem) -> str:
     shown = escape("; ".join(describe_evidence(item.evidence, calendar_day)))
     return f"- [{'x' if item.ticked else ' '}] {escape(item.text)}{f' ({shown})' if shown else ''}"
 
 
-def _row(exercise: ExerciseStanding) -> str:
+def _row(exercise: AssessedExercise) -> str:
     when = f", {calendar_day(exercise.passed_at)}" if exercise.passed_at else ""
     cells = (
         escape(f"{exercise.id} {exercise.title}"),
         escape(exercise.difficulty),
-        escape(f"{exercise.standing}{when}"),
+        escape(f"{exercise.status}{when}"),
         f"{exercise.met} of {exercise.required}",
         f"{exercise.bonus_met} of {exercise.bonus}" if exercise.bonus else "",
         str(exercise.attempts),

@@ -101,7 +101,7 @@ class LivePane(Vertical):
     def compose(self) -> ComposeResult:
         with Horizontal(id="live-head"):
             yield TabStrip(TABS, id="live-tabs")
-            yield Static(id="live-standing")
+            yield Static(id="live-status")
         yield Static(id="live-empty")
         yield Static(id="live-note", markup=False)
         yield Static(id="live-miss", markup=False)
@@ -114,7 +114,7 @@ class LivePane(Vertical):
 
     def on_mount(self) -> None:
         self._composed = True
-        self._show_standing()
+        self._show_status()
         self._choose()
         if self._wanted_tab:
             self.open_tab(self._wanted_tab)
@@ -131,7 +131,7 @@ class LivePane(Vertical):
             watch: Callable[[], Any] = partial(self._watch, command)
             self._worker = self.run_worker(watch, group="live", exit_on_error=False)
             if self._composed:
-                self._show_standing()
+                self._show_status()
 
     def stop_watching(self) -> None:
         """End the child process."""
@@ -186,7 +186,7 @@ class LivePane(Vertical):
         message.stop()
         self._send(message.command)
         if isinstance(message.command, Follow | Unfollow):
-            self._show_standing()
+            self._show_status()
 
     def _send(self, command: WatcherRequest) -> None:
         if self._child is not None:
@@ -209,7 +209,7 @@ class LivePane(Vertical):
                 await self._choose_service()
             case NodeParameters():
                 self.query_one(ParametersPanel).show_list()
-                self._show_standing()
+                self._show_status()
             case SetOutcome():
                 self.query_one(ParametersPanel).show_history()
             case CallOutcome():
@@ -223,7 +223,7 @@ class LivePane(Vertical):
             case ChildTrouble(text):
                 self.post_message(messages.ErrorOccurred(text))
             case _:
-                self._show_standing()
+                self._show_status()
 
     def _show_all(self) -> None:
         self.query_one(TopicsPanel).show_list()
@@ -232,9 +232,9 @@ class LivePane(Vertical):
         self.query_one(ServicesPanel).show_history()
         self.query_one(GraphPanel).show_list()
         self._show_publishing()
-        self._show_standing()
+        self._show_status()
 
-    def _show_standing(self) -> None:
+    def _show_status(self) -> None:
         """The tabs' counts, what is watched, and what to do where there is nothing to see."""
         state = self.state
         graph = state.graph or Graph()
@@ -253,7 +253,7 @@ class LivePane(Vertical):
         word = f"● {nodes} node{'' if nodes == 1 else 's'} · {domain}" if state.ready else "◐ starting"
         if self._worker is None:
             word = "! not watching" if self._broken else "not watching"
-        self.query_one("#live-standing", Static).update(word)
+        self.query_one("#live-status", Static).update(word)
         came = any(view.update is not None and view.update.count for view in state.topics.values())
         text = self._nothing(short=came)
         was_empty = self.has_class("-empty")
@@ -326,7 +326,7 @@ class LivePane(Vertical):
             self.query_one(TopicsPanel).chosen_by_learner = False
             self.query_one(ServicesPanel).chosen_by_learner = False
             self._choose()
-            self._show_standing()
+            self._show_status()
 
     def nodes_run(self, whether: bool) -> None:
         """Whether a node of the learner's runs."""

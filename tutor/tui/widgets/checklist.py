@@ -11,7 +11,7 @@ from textual.geometry import Size
 from textual.message import Message
 from textual.widget import Widget
 
-from tutor.report.assessment import GroupStanding, ItemStanding
+from tutor.report.assessment import AssessedGroup, AssessedItem
 from tutor.report.phrases import describe_evidence, describe_sources, near_day
 
 MOST = 2
@@ -26,7 +26,7 @@ def bar(ticked: int, total: int, width: int = _BAR) -> Content:
     return Content.assemble(("━" * full, "$good"), ("━" * (width - full), "$line"))
 
 
-def about(item: ItemStanding) -> str:
+def about(item: AssessedItem) -> str:
     """What the checks have shown of an item; else what would show it."""
     if said := describe_evidence(item.evidence, near_day, most=MOST):
         return f"✓ {' · '.join(said)}"
@@ -65,12 +65,12 @@ class ItemRow(Widget, can_focus=True):
             super().__init__()
             self.item, self.ticked = item, ticked
 
-    def __init__(self, item: ItemStanding) -> None:
+    def __init__(self, item: AssessedItem) -> None:
         super().__init__(id=f"item-{item.id}")
         self.item = item
         self.ticked = item.ticked
 
-    def show(self, item: ItemStanding) -> None:
+    def show(self, item: AssessedItem) -> None:
         """Show how it stands now."""
         if item != self.item or item.ticked != self.ticked:
             grown = about(item) != about(self.item)
@@ -131,7 +131,7 @@ class GroupCard(Vertical):
     }
     """
 
-    def __init__(self, group: GroupStanding) -> None:
+    def __init__(self, group: AssessedGroup) -> None:
         super().__init__(*(ItemRow(item) for item in group.items), id=f"group-{group.id}")
         self.group = group
         self.border_title = Content(group.title)
@@ -144,7 +144,7 @@ class GroupCard(Vertical):
     def on_mount(self) -> None:
         self.count()
 
-    def show(self, group: GroupStanding) -> None:
+    def show(self, group: AssessedGroup) -> None:
         """Show how the items stand now."""
         for row, item in zip(self.rows, group.items, strict=True):
             row.show(item)
