@@ -17,7 +17,7 @@ from tutor.live.protocol import (
     encode_request,
     encode_update,
 )
-from tutor.live.updates import CallOutcome, NodeParameters, Published, RequestForm, SetOutcome, Timing, TopicUpdate
+from tutor.live.updates import CallOutcome, NodeParameters, PublishStatus, RequestForm, SetOutcome, Timing, TopicUpdate
 from tutor.ros_model import Field, Graph, Parameter, QoS, ServiceEndpoint, TopicEndpoint
 
 END = TopicEndpoint("/t", "std_msgs/msg/String", "/n", QoS("best_effort", deadline_s=0.5))
@@ -35,7 +35,7 @@ END = TopicEndpoint("/t", "std_msgs/msg/String", "/n", QoS("best_effort", deadli
         SetOutcome(1, "/n", "p", [1.0], True, False, "no", 1.0, 0.1),
         RequestForm("a/srv/B", (Field("x.y", "int64", "0"),)),
         CallOutcome(1, "/s", {"x.y": 3}, None, "cancelled", 1.0, 2.0),
-        Published("/t", "a/msg/B", 2.0, 3, 1, 1.0, True, "no"),
+        PublishStatus("/t", "a/msg/B", 2.0, 3, 1, 1.0, True, "no"),
     ],
 )
 def test_updates_arrive_as_they_were_sent(update: Update) -> None:

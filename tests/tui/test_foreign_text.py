@@ -13,7 +13,7 @@ from tests.tui import made
 from tutor.content import LessonFile
 from tutor.judge.verdict import Cause, failed
 from tutor.live.protocol import Ready, Update, WatcherError
-from tutor.live.updates import CallOutcome, NodeParameters, Published, RequestForm, SetOutcome, TopicUpdate
+from tutor.live.updates import CallOutcome, NodeParameters, PublishStatus, RequestForm, SetOutcome, TopicUpdate
 from tutor.ros_model import Field, Graph, Parameter, QoS, ServiceEndpoint, TopicEndpoint
 from tutor.tui import messages
 from tutor.tui.dialogs.confirm import ConfirmScreen
@@ -62,8 +62,8 @@ def everything(name: str) -> tuple[Update, ...]:
         CallOutcome(2, f"/s/{name}", {name: name}, None, name, 1.0, 0.1),
         RequestForm(name, (Field(name, name, name),)),
         RequestForm(name, problem=name),
-        Published(topic, name, 1.0, 3, 0, 1.0),
-        Published(f"{topic}2", name, 1.0, 3, 0, 1.0, problem=name),
+        PublishStatus(topic, name, 1.0, 3, 0, 1.0),
+        PublishStatus(f"{topic}2", name, 1.0, 3, 0, 1.0, problem=name),
         WatcherError(name),
     )
 

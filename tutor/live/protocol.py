@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any, get_args
 
 from tutor.json_codec import LineCodec
-from tutor.live.updates import CallOutcome, NodeParameters, Published, RequestForm, SetOutcome, TopicUpdate
+from tutor.live.updates import CallOutcome, NodeParameters, PublishStatus, RequestForm, SetOutcome, TopicUpdate
 from tutor.ros_model import Graph
 
 # --- requests: from the app ---
@@ -94,7 +94,7 @@ class Cancel:
 class Publish:
     """Publish a message once (`rate_hz` 0) or `rate_hz` times a second, replacing what is published on the topic now.
 
-    `values` maps field paths to values. Answered by Published, repeatedly while it goes on.
+    `values` maps field paths to values. Answered by PublishStatus, repeatedly while it goes on.
     """
 
     topic: str
@@ -105,7 +105,7 @@ class Publish:
 
 @dataclass(frozen=True, slots=True)
 class StopPublishing:
-    """Stop publishing on a topic. Answered by a Published."""
+    """Stop publishing on a topic. Answered by a PublishStatus."""
 
     topic: str
 
@@ -143,7 +143,7 @@ class WatcherError:
 
 
 Update = (
-    Ready | WatcherError | Graph | TopicUpdate | NodeParameters | SetOutcome | RequestForm | CallOutcome | Published
+    Ready | WatcherError | Graph | TopicUpdate | NodeParameters | SetOutcome | RequestForm | CallOutcome | PublishStatus
 )
 
 _REQUESTS: LineCodec[WatcherRequest] = LineCodec("kind", get_args(WatcherRequest))

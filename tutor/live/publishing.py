@@ -8,7 +8,7 @@ from collections.abc import Callable
 
 from tutor.errors import UnknownType
 from tutor.live.protocol import Publish
-from tutor.live.updates import Published
+from tutor.live.updates import PublishStatus
 from tutor.ros.manual_publisher import ManualPublisher
 
 CONNECT_S = 2.0
@@ -30,7 +30,10 @@ class Publishing:
     """
 
     def __init__(
-        self, manual_publisher: ManualPublisher, expect: Callable[[str, str], bool], send: Callable[[Published], object]
+        self,
+        manual_publisher: ManualPublisher,
+        expect: Callable[[str, str], bool],
+        send: Callable[[PublishStatus], object],
     ) -> None:
         self._manual_publisher = manual_publisher
         self._expect = expect
@@ -53,7 +56,7 @@ class Publishing:
 
         def report(over: bool) -> None:
             listeners = self._manual_publisher.listeners(request.topic)
-            update = Published(
+            update = PublishStatus(
                 request.topic, request.type, request.rate_hz, sent, listeners, time.time(), over, problem
             )
             self._send(update)

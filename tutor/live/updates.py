@@ -96,7 +96,7 @@ class CallOutcome:
 
 
 @dataclass(frozen=True, slots=True)
-class Published:
+class PublishStatus:
     """The state of publishing on a topic. `rate_hz` is 0 for once. `over`: nothing more is sent; `problem` says why.
 
     `listeners` is the number of the learner's subscriptions.

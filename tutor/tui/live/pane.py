@@ -23,7 +23,7 @@ from tutor.content import Lesson
 from tutor.content.near_miss import near_misses
 from tutor.live.protocol import Follow, Plot, Publish, SetVisible, StopPublishing, Unfollow, Update, WatcherRequest
 from tutor.live.protocol import WatcherError as ChildTrouble
-from tutor.live.updates import CallOutcome, NodeParameters, Published, RequestForm, SetOutcome, TopicUpdate
+from tutor.live.updates import CallOutcome, NodeParameters, PublishStatus, RequestForm, SetOutcome, TopicUpdate
 from tutor.ros_model import Graph
 from tutor.tui import messages
 from tutor.tui.live import wording
@@ -34,7 +34,7 @@ from tutor.tui.live.parameters_panel import ParametersPanel
 from tutor.tui.live.publish_dialog import PublishScreen
 from tutor.tui.live.services_panel import ServicesPanel
 from tutor.tui.live.state import LiveState
-from tutor.tui.live.topics_panel import Order, TopicsPanel
+from tutor.tui.live.topics_panel import TopicsPanel, WatcherRequested
 from tutor.tui.widgets.strip import TabStrip
 
 MOST_MISSES = 3
@@ -181,8 +181,8 @@ class LivePane(Vertical):
             if child is not None:
                 await child.stop()
 
-    @on(Order)
-    def _order(self, message: Order) -> None:
+    @on(WatcherRequested)
+    def _send_requested(self, message: WatcherRequested) -> None:
         message.stop()
         self._send(message.command)
         if isinstance(message.command, Follow | Unfollow):
@@ -218,7 +218,7 @@ class LivePane(Vertical):
                 await self.query_one(ServicesPanel).show_form()
                 if isinstance(self.app.screen, PublishScreen):
                     await self.app.screen.show_form(update)
-            case Published():
+            case PublishStatus():
                 self._show_publishing()
             case ChildTrouble(text):
                 self.post_message(messages.ErrorOccurred(text))
@@ -294,11 +294,11 @@ class LivePane(Vertical):
             self._send(StopPublishing(topic if topic in going else going[0]))
             return
 
-        def answered(order: Publish | None) -> None:
-            if order is not None:
+        def answered(request: Publish | None) -> None:
+            if request is not None:
                 panel = self.query_one(TopicsPanel)
-                panel.follow(order.topic)
-                panel.post_message(Order(order))  # after the order to follow
+                panel.follow(request.topic)
+                panel.post_message(WatcherRequested(request))  # after the request to follow
 
         self.app.push_screen(PublishScreen(topic, self._type_of, self._send), answered)
 

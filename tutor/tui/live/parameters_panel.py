@@ -19,7 +19,7 @@ from tutor.tui.live import wording
 from tutor.tui.live.history import HistoryView, set_rows
 from tutor.tui.live.row_table import RowTable
 from tutor.tui.live.state import LiveState
-from tutor.tui.live.topics_panel import Order
+from tutor.tui.live.topics_panel import WatcherRequested
 from tutor.tui.widgets.strip import ActionBar
 
 _COLUMNS = ("Node", "Parameter", "Value", "Type", "Allowed")
@@ -118,7 +118,7 @@ class ParametersPanel(Vertical):
     # --- what is done ---
 
     def action_refresh(self) -> None:
-        self.post_message(Order(Refresh()))
+        self.post_message(WatcherRequested(Refresh()))
 
     def action_all(self) -> None:
         """Show what every node has, too, or hide it."""
@@ -154,8 +154,8 @@ class ParametersPanel(Vertical):
             self.query_one("#parameter-problem", Static).update(f"✗ {error}")
             self.add_class("-problem")
             return
-        order = SetParameter(next(_numbers), self.editing.node, self.editing.name, kind, value)
-        self.post_message(Order(order))
+        request = SetParameter(next(_numbers), self.editing.node, self.editing.name, kind, value)
+        self.post_message(WatcherRequested(request))
         self.action_leave()
 
     @on(Input.Changed, "#parameter-value")

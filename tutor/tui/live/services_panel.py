@@ -21,7 +21,7 @@ from tutor.tui.live.history import HistoryView, call_rows, waiting_row
 from tutor.tui.live.request_form import ServiceForm
 from tutor.tui.live.row_table import RowTable
 from tutor.tui.live.state import LiveState
-from tutor.tui.live.topics_panel import Order
+from tutor.tui.live.topics_panel import WatcherRequested
 from tutor.tui.widgets.strip import Action, ActionBar
 
 LIMIT_S = 30.0
@@ -157,7 +157,7 @@ class ServicesPanel(Vertical):
         if service.types[0] in self.state.forms:
             await self.show_form()
         else:
-            self.post_message(Order(Describe(service.types[0])))
+            self.post_message(WatcherRequested(Describe(service.types[0])))
 
     @on(ServiceForm.Sent)
     def action_call(self) -> None:
@@ -169,14 +169,14 @@ class ServicesPanel(Vertical):
             return
         id = next(_numbers)
         self.state.waiting[id] = (self.chosen.name, time.time())
-        self.post_message(Order(Call(id, self.chosen.name, self.chosen.types[0], request, LIMIT_S)))
+        self.post_message(WatcherRequested(Call(id, self.chosen.name, self.chosen.types[0], request, LIMIT_S)))
         self.show_history()
         self._show_actions()
 
     def action_leave(self) -> None:
         """Cancel what is under way; else back to the list."""
         if self.state.waiting:
-            self.post_message(Order(Cancel(next(reversed(self.state.waiting)))))
+            self.post_message(WatcherRequested(Cancel(next(reversed(self.state.waiting)))))
         else:
             self.table.focus()
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 
 from tutor.content import LiveView
 from tutor.live.protocol import Ready, Update
-from tutor.live.updates import CallOutcome, NodeParameters, Published, RequestForm, SetOutcome, TopicUpdate
+from tutor.live.updates import CallOutcome, NodeParameters, PublishStatus, RequestForm, SetOutcome, TopicUpdate
 from tutor.ros_model import Connection, Graph, Parameter, Topic, connections
 
 KEEP_POINTS_S = 120.0
@@ -102,7 +102,7 @@ class LiveState:
     calls: deque[CallOutcome] = field(default_factory=lambda: deque(maxlen=_MOST_OUTCOMES))
     waiting: dict[int, tuple[str, float]] = field(default_factory=dict)
     forms: dict[str, RequestForm] = field(default_factory=dict)
-    published: dict[str, Published] = field(default_factory=dict)
+    published: dict[str, PublishStatus] = field(default_factory=dict)
     """What the learner publishes from here, by topic; of what was published once, the last."""
 
     def receive(self, update: Update) -> None:
@@ -125,10 +125,10 @@ class LiveState:
                 self.calls.appendleft(update)
             case RequestForm():
                 self.forms[update.type] = update
-            case Published():
+            case PublishStatus():
                 self._publishing(update)
 
-    def _publishing(self, update: Published) -> None:
+    def _publishing(self, update: PublishStatus) -> None:
         self.published = {topic: held for topic, held in self.published.items() if not held.over}
         if not update.over or update.problem or update.sent:
             self.published[update.topic] = update

@@ -30,8 +30,8 @@ _PUBLISH: Action = ("M", "Publish", "screen.do('publish')")
 _OTHER_FIELD = ("y", "Field", "next_field")
 
 
-class Order(Message):
-    """The watching process is to do this."""
+class WatcherRequested(Message):
+    """A panel has a request for the watching process."""
 
     def __init__(self, command: WatcherRequest) -> None:
         super().__init__()
@@ -250,7 +250,7 @@ class TopicsPanel(Vertical):
         """Follow a topic, now or when it appears, and show it."""
         if topic not in self.state.topics:
             self.state.topics[topic] = TopicView(topic, by_hand)
-            self.post_message(Order(Follow(topic)))
+            self.post_message(WatcherRequested(Follow(topic)))
         if not show:
             self.show_list()
             return
@@ -262,7 +262,7 @@ class TopicsPanel(Vertical):
     def forget(self, topic: str) -> None:
         """Follow a topic no longer."""
         if self.state.topics.pop(topic, None) is not None:
-            self.post_message(Order(Unfollow(topic)))
+            self.post_message(WatcherRequested(Unfollow(topic)))
             self.show_list()
 
     @on(DataTable.RowHighlighted, "#topics-table")
@@ -294,7 +294,7 @@ class TopicsPanel(Vertical):
     def action_clear(self) -> None:
         if self.view is not None:
             self.view.clear()
-            self.post_message(Order(Clear(self.chosen)))
+            self.post_message(WatcherRequested(Clear(self.chosen)))
             self._update_all()
             self.show_chosen()
 
@@ -304,7 +304,7 @@ class TopicsPanel(Vertical):
             return
         place = view.fields.index(view.path) if view.path in view.fields else -1
         view.plot(view.fields[(place + 1) % len(view.fields)])
-        self.post_message(Order(Plot(self.chosen, view.path)))
+        self.post_message(WatcherRequested(Plot(self.chosen, view.path)))
         self.show_chosen()
 
     def action_zoom(self, by: int) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tutor.live.updates import Published, TopicUpdate
+from tutor.live.updates import PublishStatus, TopicUpdate
 from tutor.ros_model import Parameter
 
 
@@ -64,7 +64,7 @@ def allowed(parameter: Parameter) -> str:
     return f"{parameter.minimum:g} to {parameter.maximum:g}"
 
 
-def publishing(held: Published) -> str:
+def publishing(held: PublishStatus) -> str:
     """What the learner publishes from here, and whether anybody listens."""
     if held.problem:
         return f"✗ not published on {held.topic}: {held.problem}"
