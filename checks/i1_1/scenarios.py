@@ -202,7 +202,7 @@ async def _probe_rate(bench: Bench, name: str, unit: str, value: float, whole: b
     async with bench.start(FILE, parameters=given, watch={TOPIC: TYPE}, expected_s=expected_s) as run:
         bench.report_progress(0.2, f"{name}:={value:g}, measuring the rate")
 
-        def heard() -> RateProbe:
+        def measured() -> RateProbe:
             # The first message may come at once and the second a period later, or the other way round.
             samples = run.samples_on(TOPIC)
             whole_of_it, tail = measure(samples), measure(samples[1:])
@@ -214,11 +214,11 @@ async def _probe_rate(bench: Bench, name: str, unit: str, value: float, whole: b
             return rate is not None and (rate.span_s >= 0.95 * least_s or (rate.samples > 50 and rate.hz > 20))
 
         if not await wait_for_message(run, TOPIC, TYPE):
-            return heard()
+            return measured()
         cpu_wait_s, since = run.node_cpu_wait_s(), run.now()
         for stretch in range(1, TRIES + 2):
             await run.until(lambda least_s=stretch * window: decided(least_s), window + 1 / asked_hz + 1)  # type: ignore[misc]
-            probe = heard()
+            probe = measured()
             lost_s, of_s = run.node_cpu_wait_s() - cpu_wait_s, run.now() - since
             ended = run.exit is not None
             if (

@@ -157,7 +157,7 @@ def _soon(line: Line, index: int, jump: Trial) -> bool:
 
 
 def _is_of_all_jumps(line: Line, jump: Trial) -> bool:
-    """Whether one message tells of every jump so far: how many there were, or how many numbers were left out."""
+    """Whether one message reports every jump so far: how many there were, or how many numbers were left out."""
     missed = jump.missed(line.messages)
     return len(missed) > 1 and any(each.value in (len(missed), sum(missed)) for each in line.numbers)
 
@@ -178,10 +178,10 @@ def _goes_on(told: Sequence[Line], jump: Trial) -> list[Line]:
 
 
 def _diagnose_rising_count(jump: Trial, steady: Trial) -> tuple[Cause, list[str]] | None:
-    """Whether a number that tells of the first jump goes on rising with the messages after it, and the lines.
+    """Whether a number that reports the first jump goes on rising with the messages after it, and the lines.
 
     It had been constant, and it does not fall back with the second jump, as what is counted since the last one does.
-    What a timer logs may tell of a jump late: only a number that had risen before is looked at.
+    What a timer logs may report a jump late: only a number that had risen before is looked at.
     """
     calm = range(jump.breaks + SETTLED, jump.again + 1)
     for kind in {line.kind for line in jump.lines if line.messages in calm}:
@@ -282,7 +282,7 @@ def _is_of_first_jump(line: Line, trial: Trial) -> bool:
 def _counts_up(
     line: Line, summary: Summary | None, before: Sequence[Line], elsewhere: Sequence[Sequence[Line]], trial: Trial
 ) -> bool:
-    """Whether a number in the line tells of the jump: how many gaps, missed messages, or messages there should be.
+    """Whether a number in the line reports the jump: how many gaps, missed messages, or messages there should be.
 
     `summary`: the summary that the line is of, if any.
     """

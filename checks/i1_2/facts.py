@@ -89,7 +89,7 @@ class Trial:
 
     `breaks`: how many messages were sent before N jumped or another publisher took over; 0 where neither happened.
     `again`: how many were sent before N jumped once more; 0 where it did not. `gone_at`: when the first publisher went
-    away. `cpu_wait_s`: what the machine kept the node, or us, from running until everything was heard. `spins`: whether
+    away. `cpu_wait_s`: what the machine kept the node, or us, from running until all had come. `spins`: whether
     the node answered a request; if not, `stuck` says where it was.
     """
 

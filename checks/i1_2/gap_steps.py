@@ -1,4 +1,4 @@
-"""I1.2: why gaps are told wrongly, or not at all, in the words of the learner's own file."""
+"""I1.2: why gaps are reported wrongly, or not at all, in the words of the learner's own file."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ COMPARE = "compare each N with the one right before it, whether there was a gap 
 
 
 def diagnose_alarm(trace: Trace, false: Sequence[str] = ()) -> Cause | None:
-    """Why it tells of gaps where there are none; `false`: log messages that do."""
+    """Why it reports gaps where there are none; `false`: log messages that do."""
     functions = source.callbacks(trace, "create_subscription")
     found = (
         _diagnose_misreading(trace, functions)

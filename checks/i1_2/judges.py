@@ -164,7 +164,7 @@ def judge_rate(steady: Trial, jump: Trial) -> Verdict:
 
 def judge_summary(steady: Trial, jump: Trial, fast: Trial) -> Verdict:
     verdict = judge_slow_summary(steady, jump)
-    if not verdict.passed or backlog.find_lost(fast, steady) is not None:  # `count` tells of what is lost
+    if not verdict.passed or backlog.find_lost(fast, steady) is not None:  # `count` reports what is lost
         return verdict
     if not backlog.missing_summary(fast, steady):
         return verdict

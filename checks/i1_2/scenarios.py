@@ -116,7 +116,7 @@ async def restart(bench: Bench) -> Trial:
             first = random.randint(3, 6)
             await _send(bench, run, talker, sent, range(first, first + RESTART_AFTER), SOONER_HZ)
             await _pause(run, SOON_S / 2)
-            gone_at = run.now()  # before it goes: the node may tell of that at once
+            gone_at = run.now()  # before it goes: the node may log that at once
         await _pause(run, ABSENT_S)
         async with run.publisher(TOPIC, TYPE) as talker:
             await run.until(lambda: talker.subscribers > 0, SPIN_S)

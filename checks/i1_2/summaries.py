@@ -127,7 +127,7 @@ def _complete(summary: Summary, trial: Trial) -> bool:
 def _but_of_the_break(complete: Sequence[Summary], trial: Trial) -> list[Summary]:
     """Without what is said of a jump or a restart: that may quote a first and a recent message, too.
 
-    It is told from a summary by its wording, if there are summaries elsewhere.
+    Its wording tells it apart from a summary, if there are summaries elsewhere.
     """
     in_summaries = {
         kind

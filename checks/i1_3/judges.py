@@ -245,7 +245,7 @@ def judge_division(seen: Division) -> Verdict:
             causes.output_tail(seen.trace),
         )
     complaints = find_complaints(seen.ordinary, seen.said)
-    # What a node says as it ends may be lost on its way to us: then its end is what is told of.
+    # What a node logs as it ends may be lost on its way to us: then its end is what is reported.
     gone = seen.trace.exit is not None and any(answer.response is None for answer in seen.after)
     if not complaints and not gone:
         if seen.before.response["sum"] != right_result("/divide", **seen.before.request):

@@ -29,7 +29,7 @@ UP_HZ, DOWN_HZ = 10.0, 0.7
 
 REFUSING_HZ = 3.0
 """Bad rates are asked for at this rate, so that falling back to the default one shows. A forgotten timer of 1 Hz beside
-it is well beyond the tolerance: at 4 Hz it would be just beyond, and heard as within it now and then."""
+it is well beyond the tolerance: at 4 Hz it would be just beyond, and measured as within it now and then."""
 
 BAD_RATES = (0.0, -1.0)
 ANSWER_S = 5.0

@@ -209,7 +209,7 @@ def judge_runtime(seen: RuntimeChanges, retimed: RateChanges) -> Verdict:
                 slips.boolean_compared_with_text(seen.trace) or steps.keep_timer_running(seen.trace),
             ),
         )
-    # A timer that is left behind, whatever is set, is what `timer` tells of.
+    # A timer that is left behind, whatever is set, is for `timer` to report.
     return _why_not_as_before(seen, expected, any_rate=not judge_timer(retimed).passed) or passed(
         expected,
         f'"{text_of(seen.after_prefix)}"; silence while false; resumed '

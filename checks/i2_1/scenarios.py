@@ -172,14 +172,14 @@ async def switch_at_runtime(bench: Bench) -> RuntimeChanges:
 async def _as_before(run: Run, hz: float, *, since: float) -> tuple[tuple[Sample, ...], Rate | None]:
     """The messages from `since` on, and their rate: by little more than two periods of `hz`, if these show it."""
 
-    def heard() -> tuple[Sample, ...]:
+    def received() -> tuple[Sample, ...]:
         return tuple(sample for sample in run.samples_on(TOPIC) if sample.source_time >= since)
 
     await run.until(lambda: run.now() >= since + 2.2 / hz, 3.5 / hz + 2)
-    rate = measure(heard())
+    rate = measure(received())
     if rate is None or not rate.agrees(hz):
         rate, _ = await measure_steady_rate(run, TOPIC, hz, since=run.now())
-    return heard(), rate
+    return received(), rate
 
 
 async def ask_for_bad_rates(bench: Bench) -> BadRates:
@@ -196,7 +196,7 @@ async def _validated(bench: Bench, from_hz: float | None) -> BadRates:
         base_hz = await _base_hz(run)
         if from_hz is None or await _takes(run, node, from_hz, base_hz):
             return await _refusing(bench, run, node, from_hz or base_hz)
-    # Whether it takes a good rate is judged elsewhere: whoever does not shall refuse from where it starts.
+    # Whether it takes a good rate is judged elsewhere: a node that does not must still refuse from where it starts.
     return await _validated(bench, None)
 
 

@@ -140,7 +140,7 @@ def check_all_first(trace: Trace) -> str:
 
 
 def checked_at_start(trace: Trace) -> str:
-    """A bad rate that the node is started with is told by the parameter's name."""
+    """A bad rate that the node is started with is found by the parameter's name."""
     read = started_node(trace)
     return read.step(parameters.check_at_start(read, RATE), whole_program(read)) or (
         f"check it after declaring it, and log an error that names {RATE}"

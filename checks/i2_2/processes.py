@@ -32,7 +32,7 @@ class EndedProcess:
 
 
 def ended_processes(output: Sequence[OutputLine]) -> list[EndedProcess]:
-    """The processes that had ended, as the launch told, in that order."""
+    """The processes that had ended, as the launch said, in that order."""
     found = []
     for line in output:
         text = _COLOUR.sub("", line.text)

@@ -62,7 +62,7 @@ async def plain(bench: Bench) -> LaunchRun:
         hidden = _listen(run, shared_topics(met))
         await run.until(lambda: _wait_until_quiet(run, hidden), RARE_S)
         answering = await _answering(run)
-        if pairs(met):  # a node that has gone is told of a little later
+        if pairs(met):  # DDS reports a node that has gone a little later
             await run.until(lambda: bool(pairs(run.graph)) or bool(ended_processes(run.output)), GONE_S)
         trace, command_lines = run.trace(), await run.command_lines()
         parted = bool(pairs(met)) and not pairs(trace.graph)

@@ -113,7 +113,7 @@ def diagnose_exception(trace: Trace) -> Cause | None:
 
 
 def diagnose_other_pace(alone: IdleRun, likely: Series | None) -> Cause:
-    """Why no timer of 10 Hz was heard, though nobody called."""
+    """Why no 10 Hz timer was seen, though nobody called."""
     if (broken := causes.diagnose_process(alone.trace)) is not None:
         return broken
     source = started_node(alone.trace)
@@ -147,28 +147,28 @@ def diagnose_other_pace(alone: IdleRun, likely: Series | None) -> Cause:
     )
 
 
-def diagnose_disturbed_timer(seen: SingleCalls, heard: TimerPace) -> Cause:
+def diagnose_disturbed_timer(seen: SingleCalls, timer: TimerPace) -> Cause:
     """Why the timer does not go on during a call as it does outside one."""
     if (broken := causes.diagnose_process(seen.trace)) is not None:
         return broken
     source = started_node(seen.trace)
-    if heard.fault is Fault.FAST:
+    if timer.fault is Fault.FAST:
         return Cause(
             "ticks in a burst",
             "more ticks are logged around a call than the timer makes",
             steps.separate_groups(source) or "log ticks in the timer's callback only; do not make up for missed ones",
         )
-    if heard.fault is Fault.SLOW:
+    if timer.fault is Fault.SLOW:
         return Cause(
             "slowed timer",
             "the timer ticks during a call, but not as often",
             steps.separate_groups(source)
             or "give the timer a callback group of its own and the executor enough threads; let the service sleep",
         )
-    if heard.count > 1 and heard.longest_s < WHOLE * heard.for_s:
+    if timer.count > 1 and timer.longest_s < WHOLE * timer.for_s:
         return Cause(
             "timer pauses",
-            f"the timer goes on during a call, but pauses for {heard.longest_s:.1f} s of it",
+            f"the timer goes on during a call, but pauses for {timer.longest_s:.1f} s of it",
             steps.separate_groups(source)
             or "let the two callbacks share no lock, and neither of them wait for the other",
         )

@@ -29,7 +29,7 @@ MOST_EXCUSED_S = 1.0
 """A timer may pause this much longer on a busy machine. With more, one that stands still for 3 s looks like another."""
 
 ANSWER_S = 12.0
-"""A service that answers after some other time than 3 s is told so, up to this one."""
+"""A service that answers after some other time than 3 s gets that as its cause, up to this one."""
 
 CALLS = 3
 PARALLEL = 1.5
@@ -61,7 +61,7 @@ class Call:
     """One call, made while no other was.
 
     `until`: how long the node was listened to after it (seconds since the epoch); `cpu_wait_s`: seconds of the call in
-    which the machine kept the node, or us who wait for its answer, from running.
+    which the machine kept the node, or us, who wait for its answer, from running.
     """
 
     answer: CallAnswer
@@ -189,7 +189,7 @@ def is_excused(logs: Sequence[LogRecord], call: Call, series: Sequence[Series]) 
 
 
 def timer_during_call(series: Series, logs: Sequence[LogRecord], call: Call) -> TimerPace:
-    """What was heard of the timer during this call."""
+    """What was seen of the timer during this call."""
     return _timer_during_call(series, logs, call, min(call.cpu_wait_s, MOST_EXCUSED_S))
 
 

@@ -1,4 +1,4 @@
-"""I2.3: how long to listen to a node, so that its timer can be told."""
+"""I2.3: how long to listen to a node, so that its timer can be recognised."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ LOOK_EVERY_S = 0.1
 
 
 def logs_since(logs: Sequence[LogRecord], since: float) -> Sequence[LogRecord]:
-    """What was logged from then on: what a node tells of its own start, however steadily, comes from no timer."""
+    """What was logged from then on: what a node logs of its own start, however steadily, comes from no timer."""
     return [log for log in logs if log.stamp >= since]
 
 
@@ -33,7 +33,7 @@ async def listen(run: Run, since: float, is_up: Callable[[], bool]) -> None:
     up_at, lost_s = run.now(), run.node_cpu_wait_s() + run.our_cpu_wait_s()
     was_up, looked_at, enough = is_up(), 0.0, False
 
-    def heard() -> bool:
+    def seen_enough() -> bool:
         nonlocal up_at, was_up, looked_at, enough
         if not was_up and is_up():
             up_at, was_up = run.now(), True
@@ -46,7 +46,7 @@ async def listen(run: Run, since: float, is_up: Callable[[], bool]) -> None:
             )
         return enough
 
-    await run.until(heard, 2 * RARE_S, idle_s=IDLE_S)
+    await run.until(seen_enough, 2 * RARE_S, idle_s=IDLE_S)
 
 
 def _told(logs: Sequence[LogRecord]) -> bool:
@@ -76,10 +76,10 @@ async def next_tick(run: Run, series: Sequence[Series], answer: CallAnswer) -> N
     if not series:
         return
 
-    def heard() -> bool:
+    def seen_enough() -> bool:
         late = takewhile(lambda log: log.received_at > answer.answered_at, reversed(run.logs))
         return any(log.stamp > answer.answered_at and any(each.key.of(log) for each in series) for log in late)
 
-    await run.until(heard, 1.3 * min(10.0, max(each.longest_s for each in series)) + 1.0)
+    await run.until(seen_enough, 1.3 * min(10.0, max(each.longest_s for each in series)) + 1.0)
     last = run.now() + 2 * IN_FLIGHT_S
     await run.until(lambda: run.now() >= last, 1.0)

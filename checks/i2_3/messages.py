@@ -49,7 +49,7 @@ class Key:
     name: str | None = None
 
     def of(self, log: LogRecord) -> Tick | None:
-        """The tick that this message tells of, where it belongs to the series."""
+        """The tick that this message is about, where it belongs to the series."""
         if self.name not in (None, log.name):
             return None
         if self.kind == "function" and log.function == self.text:

@@ -12,7 +12,7 @@ from tutor.judge.rates import TOLERANCE
 from tutor.judge.trace import LogRecord
 
 SLACK_S = 0.4
-"""A gap is told from jitter when it is longer than the usual interval by this much, and by a tolerance."""
+"""A gap is told apart from jitter when it is longer than the usual interval by this much, and by a tolerance."""
 
 
 class Fault(Enum):

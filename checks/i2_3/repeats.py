@@ -22,7 +22,7 @@ BUSY_S = 0.1
 """A machine that has kept the node from running for less than this has not disturbed it."""
 
 TRIES, MOST_TRIES = 4, 8
-"""A call that a busy machine may have disturbed is made this many times; more where none has told anything yet.
+"""A call that a busy machine may have disturbed is made this many times; more where none has shown anything yet.
 
 A machine is seldom so busy for all of half a minute.
 """
@@ -34,7 +34,7 @@ AT_ONCE_TRIES, MOST_AT_ONCE_TRIES = 3, 6
 def needs_repeat(logs: Sequence[LogRecord], calls: Sequence[Call], series: Sequence[Series], most: int) -> bool:
     """Whether another call is to tell what the machine, or the first connection, has done from what the node does.
 
-    Of more than `TRIES` calls, up to `most`, only where none of them has told anything.
+    Of more than `TRIES` calls, up to `most`, only where none of them has shown anything.
     """
     call, tried = calls[-1], len(calls)
     if call.answer.response is None:

@@ -44,7 +44,7 @@ SPINS_S = 2.5
 """A node whose service is there spins at the latest twice this later, or never."""
 
 APART_S = 0.1
-"""Of three calls at once, the last comes this much later, so that answers in another order are told from chance."""
+"""Of three calls at once, the last comes this much later, so that another order is no chance."""
 
 
 @repeat_if_doubtful
@@ -69,7 +69,7 @@ async def run_idle(bench: Bench) -> IdleRun:
 
 
 async def call_singly(bench: Bench) -> SingleCalls:
-    """Call the service, then once more, and listen to the timer meanwhile and until it is heard again."""
+    """Call the service, then once more, and watch the timer meanwhile and until it is seen again."""
     async with bench.start(FILE) as run:
         bench.report_progress(0.1, f"waiting for {SERVICE}")
         if not await _serves(run):

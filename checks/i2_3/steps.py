@@ -165,7 +165,7 @@ def set_group(file: NodeFile, call: ast.Call, group: str) -> Edit:
 
 
 def _group(call: ast.Call) -> str:
-    """What a group is called that may be the node's default one, which is told by an empty text."""
+    """What a group is called that may be the node's default one, which an empty text means."""
     given = next((ast.unparse(each.value) for each in call.keywords if each.arg == _GROUP), "")
     return "" if given in ("None", "self.default_callback_group") else given
 

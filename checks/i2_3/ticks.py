@@ -163,7 +163,7 @@ def _counting(series: Series | None) -> Series | None:
         return None
     numbers = [tick.number or 0.0 for tick in series.ticks]
     steps = [b - a for a, b in pairwise(numbers)]
-    # Callbacks that overlap may tell of two ticks in the wrong order; a number that starts over counts nothing.
+    # Callbacks that overlap may log two ticks in the wrong order; a number that starts over counts nothing.
     one_way = abs(numbers[-1] - numbers[0]) >= 0.8 * sum(map(abs, steps)) and sum(map(bool, steps)) >= 0.8 * len(steps)
     whole = all(tick.whole for tick in series.ticks) or series.is_10_hz  # "12.0 ticks" counts, "1.2 s" tells the time
     if not one_way or not whole:

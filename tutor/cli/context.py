@@ -51,7 +51,7 @@ def _cannot_be_made(root: Path) -> str:
     if not nearest.is_dir():
         return "it is a file" if nearest == root else f"{nearest} is a file"
     try:
-        with tempfile.NamedTemporaryFile(dir=nearest, prefix=".ros-tutor-"):  # permissions do not tell of /proc
+        with tempfile.NamedTemporaryFile(dir=nearest, prefix=".ros-tutor-"):  # permissions say nothing about /proc
             return ""
     except OSError as error:
         return f"nothing can be written to {nearest} ({error.strerror})"

@@ -30,7 +30,7 @@ def run(arguments: argparse.Namespace) -> int:
     except ImportError as error:
         raise ServeError(f"the app cannot be served: {error.name} is not installed", _INSTALL) from error
 
-    context.load_course(arguments)  # a course that is broken is told here, not in the browser
+    context.load_course(arguments)  # a broken course is reported here, not in the browser
     lessons = getattr(arguments, "lessons", None)
     more = [] if lessons is None else [str(lessons.absolute())]
     argv = interpreter.module_command("tutor.serve", str(context.choose_workspace(arguments).root.absolute()), *more)

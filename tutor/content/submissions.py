@@ -26,7 +26,7 @@ class Expected:
     a criterion ("" stands for all that fail) to texts, one of which is in its cause, `steps` likewise to what is in its
     next step. `gone` is in the command line of
     no process afterwards. `ros` is the only kind of ROS that this holds for, where it is not empty. `exit` is the exit
-    code of `ros-tutor check`, where it is told; with 3, criteria may end in an error. `keeps_busy`: its processes take
+    code of `ros-tutor check`, where it is given; with 3, criteria may end in an error. `keeps_busy`: its processes take
     all of the CPU that they get, so that several of them at once would keep each other from running.
     """
 

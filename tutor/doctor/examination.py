@@ -47,6 +47,6 @@ def examine(workspace: Path | None, environ: Mapping[str, str] = os.environ) -> 
 def _guarded(name: str, examination: Examination) -> Finding:
     try:
         return examination()
-    except Exception as error:  # the border of one examination: the others must still be told
+    except Exception as error:  # the border of one examination: the others must still be reported
         text = f"This could not be examined: {type(error).__name__}: {error}"
         return Finding(name, False, text, "This is a fault of ros-tutor itself: please report it, with this line.")

@@ -23,7 +23,7 @@ from tutor.workspace import find_submission
 def main() -> int:
     """Run one check.
 
-    Exit code 0: judged (whatever the verdict); 2: wrong usage, 3: a fault, each told on stderr; 130: interrupted.
+    Exit code 0: judged (whatever the verdict); 2: wrong usage, 3: a fault, each explained on stderr; 130: interrupted.
     """
     parser = argparse.ArgumentParser(prog="python -m tutor.engine")
     parser.add_argument("exercise")

@@ -183,7 +183,7 @@ async def _report_when_up(run: Run, nodes: int, up: Callable[[], None]) -> Async
     """Call `up` as soon as there are this many nodes, the process has ended, or it is not going to make them."""
 
     async def watch() -> None:
-        with suppress(EngineError):  # whoever works with the run is told
+        with suppress(EngineError):  # the next use of the run raises it
             await run.until(lambda: len(run.graph.nodes) >= nodes or run.exit is not None, UP_S)
         up()
 

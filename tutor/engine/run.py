@@ -64,7 +64,7 @@ class CollectedFacts:
         self.served: list[Served] = []
 
     def change(self) -> None:
-        """Wake whoever waits for a new fact."""
+        """Wake everything that waits for a new fact."""
         self.changed.set()
 
 

@@ -81,13 +81,13 @@ class Run(Protocol):
         """Seconds that the process waited for a CPU so far: the machine's fault. 0.0 once it has ended."""
 
     def our_cpu_wait_s(self) -> float:
-        """Seconds that we who watch it waited for a CPU so far: what is seen may be seen that much later."""
+        """Seconds that we, the observers, waited for a CPU so far: what is seen may be seen that much later."""
 
     async def until(self, seen: Callable[[], bool], limit_s: float, *, idle_s: float | None = None) -> bool:
         """Wait until `seen()` is true; it is asked again whenever a new fact has come in.
 
         Gives False when `limit_s` seconds have passed (and those in which the machine did not let the process run), or
-        soon after the process has ended. With `idle_s`, also once the process has done nothing for so many seconds, and
+        soon after the process has ended. With `idle_s`, also once the process has done nothing for that long, and
         will do nothing by itself before the limit: all its threads wait, none of them for a time within it.
         """
 

@@ -1,4 +1,4 @@
-"""Next steps as edits of the learner's own file, tried on a copy first: a step that breaks the file is never told.
+"""Next steps as edits of the learner's own file, tried on a copy first: a step that breaks the file is never given.
 
 The source serves the words of a diagnosis, never a verdict.
 """

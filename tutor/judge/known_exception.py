@@ -40,7 +40,7 @@ class KnownException:
     the frame that raised. `source`, `without` and `replace` may use the groups of `text` and `line`.
     `look_up` names a table of words, by whose key that is the group `name` (or, unless `exact`, is nearest to it) the
     word `found` is given. `edits` are what `step` says as edits of the file, or several ways to do it: the first that
-    leaves the file sound is told, `step` where none does. `of_source`: it is the line that `source` has found, in its
+    leaves the file sound is given, `step` where none does. `of_source`: it is the line that `source` has found, in its
     group `there` if it has one, that is shown and replaced, where the exception comes from a call that rclpy makes.
     """
 

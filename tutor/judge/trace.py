@@ -37,7 +37,7 @@ class Sample:
 
 @dataclass(frozen=True, slots=True)
 class LogRecord:
-    """One message on `/rosout`. `level` is a severity number (see `Level`); `function`: who logged it, if told."""
+    """One message on `/rosout`. `level` is a severity number (see `Level`); `function`: where, if given."""
 
     level: int
     name: str

@@ -19,7 +19,7 @@ RARE_S = 12.0
 """A publisher that exists may wait this long between messages."""
 
 AGAIN_S = 3.5
-"""A second listen is at least this long, so that a rate of 1 Hz, too, can be told for what it is."""
+"""A second listen is at least this long, so that a rate of 1 Hz, too, can be recognised."""
 
 IDLE_S = 0.7
 """What a node has sent before it fell idle has come in by then."""
@@ -50,8 +50,8 @@ async def wait_until_seen(
     """Wait until `seen()`; give up when the process ends, never makes a node, or its node does nothing of the kind.
 
     `promised()`: something announces that it will come, such as a publisher on the topic; then `rare_s` more seconds
-    are waited for it. `idle_s`: give up after so many seconds, too, of a node that is idle (see `Run.until`); not where
-    what is waited for is in the graph, of which we may hear later than it is done.
+    are waited for it. `idle_s`: give up, too, when the node has been idle for that long (see `Run.until`); not where
+    what is waited for is in the graph, which may reach us later than it is done.
     """
     if await run.until(lambda: seen() or bool(run.graph.nodes), START_S, idle_s=NO_NODE_S) and not seen():
         if not await run.until(lambda: seen() or promised(), SETTLE_S, idle_s=idle_s):
@@ -131,5 +131,5 @@ def too_few_by_cpu_wait(messages: int, asked_hz: float, *, cpu_wait_s: float, of
 async def _listen(run: Run, topic: str, start: float, for_s: float) -> tuple[Rate | None, int]:
     end, late_s = start + for_s, run.our_cpu_wait_s()
     await run.until(lambda: run.now() >= end + IN_FLIGHT_S + run.our_cpu_wait_s() - late_s, for_s + 2)
-    heard = [sample for sample in run.samples_on(topic) if start <= sample.source_time <= end]
-    return measure(heard), len(heard)
+    samples = [sample for sample in run.samples_on(topic) if start <= sample.source_time <= end]
+    return measure(samples), len(samples)

@@ -1,4 +1,4 @@
-"""The check, told as it goes."""
+"""The check, reported as it goes."""
 
 from __future__ import annotations
 

@@ -56,7 +56,7 @@ async def _until_stopped(session: Session, out: Callable[[str], None]) -> int:
 
 
 class Dialog:
-    """The commands, and who asks for them."""
+    """The commands, and the prompt that takes them."""
 
     def __init__(self, session: Session, lines: Lines, out: Callable[[str], None]) -> None:
         self._session, self._lines, self._out = session, lines, out

@@ -19,7 +19,7 @@ _LINES = 10
 
 
 class Nodes:
-    """One node for each file. What has ended is told once, before the next question."""
+    """One node for each file. What has ended is reported once, before the next question."""
 
     def __init__(self, conversation: Conversation) -> None:
         self._conversation = conversation

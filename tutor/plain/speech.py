@@ -90,8 +90,8 @@ def diagnosis(criterion: CriterionResult) -> list[str]:
     said = [(label.capitalize(), _line(label, text)) for label, text in found]
     if criterion.verdict.status is Status.SKIPPED:  # there are many where one thing is wrong: a line each
         return [" ".join([headline(criterion), *(f"{text[:1].upper()}{text[1:]}." for _, text in said)])]
-    told = [f"{label}: {text}" for label, text in said]
-    return [headline(criterion), f"The criterion: {criterion.text}.", *told, *code]
+    lines = [f"{label}: {text}" for label, text in said]
+    return [headline(criterion), f"The criterion: {criterion.text}.", *lines, *code]
 
 
 def _line(label: str, text: str) -> str:

@@ -71,7 +71,7 @@ def keep_small(folder: int, most: int = MOST_BYTES) -> None:
         files = [file for each in folders for file in _opened(each, ".log", _FILE, opened)]
         if sum(os.fstat(file).st_blocks * 512 for file in files) > most:
             for file in files:
-                os.ftruncate(file, 0)  # who logs opens it for appending, and goes on at its new end
+                os.ftruncate(file, 0)  # loggers open it for appending, and go on at its new end
 
 
 def _opened(folder: int, ending: str, flags: int, opened: contextlib.ExitStack) -> Iterator[int]:

@@ -179,7 +179,7 @@ class Supervisor:
             if not more:
                 return None
             data += more
-        # `interrupt` is sent only after `started` was heard, so nothing can follow the request here.
+        # `interrupt` is sent only after `started` has arrived, so nothing can follow the request here.
         return data[8:].split(b"\0")
 
     def _start(self, argv: list[bytes], environment: dict[bytes, bytes], cwd: bytes) -> bool:

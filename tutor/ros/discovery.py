@@ -14,7 +14,7 @@ PROFILE = Path(__file__).resolve().with_name("isolated.xml")
 PROMPT_PROFILE = PROFILE.with_name("prompt.xml")
 _GROUP = f"239.{'.'.join(map(str, secrets.token_bytes(3)))}"
 """The multicast group in which the participants of our checks find each other. Each process that checks has one of its
-own, so that whoever joins another check's domain meets nobody there."""
+own, so that a process that joins another check's domain meets nobody there."""
 _LOOPBACK = "127.0.0.1"
 PORTS_OF_CHECKS = (2016, 25)
 """As `DDS_PORTS`, for a check: what isolated.xml says."""

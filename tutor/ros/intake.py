@@ -86,7 +86,7 @@ class Intake:
             self._depth = max(1, WAITING_BYTES // size)
             self._requested = replace(
                 self._requested, durability="volatile"
-            )  # what was kept for whoever comes late has come
+            )  # the messages kept for late subscribers have come
             self._subscription = self._subscribe()
 
     def _read(self, data: bytes) -> Any:

@@ -1,6 +1,6 @@
 """Bounds what learners' messages take of our memory, however large a single one is.
 
-Fast DDS puts a message together before anybody is told of it, and no setting of it bounds that: one of 500 MB takes as
+Fast DDS puts a message together before any callback, and no setting of it bounds that: one of 500 MB takes as
 much, in each participant that it goes to. So the large blocks that this process has are looked at all the time; where
 they are too many, the participant that is receiving leaves what it receives.
 """
@@ -94,7 +94,7 @@ class _MallInfo(ctypes.Structure):
 
 @cache
 def _library() -> ctypes.CDLL | None:
-    """The C library, told to count large blocks; None where it is none that can (glibc before 2.33)."""
+    """The C library, set to count large blocks; None where it is none that can (glibc before 2.33)."""
     library = ctypes.CDLL(None)
     if not hasattr(library, "mallinfo2"):
         return None
@@ -122,7 +122,7 @@ def _run() -> None:
                 return
         time.sleep(EVERY_S)
         exceeds = _exceeds(before + MOST_BYTES + len(watched) * _USUAL_BYTES)
-        if exceeds or since is not None:  # who has done nothing loses nothing: what is sent to it waits
+        if exceeds or since is not None:  # an innocent node loses nothing: what is sent to it waits
             for one in watched:
                 one.pause(exceeds)
         if not exceeds:

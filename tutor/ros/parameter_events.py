@@ -17,9 +17,9 @@ def watch_changes(observer: Observer, on_change: Callable[[str], None]) -> None:
     """Call `on_change(node)` on the event loop's thread whenever a node reports that one of its parameters changed."""
     loop = asyncio.get_running_loop()
 
-    def heard(event: Any) -> None:
+    def on_event(event: Any) -> None:
         with contextlib.suppress(RuntimeError):  # the loop is closed
             loop.call_soon_threadsafe(on_change, event.node)
 
     event_type = interface_class("rcl_interfaces/msg/ParameterEvent")
-    observer.node.create_subscription(event_type, "/parameter_events", heard, qos_profile_parameter_events)
+    observer.node.create_subscription(event_type, "/parameter_events", on_event, qos_profile_parameter_events)

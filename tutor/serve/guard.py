@@ -38,7 +38,7 @@ TOKEN = "token"
 
 
 def only_own_pages(token: str = "") -> Middleware:
-    """Refuse what another site's page asks for, and whoever has no `token`, where there is one.
+    """Refuse requests of another site's pages, and those without the `token`, where there is one.
 
     Without a token, only this machine can reach us: then also names are refused that mean no address of its own.
     """
@@ -98,7 +98,7 @@ def is_this_machine(host: str) -> bool:
 
 
 def owner(request: web.Request) -> int | None:
-    """The user id of whoever is at the other end, on this machine; None where that is elsewhere or cannot be known."""
+    """The user id at the other end, on this machine; None where that is elsewhere or cannot be known."""
     transport = request.transport
     peer, here = (None, None) if transport is None else map(transport.get_extra_info, ("peername", "sockname"))
     if peer is None or here is None:

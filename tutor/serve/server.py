@@ -25,7 +25,7 @@ _GOODBYE_S = 2.0
 
 
 class AppServer(Server):
-    """Serves the app that `argv` starts, to whoever has the `token`, where there is one."""
+    """Serves the app that `argv` starts, to anyone who has the `token`, where there is one."""
 
     def __init__(self, argv: Sequence[str], listener: socket.socket, token: str = "") -> None:
         host, port = listener.getsockname()[:2]
@@ -63,7 +63,7 @@ class AppServer(Server):
         return app
 
     async def on_startup(self, app: web.Application) -> None:
-        """Say nothing: whoever starts the server does."""
+        """Print nothing: the caller does."""
 
     async def handle_websocket(self, request: web.Request) -> web.WebSocketResponse:
         """A page has been opened: start an app for it, and end that when the page is closed."""

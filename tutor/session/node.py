@@ -69,7 +69,7 @@ class NodeState:
 
 
 class Node:
-    """One run of a node. `show` is told each new state, at most every `SHOW_EVERY_S` seconds while it writes."""
+    """One run of a node. `show` is called with each new state, at most every `SHOW_EVERY_S` seconds while it writes."""
 
     def __init__(self, command: NodeCommand, show: Callable[[NodeState], object]) -> None:
         self._command = command

@@ -1,4 +1,4 @@
-"""Follows a file on disk, whoever changes it."""
+"""Watches a file on disk for changes by any program."""
 
 from __future__ import annotations
 

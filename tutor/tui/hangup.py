@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 class _Output(io.FileIO):
-    """Takes what a terminal that is gone refuses: Textual's thread that writes would die, and who waits for it hang."""
+    """Discards what a closed terminal refuses: Textual's writer thread would die, and its waiters would hang."""
 
     def write(self, data: ReadableBuffer, /) -> int:
         try:

@@ -71,7 +71,7 @@ class AppStateFile:
         self._notify = notify
 
     def read(self) -> AppState:
-        """What is on disk; the defaults where there is nothing. A damaged file is set aside, and `notify` is told."""
+        """What is on disk; the defaults where there is nothing. A damaged file is set aside, and `notify` is called."""
         try:
             return decode(read_text(self.path))
         except FileNotFoundError:

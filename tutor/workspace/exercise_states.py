@@ -66,7 +66,7 @@ def last_met(criteria: Iterable[str], progress: ExerciseProgress) -> dict[str, b
 
 
 def exercise_state(lesson: Lesson, progress: ExerciseProgress, *, has_files: bool = False) -> ExerciseState:
-    """How far the learner is. `has_files`: the exercise's files are in the workspace, whoever put them there.
+    """How far the learner is. `has_files`: the exercise's files are in the workspace, no matter who put them there.
 
     A criterion is met where it passed in the last check that judged it. An exercise that has been passed stays so, with
     all that it requires.

@@ -42,11 +42,11 @@ class Workspace:
         return self.root / MARKER / name
 
     def progress(self, notify: Callable[[str], None] = to_stderr) -> ProgressFile:
-        """The progress file; `notify` is told in one line if a damaged one had to be set aside."""
+        """The progress file; `notify` gets one line if a damaged one had to be set aside."""
         return ProgressFile(self.root / MARKER / "progress.json", notify)
 
     def app_state(self, notify: Callable[[str], None] = to_stderr) -> AppStateFile:
-        """What the app remembers; `notify` is told in one line if a damaged file had to be set aside."""
+        """What the app remembers; `notify` gets one line if a damaged file had to be set aside."""
         return AppStateFile(self.root / MARKER / "app.json", notify)
 
 

@@ -66,7 +66,7 @@ def main() -> None:
     try:
         rclpy.spin(ParameterizedPublisher())
     except (InvalidParameterTypeException, InvalidParameterValueException) as error:
-        # A message that names the parameter helps whoever typed the command; a traceback would not.
+        # A message that names the parameter helps anyone who typed the command; a traceback would not.
         get_logger("parameterized_publisher").fatal(str(error))
         sys.exit(1)
     except (KeyboardInterrupt, ExternalShutdownException):

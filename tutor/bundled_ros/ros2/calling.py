@@ -1,4 +1,4 @@
-"""Asks a service and waits for the answer, so that Ctrl+C is heard meanwhile."""
+"""Asks a service and waits for the answer, so that Ctrl+C works meanwhile."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 SLICE_S = 0.1
 REMARK_AFTER_S = 6.0
-"""After this long a wait that has no limit is told to the user, on stderr."""
+"""After this long, a wait without a limit is reported to the user, on stderr."""
 
 
 def wait_for_answer(domain: Domain, future: Future, *, remark: Callable[[], str] | None = None) -> Any:

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 
 LIMIT_S = 4.0
-"""The longest wait for participants whose ports are there, but who do not answer.
+"""The longest wait for participants whose ports are open, but which do not answer.
 
 Where the answer to our announcement is lost, the next announcement of theirs comes within 3 s.
 """

@@ -68,7 +68,7 @@ def main(arguments: argparse.Namespace) -> int:
     if arguments.show_all_subprocesses_output:
         os.environ["OVERRIDE_LAUNCH_PROCESS_OUTPUT"] = "both"
     overlaying.restore_buffering()
-    from tutor.bundled_ros import launching  # late: whoever only asks for help, or is wrong, needs none of it
+    from tutor.bundled_ros import launching  # late: --help and wrong usage need none of it
 
     code: int = launching.run(
         path,

@@ -19,7 +19,7 @@ BIG = 10_000
 MOST_BYTES = 30_000_000
 """Of messages with more than `BIG` bytes, no more than `MOST_BYTES` may wait, or are given at once."""
 
-_WAIT_NS = 50_000_000  # Ctrl+C is heard between two waits
+_WAIT_NS = 50_000_000  # Ctrl+C takes effect between two waits
 _EVENTS_EVERY_S = 0.1
 _MOST_AT_ONCE = 5_000
 
@@ -39,7 +39,7 @@ def receive(
 ) -> Iterator[list[Received]]:
     """Subscribe, and give what has arrived, batch by batch, forever; an empty batch at least ten times a second.
 
-    Between two batches, messages gather for `gather_s` seconds. `on_lost` is told of messages that never came.
+    Between two batches, messages gather for `gather_s` seconds. `on_lost` is called for messages that never came.
     """
     import rclpy
     from rclpy.event_handler import SubscriptionEventCallbacks

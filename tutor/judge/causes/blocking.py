@@ -69,7 +69,7 @@ def diagnose_lock_wait(trace: Trace, stuck: Sequence[Frame]) -> Cause | None:
 def _held(stuck: Sequence[Frame], folder: str) -> tuple[Frame, tuple[Frame, ...]] | None:
     """Where a callback is: the learner's innermost line, and the frames of its thread that are within it.
 
-    A callback that waits for another one is told of before one that is at work.
+    A callback that waits for another one comes before one that is at work.
     """
     found = []
     for thread in tracebacks.frames_by_thread(stuck):

@@ -69,11 +69,11 @@ def _diagnose_exit(trace: Trace) -> Cause:
             first_sound_step(trace, whole_program)
             or "a node lives as long as rclpy.spin(node) runs: is it called, and is anything ending it?",
         )
-    told = (
+    step = (
         first_sound_step(trace, whole_program)
         or "let rclpy.spin(node) run until Ctrl+C; see the last lines of its output"
     )
-    return Cause(names.EXIT_AT_ONCE, ended, told)
+    return Cause(names.EXIT_AT_ONCE, ended, step)
 
 
 def _diagnose_usage(trace: Trace) -> Cause | None:

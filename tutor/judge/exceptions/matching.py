@@ -42,9 +42,9 @@ def explain(seen: RaisedException, table: Iterable[KnownException], *, cause: st
             own: object = seen.line
             if known.of_source:
                 own = f"{seen.file}, line {words['there']}: {words['there_code']}"
-            told = seen.traceback.raised + (f" ({own})" if own else "") + after
+            raised = seen.traceback.raised + (f" ({own})" if own else "") + after
             step = _edited(known, seen, words) or _fill_in(known.step, words)
-            return Cause(known.cause or cause, f"{told}: {_fill_in(known.says, words)}", step)
+            return Cause(known.cause or cause, f"{raised}: {_fill_in(known.says, words)}", step)
     return None
 
 

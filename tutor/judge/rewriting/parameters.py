@@ -166,7 +166,7 @@ def _below_super(file: NodeFile, code: str) -> list[Edit]:
 
 
 def check_at_start(file: NodeFile, rate: str) -> list[Edit]:
-    """A bad rate that the node is started with, told by the parameter's name."""
+    """A bad rate that the node is started with, found by the parameter's name."""
     calls = [each for each in file.calls("declare_parameter", "declare_parameters") if rate in ast.unparse(each)]
     if not calls:
         return []
@@ -319,8 +319,8 @@ def _set_on(file: NodeFile, node: ast.AST, name: str) -> bool:
     """Whether a statement stands below `if p.name == name:`."""
     for each in file.ancestors(node):
         match each:
-            case ast.If(test=ast.Compare(comparators=[ast.Constant(value=str() as told)])):
-                return told == name
+            case ast.If(test=ast.Compare(comparators=[ast.Constant(value=str() as text)])):
+                return text == name
     return False
 
 

@@ -129,8 +129,8 @@ def whole_publishing(
     publisher = file.assigned_to(kept) if kept is not None else f"{file.holder}.publisher"
     create = f"{file.name}.create_publisher({own}, {topic!r}, 10)"
     given = argument(kept, 1, "topic") if kept is not None else None
-    told = str(given.value) if isinstance(given, ast.Constant) else ""
-    if kept is not None and (file.message_class, told.lstrip("/")) != (own, topic.lstrip("/")):
+    written = str(given.value) if isinstance(given, ast.Constant) else ""
+    if kept is not None and (file.message_class, written.lstrip("/")) != (own, topic.lstrip("/")):
         edits.append(replace_node(file.text, kept, create))
     missing = [f"{publisher} = {create}"] if kept is None else []
     body = _ticking(file, publisher, own, data, enabled, log)
@@ -168,8 +168,8 @@ def use_one_type(file: NodeFile, topic: str, type_name: str) -> list[Edit]:
 def _text(file: NodeFile, code: ast.expr | None) -> str:
     """The topic's name that an expression stands for, without a slash, as far as one assignment tells it."""
     match code:
-        case ast.Constant(value=str() as told):
-            return told.lstrip("/")
+        case ast.Constant(value=str() as written):
+            return written.lstrip("/")
         case ast.Name(id=name) | ast.Attribute(attr=name):
             for each in ast.walk(file.tree):
                 match each:

@@ -17,7 +17,7 @@ _NEAR = 6
 _LONGEST = 20
 """This many lines below the one that opens a bracket may be the one that lacks its partner."""
 _SLIPS = 3
-"""This many slips in one file are told in one step."""
+"""This many slips in one file are fixed in one step."""
 _ENDS = (")", "]", "}", ":", "):", "'", '"', "')", '")', "),", "],", "},", ",", "',", '",', "])", "))", "})", ")))")
 _KEYWORDS = ("class", "def", "elif", "else:", "except", "finally:", "for", "from", "if", "import", "return", "while")
 _OPEN = re.compile(r"'([(\[{])' was never closed")
@@ -146,7 +146,7 @@ def _margin(line: str) -> int:
 
 
 def _changed(before: Sequence[str], after: Sequence[str]) -> list[Edit]:
-    """The lines that are others now; one that is indented otherwise is told with the line above it."""
+    """The lines that are others now; one that is indented otherwise is given with the line above it."""
     found: list[Edit] = []
     number = 1
     while number <= len(before):

@@ -151,7 +151,7 @@ def with_applicable_steps[**P](
 ) -> Callable[P, Verdict]:
     """The judge, with next steps that can all be followed: where one is in words only, `step` gives another.
 
-    `found` gives the runs that a judge's facts are of; the words are told with the cause then.
+    `found` gives the runs that a judge's facts are of; the words are then added to the cause.
     """
 
     @wraps(judge)
@@ -160,10 +160,10 @@ def with_applicable_steps[**P](
         trace = next((each for each in found(*args, **kwargs) if each.sources), None)
         if verdict.status is not Status.FAILED or trace is None or is_applicable(verdict.hint, trace.sources):
             return verdict
-        told = step(trace)
-        if not told:
+        hint = step(trace)
+        if not hint:
             return verdict
         words = verdict.hint if "\n" not in verdict.hint else ""
-        return replace(verdict, hint=told, cause="; ".join(each for each in (verdict.cause, words) if each))
+        return replace(verdict, hint=hint, cause="; ".join(each for each in (verdict.cause, words) if each))
 
     return judged

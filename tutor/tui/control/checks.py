@@ -25,7 +25,7 @@ CRASHED = (
 
 
 class Checks:
-    """At most one check runs; `show` is told the findings each time they change."""
+    """At most one check runs; `show` is called with the findings each time they change."""
 
     def __init__(
         self,
@@ -99,11 +99,11 @@ class Checks:
         self._host.refresh_bindings()
         self._host.work(self._run, lesson, self.running, group="check")
 
-    def _post(self, told: Event | CheckEnded) -> None:
-        if isinstance(told, CheckEnded):
-            self._host.post_message(messages.CheckOver(told))
+    def _post(self, event: Event | CheckEnded) -> None:
+        if isinstance(event, CheckEnded):
+            self._host.post_message(messages.CheckOver(event))
         else:
-            self._host.post_message(messages.CheckEvent(told))
+            self._host.post_message(messages.CheckEvent(event))
 
     async def _run(self, lesson: Lesson, checking: CheckProcess) -> None:
         await self._files.save_all()

@@ -305,7 +305,7 @@ class Files:
         async with self._lock:  # nobody looks at the file between its two versions
             await self._write_changed()
             if self._pane.is_changed(path):
-                return  # it could not be saved, which was told: what was typed is nowhere else
+                return  # it could not be saved, which was reported: what was typed is nowhere else
             try:
                 placed = await asyncio.to_thread(model.session.reset, file)
                 text = await asyncio.to_thread(read_source, path)

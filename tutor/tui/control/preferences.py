@@ -52,5 +52,5 @@ class Preferences:
                 await asyncio.to_thread(model.session.keep, state)
                 self._kept = state
             except StorageError as error:
-                self._kept = state  # told once, not at every change
+                self._kept = state  # reported once, not at every change
                 self._host.show_error(f"The app cannot remember this: {error}")

@@ -81,6 +81,6 @@ class Records:
             self._host.post_message(messages.ProgressRead(self._host.model.progress))
 
     async def run_in_order[T](self, work: Callable[..., T], *given: Any) -> T:
-        """Do this in a thread, after what was asked for before it: the last that is told is then the latest."""
+        """Do this in a thread, after what was asked for before it: what is reported last is then the latest."""
         async with self._lane:
             return await asyncio.to_thread(work, *given)

@@ -111,7 +111,7 @@ class ChecklistScreen(Screen[None]):
         self._welcome_on(ticked == total > 0)
 
     def _welcome_on(self, ready: bool) -> None:
-        """Anyone who has ticked everything is told what comes next."""
+        """Anyone who has ticked everything sees what comes next."""
         found, banner = self._assessment, self.query_one("#checklist-ready", Static)
         banner.display = ready and bool(found.ready_text)
         if banner.display:

@@ -27,7 +27,7 @@ _ABOUT = {
 
 
 class ExportScreen(Dialog[tuple[str, Path]]):
-    """Gives the format and the file; the file may exist: whoever writes it asks."""
+    """Gives the format and the file; the file may exist: the caller asks before it overwrites one."""
 
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("up", "format(-1)", show=False),
@@ -65,7 +65,7 @@ class ExportScreen(Dialog[tuple[str, Path]]):
         text = self.query_one(Input).value.strip()
         try:
             return self._folder / Path(text).expanduser()
-        except RuntimeError:  # "~somebody" who is not there
+        except RuntimeError:  # "~somebody", where there is no such user
             return self._folder / text
 
     def action_format(self, by: int) -> None:

@@ -29,14 +29,14 @@ class LiveChild(LineChild):
         return await cls._start(command.argv, Path("/"), env=command.env, stdin=asyncio.subprocess.PIPE)
 
     def send(self, request: WatcherRequest) -> None:
-        """Have it do this. Never waits; what a dead or stuck child is told is lost."""
+        """Have it do this. Never waits; what is sent to a dead or stuck child is lost."""
         assert self._process.stdin is not None
         transport = self._process.stdin.transport
         if not transport.is_closing() and transport.get_write_buffer_size() < _MOST_UNSENT:
             self._process.stdin.write(encode_request(request).encode() + b"\n")
 
     async def updates(self) -> AsyncIterator[Update]:
-        """What it tells, until it ends. Raises ValueError for a line that is not an update."""
+        """Its updates, until it ends. Raises ValueError for a line that is not an update."""
         async for line in self.lines():
             yield decode_update(line)
 

@@ -38,7 +38,7 @@ from tutor.tui.live.topics_panel import TopicsPanel, WatcherRequested
 from tutor.tui.widgets.strip import TabStrip
 
 MOST_MISSES = 3
-"""This many near-miss names are told at once at most."""
+"""This many near-miss names are shown at once at most."""
 
 MOST_OFFERED = 8
 """This many topics of the learner's nodes are followed unasked at most."""
@@ -77,7 +77,7 @@ class LivePane(Vertical):
     ]
 
     class Arrived(Message):
-        """The watching process has told something."""
+        """The watching process has sent an update."""
 
         def __init__(self, update: Update) -> None:
             super().__init__()
@@ -398,7 +398,7 @@ class LivePane(Vertical):
         if self.has_focus_within and not self.query_one(TabStrip).has_focus:
             self.focus_content()
 
-    # --- who looks ---
+    # --- whether anyone looks ---
 
     def on_show(self, event: events.Show) -> None:
         """The page is turned to."""

@@ -66,7 +66,7 @@ class LogView(LineView):
         self._lay_out()
 
     def watch_scroll_y(self, old_value: float, new_value: float) -> None:
-        """Whoever scrolls up wants to stay there; at the end it follows again."""
+        """Stay where the learner has scrolled to; at the end, follow again."""
         super().watch_scroll_y(old_value, new_value)
         if self.following != (at_end := self.is_vertical_scroll_end):
             self.following = at_end

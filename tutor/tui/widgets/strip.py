@@ -28,7 +28,7 @@ class TabStrip(Widget, can_focus=True):
         Binding("right", "step(1)", "Next tab", show=False),
     ]
     active = reactive("", repaint=False)
-    """Repainted by whoever turns the page on `Turned`: a strip that is drawn first makes the page wait a frame."""
+    """Repainted by the handler of `Turned`, with the page: a strip that is drawn first makes the page wait a frame."""
     labels: reactive[dict[str, str]] = reactive({})
 
     class Turned(Message):

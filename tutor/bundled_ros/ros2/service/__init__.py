@@ -6,7 +6,7 @@ import argparse
 
 VERBS = {
     "call": "Call a service and show its answer",
-    "echo": "Show the calls of a service, where it tells of them",
+    "echo": "Show the calls of a service, where it publishes them",
     "find": "List the services of a type",
     "info": "Show a service's type, and how many offer and call it",
     "list": "List the services",

@@ -44,7 +44,7 @@ def main(arguments: argparse.Namespace) -> None:
         except UnknownInterface as error:
             raise CommandError(f"The service type '{type_name}' is invalid") from error
 
-        def heard(event: object) -> None:
+        def on_event(event: object) -> None:
             if arguments.csv:
                 print(form.csv(event), flush=True)
                 return
@@ -54,7 +54,7 @@ def main(arguments: argparse.Namespace) -> None:
 
         topic = f"{name}/_service_event"
         qos = QoSPresetProfiles.get_from_short_key("services_default")
-        subscription = domain.node.create_subscription(event_class, topic, heard, qos)
+        subscription = domain.node.create_subscription(event_class, topic, on_event, qos)
         domain.find(lambda: subscription.get_publisher_count() or None)
         if not subscription.get_publisher_count():
             print(f"No publishers on topic '{topic}'; is service introspection on the client or server enabled?")

@@ -38,7 +38,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--csv", action="store_true", help="all values, separated by commas")
     add("--field", help="only this field, such as pose.position")
     add_format_arguments(parser)
-    add("--no-lost-messages", action="store_true", help="do not tell of lost messages")
+    add("--no-lost-messages", action="store_true", help="do not report lost messages")
     add("--raw", action="store_true", help="the bytes as they were sent")
     add("--filter", dest="filter_expr", help="only messages m for which this Python expression is true")
     add("--once", action="store_true", help="end after the first message")
@@ -57,7 +57,7 @@ def main(arguments: argparse.Namespace) -> None:
         if message_type is None:
             warn_of_no_publisher(arguments.topic_name)
             raise CommandError("Could not determine the type for the passed topic")
-        full_name(domain, arguments.topic_name)  # tells of one that no topic can have
+        full_name(domain, arguments.topic_name)  # reports a name that no topic can have
         batches = receive(
             domain,
             arguments.topic_name,

@@ -41,7 +41,7 @@ def receive_measured(domain: Domain, topic: str, message_type: Any, *, raw: bool
 
 
 def arrival(domain: Domain, *, simulated: bool) -> Callable[[Received], int]:
-    """Gives a message's time of arrival in ns; 0 as long as a simulation's clock has not been heard."""
+    """Gives a message's time of arrival in ns; 0 as long as no message of a simulation's clock has come."""
     clock = domain.node.get_clock()
     if simulated:
         return lambda _: int(clock.now().nanoseconds)

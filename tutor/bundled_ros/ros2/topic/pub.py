@@ -75,7 +75,7 @@ def main(arguments: argparse.Namespace) -> None:
             "--max-wait-time-secs option is only effective with --wait-matching-subscriptions, --once or --times"
         )
     with join_domain(arguments, name=arguments.node_name) as domain:
-        full_name(domain, arguments.topic_name)  # tells of one that no topic can have
+        full_name(domain, arguments.topic_name)  # reports a name that no topic can have
         if least:
             domain.complete()
         publisher = domain.node.create_publisher(message_type, arguments.topic_name, qos_of(arguments))

@@ -102,7 +102,7 @@ class Condition:
         return repr(self)
 
     def evaluate(self, context: LaunchContext) -> bool:
-        """Whether the action is executed; raises where that cannot be told."""
+        """Whether the action is executed; raises where that cannot be known."""
         self._last_result = self._predicate(context) if self._predicate is not None else False
         return self._last_result
 

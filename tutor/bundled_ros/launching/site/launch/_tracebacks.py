@@ -23,16 +23,16 @@ def of_learner(error: BaseException) -> str | None:
     not known either.
     """
     for candidate in reversed(_chain(error)):
-        told = traceback.TracebackException.from_exception(candidate, compact=True)
-        told.__cause__ = told.__context__ = None
-        frames = [frame for frame in told.stack if not _is_foreign(frame.filename)]
+        shown = traceback.TracebackException.from_exception(candidate, compact=True)
+        shown.__cause__ = shown.__context__ = None
+        frames = [frame for frame in shown.stack if not _is_foreign(frame.filename)]
         in_file = isinstance(candidate, SyntaxError) and not _is_foreign(str(candidate.filename))
         place: Place | None = getattr(candidate, "_place_of_action", None)
         if not frames and not in_file and place is not None:
             frames = [place]
         if frames or in_file:
-            told.stack = traceback.StackSummary.from_list(frames)
-            return "".join(told.format(chain=False)).rstrip()
+            shown.stack = traceback.StackSummary.from_list(frames)
+            return "".join(shown.format(chain=False)).rstrip()
     return None
 
 

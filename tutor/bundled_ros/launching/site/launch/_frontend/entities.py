@@ -10,7 +10,7 @@ from ..utilities import SCALARS, coerce_to_type, extract_type
 
 
 class Entity:
-    """One entity. What of it has been asked for is kept, so that what is not known can be told."""
+    """One entity. What of it has been asked for is kept, so that what is not known can be reported."""
 
     def __init__(self, type_name: str) -> None:
         self.type_name = type_name
