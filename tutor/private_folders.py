@@ -42,7 +42,7 @@ def logs(environ: Mapping[str, str] = os.environ) -> Path:
     return Path(environ.get("ROS_LOG_DIR") or base() / "log")
 
 
-def is_ours(path: Path) -> bool:
+def contains(path: Path) -> bool:
     """Whether a path is in `base`: not a place of the user's own. Raises OSError."""
     return path.is_relative_to(base())
 

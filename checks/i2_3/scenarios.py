@@ -44,7 +44,7 @@ SPINS_S = 2.5
 """A node whose service is there spins at the latest twice this later, or never."""
 
 APART_S = 0.1
-"""Of three calls at once, the last comes this much later, so that another order is no chance."""
+"""Of three calls at once, the last is made this much later, so that answers in another order mean something."""
 
 
 @repeat_if_doubtful

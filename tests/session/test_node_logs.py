@@ -27,7 +27,7 @@ print("emptied" if not log.stat().st_size else "as it was", flush=True)
 async def test_log_files_are_kept_small_in_our_own_folder_only(
     ours: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(private_folders, "home", lambda: tmp_path / "ours")
+    monkeypatch.setattr(private_folders, "base", lambda: tmp_path / "ours")
     monkeypatch.setattr(log_folder, "limit", lambda path: _limit(path))
     logs = tmp_path / ("ours" if ours else "theirs") / "log"
     logs.mkdir(parents=True)

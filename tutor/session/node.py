@@ -107,7 +107,7 @@ class Node:
             self.pid = process.pid
             self._say(replace(self.state, phase=Phase.RUNNING, since=process.started_at))
             beside = [asyncio.create_task(self._stop_when_asked(process))]
-            if (logs := command.env.get("ROS_LOG_DIR")) and private_folders.is_ours(Path(logs)):
+            if (logs := command.env.get("ROS_LOG_DIR")) and private_folders.contains(Path(logs)):
                 beside.append(asyncio.create_task(log_folder.limit(Path(logs))))
             try:
                 await self._follow(process)
