@@ -7,9 +7,9 @@ from rich.text import Text
 
 from tutor.judge.result import CriterionResult
 from tutor.judge.verdict import Status
-from tutor.printable import printable
 from tutor.report.plain import MARKS, one_line, seconds
 from tutor.report.text import STYLES
+from tutor.terminal_text import printable
 
 _RED = STYLES[Status.FAILED]
 _MARGIN = "┃ "
