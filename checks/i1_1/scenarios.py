@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from collections import Counter
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from contextlib import suppress
 
 from checks.i1_1.facts import (
@@ -132,14 +132,37 @@ async def parameters(bench: Bench) -> tuple[Parameter, ...] | None:
 
 
 async def probe_rates(bench: Bench) -> RateProbes:
-    """Start it once for each value of each parameter that may be the rate."""
-    declared = await bench.facts(parameters)
+    """Start it once for each value of each parameter that may be the rate.
+
+    The name that the skeleton suggests is tried while the node is asked which parameters it has: most have that one.
+    """
+    suggested = [(SUGGESTED_RATE, "Hz", value, False) for value in VALUES["Hz"]]
+    begun = {each: asyncio.ensure_future(_probe_rate(bench, *each)) for each in suggested}
+    try:
+        declared = await bench.facts(parameters)
+        if any(p.name == SUGGESTED_RATE for p in declared or ()):
+            return await _probe_declared(bench, declared, begun)
+    finally:
+        await _cancel(begun.values())
+    return await _probe_declared(bench, declared, {})
+
+
+_Attempt = tuple[str, str, float, bool]
+"""A parameter, the unit that it is read in, its value, and whether that is given as an integer."""
+
+
+async def _probe_declared(
+    bench: Bench, declared: tuple[Parameter, ...] | None, begun: dict[_Attempt, asyncio.Task[RateProbe]]
+) -> RateProbes:
+    """Start it for each parameter that it declares, or for the suggested one; `begun` are the starts under way."""
     tried: list[RateProbe] = []
 
-    async def attempt(plan: Iterable[tuple[str, str, float, bool]]) -> bool:
+    async def attempt(plan: Iterable[_Attempt]) -> bool:
         # As soon as every value of one parameter and unit agrees, the others need not be waited for.
         wanted = Counter((name, unit) for name, unit, _, _ in plan)
-        pending = {asyncio.ensure_future(_probe_rate(bench, *each)) for each in plan}
+        pending = {
+            begun.pop(each) if each in begun else asyncio.ensure_future(_probe_rate(bench, *each)) for each in plan
+        }
         try:
             while pending and not any(
                 len(group) == wanted[parameter_and_unit(group[0])] for group in agreeing_groups(tried)
@@ -147,9 +170,7 @@ async def probe_rates(bench: Bench) -> RateProbes:
                 done, pending = await asyncio.wait(pending, return_when=asyncio.FIRST_COMPLETED)
                 tried.extend(task.result() for task in done)
         finally:
-            for task in pending:
-                task.cancel()
-            await asyncio.gather(*pending, return_exceptions=True)
+            await _cancel(pending)
         return bool(agreeing_groups(tried))
 
     numeric = numeric_parameters(declared or ())
@@ -164,6 +185,12 @@ async def probe_rates(bench: Bench) -> RateProbes:
             tried = [probe for probe in tried if probe.name != SUGGESTED_RATE]
             await attempt([(SUGGESTED_RATE, "Hz", value, True) for value in VALUES["Hz"] if value >= 1])
     return RateProbes(declared, tuple(tried))
+
+
+async def _cancel(tasks: Collection[asyncio.Task[RateProbe]]) -> None:
+    for task in tasks:
+        task.cancel()
+    await asyncio.gather(*tasks, return_exceptions=True)
 
 
 async def probe_names(bench: Bench) -> NameProbes:
@@ -233,7 +260,7 @@ async def _probe_rate(bench: Bench, name: str, unit: str, value: float, whole: b
         return probe
 
 
-def _plan(group: Sequence[Parameter]) -> Iterable[tuple[str, str, float, bool]]:
+def _plan(group: Sequence[Parameter]) -> Iterable[_Attempt]:
     for parameter in group:
         whole = parameter.type == "integer"
         low, high = parameter.minimum, parameter.maximum
