@@ -4,8 +4,8 @@
 
 For each exercise, its solution, alone, and its wrong submissions, each from the start of its process. "told" is when
 the first final failed criterion comes, "whole" when the check has ended; half of the checks stay within p50, and nine
-of ten of ten within p90. "times sol." is the median of the wrong ones in times of the solution's; "within" is the share of
-them that end within twice the solution's time and 4 s. CPU seconds for a check: of the engine, and of all that it started.
+of ten within p90. "times sol." is the median of the wrong ones in times of the solution's; "within" is the share of
+them that end within twice the solution's time and 4 s. CPU seconds for a check: of the engine, and of all it started.
 """
 
 from __future__ import annotations
