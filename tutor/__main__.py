@@ -31,9 +31,10 @@ if __name__ == "__main__":
     sys.unraisablehook = _not_lost
     if ours:  # nothing has begun while this is imported
         signal.signal(signal.SIGINT, _interrupted)
-    from tutor.interpreter import answer_ctrl_c
+    from tutor.interpreter import answer_ctrl_c, collect_garbage_seldom
 
     answer_ctrl_c()
+    collect_garbage_seldom()
     from tutor.cli import main
 
     try:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import signal
 import sys
@@ -18,6 +19,14 @@ CTRL_C_LATER = "$(env --block-signal=INT true 2>/dev/null && echo env --block-si
 def module_command(module: str, *arguments: str) -> tuple[str, ...]:
     """The command that runs a module of ours."""
     return (sys.executable, *FLAGS, "-m", module, *arguments)
+
+
+def collect_garbage_seldom() -> None:
+    """Look for garbage in cycles less often: by default, that takes a fifth of the app's CPU time.
+
+    To be called before most is imported.
+    """
+    gc.set_threshold(50_000, 20, 50)
 
 
 def add_python_path(environ: Mapping[str, str] = os.environ) -> None:

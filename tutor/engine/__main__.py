@@ -15,6 +15,7 @@ from pathlib import Path
 from tutor.content import load_course
 from tutor.engine import run_check
 from tutor.errors import ContentError, EngineError, SubmissionError, UnknownExercise
+from tutor.interpreter import collect_garbage_seldom
 from tutor.judge.events import Event, encode
 from tutor.process.prctl import die_with_parent
 from tutor.workspace import find_submission
@@ -25,6 +26,7 @@ def main() -> int:
 
     Exit code 0: judged (whatever the verdict); 2: wrong usage, 3: a fault, each explained on stderr; 130: interrupted.
     """
+    collect_garbage_seldom()
     parser = argparse.ArgumentParser(prog="python -m tutor.engine")
     parser.add_argument("exercise")
     parser.add_argument("path", type=Path)

@@ -11,6 +11,7 @@ import os
 import sys
 from typing import BinaryIO
 
+from tutor.interpreter import collect_garbage_seldom
 from tutor.live.protocol import Update, decode_request, encode_update
 from tutor.live.request_reader import read_lines
 from tutor.live.updates import TopicUpdate
@@ -24,6 +25,7 @@ FULL = 1 << 20
 
 def main() -> int:
     """Watch until stdin ends. Exit code 0."""
+    collect_garbage_seldom()
     prepare_for_rclpy(detect(), isolated=False)
     die_with_parent()
     # What libraries print must not get among the updates.

@@ -4,9 +4,10 @@ import signal
 import sys
 
 try:
-    from tutor.interpreter import answer_ctrl_c
+    from tutor.interpreter import answer_ctrl_c, collect_garbage_seldom
 
     answer_ctrl_c()
+    collect_garbage_seldom()
     from tutor.bundled_ros.ros2.command import main
 
     sys.exit(main(sys.argv[1:]))
