@@ -32,6 +32,10 @@ class Pages:
     def __init__(self, host: HostScreen, preferences: Preferences, node_runs: Callable[[], bool]) -> None:
         self._host, self._preferences, self._node_runs = host, preferences, node_runs
         self.current = "lesson"
+        self.live: LivePane | None = None
+        """The live page, if it has been opened."""
+        self.terminal: TerminalPane | None = None
+        """The terminal page, if it has been opened."""
         self._shape: Layout | None = None
         for name, command in commands.PAGES.items():
             host.register(command, partial(self.show, name))
@@ -104,7 +108,7 @@ class Pages:
     def _open_live(self) -> LivePane:
         """The live page, which watches from the first time on that it is opened."""
         if not (found := self.live):
-            found = LivePane(id="live-pane")
+            self.live = found = LivePane(id="live-pane")
             self._host.query_one("#live", Container).mount(found)
             found.show_for(self._host.model.lesson)
             found.nodes_run(self._node_runs())
@@ -112,23 +116,13 @@ class Pages:
             found.call_after_refresh(found.start_watching, lambda: watcher_command(session.domain))
         return found
 
-    @property
-    def live(self) -> LivePane | None:
-        """The live page, if it has been opened."""
-        return next(iter(self._host.query(LivePane)), None)
-
     def open_terminal(self) -> TerminalPane:
         """The terminal page, made the first time that it is asked for."""
         if not (found := self.terminal):
             session = self._host.model.session
-            found = TerminalPane(session.shell, History(session.typed_commands()), id="terminal-pane")
+            self.terminal = found = TerminalPane(session.shell, History(session.typed_commands()), id="terminal-pane")
             self._host.query_one("#terminal", Container).mount(found)
         return found
-
-    @property
-    def terminal(self) -> TerminalPane | None:
-        """The terminal page, if it has been opened."""
-        return next(iter(self._host.query(TerminalPane)), None)
 
     # --- log and Live side by side ---
 
