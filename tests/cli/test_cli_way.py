@@ -281,7 +281,7 @@ def lines_until(stream: IO[str], words: str) -> list[str]:
 def test_watch_checks_again_at_each_save(run: Run, home: Path) -> None:
     run("start", "i1.1")
     watching = subprocess.Popen(
-        command("watch", "i1.1", "--criterion", "publishes"),
+        command("watch", "i1.1", "--criterion", "publishes", "--first"),
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,

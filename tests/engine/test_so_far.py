@@ -190,6 +190,16 @@ async def test_a_long_wait_is_told_once_for_each_change_and_looked_into_only_the
     assert len(told.all) == 6
 
 
+async def test_what_a_program_has_written_is_told_in_one_short_line(monkeypatch: pytest.MonkeyPatch) -> None:
+    told = Told(monkeypatch)
+    crash = CRASH.replace("has no attribute", "\x1b[31mhas no" + " attribute" * 200)
+    async with told.follow(FakeRun(trace(err=crash, exit=exited(1)))), asyncio.timeout(20):
+        while not told.all[-1][2]:
+            await asyncio.sleep(0.005)
+    assert 400 < len(told.all[-1][2]) <= 500
+    assert told.all[-1][2].isprintable()
+
+
 async def test_of_several_starts_the_one_with_a_likely_cause_is_told_and_stays(monkeypatch: pytest.MonkeyPatch) -> None:
     told = Told(monkeypatch)
     wrong = trace(graph=graph(publishers={TOPIC: "std_msgs/msg/Float32"}))

@@ -6,10 +6,13 @@ import asyncio
 import time
 from collections.abc import AsyncIterator, Callable, Mapping
 from contextlib import asynccontextmanager
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from tutor.content import LiveView
 from tutor.engine.so_far import Moment, SoFar, describe
+from tutor.judge.verdict import MOST_OF_A_LINE
+from tutor.report.plain import one_line
 
 if TYPE_CHECKING:  # it brings in rclpy, which must find its environment chosen
     from tutor.engine.run import RosRun
@@ -70,6 +73,7 @@ class Provisional:
             self._say(max(found, key=lambda each: each.weight, default=NOTHING))
 
     def _say(self, so_far: SoFar) -> None:
+        so_far = replace(so_far, text=one_line(so_far.text, MOST_OF_A_LINE))  # it may hold what a program has written
         if so_far != self._so_far:
             self._so_far = so_far
             self._tell(self._fraction, self._doing, so_far)
