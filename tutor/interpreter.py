@@ -1,4 +1,4 @@
-"""Processes of ours in Python: nothing of the learner's folder or environment is run in them."""
+"""Our own Python processes: nothing of the learner's folder or environment is run in them."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ CTRL_C_LATER = "$(env --block-signal=INT true 2>/dev/null && echo env --block-si
 
 
 def module_command(module: str, *arguments: str) -> tuple[str, ...]:
-    """The command that runs a module of ours."""
+    """The command that runs one of our modules."""
     return (sys.executable, *FLAGS, "-m", module, *arguments)
 
 
@@ -44,7 +44,7 @@ def answer_ctrl_c() -> None:
 
 
 def become(command: Sequence[str], env: Mapping[str, str]) -> NoReturn:
-    """Run another program of ours, which calls `answer_ctrl_c`, in place of this one. Raises OSError."""
+    """Run another of our programs, which calls `answer_ctrl_c`, in place of this one. Raises OSError."""
     signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
         os.execve(command[0], list(command), env)

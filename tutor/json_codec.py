@@ -35,7 +35,7 @@ class LineCodec[T]:
 
 
 def write_document(schema: str, **members: Any) -> str:
-    """A file of ours as JSON, to be read by people, too: `schema` names its format and version."""
+    """One of our files as JSON, to be read by people, too: `schema` names its format and version."""
     import msgspec
 
     return json.dumps({"schema": schema, **msgspec.to_builtins(members)}, ensure_ascii=False, indent=1) + "\n"

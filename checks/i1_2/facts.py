@@ -71,7 +71,7 @@ second.
 
 @dataclass(frozen=True, slots=True)
 class Sent:
-    """One `Hello World: N` of ours: N, when it was sent, and how much of the CPU the machine had owed by then."""
+    """One of our `Hello World: N`: N, when it was sent, and how much of the CPU the machine had owed by then."""
 
     number: int
     at: float

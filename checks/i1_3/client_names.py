@@ -17,7 +17,7 @@ from tutor.ros_model import ServiceEndpoint
 
 
 def diagnose_client(seen: ClientRun, missing: Sequence[str]) -> Cause | None:
-    """Whether a service client asks for a name, or a type, that no service of ours has; some are `missing` calls."""
+    """Whether a service client asks for a name, or a type, that none of our services has; some are `missing` calls."""
     if seen.trace is None or not missing:
         return None
     asked = sorted((each for each in seen.clients if not each.is_standard), key=lambda each: each.name)

@@ -108,7 +108,7 @@ ROUGH_S = 0.15
 
 @dataclass(frozen=True)
 class ClientRun:
-    """A run of the client against servers of ours. None of it where the submission has no client.
+    """A run of the client against our servers. None of it where the submission has no client.
 
     `up_s`: how long after its start our servers came up; None where it had ended by then. `stuck`: where it was when it
     did not end; `clients`: the service clients that it had. `cpu_wait_s`: how long the machine kept it, or us, from

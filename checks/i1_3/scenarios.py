@@ -150,7 +150,7 @@ async def divide_by_zero(bench: Bench) -> Division:
 
 
 async def run_client(bench: Bench) -> ClientRun:
-    """Run the client, and bring up four servers of ours when it has been there for a while."""
+    """Run the client, and bring up our four servers when it has been there for a while."""
     if not bench.has_file(CLIENT):
         return ClientRun(None)
     async with bench.start(CLIENT) as run:

@@ -107,7 +107,7 @@ def test_a_hint_without_a_workspace_says_why_it_is_the_first(run: Run, home: Pat
         ran = run("hint", "i2.1")
         assert ran.code == 0
         assert ran.out.startswith("Hint 1 of 3\n")
-        assert "nobody remembers which hints you have seen" in ran.err
+        assert "cannot remember which hints you have seen" in ran.err
     assert list(home.iterdir()) == []
 
 

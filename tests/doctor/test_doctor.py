@@ -206,7 +206,7 @@ def test_a_workspace_that_may_not_be_written() -> None:
     ("variables", "parts"),
     [
         ({"TERM": "xterm-256color", "COLUMNS": "80", "LINES": "24"}, ("ok=True", "colour, UTF-8")),
-        ({"TERM": "dumb"}, ("ok=None", "TERM names none")),
+        ({"TERM": "dumb"}, ("ok=None", "TERM names no terminal")),
         ({"TERM": "vt100"}, ("ok=None", "few colours")),
         ({"TERM": "xterm-256color", "PYTHONIOENCODING": "latin-1"}, ("ok=None", "not UTF-8")),
     ],

@@ -145,7 +145,7 @@ def test_our_solution_passes_behind_them_and_the_report_names_them() -> None:
     assert code == 0, (report, said)
     assert_report_shape(report)
     stands = {each["name"]: each["stands"] for each in report["walls"]}
-    process_limit = stands.pop("process limit")  # the kernel holds root to none
+    process_limit = stands.pop("process limit")  # the kernel sets root no such limit
     assert process_limit or os.geteuid() == 0
     assert stands == dict.fromkeys(("user", "network", "processes", "files", "memory limit", "file limit"), True)
 

@@ -225,7 +225,7 @@ def test_a_closed_input_is_one_that_has_ended(env: dict[str, str]) -> None:
 
 def test_it_goes_without_a_command(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["--plain", "list"]) == 2
-    told = "ros-tutor: --plain goes without a command: list writes lines of text as it is\n"
+    told = "ros-tutor: --plain takes no command: list writes plain text anyway\n"
     assert capsys.readouterr() == ("", told)
 
 

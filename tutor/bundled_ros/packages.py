@@ -45,7 +45,7 @@ def hint(name: str, names: Iterable[str]) -> str:
 
 
 def find_executable(package: str, executable: str) -> list[str]:
-    """The command that starts a program of a package: one word, or the interpreter and a script of ours.
+    """The command that starts a program of a package: one word, or the interpreter and our script.
 
     Raises PackageNotFound, ExecutableNotFound.
     """

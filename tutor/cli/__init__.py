@@ -39,6 +39,6 @@ def _run(argv: Sequence[str] | None) -> int:
     if arguments.command is None:
         return app.run(arguments)
     if arguments.plain:
-        raise UsageError(f"--plain goes without a command: {arguments.command} writes lines of text as it is")
+        raise UsageError(f"--plain takes no command: {arguments.command} writes plain text anyway")
     code: int = arguments.run(arguments)
     return code

@@ -28,7 +28,7 @@ def run(arguments: argparse.Namespace) -> int:
     elif not workspace.exists:
         terminal.out(_hint(1, lesson.hints))
         terminal.say(
-            f"without a workspace, nobody remembers which hints you have seen; "
+            f"without a workspace, ros-tutor cannot remember which hints you have seen; "
             f"`{command('start', lesson.id)}` makes one, `{command('hint', lesson.id, '--all')}` shows them all"
         )
     else:

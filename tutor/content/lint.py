@@ -143,7 +143,10 @@ def _folder(lesson: Lesson) -> Iterator[Problem]:
             yield Problem(file.skeleton, "the skeleton is the solution")
     for partner in lesson.live.partners:
         if partner.beside and partner.beside not in [file.name for file in lesson.files]:
-            yield Problem(lesson.folder / "lesson.md", f"{partner.name} is beside {partner.beside}, which it has not")
+            yield Problem(
+                lesson.folder / "lesson.md",
+                f"{partner.name} is beside {partner.beside}, which is no file of the lesson",
+            )
         if partner.file is not None:
             expected.add(partner.file)
             if not partner.file.is_file():

@@ -1,4 +1,4 @@
-"""What a lesson is about on DDS, for the app: what to look at, and which nodes of ours go with the learner's."""
+"""What a lesson is about on DDS, for the app: what to look at, and which of our nodes go with the learner's."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ class LiveTopic:
 
 @dataclass(frozen=True, slots=True)
 class Partner:
-    """A node of ours that the learner can start beside their own.
+    """One of our nodes, to be started beside the learner's own.
 
     It is either `run`, the words that follow `ros2 run`, or a Python `file`. `beside` is the learner's file that it
     goes with; empty where it goes with any.

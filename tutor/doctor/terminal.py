@@ -30,7 +30,7 @@ def _wanting(environ: Mapping[str, str]) -> list[tuple[str, str]]:
     term = environ.get("TERM", "")
     found: list[tuple[str, str]] = []
     if term in ("", "dumb"):
-        found.append(("TERM names none that can be drawn on", "export TERM=xterm-256color"))
+        found.append(("TERM names no terminal that can be drawn on", "export TERM=xterm-256color"))
     elif "256" not in term and "COLORTERM" not in environ and not term.startswith(("xterm-", "tmux", "screen-256")):
         found.append(("it may show few colours", "export TERM=xterm-256color"))
     if (sys.stdout.encoding or "").lower().replace("-", "") != "utf8":

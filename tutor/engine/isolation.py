@@ -28,7 +28,7 @@ _MOST_FILES, _MOST_MB = 2000, 64
 """What there may be to copy of a submission."""
 _INSTALL = "install it (sudo apt install bubblewrap), or check without --isolate only code that you would run yourself"
 _ALLOW = (
-    "where it is the kernel that refuses, allow user namespaces (on Ubuntu 24.04: sudo sysctl "
+    "if the kernel refuses, allow user namespaces (on Ubuntu 24.04: sudo sysctl "
     "kernel.apparmor_restrict_unprivileged_userns=0), or check on another machine"
 )
 _SYSTEM = ("/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/opt/ros")
@@ -85,9 +85,9 @@ class Isolation:
     def restrictions(self) -> tuple[Restriction, ...]:
         """For the report: what is restricted, and why something is not."""
         count = f"{PROCESSES} of one start, threads included"
-        root = "the kernel holds root to none: check as another user"
+        root = "the kernel sets root no such limit: check as another user"
         return (
-            Restriction("user", True, "a namespace of its own, without any right of the user's over others"),
+            Restriction("user", True, "a namespace of its own, without the user's rights"),
             Restriction("network", True, "the loopback interface of the check's own network, and no other"),
             Restriction("processes", True, "only its own can be seen or ended"),
             Restriction(

@@ -38,7 +38,7 @@ LOOK_EVERY_S = 0.05
 MOST_EXTENSIONS = 5
 """A limit is extended by what the node was kept from running, up to this many times the limit."""
 
-TOO_BUSY = "this machine is too busy: the node, or what watches it, was not let run"
+TOO_BUSY = "this machine is too busy: the node, or what watches it, did not get to run"
 
 LITTLE_CPU_S = 0.5
 """A node that had less CPU time than this while it was waited for may not have been let run."""
@@ -97,7 +97,7 @@ class RosRun:
 
     @property
     def unanswered(self) -> bool:
-        """Whether a request of ours waits for its answer."""
+        """Whether one of our requests waits for its answer."""
         return self._asking > 0
 
     @property

@@ -187,7 +187,7 @@ class Runner:
             return point_to_todo(verdict, self._todo, text.hint if text else "")
         except Fault as error:
             return fault(str(error), error.hint)
-        except Exception as error:  # the check's boundary: a fault of ours must not be shown as the learner's
+        except Exception as error:  # the check's boundary: our fault must not be shown as the learner's
             where = _where(error)
             return fault(
                 f"the check itself failed: {type(error).__name__}: {error}",

@@ -1,6 +1,6 @@
 """Limits how many processes start at a time; those whose scenario takes longest go first.
 
-A start costs about half a second of CPU time: Python, rclpy, a participant of its own, and one of ours that watches it.
+A start costs about half a second of CPU time: Python, rclpy, a participant of its own, and ours to watch it.
 Thirty starts at once on two cores would all be up only when the last one is, and each then begins to wait for what
 physics asks of it. One after the other, the first is up in half a second, and waits while the others start.
 """

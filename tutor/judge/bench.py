@@ -24,7 +24,7 @@ Handler = Callable[[Mapping[str, Any]], Mapping[str, Any]]
 
 
 class Publisher(Protocol):
-    """A publisher of ours on the learner's domain, with a talker's QoS: reliable, volatile, a queue of 10."""
+    """Our publisher on the learner's domain, with a talker's QoS: reliable, volatile, a queue of 10."""
 
     @property
     def endpoint(self) -> TopicEndpoint:

@@ -118,7 +118,7 @@ class CallAnswer:
 
 @dataclass(frozen=True, slots=True)
 class Served:
-    """One request that a server of ours answered."""
+    """One request that our server answered."""
 
     service: str
     request: Mapping[str, Any]

@@ -32,7 +32,7 @@ def main() -> int:
     pipe_file = os.fdopen(os.dup(sys.stdout.fileno()), "wb", buffering=0)
     os.dup2(sys.stderr.fileno(), sys.stdout.fileno())
     asyncio.run(_watch(pipe_file))
-    # Threads of the middleware may take their time; nothing of ours is left to be saved.
+    # Threads of the middleware may take their time; we have nothing left to save.
     sys.stderr.flush()
     os._exit(0)
 

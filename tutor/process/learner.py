@@ -74,7 +74,7 @@ class LearnerProcess:
         wrapper: Sequence[str] = (),
         on_change: Callable[[], None] | None = None,
     ) -> Self:
-        """Start `argv` with exactly the environment `env` (and a mark of ours) in the folder `cwd`.
+        """Start `argv` with exactly the environment `env` (and our mark) in the folder `cwd`.
 
         It gets a session and process group of its own, default signal handling, no input, and pipes for its output.
         `terminal`: its input is a terminal where nobody types. `ros2 launch` looks there whether Ctrl+C reaches the

@@ -1,4 +1,4 @@
-"""A program of ours as a child process that speaks in lines. The app never imports rclpy, and outlives the child."""
+"""One of our programs as a child process that speaks in lines. The app never imports rclpy, and outlives the child."""
 
 from __future__ import annotations
 

@@ -13,7 +13,7 @@ from tutor.process.supervisor import Process, kill, processes
 MARK = "ROS_TUTOR_RUN"
 
 supervisors: set[int] = set()
-"""Our supervisors, from their start until they are reaped: all children of ours that have a session of their own."""
+"""Our supervisors, from their start until they are reaped: our children that have a session of their own."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,7 +50,7 @@ def find_orphans(marks: RunMarks) -> list[Process]:
 
 
 def end_orphans(limit_s: float = 1.0) -> None:
-    """Kill what has come to us since a process of ours that looked after it has died, and all that it started."""
+    """Kill what has come to us since the process that looked after it has died, and all that it started."""
     until = time.monotonic() + limit_s
     while (found := find_orphans(RunMarks("", None, frozenset()))) and time.monotonic() < until:
         kill(found)

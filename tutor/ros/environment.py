@@ -108,7 +108,7 @@ def learner_env(
 
 
 def tutor_env(ros: RosEnvironment, *, isolated: bool, environ: Mapping[str, str] = os.environ) -> dict[str, str]:
-    """The environment for a process of ours that imports rclpy, to be run with `sys.executable`.
+    """The environment for our own processes that import rclpy, to be run with `sys.executable`.
 
     A process that is started with it need not restart itself in `tutor.ros.process_setup.prepare_for_rclpy`.
     """

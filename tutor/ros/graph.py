@@ -1,4 +1,4 @@
-"""The ROS graph as a node of ours sees it, as plain data."""
+"""The ROS graph as our node sees it, as plain data."""
 
 from __future__ import annotations
 

@@ -36,7 +36,7 @@ To leave a topic takes some tenths of a second while Fast DDS is busy with what 
 
 
 class Guarded(Protocol):
-    """A participant of ours that receives from a learner's nodes."""
+    """One of our participants, which receives from a learner's nodes."""
 
     threads: frozenset[str]
     """The threads of this process that receive for it, as the system numbers them."""

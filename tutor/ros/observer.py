@@ -47,7 +47,7 @@ class _Gate(MutuallyExclusiveCallbackGroup):
 
 
 class Observer:
-    """A participant of ours. Every method is called on the event loop's thread; facts arrive there too.
+    """Our participant in a domain. Every method is called on the event loop's thread; facts arrive there too.
 
     `on_change` is called (on that thread) after each new fact. Messages and answers are taken in the executor's thread
     and handed over with `call_soon_threadsafe`.

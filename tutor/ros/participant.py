@@ -1,4 +1,4 @@
-"""How we join a domain: with a context, and so a participant, of our own, and nodes with a prefix of ours."""
+"""How we join a domain: with a context, and so a participant, of our own, and nodes with our prefix."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 """Small programs that try ROS out in a process of their own, for the doctor.
 
-Run by path, with any Python: nothing of ours is imported. The last line on stdout is the answer, as JSON.
+Run by path, with any Python: none of our code is imported. The last line on stdout is the answer, as JSON.
 
     probe.py import             how long `import rclpy` takes, and from where it comes
     probe.py interfaces         whether example_interfaces/srv/AddTwoInts can be used

@@ -22,7 +22,7 @@ def from_rclpy(profile: QoSProfile) -> QoS:
 
 
 def subscription_profile(qos: QoS, depth: int) -> QoSProfile:
-    """The profile for a subscription of ours, which requests this reliability and durability only."""
+    """The profile for our subscription, which requests this reliability and durability only."""
     return QoSProfile(
         history=HistoryPolicy.KEEP_LAST,
         depth=depth,

@@ -1,4 +1,4 @@
-"""A publisher of ours on the learner's domain, with a participant of its own."""
+"""Our publisher on the learner's domain, with a participant of its own."""
 
 from __future__ import annotations
 

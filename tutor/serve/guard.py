@@ -49,7 +49,7 @@ def only_own_pages(token: str = "") -> Middleware:
         if origin is not None and urlsplit(origin).netloc.lower() != request.host.lower():
             raise web.HTTPForbidden(text="This page belongs to another site.\n")
         if not (is_this_machine(request.host) or (token and is_address_or_ours(request.host))):
-            raise web.HTTPForbidden(text="Nobody is called so here: use the address that ros-tutor printed.\n")
+            raise web.HTTPForbidden(text="Nothing has this name here: use the address that ros-tutor printed.\n")
         if owner(request) not in (None, 0, os.getuid()):
             raise web.HTTPForbidden(text="This app belongs to another user of this machine.\n")
         if token and _same(request.query.get(TOKEN, ""), token):

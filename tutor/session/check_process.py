@@ -51,7 +51,7 @@ class CheckProcess:
             over = await self._run()
         except OSError as error:
             over = CheckEnded(self.exercise, fault=f"the check could not be started: {error.strerror or error}")
-        except Exception as error:  # the worker border: a fault of ours must not take the app down
+        except Exception as error:  # the worker border: our fault must not take the app down
             over = CheckEnded(self.exercise, fault=f"the check broke: {type(error).__name__}: {error}")
         finally:
             if self._child is not None:

@@ -70,7 +70,7 @@ class Findings:
         return Findings(self.exercise, fresh, checking=True, before=self.before)
 
     def remembering(self, progress: ExerciseProgress) -> Findings:
-        """With what the progress file says of the last check; it holds no diagnosis, so a verdict of ours says more."""
+        """With what the progress file says of the last check; it holds no diagnosis, so our own verdict says more."""
         if self.judged or self.checking or (last := progress.last) is None:
             return self
         met = last_met((f.id for f in self.criteria), progress)
@@ -109,7 +109,7 @@ class Findings:
         return replace(self, criteria=tuple(map(idle, self.criteria)), checking=False, note=note)
 
     def broken(self, what: str, hint: str, evidence: tuple[str, ...]) -> Findings:
-        """The check itself failed: what has no verdict yet could not be judged, and that is a fault of ours."""
+        """The check itself failed: what has no verdict yet could not be judged, and that is our fault."""
         verdict = fault(what, hint, evidence)
         judged = tuple(f if f.verdict else replace(f, checking=True, verdict=verdict) for f in self.criteria)
         return replace(self, criteria=judged, checking=False, note="could not be judged")

@@ -179,7 +179,7 @@ class Session:
         return NodeCommand(file.name, (*first, str(path), *given), env, path.parent, typed, terminal=launch)
 
     def partner_command(self, partner: Partner) -> NodeCommand:
-        """How to run a node of ours beside the learner's, in their own ROS domain; raises what `node_command` does."""
+        """How to run our partner node beside the learner's, in their own domain; raises what `node_command` does."""
         if partner.file is not None:
             ros, env = self._world(None)
             typed = f"python3 {partner.file.name}"

@@ -38,7 +38,7 @@ class Workspace:
         return self.package / ("launch" if is_launch_file(name) else PACKAGE) / name
 
     def data_file(self, name: str) -> Path:
-        """Where a file of ours is kept that is none of the learner's."""
+        """Where one of our own files is kept, beside the learner's."""
         return self.root / MARKER / name
 
     def progress(self, notify: Callable[[str], None] = to_stderr) -> ProgressFile:

@@ -84,7 +84,7 @@ class Progress:
         return self.with_exercise(exercise, replace(before, started_at=before.started_at or now()))
 
     def with_attempt(self, result: ExerciseResult, *, whole: bool) -> Progress:
-        """A copy with one more attempt. Only a whole check can be the best; a fault of ours is no attempt at all.
+        """A copy with one more attempt. Only a whole check can be the best; our own fault is no attempt at all.
 
         What was not judged, since the check ended at its first failure, is as it was.
         """

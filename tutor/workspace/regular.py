@@ -21,7 +21,7 @@ def read_regular(path: Path | str, most: int) -> bytes | None:
 
 
 def read_text(path: Path, most: int = 16_000_000) -> str:
-    """The text of a file of ours. Raises OSError, and ValueError where it is no file of text."""
+    """The text of one of our files. Raises OSError, and ValueError where it is no text file."""
     data = read_regular(path, most)
     if data is None:
         raise ValueError("it is damaged")

@@ -1,6 +1,6 @@
 """`talker` and `listener`, behaving as those of `demo_nodes_py` and `demo_nodes_cpp` do.
 
-Run by path, with any Python that has rclpy: nothing of ours is imported.
+Run by path, with any Python that has rclpy: none of our code is imported.
 
     nodes.py demo_nodes_py|demo_nodes_cpp talker|listener [--ros-args ...]
 """

@@ -1,4 +1,4 @@
-"""A node of ours on the user's domain, and when it has seen all that is there.
+"""Our node on the user's domain, and when it has seen all that is there.
 
 There is no daemon that has watched the domain before. Fast DDS gives each participant (usually a process) UDP ports
 of its own, so that those of this machine can be counted without asking; a list is complete when as many have been met.
@@ -115,7 +115,7 @@ class Domain:
             if (found := look()) is not None:
                 return found
             now = time.monotonic()
-            # Where we are kept from running, so are those threads of ours to which the others talk.
+            # Where we are kept from running, so are our threads that the others talk to.
             late_s += max(0.0, now - polled - 2 * _POLL_S)
             slowest_s, polled = max(slowest_s, now - polled), now
             if (sees := graph_fingerprint(self.node)) != seen:

@@ -16,7 +16,7 @@ from tutor.workspace import RunOptions
 
 
 class Nodes:
-    """One node for each file, and one of ours that goes with them.
+    """One node for each file, and our partner node that goes with them.
 
     Only those of one lesson: two lessons' nodes would talk into each other's topics.
     """
@@ -24,7 +24,7 @@ class Nodes:
     def __init__(self, host: HostScreen, files: Files, preferences: Preferences) -> None:
         self._host, self._files, self._preferences = host, files, preferences
         self.known: dict[Path, Node] = {}
-        """The latest node of each file, whether it still runs or not; one of ours by `key_of`."""
+        """The latest node of each file, whether it still runs or not; our partner by `key_of`."""
         self._chosen: tuple[Path, Path] | None = None
         """The node whose log the learner wants, and the file that was shown when they did."""
         self.latest: Path | None = None
@@ -238,5 +238,5 @@ class Nodes:
 
 
 def key_of(partner: Partner) -> Path:
-    """What a node of ours is known by among the learner's files."""
+    """What our partner node is known by among the learner's files."""
     return partner.file or Path(*partner.run)

@@ -113,4 +113,4 @@ MODULES = {
         ),
     },
 }
-"""For each module of ours, by package, the modules of the real packages whose names it defines."""
+"""For each of our modules, by package, the modules of the real packages whose names it defines."""

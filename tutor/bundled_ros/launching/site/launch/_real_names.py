@@ -41,7 +41,7 @@ def install() -> None:
 
 
 def complete(module: ModuleType) -> None:
-    """Give a module of ours the names that the real one has besides, and make its aliases."""
+    """Give one of our modules the other names that the real one has, and make its aliases."""
     if module.__name__ in _modules():
         _prepare(module)
     for alias in _ALIASES.get(module.__name__, ()):
@@ -69,7 +69,7 @@ class _Finder:
 
 
 class _Completing(SourceFileLoader):
-    """Loads a module of ours."""
+    """Loads one of our modules."""
 
     def exec_module(self, module: ModuleType) -> None:
         super().exec_module(module)
@@ -97,7 +97,7 @@ def _spec(module: str) -> ModuleSpec:
 def _prepare(module: ModuleType) -> None:
     module.__getattr__ = partial(_get, module.__name__)  # type: ignore[method-assign]
     if _modules()[module.__name__][0] and not hasattr(module, "__path__"):
-        module.__path__ = []  # a file of ours where the real one is a package: what is below it is an alias
+        module.__path__ = []  # our file where the real one is a package: what is below it is an alias
 
 
 def _make_alias(name: str, home: ModuleType) -> None:
