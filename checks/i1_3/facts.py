@@ -6,7 +6,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from tutor.judge.trace import CallAnswer, Ending, Exit, Level, LogRecord, OutputLine, Served, Trace
+from tutor.judge.trace import CallAnswer, Ending, Exit, Level, LogRecord, OutputLine, ServedRequest, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.wording import shape
 from tutor.ros_model import ServiceEndpoint
@@ -116,7 +116,7 @@ class ClientRun:
     """
 
     trace: Trace | None
-    served: tuple[Served, ...] = ()
+    served: tuple[ServedRequest, ...] = ()
     exit: Exit | None = None
     stuck: tuple[Frame, ...] = ()
     clients: tuple[ServiceEndpoint, ...] = ()

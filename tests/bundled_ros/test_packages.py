@@ -126,8 +126,8 @@ def test_setup_py_is_not_run_where_it_can_be_read(tmp_path: Path, monkeypatch: p
 
     monkeypatch.setattr(subprocess, "run", never)
     folder = package(tmp_path, "birds", '["sing = birds.sing:main"]')
-    assert [dict(each.programs) for each in sources.around(folder)] == [{"sing": "sing:main"}]
-    assert set(sources.template().programs) == {"minimal_publisher", "minimal_subscriber"}
+    assert [dict(each.programs) for each in sources.workspace_packages(folder)] == [{"sing": "sing:main"}]
+    assert set(sources.template_package().programs) == {"minimal_publisher", "minimal_subscriber"}
 
 
 @pytest.mark.parametrize("text", ["setup(", "raise SystemExit(3)", "import nowhere\nsetup(entry_points=x())"])

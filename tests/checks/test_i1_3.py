@@ -38,7 +38,7 @@ from tests.checks.made import (
     log,
     trace,
 )
-from tutor.judge.trace import CallAnswer, LogRecord, Served, Trace
+from tutor.judge.trace import CallAnswer, LogRecord, ServedRequest, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Status
 from tutor.ros_model import Graph, ServiceEndpoint
@@ -449,18 +449,18 @@ def test_operands() -> None:
 
 # --- the client --------------------------------------------------------------
 
-SERVED = tuple(Served(name, {"a": 10, "b": 5}, {"sum": right_result(name, 10, 5)}, 1001.0) for name in SIGNS)
+SERVED = tuple(ServedRequest(name, {"a": 10, "b": 5}, {"sum": right_result(name, 10, 5)}, 1001.0) for name in SIGNS)
 
 
 def demonstration(
-    served: tuple[Served, ...] = SERVED, code: int | None = 0, stuck: tuple[Frame, ...] = (), **more: Any
+    served: tuple[ServedRequest, ...] = SERVED, code: int | None = 0, stuck: tuple[Frame, ...] = (), **more: Any
 ) -> ClientRun:
     ended = None if code is None else exited(code)
     return ClientRun(trace(exit=ended, **more), served, ended, stuck)
 
 
 @pytest.mark.parametrize("served", [SERVED, SERVED * 3, tuple(reversed(SERVED))])
-def test_client(served: tuple[Served, ...]) -> None:
+def test_client(served: tuple[ServedRequest, ...]) -> None:
     assert_passed(judge_client(demonstration(served)))
 
 
@@ -493,7 +493,7 @@ SPINNING = (frame("spin_once", "/venv/rclpy/executors.py"), frame("main"))
 NO_ANSWER = CRASH.replace("'Sensor' object has no attribute 'nothing'", "'NoneType' object has no attribute 'sum'")
 
 
-def asking(text: str, served: tuple[Served, ...] = (), code: int | None = 0, **more: Any) -> ClientRun:
+def asking(text: str, served: tuple[ServedRequest, ...] = (), code: int | None = 0, **more: Any) -> ClientRun:
     """A run of a client with this source."""
     return replace(demonstration(served, code, sources={"node.py": text}, **more), clients=MADE)
 

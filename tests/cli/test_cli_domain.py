@@ -68,7 +68,7 @@ def test_the_variable_wins_everywhere(run: Run, home: Path, monkeypatch: pytest.
 def test_a_desk_that_moves_has_the_domain_of_the_new_place(home: Path) -> None:
     session = Session(load_course(), Workspace(home / "ros_tutor_ws"))
     assert session.domain
-    session.begin_in(home / "elsewhere")
+    session.create_workspace(home / "elsewhere")
     assert session.domain == domain_of(Workspace(home / "elsewhere"))
     assert (home / "elsewhere" / ".ros-tutor" / "domain").read_text() == f"{session.domain}\n"
 

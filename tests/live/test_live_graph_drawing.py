@@ -5,14 +5,14 @@ from collections.abc import Sequence
 import pytest
 
 from tutor.ros_model import QoS, Topic, TopicEndpoint
-from tutor.tui.live.graph_drawing import drawing
+from tutor.tui.live.graph_drawing import draw_graph
 
 S = "std_msgs/msg/String"
 BEST_EFFORT = QoS("best_effort")
 
 
 def lines(*topics: Topic, width: int = 82) -> list[str]:
-    return ["".join(text for text, _ in row).rstrip() for row in drawing(topics, width)]
+    return ["".join(text for text, _ in row).rstrip() for row in draw_graph(topics, width)]
 
 
 def topic(name: str, publishers: Sequence[str], subscriptions: Sequence[str] = (), **requested: QoS) -> Topic:

@@ -52,7 +52,7 @@ def run(arguments: argparse.Namespace, engine: Engine | None = None) -> int:
     from tutor.report import renderer_of
     from tutor.workspace import find_submission, solution
 
-    _prove_fitting(arguments)
+    _check_options(arguments)
     if engine is None:
         engine = _engine(isolate=arguments.isolate, first=arguments.first)
     course = context.load_course(arguments)
@@ -91,7 +91,7 @@ def _engine(*, isolate: bool, first: bool) -> Engine:
     return partial(run_check, isolation=isolation, first=first)
 
 
-def _prove_fitting(arguments: argparse.Namespace) -> None:
+def _check_options(arguments: argparse.Namespace) -> None:
     path, output = arguments.path, arguments.output
     if arguments.solution and path is not None:
         raise UsageError("--solution judges our own files: give no PATH with it")

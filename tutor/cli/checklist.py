@@ -34,12 +34,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Do what was asked, and show the checklist afterwards (or write it)."""
-    _prove_fitting(arguments)
+    _check_options(arguments)
     course = context.load_course(arguments)
     workspace = context.require_workspace(arguments)
     if arguments.action in ("tick", "untick"):
         for item in arguments.items:
-            _prove_known(item, course.checklist)
+            _require_known(item, course.checklist)
         if not workspace.exists:
             raise UsageError(
                 f"ticks are kept in a workspace, and there is none yet; `{command('start', 'i1.1')}` makes one"
@@ -55,7 +55,7 @@ def run(arguments: argparse.Namespace) -> int:
     return PASSED
 
 
-def _prove_fitting(arguments: argparse.Namespace) -> None:
+def _check_options(arguments: argparse.Namespace) -> None:
     from tutor.report.checklist import SUFFIXES, format_of
 
     takes_items = arguments.action in ("tick", "untick")
@@ -71,7 +71,7 @@ def _prove_fitting(arguments: argparse.Namespace) -> None:
         raise UsageError(f"--output {output}: there is no format for {output.suffix}; the formats are {known}")
 
 
-def _prove_known(item: str, checklist: Checklist) -> None:
+def _require_known(item: str, checklist: Checklist) -> None:
     known = [each.id for each in checklist.items]
     if item in known:
         return

@@ -54,7 +54,7 @@ def _exercise(
         else {
             "at": last.at,
             "verdict": last.verdict.value,
-            "judged": last.asked(criterion.id for criterion in lesson.criteria),
+            "judged": last.judged_of(criterion.id for criterion in lesson.criteria),
             "passed": list(last.passed),
         },
     }

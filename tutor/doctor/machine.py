@@ -9,7 +9,7 @@ from pathlib import Path
 
 from tutor.doctor.finding import Finding
 from tutor.ros import shared_memory
-from tutor.ros.discovery import loopback_multicast_works, prove_loopback
+from tutor.ros.discovery import loopback_multicast_works, require_loopback
 
 _NEEDED_PYTHON = (3, 12)
 _MEMORY_OF_A_NODE = 700_000  # measured: a segment, and the ports at which it listens
@@ -32,7 +32,7 @@ def python_version(version: tuple[int, int] = sys.version_info[:2], platform_nam
 def loopback() -> Finding:
     """Whether a datagram to 127.0.0.1 arrives."""
     try:
-        prove_loopback()
+        require_loopback()
     except OSError as error:
         text = f"Nothing can be sent to 127.0.0.1 ({error})."
         return Finding("Loopback network", False, text, "Switch the loopback interface on: sudo ip link set lo up")

@@ -57,12 +57,12 @@ async def run_check(
     from tutor.engine import unchanged
     from tutor.engine.modules import load_check
     from tutor.ros import bytecode, process_setup
-    from tutor.ros.discovery import prove_loopback
+    from tutor.ros.discovery import require_loopback
     from tutor.ros.environment import detect
 
     together = start_limiter or StartLimiter()
     try:
-        prove_loopback()
+        require_loopback()
     except OSError as error:
         what = f"nothing can be sent to 127.0.0.1 ({error}), and nodes talk over it"
         raise EngineError(what, "switch the loopback interface on: sudo ip link set lo up") from error
@@ -92,7 +92,7 @@ async def run_check(
             runner.wait_for_turn()
 
     # A caller that shares a limiter among checks decides how many run at once.
-    own = isolation.ticket if isolation else None
+    own = isolation.turn_socket if isolation else None
     async with turns.turn(own, on_wait=tell_waiting) if start_limiter is None else nullcontext():
         started = time.monotonic()
         tasks = [asyncio.ensure_future(runner.run()) for runner in runners]

@@ -38,11 +38,11 @@ _SIOCSIFFLAGS, _IFF_UP = 0x8914, 0x1
 
 @dataclass(frozen=True, slots=True)
 class Isolation:
-    """How processes are isolated on this machine: `Isolation.set_up` has tried it. `ticket`: see `turns`."""
+    """How processes are isolated on this machine: `Isolation.set_up` has tried it. `turn_socket`: see `turns`."""
 
     bwrap: str
     prlimit: str
-    ticket: socket.socket
+    turn_socket: socket.socket
     limits_processes: bool = True
 
     @classmethod
@@ -54,7 +54,7 @@ class Isolation:
         bwrap, prlimit = shutil.which("bwrap"), shutil.which("prlimit")
         if bwrap is None or prlimit is None:
             raise EngineError(f"--isolate needs {'prlimit' if bwrap else 'bubblewrap'}, which is not here", _INSTALL)
-        isolation = cls(bwrap, prlimit, turns.ticket())  # of the network that all checks have in common
+        isolation = cls(bwrap, prlimit, turns.turn_socket())  # of the network that all checks have in common
         try:
             _own_network()
         except OSError as error:

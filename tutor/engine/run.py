@@ -20,7 +20,18 @@ from tutor.errors import EngineError, MachineTooBusy, UnknownType
 from tutor.judge import tracebacks
 from tutor.judge.bench import Handler
 from tutor.judge.exceptions import KnownException
-from tutor.judge.trace import CallAnswer, Echo, Ending, Exit, LogRecord, OutputLine, Sample, Served, SetAnswer, Trace
+from tutor.judge.trace import (
+    CallAnswer,
+    Echo,
+    Ending,
+    Exit,
+    LogRecord,
+    OutputLine,
+    Sample,
+    ServedRequest,
+    SetAnswer,
+    Trace,
+)
 from tutor.judge.tracebacks import Frame
 from tutor.process import CpuMeter, CpuTime, LearnerProcess, own_cpu_time
 from tutor.ros import echo, graph, parameters
@@ -61,7 +72,7 @@ class CollectedFacts:
 
     def __init__(self) -> None:
         self.changed = asyncio.Event()
-        self.served: list[Served] = []
+        self.served: list[ServedRequest] = []
 
     def change(self) -> None:
         """Wake everything that waits for a new fact."""
@@ -126,7 +137,7 @@ class RosRun:
         return self._process.output
 
     @property
-    def served(self) -> Sequence[Served]:
+    def served(self) -> Sequence[ServedRequest]:
         return self._facts.served
 
     def samples_on(self, topic: str) -> Sequence[Sample]:
@@ -147,7 +158,7 @@ class RosRun:
     def serve(self, service: str, type: str, handler: Handler) -> None:
         def served(request: Mapping[str, Any], response: Mapping[str, Any]) -> None:
             if len(self._facts.served) < MOST_SAMPLES:
-                self._facts.served.append(Served(service, request, response, time.time()))
+                self._facts.served.append(ServedRequest(service, request, response, time.time()))
             self._facts.change()
 
         self._observer.serve(service, type, handler, served)
@@ -245,7 +256,7 @@ class RosRun:
     async def call(self, service: str, type: str, request: Mapping[str, Any], *, limit_s: float) -> CallAnswer:
         # A client that has just been made needs a moment to find the server: no part of what the service takes.
         asked = time.time()
-        if matched := await self._while_alive(self._observer.matched(service, type, NEVER_S), limit_s, False):
+        if matched := await self._while_alive(self._observer.wait_for_server(service, type, NEVER_S), limit_s, False):
             asked = time.time()
         response = None
         with contextlib.suppress(AnswerTooLarge):

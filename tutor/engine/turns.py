@@ -18,7 +18,7 @@ LIMIT_S = 300.0
 _LOOK_EVERY_S = 0.1
 
 
-def ticket() -> socket.socket:
+def turn_socket() -> socket.socket:
     """What a turn is taken with; it counts among those of the network that this process is in now."""
     return socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
 
@@ -32,7 +32,7 @@ async def turn(
     It ends with the process at the latest. `on_wait` is called once, where it has to wait.
     """
     deadline = time.monotonic() + limit_s
-    with own or ticket() as held:
+    with own or turn_socket() as held:
         if not _taken(held):
             on_wait()
             while time.monotonic() < deadline:

@@ -12,7 +12,18 @@ from typing import Any, Protocol, TypeVar
 
 from tutor.errors import MachineTooBusy as MachineTooBusy
 from tutor.errors import NeedsInstalledRos as NeedsInstalledRos
-from tutor.judge.trace import CallAnswer, Echo, Ending, Exit, LogRecord, OutputLine, Sample, Served, SetAnswer, Trace
+from tutor.judge.trace import (
+    CallAnswer,
+    Echo,
+    Ending,
+    Exit,
+    LogRecord,
+    OutputLine,
+    Sample,
+    ServedRequest,
+    SetAnswer,
+    Trace,
+)
 from tutor.judge.tracebacks import Frame
 from tutor.ros_model import Graph, Parameter, TopicEndpoint
 
@@ -62,7 +73,7 @@ class Run(Protocol):
         """What the process has written to stdout and stderr so far (bounded)."""
 
     @property
-    def served(self) -> Sequence[Served]:
+    def served(self) -> Sequence[ServedRequest]:
         """The requests that our own servers have answered so far."""
 
     def samples_on(self, topic: str) -> Sequence[Sample]:

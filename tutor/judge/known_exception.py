@@ -63,6 +63,6 @@ class KnownException:
     words: Mapping[str, str] = field(default_factory=dict)
 
     @property
-    def asked(self) -> frozenset[str]:
+    def placeholders(self) -> frozenset[str]:
         """The words in braces that its texts ask for."""
         return frozenset(WORD.findall(f"{self.says} {self.step}"))

@@ -117,7 +117,7 @@ class CallAnswer:
 
 
 @dataclass(frozen=True, slots=True)
-class Served:
+class ServedRequest:
     """One request that our server answered."""
 
     service: str

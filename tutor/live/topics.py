@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from tutor.errors import UnknownType
 from tutor.live.statistics import TopicStatistics
 from tutor.live.updates import TopicUpdate
-from tutor.ros.messages import cut, interface_class
+from tutor.ros.messages import interface_class, truncate
 from tutor.ros.raw_subscription import Batch, RawSubscription, deserialize
 from tutor.ros.yaml_format import number_at, numeric_fields, to_yaml
 from tutor.ros_model import Graph, QoS, Topic, TopicEndpoint, echo_qos
@@ -174,7 +174,7 @@ class FollowedTopics:
             return f"(a message of {len(newest) / 1e6:.0f} MB: too big to be shown here)", ()
         began = time.perf_counter()
         message = deserialize(followed.type, newest)
-        text = cut(to_yaml(message), MOST_TEXT)
+        text = truncate(to_yaml(message), MOST_TEXT)
         fields = numeric_fields(message)
         if not followed.path and fields:
             followed.path = next((path for path in fields if "stamp" not in path.split(".")), fields[0])

@@ -15,7 +15,7 @@ from pathlib import Path
 from tutor.judge.trace import Exit
 from tutor.process import orphans, prctl
 from tutor.process.cpu_wait import recent_processes
-from tutor.process.supervisor import Process, among, descendants, innermost, kill
+from tutor.process.supervisor import Process, descendants, descendants_in, kill, namespace_pid
 from tutor.process.wake_time import NextWake, next_wake
 
 _SUPERVISOR = Path(__file__).with_name("supervisor.py")
@@ -110,7 +110,7 @@ class SupervisorLink(asyncio.Protocol):
         """When one of the processes under the supervisor next does something by itself."""
         if self._supervisor is None or self.gone.done():
             return NextWake()
-        found = among(recent_processes(self._supervisor.pid), self._supervisor.pid)
+        found = descendants_in(recent_processes(self._supervisor.pid), self._supervisor.pid)
         return next_wake(p.pid for p in found if p.alive and p.pid not in self._ours)
 
     def end(self) -> None:
@@ -168,7 +168,7 @@ class SupervisorLink(asyncio.Protocol):
         """The pid that a process of the supervisor's has here; in a namespace of its own it has another one."""
         assert self._supervisor is not None
         found = {p.pid: p for p in descendants(self._supervisor.pid)}
-        one = next((p for p in found if innermost(p) == pid), None)
+        one = next((p for p in found if namespace_pid(p) == pid), None)
         if one is None:  # it has ended already, and been reaped
             return self._supervisor.pid
         above = found[one].parent

@@ -81,10 +81,10 @@ def descendants(root: int) -> list[Process]:
         table = processes()
         if all(p.parent == 0 or p.parent in table for p in table.values()):
             break
-    return among(table, root)
+    return descendants_in(table, root)
 
 
-def among(table: dict[int, Process], root: int) -> list[Process]:
+def descendants_in(table: dict[int, Process], root: int) -> list[Process]:
     """The descendants of `root` in a table of processes, parents before children."""
     children: dict[int, list[Process]] = {}
     for process in table.values():
@@ -98,7 +98,7 @@ def among(table: dict[int, Process], root: int) -> list[Process]:
     return found
 
 
-def innermost(pid: int) -> int:
+def namespace_pid(pid: int) -> int:
     """The number of a process in the namespace that it is in; 0 where it has gone."""
     try:
         with open(f"/proc/{pid}/status", "rb") as file:

@@ -52,7 +52,7 @@ def own_ports(environ: Mapping[str, str] = os.environ) -> tuple[int, int] | None
     return PORTS_OF_CHECKS if named == {str(PROFILE)} else None
 
 
-def prove_loopback() -> None:
+def require_loopback() -> None:
     """Send a datagram to 127.0.0.1. Raises OSError where it does not arrive within a second."""
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as own:
         own.settimeout(1.0)

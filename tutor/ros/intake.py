@@ -10,7 +10,7 @@ from rclpy.callback_groups import CallbackGroup
 from rclpy.node import Node
 from rclpy.serialization import deserialize_message
 
-from tutor.ros.messages import interface_class, stand_in
+from tutor.ros.messages import interface_class, placeholder_message
 from tutor.ros.qos import subscription_profile
 from tutor.ros_model import QoS
 
@@ -91,8 +91,10 @@ class Intake:
 
     def _read(self, data: bytes) -> Any:
         if len(data) > READABLE_BYTES:
-            return stand_in(self._type, f"(a message of {len(data) / 1e6:.1f} MB, too large to be looked into)")
+            return placeholder_message(
+                self._type, f"(a message of {len(data) / 1e6:.1f} MB, too large to be looked into)"
+            )
         try:
             return deserialize_message(data, self._type)
         except Exception:  # whatever it is that a learner sends as bytes
-            return stand_in(self._type, f"({len(data)} bytes that are no {self._type.__name__})")
+            return placeholder_message(self._type, f"({len(data)} bytes that are no {self._type.__name__})")

@@ -44,7 +44,7 @@ class Guarded(Protocol):
     def pause(self, paused: bool) -> None:
         """Take nothing of what has been received, or take it again. Called in the guard's thread; raises nothing."""
 
-    def shed(self) -> None:
+    def drop_received(self) -> None:
         """Leave what is too large to be received. Called in the guard's thread; raises nothing."""
 
 
@@ -54,7 +54,7 @@ _thread: threading.Thread | None = None
 
 
 def guard(one: Guarded) -> None:
-    """Have `one` shed what it receives, from now on until `release`, when it is too much."""
+    """Have `one` drop what it receives when it is too much, from now on until `release`."""
     global _thread
     with _lock:
         _guarded.add(one)
@@ -135,7 +135,7 @@ def _run() -> None:
             since = since or now
             continue
         for one in receiving or watched:
-            one.shed()
+            one.drop_received()
 
 
 def _exceeds(most: int) -> bool:

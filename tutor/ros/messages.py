@@ -48,22 +48,22 @@ def to_plain(message: Any) -> dict[str, Any]:
 
     Texts are cut after `MOST_CHARACTERS`, and arrays where the message has more than `MOST_ELEMENTS` in all.
     """
-    return plain_and_size(message)[0]
+    return to_plain_and_size(message)[0]
 
 
-def plain_and_size(message: Any) -> tuple[dict[str, Any], int]:
+def to_plain_and_size(message: Any) -> tuple[dict[str, Any], int]:
     """A message as `to_plain` gives it, and its cost in memory, in bytes; what is cut off counts in part."""
     room = _Room()
     plain = room.message(message)
     return plain, room.bytes
 
 
-def cut(text: str, most: int = MOST_CHARACTERS) -> str:
+def truncate(text: str, most: int = MOST_CHARACTERS) -> str:
     """The text, cut at `most` characters with an ellipsis."""
     return text if len(text) <= most else f"{text[: most - 3]}..."
 
 
-def size_kept(text: str, kept: str) -> int:
+def kept_bytes(text: str, kept: str) -> int:
     """The cost in memory, in bytes, of the part of a text that is kept; what is cut off counts in part."""
     return _EACH + len(kept) * (1 if kept.isascii() else 4) + len(text) // _RECEIVED
 
@@ -75,7 +75,7 @@ def set_fields(message: Any, values: Mapping[str, Any]) -> Any:
     return message
 
 
-def stand_in(message_type: Any, text: str) -> Any:
+def placeholder_message(message_type: Any, text: str) -> Any:
     """A message in place of one that cannot be looked into: its own texts say so, all else is as by default."""
     message = message_type()
     for name, type_name in message.get_fields_and_field_types().items():
@@ -98,8 +98,8 @@ class _Room:
         if hasattr(value, "get_fields_and_field_types"):
             return self.message(value)
         if isinstance(value, str):
-            kept = cut(value)
-            self.bytes += size_kept(value, kept)
+            kept = truncate(value)
+            self.bytes += kept_bytes(value, kept)
             return kept
         if isinstance(value, (bytes, list, tuple, array.array)) or hasattr(value, "tolist"):
             kept = value[: self._elements]

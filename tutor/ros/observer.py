@@ -20,7 +20,7 @@ from rclpy.service import Service as ServiceServer
 from tutor.judge.trace import LogRecord, Sample
 from tutor.ros import memory_guard
 from tutor.ros.intake import Intake
-from tutor.ros.messages import cut, interface_class, plain_and_size, set_fields, size_kept, to_plain
+from tutor.ros.messages import interface_class, kept_bytes, set_fields, to_plain, to_plain_and_size, truncate
 from tutor.ros.participant import OUR_PREFIX, create_node, new_context
 from tutor.ros_model import QoS
 
@@ -85,10 +85,10 @@ class Observer:
             stamp = message.stamp.sec + message.stamp.nanosec * 1e-9
             level = message.level if isinstance(message.level, int) else message.level[0]
             text, name, function = (
-                cut(each, LINE_CHARACTERS) for each in (message.msg, message.name, message.function)
+                truncate(each, LINE_CHARACTERS) for each in (message.msg, message.name, message.function)
             )
             self._hand_to_loop(self._log, LogRecord(level, name, text, stamp, time.time(), function))
-            return size_kept(message.msg, text)
+            return kept_bytes(message.msg, text)
 
         qos = QoS("reliable", "transient_local")
         self._intakes.append(Intake(self.node, "/rosout", "rcl_interfaces/msg/Log", qos, self._gate, take))
@@ -99,7 +99,7 @@ class Observer:
         self.samples[topic] = []
 
         def take(message: Any, source_time: float) -> int:
-            plain, cost = plain_and_size(message)
+            plain, cost = to_plain_and_size(message)
             self._hand_to_loop(self._sample, Sample(topic, plain, source_time, time.time()))
             return cost
 
@@ -132,7 +132,7 @@ class Observer:
         `large`: that its answer may be of any size is to be expected. Raises AnswerTooLarge.
         """
         deadline = self._loop.time() + limit_s
-        if not await self.matched(service, type_name, limit_s):
+        if not await self.wait_for_server(service, type_name, limit_s):
             return None
         client = self._client(service, type_name)
         filled = set_fields(interface_class(type_name).Request(), request)
@@ -156,7 +156,7 @@ class Observer:
         if client := self._clients.pop((service, type_name), None):
             self._executor.create_task(self.node.destroy_client, client)
 
-    async def matched(self, service: str, type_name: str, limit_s: float) -> bool:
+    async def wait_for_server(self, service: str, type_name: str, limit_s: float) -> bool:
         """Wait until our client has discovered the server; False where it has not within the limit."""
         client = self._client(service, type_name)
         deadline = self._loop.time() + limit_s
@@ -173,13 +173,13 @@ class Observer:
             with contextlib.suppress(AttributeError):  # the executor has been shut down meanwhile
                 self._executor.wake()
 
-    async def until_taken_again(self, limit_s: float) -> None:
+    async def wait_while_paused(self, limit_s: float) -> None:
         """Wait while nothing is taken of what has been received."""
         deadline = self._loop.time() + limit_s
         while self._gate.closed and self._loop.time() < deadline:
             await asyncio.sleep(0.01)
 
-    def shed(self) -> None:
+    def drop_received(self) -> None:
         """Leave the services of which a large answer is awaited, or else the topics, or else all services.
 
         Called in any thread. What is left is left where messages are taken, too.

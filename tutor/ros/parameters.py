@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from tutor.judge.trace import SetAnswer
-from tutor.ros.messages import cut, interface_class
+from tutor.ros.messages import interface_class, truncate
 from tutor.ros.observer import AnswerTooLarge, Observer
 from tutor.ros_model import PARAMETER_TYPES, Parameter
 
@@ -81,7 +81,7 @@ async def set_parameters(
         values,
         True,
         all(result.successful for result in results) and bool(results),
-        cut("; ".join(result.reason for result in results if result.reason)),
+        truncate("; ".join(result.reason for result in results if result.reason)),
         asked,
         time.time(),
     )
@@ -147,7 +147,7 @@ class _Values:
         try:
             answer = await self._observer.call(service, type_name, {"names": names}, self._limit_s, large=large)
         except AnswerTooLarge:
-            await self._observer.until_taken_again(self._limit_s)  # what comes of it meanwhile is none of the next one
+            await self._observer.wait_while_paused(self._limit_s)  # what comes of it meanwhile is none of the next one
             if len(names) > 1:
                 return sum([await self.ask([name], large=large) for name in names])
             self.found[names[0]] = TOO_LARGE
@@ -182,7 +182,7 @@ def _value(value: Any) -> tuple[int, Any]:
     field = _FIELDS[value.type]
     held = getattr(value, field) if field else None
     if isinstance(held, str):
-        return value.type, cut(held)
+        return value.type, truncate(held)
     return value.type, held[:MOST_ELEMENTS] if held is not None and hasattr(held, "__len__") else held
 
 

@@ -33,7 +33,7 @@ def prepare_for_rclpy(ros: RosEnvironment, *, isolated: bool) -> None:
     """
     global _in_use
     interpreter.answer_ctrl_c()  # where this process has restarted itself
-    shared_memory.prove_enough()
+    shared_memory.require_enough()
     env = tutor_env(ros, isolated=isolated)
     if "rclpy" in sys.modules and _in_use != _identity(ros):
         raise RuntimeError("rclpy is imported already: choose the ROS before")

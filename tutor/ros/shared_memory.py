@@ -47,7 +47,7 @@ def problem(place: Path = _PLACE) -> str:
     return f"{place} is full ({found.size / 2**20:.0f} MB), so that ROS cannot be loaded; {HINT}"
 
 
-def prove_enough() -> None:
+def require_enough() -> None:
     """Raise OSError where there is a `problem`, with what killed processes have left out of the way."""
     stale_segments.remove()
     if text := problem():

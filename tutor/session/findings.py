@@ -69,7 +69,7 @@ class Findings:
         fresh = tuple(Finding(f.id, f.text, f.bonus, checking=True, before=f.before) for f in self.criteria)
         return Findings(self.exercise, fresh, checking=True, before=self.before)
 
-    def remembering(self, progress: ExerciseProgress) -> Findings:
+    def with_last_check(self, progress: ExerciseProgress) -> Findings:
         """With what the progress file says of the last check; it holds no diagnosis, so our own verdict says more."""
         if self.judged or self.checking or (last := progress.last) is None:
             return self

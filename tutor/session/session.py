@@ -81,7 +81,7 @@ class Session:
         """
         return start(lesson, self.workspace).files
 
-    def begin_in(self, root: Path) -> None:
+    def create_workspace(self, root: Path) -> None:
         """Create the workspace at `root`, with the first exercise in it; one that is there already is kept.
 
         Where it was looked for is a link to it from now on, so that it is found the next time. Raises WorkspaceError,
@@ -202,7 +202,7 @@ class Session:
         from tutor.ros.environment import detect, learner_env
 
         ros = detect()
-        shared_memory.prove_enough()
+        shared_memory.require_enough()
         log_dir = private_folders.logs()
         return ros, learner_env(ros, domain_id=self.domain, log_dir=log_dir, package_root=package, isolated=False)
 

@@ -34,7 +34,7 @@ class Shell:
             )
         return NodeCommand(line, ("bash", "-c", line), env, self.cwd, line, terminal=True)
 
-    def changed_by(self, line: str) -> Shell | str | None:
+    def run_builtin(self, line: str) -> Shell | str | None:
         """The shell after `cd` or `export`; what is wrong with one; None where the line is any other command."""
         try:
             words = shlex.split(line, comments=True)

@@ -30,17 +30,17 @@ class Command:
     @property
     def shown_keys(self) -> tuple[str, ...]:
         """The keys as the learner reads them."""
-        return tuple(shown(key) for key in self.keys)
+        return tuple(key_label(key) for key in self.keys)
 
     def bindings(self) -> Iterator[Binding]:
         """As Textual wants them."""
         for number, key in enumerate(self.keys):
             yield Binding(
-                key, f"do('{self.name}')", self.label, show=self.footer and number == 0, key_display=shown(key)
+                key, f"do('{self.name}')", self.label, show=self.footer and number == 0, key_display=key_label(key)
             )
 
 
-def shown(key: str) -> str:
+def key_label(key: str) -> str:
     """A key as the learner reads it."""
     if key in _KEY_NAMES:
         return _KEY_NAMES[key]
@@ -205,10 +205,10 @@ EDITOR_KEYS = (
 """What the keys do in the editor, for the help; the commands above have theirs there, too."""
 
 
-def local(*commands: Command, shown_key: int = 0, show: bool = True) -> list[BindingType]:
+def panel_bindings(*commands: Command, shown_key: int = 0, show: bool = True) -> list[BindingType]:
     """The footer of a panel that has the focus: these commands of the screen, each by its key number `shown_key`."""
     found: list[BindingType] = []
     for command in commands:
         key = command.keys[min(shown_key, len(command.keys) - 1)]
-        found.append(Binding(key, f"screen.do('{command.name}')", command.label, show=show, key_display=shown(key)))
+        found.append(Binding(key, f"screen.do('{command.name}')", command.label, show=show, key_display=key_label(key)))
     return found

@@ -61,7 +61,7 @@ def last_met(criteria: Iterable[str], progress: ExerciseProgress) -> dict[str, b
     criteria = tuple(criteria)
     met: dict[str, bool] = {}
     for attempt in progress.attempts:
-        met |= {id: id in attempt.passed for id in attempt.asked(criteria)}
+        met |= {id: id in attempt.passed for id in attempt.judged_of(criteria)}
     return met
 
 

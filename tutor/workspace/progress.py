@@ -34,7 +34,7 @@ class Attempt:
         """Whether everything required passed, and all of it was judged."""
         return self.whole and self.verdict is Status.PASSED
 
-    def asked(self, criteria: Iterable[str]) -> list[str]:
+    def judged_of(self, criteria: Iterable[str]) -> list[str]:
         """Those of these criteria that were judged."""
         return [id for id in criteria if self.whole or id in self.judged or id in self.passed]
 

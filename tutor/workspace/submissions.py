@@ -81,7 +81,7 @@ def _submission(lesson: Lesson, places: dict[str, Path], workspace: Workspace | 
         if file.required and file.name not in present:
             raise SubmissionError(_missing(lesson, file, places[file.name], workspace))
     for place in present.values():
-        _prove_readable(place)
+        _require_readable(place)
     return Submission(lesson.id, present)
 
 
@@ -113,7 +113,7 @@ def _similar(name: str, folder: Path, known: Iterable[str] = ()) -> str:
     return f" (found it in {below.parent}: give that folder)" if below else ""
 
 
-def _prove_readable(place: Path) -> None:
+def _require_readable(place: Path) -> None:
     if place.is_dir():
         raise SubmissionError(f"{place} is a folder, not a Python file")
     if not place.exists():

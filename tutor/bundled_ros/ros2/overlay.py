@@ -101,14 +101,14 @@ def make_overlay(
 
 def _packages(near: Path | None, environ: Mapping[str, str]) -> Iterator[SourcePackage]:
     """All packages that there are as sources; of two with one name, the first counts."""
-    around = list(sources.around(near)) if near is not None else []
+    around = list(sources.workspace_packages(near)) if near is not None else []
     yield from around
     if near is not None and near.is_file() and not any(package.name == sources.TEMPLATE.name for package in around):
-        yield sources.bare(near.parent)
+        yield sources.package_with(near.parent)
     workspace = _workspace(environ)
     if workspace.is_dir():
-        yield from sources.below(workspace)
-    yield sources.template()
+        yield from sources.packages_below(workspace)
+    yield sources.template_package()
 
 
 def _workspace(environ: Mapping[str, str]) -> Path:

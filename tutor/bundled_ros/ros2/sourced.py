@@ -58,7 +58,7 @@ def setup_file(ros: RosEnvironment, workspace: Path, shell: str) -> Path | None:
 def _roots(workspace: Path) -> list[Path]:
     """The folders from which the workspace's Python packages are imported."""
     try:
-        packages = list(sources.below(workspace)) if workspace.is_dir() else []
+        packages = list(sources.packages_below(workspace)) if workspace.is_dir() else []
     except OSError:
         return []
     folders = (folder for package in packages for folder in package.modules[-1:])

@@ -51,7 +51,7 @@ class SourcePackage:
     share: Mapping[str, Path]
 
 
-def around(place: Path) -> Iterator[SourcePackage]:
+def workspace_packages(place: Path) -> Iterator[SourcePackage]:
     """The packages of the workspace that `place` (a file or folder) is in, its own package first."""
     folder = place if place.is_dir() else place.parent
     for parent in (folder, *folder.parents):
@@ -59,12 +59,12 @@ def around(place: Path) -> Iterator[SourcePackage]:
             yield from _packages((parent, *_folders(_workspace_of(parent))))
             return
         if (parent / _MARKER).is_dir():
-            yield from below(parent)
+            yield from packages_below(parent)
             return
-    yield from below(folder)
+    yield from packages_below(folder)
 
 
-def below(folder: Path) -> Iterator[SourcePackage]:
+def packages_below(folder: Path) -> Iterator[SourcePackage]:
     """The packages in a workspace, or in a folder."""
     yield from _packages(_folders(folder))
 
@@ -105,7 +105,7 @@ def _subfolders(folder: Path) -> list[Path]:
     return [path for path in kept if not any((path / marker).exists() for marker in _IGNORED)]
 
 
-def bare(folder: Path) -> SourcePackage:
+def package_with(folder: Path) -> SourcePackage:
     """`my_package` as it would be with the files of a folder in it: its modules go before those of the template."""
     programs = {**_with_main(TEMPLATE / TEMPLATE.name), **_with_main(folder)}
     share = {entry.name: entry for entry in folder.iterdir() if not entry.name.startswith((".", "__"))}
@@ -114,7 +114,7 @@ def bare(folder: Path) -> SourcePackage:
     return SourcePackage(TEMPLATE.name, programs, (folder, TEMPLATE / TEMPLATE.name), share)
 
 
-def template() -> SourcePackage:
+def template_package() -> SourcePackage:
     """`my_package` as a new workspace has it."""
     return _package(TEMPLATE)
 

@@ -67,7 +67,7 @@ def _words(known: KnownException, seen: RaisedException) -> dict[str, str] | Non
         if more is None:
             return None
         words |= more
-    return words if known.asked <= words.keys() else None
+    return words if known.placeholders <= words.keys() else None
 
 
 def _raised_at(pattern: str, found: Traceback) -> bool:

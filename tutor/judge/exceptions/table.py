@@ -97,7 +97,7 @@ def _entry(data: Mapping[str, Any], tables: Mapping[str, Mapping[str, str]], whe
         words=dict(tables[table]) if table else {},
     )
     groups = frozenset(group for key in _PATTERNS for group in _groups(data.get(key, ""), f"{where}, {key}"))
-    asked = made.asked | frozenset(
+    asked = made.placeholders | frozenset(
         WORD.findall(" ".join((made.source, made.without, *((made.replace.by,) if made.replace else ()))))
     )
     asked |= {word for way in made.edits for edit in way for each in edit.values() for word in WORD.findall(str(each))}

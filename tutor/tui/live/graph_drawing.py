@@ -28,7 +28,7 @@ _NARROWEST = 14
 
 
 @dataclass(frozen=True, slots=True)
-class Drawn:
+class DrawnTopic:
     """One topic, drawn. `connected`: whether messages get from a publisher to each of `listeners`."""
 
     publishers: tuple[str, ...]
@@ -37,7 +37,7 @@ class Drawn:
     listeners: tuple[tuple[str, bool], ...]
 
 
-def drawn(topic: Topic) -> Drawn:
+def _drawn_topic(topic: Topic) -> DrawnTopic:
     """What is to be drawn of a topic; a listener that no publisher matches is not connected."""
     pairs = list(connections(topic))
     nodes = dict.fromkeys(end.node for end in topic.subscriptions)
@@ -46,12 +46,12 @@ def drawn(topic: Topic) -> Drawn:
         for node in nodes
     )
     publishers = tuple(dict.fromkeys(end.node for end in topic.publishers))
-    return Drawn(publishers, topic.name, " ✗ ".join(map(short_type, topic.types)), listeners)
+    return DrawnTopic(publishers, topic.name, " ✗ ".join(map(short_type, topic.types)), listeners)
 
 
-def drawing(topics: Sequence[Topic], width: int) -> list[Row]:
+def draw_graph(topics: Sequence[Topic], width: int) -> list[Row]:
     """All topics; those that one node publishes alone hang on one box of it."""
-    every = sorted(map(drawn, topics), key=lambda each: (each.publishers, each.name))
+    every = sorted(map(_drawn_topic, topics), key=lambda each: (each.publishers, each.name))
     widths = _widths(every, width)
     rows: list[Row] = []
     for publishers, group in itertools.groupby(every, key=lambda each: each.publishers):
@@ -59,7 +59,7 @@ def drawing(topics: Sequence[Topic], width: int) -> list[Row]:
     return rows
 
 
-def _widths(every: Sequence[Drawn], width: int) -> tuple[int, int, int]:
+def _widths(every: Sequence[DrawnTopic], width: int) -> tuple[int, int, int]:
     """What the three columns take, borders and all; the widest gives way where there is no room."""
     lefts = [cell_len(name) + 4 for each in every for name in each.publishers or (_NOBODY,)]
     middles = [max(cell_len(each.name) + 4, cell_len(each.type) + 7) for each in every]
@@ -74,7 +74,7 @@ _NOBODY = "nobody publishes"
 _NO_EARS = "nobody listens"
 
 
-def _block(publishers: tuple[str, ...], group: Sequence[Drawn], widths: tuple[int, int, int]) -> Iterator[Row]:
+def _block(publishers: tuple[str, ...], group: Sequence[DrawnTopic], widths: tuple[int, int, int]) -> Iterator[Row]:
     """Topics with the same publishers: one box for one node, or a stack of boxes for each topic."""
     left, _, _ = widths
     if len(publishers) > 1:
@@ -138,7 +138,7 @@ def _stack(publishers: tuple[str, ...], width: int, height: int) -> list[Row]:
     return rows
 
 
-def _right(each: Drawn, widths: tuple[int, int, int]) -> Iterator[Row]:
+def _right(each: DrawnTopic, widths: tuple[int, int, int]) -> Iterator[Row]:
     """A topic and who listens to it."""
     _, middle, right = widths
     final = _BOX * (len(each.listeners) - 1) + 1

@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 
 from tutor.ros_model import Graph, Topic, connections
-from tutor.tui.live.graph_drawing import drawing
+from tutor.tui.live.graph_drawing import draw_graph
 from tutor.tui.widgets.line_view import Row
 
 _INDENT = "  "
@@ -17,7 +17,7 @@ def rows_of_graph(graph: Graph, width: int, everything: bool) -> list[Row]:
     """The whole graph; without `everything` the topics and services that every node has are left out."""
     topics = [topic for topic in graph.topics if everything or not topic.is_standard]
     rows = list(_problems(graph, width))
-    rows += drawing(topics, width)
+    rows += draw_graph(topics, width)
     if topics:
         rows.append(())
     for topic in topics:

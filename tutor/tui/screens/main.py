@@ -225,7 +225,7 @@ class MainScreen(HostScreen):
         model = self.model
         model.progress = message.progress
         for known in model.session.lessons:
-            model.findings[known.id] = model.findings[known.id].remembering(message.progress.of(known.id))
+            model.findings[known.id] = model.findings[known.id].with_last_check(message.progress.of(known.id))
         self.query_one(CriteriaPanel).show_findings(model.findings[model.lesson.id])
         self._count_passed()
         self.query_one(LessonList).show_states(model.session.states(message.progress))

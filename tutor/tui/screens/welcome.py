@@ -104,7 +104,7 @@ class WelcomeScreen(Screen[bool]):
 
     async def _begin(self, root: Path) -> None:
         try:
-            await asyncio.to_thread(self._session.begin_in, root)
+            await asyncio.to_thread(self._session.create_workspace, root)
         except (WorkspaceError, StorageError) as error:
             self._making = False
             self.query_one("#begin", Button).label = "Press Enter to try again"

@@ -107,7 +107,7 @@ class TerminalPane(Vertical):
         if line in ("clear", "exit"):
             self._clear()
             return
-        match self._shell.changed_by(line):
+        match self._shell.run_builtin(line):
             case Shell() as changed:
                 self._shell = changed
                 self._show_place()

@@ -28,7 +28,7 @@ def history(lesson: Lesson, progress: ExerciseProgress, *, most: int) -> Content
 
 
 def _line(attempt: Attempt, required: list[str]) -> Content:
-    asked = attempt.asked(required)
+    asked = attempt.judged_of(required)
     met = sum(id in attempt.passed for id in asked)
     full = round(BAR * met / max(1, len(asked)))
     passed = attempt.verdict is Status.PASSED

@@ -14,7 +14,7 @@ from textual.theme import Theme
 from textual.widgets import TextArea
 from textual.widgets.text_area import TextAreaTheme
 
-from tutor.tui.commands import CANCEL, CHECK, FIND, FIND_NEXT, HELP, PAGE_LIVE, RESTART, RUN, SAVE, STOP, local
+from tutor.tui.commands import CANCEL, CHECK, FIND, FIND_NEXT, HELP, PAGE_LIVE, RESTART, RUN, SAVE, STOP, panel_bindings
 from tutor.tui.messages import EditorLeft
 from tutor.tui.themes import DARK, LIGHT
 from tutor.tui.widgets.diffing import same_line
@@ -46,8 +46,8 @@ class CodeEditor(TextArea):
 
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("escape", "leave", "Commands", show=True, key_display="Esc"),
-        *local(SAVE, FIND, RUN, RESTART, STOP, CHECK, CANCEL, HELP, shown_key=1),
-        *local(FIND_NEXT, PAGE_LIVE, shown_key=1, show=False),  # F7 is another key of TextArea's
+        *panel_bindings(SAVE, FIND, RUN, RESTART, STOP, CHECK, CANCEL, HELP, shown_key=1),
+        *panel_bindings(FIND_NEXT, PAGE_LIVE, shown_key=1, show=False),  # F7 is another key of TextArea's
         Binding("ctrl+a", "select_all", "Select all", show=False),
         Binding("ctrl+home", "go_to_start", "To the beginning", show=False),
         Binding("ctrl+end", "go_to_end", "To the end", show=False),

@@ -14,7 +14,7 @@ from textual.message import Message
 
 from tutor.judge.trace import Level
 from tutor.tui import commands
-from tutor.tui.commands import local
+from tutor.tui.commands import panel_bindings
 from tutor.tui.loglines import LogLine
 from tutor.tui.messages import GoToLine
 from tutor.tui.widgets.line_view import LineView, Piece, Row
@@ -33,7 +33,7 @@ class LogView(LineView):
     class Followed(Message):
         """It follows the end now, or does no longer."""
 
-    BINDINGS: ClassVar[list[BindingType]] = local(commands.RUN, commands.STOP)
+    BINDINGS: ClassVar[list[BindingType]] = panel_bindings(commands.RUN, commands.STOP)
     COMPONENT_CLASSES: ClassVar[set[str]] = {
         f"line--{kind}" for kind in ("quiet", "name", "debug", "info", "warn", "error", "fatal", "link")
     }
