@@ -35,8 +35,8 @@ from tutor.cli import main
 from tests.cli.fake_engine import FAILURE, FakeEngine
 
 class Slow(FakeEngine):
-    async def __call__(self, submissions, course, *, only, on_event):
-        report = await super().__call__(submissions, course, only=only, on_event=on_event)
+    async def __call__(self, submissions, course, *, only, on_event, first=False):
+        report = await super().__call__(submissions, course, only=only, on_event=on_event, first=first)
         if "--slow" in sys.argv:
             sys.argv.remove("--slow")
             print("started", file=sys.stderr, flush=True)
