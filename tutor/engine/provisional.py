@@ -94,9 +94,10 @@ class _Followed:
             late = run.exit is None and run.now() - run.interrupted_at >= WAIT_S
             return SoFar("it has not ended after Ctrl+C yet") if late else NOTHING
         published.update(topic for topic in self._watched if run.samples_on(topic))
+        graph = run.peek_graph()
         seen = (
             run.exit,
-            run.graph if run.exit is None else None,
+            graph,
             run.unanswered,
             sum(line.stream == "stderr" for line in run.output),
             bool(run.logs),
@@ -105,6 +106,6 @@ class _Followed:
         )
         if seen != self._seen:
             self._seen = seen
-            moment = Moment(run.trace(), self._watched, run.unanswered, frozenset(published))
+            moment = Moment(run.trace_of(graph), self._watched, run.unanswered, frozenset(published))
             self._said = describe(moment, asked)
         return self._said

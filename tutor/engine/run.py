@@ -128,6 +128,13 @@ class RosRun:
             self._graph = (now, seen)
         return seen
 
+    def peek_graph(self) -> Graph:
+        """The graph now, for the words of the moment: no check ever hears of it, as the last that was seen."""
+        asked, seen = self._graph
+        if self.exit is not None or time.monotonic() - asked < LOOK_EVERY_S:
+            return seen
+        return graph.read_graph(self._observer.node)
+
     @property
     def exit(self) -> Exit | None:
         return self._process.exit
@@ -317,6 +324,10 @@ class RosRun:
         return with_code(frames)
 
     def trace(self) -> Trace:
+        return self.trace_of(self._final_graph())
+
+    def trace_of(self, graph: Graph) -> Trace:
+        """All facts so far, with this graph."""
         return Trace(
             file=self._path.name,
             folder=str(self._path.parent),
@@ -326,7 +337,7 @@ class RosRun:
             started_at=self.started_at,
             samples={topic: tuple(samples) for topic, samples in self._observer.samples.items()},
             logs=tuple(self.logs),
-            graph=self._final_graph(),
+            graph=graph,
             output=tuple(self.output),
             dropped_lines=self._process.dropped_lines,
             exit=self.exit,
