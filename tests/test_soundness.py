@@ -7,13 +7,16 @@ Which ones, `tests.sampling` says; `python -m tests.soundness` judges all. With 
 from __future__ import annotations
 
 import asyncio
+import shutil
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 from collections.abc import Iterator
 from concurrent.futures import Future
 from contextlib import nullcontext
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -41,7 +44,9 @@ def outcomes() -> Iterator[dict[str, Future[Outcome]]]:
     async def one(case: Case, free: asyncio.Semaphore, alone: asyncio.Lock) -> None:
         async with alone if case.expected.keeps_busy else nullcontext(), free:
             try:
-                futures[str(case)].set_result(await judge(case))
+                with tempfile.TemporaryDirectory() as folder:  # some change or remove their own
+                    copy = shutil.copytree(case.folder, Path(folder) / case.folder.name)
+                    futures[str(case)].set_result(await judge(replace(case, folder=copy)))
             except Exception as error:
                 futures[str(case)].set_exception(error)  # for its own test: the others go on
 

@@ -4,6 +4,7 @@ import sys
 import time
 
 from tutor.process import CpuMeter, own_cpu_time
+from tutor.process.cpu_wait import free_s
 
 BUSY = "while True: pass"
 
@@ -70,3 +71,11 @@ def test_a_main_thread_that_sleeps_is_not_kept_waiting() -> None:
 
 def test_our_own_process_has_run() -> None:
     assert own_cpu_time().ran_s > 0.0
+
+
+def test_nobody_is_kept_waiting_for_as_long_as_all_are_free() -> None:
+    assert free_s(10, [0, 0]) == 10
+    assert free_s(10, [5, 5]) == 2.5
+    assert free_s(10, [10, 0]) == 0
+    assert free_s(10, [30, 1]) == 0  # several processes, each kept waiting for all of the time
+    assert free_s(0, []) == 0

@@ -34,6 +34,7 @@ from tutor.judge.trace import (
 )
 from tutor.judge.tracebacks import Frame
 from tutor.process import CpuMeter, CpuTime, LearnerProcess, own_cpu_time
+from tutor.process.cpu_wait import free_s
 from tutor.ros import echo, graph, parameters
 from tutor.ros.intake import MOST_SAMPLES
 from tutor.ros.messages import to_plain
@@ -192,7 +193,7 @@ class RosRun:
     async def until(self, seen: Callable[[], bool], limit_s: float, *, idle_s: float | None = None) -> bool:
         # The limit is for the node, not for a machine that does not let it run, or us see it.
         idle = Idle(self._process.next_wake, self.our_cpu_wait_s, idle_s) if idle_s is not None else None
-        return await self._until(seen, limit_s, lambda: self._cpu().waited_s + self.our_cpu_wait_s(), idle)
+        return await self._until(seen, limit_s, lambda: (self._cpu().waited_s, self.our_cpu_wait_s()), idle)
 
     async def wait_for_exit(self, limit_s: float, *, meanwhile: Callable[[], object] = lambda: None) -> bool:
         def ended() -> bool:
@@ -201,15 +202,20 @@ class RosRun:
 
         # Its other threads are kept waiting by the machine while the main thread sleeps: no excuse for a late end. Nor
         # are we: what we see late has its time all the same.
-        return await self._until(ended, limit_s, lambda: self._cpu().main_waited_s)
+        return await self._until(ended, limit_s, lambda: (self._cpu().main_waited_s,))
 
     async def _until(
-        self, seen: Callable[[], bool], limit_s: float, lost_s: Callable[[], float], idle: Idle | None = None
+        self,
+        seen: Callable[[], bool],
+        limit_s: float,
+        waited_s: Callable[[], tuple[float, ...]],
+        idle: Idle | None = None,
     ) -> bool:
-        """Wait as `until` does; the limit grows by what `lost_s` grows meanwhile, in seconds."""
+        """Wait as `until` does; the limit grows by what each of `waited_s` grows meanwhile, in seconds."""
         loop = asyncio.get_running_loop()
-        deadline, granted_s = loop.time() + limit_s, 0.0
-        ran_s, before_s = self._cpu().ran_s, lost_s()
+        began, granted_s = loop.time(), 0.0
+        deadline = began + limit_s
+        ran_s, before_s = self._cpu().ran_s, waited_s()
         ended_at: float | None = None
         while True:
             self._facts.changed.clear()
@@ -227,12 +233,13 @@ class RosRun:
             if now >= deadline:
                 if self._cpu().ran_s - ran_s >= ENOUGH_CPU_S:  # one that has used this much of the CPU has run
                     return False
-                late_s, most_s = lost_s() - before_s, MOST_EXTENSIONS * limit_s
-                owed_s = min(late_s, most_s) - granted_s
+                late_s = [after - before for after, before in zip(waited_s(), before_s, strict=True)]
+                most_s = MOST_EXTENSIONS * limit_s
+                owed_s = min(sum(late_s), most_s) - granted_s
                 if owed_s < LOOK_EVERY_S:
                     # A shorter wait is a look, from which nothing follows; a node that has had CPU time was let run.
-                    starved = late_s > most_s and self._cpu().ran_s - ran_s < LITTLE_CPU_S
-                    if starved and limit_s >= 1.0:
+                    let_run = limit_s < 1.0 or self._cpu().ran_s - ran_s >= LITTLE_CPU_S
+                    if not let_run and sum(late_s) > most_s and free_s(now - began, late_s) < limit_s:
                         raise MachineTooBusy(TOO_BUSY)
                     return False
                 deadline, granted_s = deadline + owed_s, granted_s + owed_s

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 import os
 import time
+from collections.abc import Iterable
 from dataclasses import astuple, dataclass
 
 from tutor.process.supervisor import Process, processes
@@ -58,6 +60,11 @@ def own_cpu_time() -> CpuTime:
     if _own is None or _own[1] != pid or now - _own[0] >= OWN_EVERY_S:
         _own = (now, pid, _read_cpu_time(pid))
     return _own[2]
+
+
+def free_s(of_s: float, late_s: Iterable[float]) -> float:
+    """For how much of `of_s` seconds nobody was kept waiting; each was for so long, whatever the others did then."""
+    return of_s * math.prod(max(0.0, 1 - each / of_s) for each in late_s) if of_s > 0 else 0.0
 
 
 def recent_processes(pid: int) -> dict[int, Process]:
