@@ -251,6 +251,7 @@ async def _probe_rate(bench: Bench, name: str, unit: str, value: float, whole: b
             if (
                 probe.agrees
                 or ended
+                or (probe.rate is not None and probe.rate.is_far_above(asked_hz, window))
                 or (stretch > 1 and not too_few_by_cpu_wait(probe.messages, asked_hz, cpu_wait_s=lost_s, of_s=of_s))
             ):
                 break

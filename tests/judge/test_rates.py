@@ -35,6 +35,13 @@ def test_a_rate_agrees_within_its_tolerance(asked: float, factor: float) -> None
     assert not outside or not agrees
 
 
+def test_a_rate_is_far_above_only_in_a_window_that_shows_it() -> None:
+    assert Rate(2.0, 9, 4.0, 0.5).is_far_above(0.5, 4.0)
+    assert not Rate(0.7, 4, 4.0, 1.4).is_far_above(0.5, 4.0)
+    assert not Rate(2.0, 3, 1.0, 0.5).is_far_above(0.5, 4.0)
+    assert not Rate(2.0, 9, 4.0, 0.01).is_far_above(0.5, 4.0), "in bursts"
+
+
 @pytest.mark.parametrize("times", [[], [5.0], [5.0, 5.0], [5.0, 5.0, 5.0]])
 def test_too_little_to_tell(times: list[float]) -> None:
     assert measure([sample("/t", 0, at) for at in times]) is None

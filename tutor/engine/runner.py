@@ -224,6 +224,8 @@ class Runner:
         return result
 
     def _tell(self, scenario: Scenario[Any], fraction: float, text: str, so_far: SoFar) -> None:
+        if self._progress.get(scenario) == (fraction, text, so_far):
+            return
         self._progress[scenario] = (fraction, text, so_far)
         for criterion in self._shown:
             if scenario in criterion.facts and not self._judged(criterion):

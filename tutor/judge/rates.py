@@ -15,6 +15,8 @@ TOLERANCE = 0.2
 WINDOW_FILLED = 0.6
 """The first and the last message of a window may be up to a period away from its ends."""
 
+FAR_ABOVE = 1.5
+"""Messages that were held up and come together make a rate higher than it is, but not this many times."""
 
 EVEN_SHARE = 0.5
 """Of messages that come one by one, half are further apart than this share of the mean period, jitter and all."""
@@ -47,6 +49,10 @@ class Rate:
     def covers(self, window_s: float) -> bool:
         """Whether the messages fill most of a window that is long enough to tell this rate, not a burst in it."""
         return self.span_s >= WINDOW_FILLED * window_s
+
+    def is_far_above(self, asked_hz: float, window_s: float) -> bool:
+        """Whether it is so much faster, in a window that is long enough, that no hiccup of the machine explains it."""
+        return self.hz > FAR_ABOVE * asked_hz and self.covers(window_s) and not self.in_bursts
 
     def __str__(self) -> str:
         bursts = ", in bursts" if self.in_bursts else ""
