@@ -98,12 +98,21 @@ def test_the_doctor_has_a_finding_for_full_and_for_little_shared_memory(as_here:
     assert "reinstall" not in about
 
 
-def test_few_descriptors_leave_the_report_alone() -> None:
-    few = lambda: resource.setrlimit(resource.RLIMIT_NOFILE, (40, 40))  # noqa: E731
-    command = [*RUN, "check", "i1.1", "--solution", "--criterion", "range", "--format", "json"]  # starts two nodes
+@pytest.mark.parametrize("most", [40, 200])
+def test_too_few_descriptors_are_an_error_of_the_machine(most: int) -> None:
+    few = lambda: resource.setrlimit(resource.RLIMIT_NOFILE, (most, most))  # noqa: E731
+    command = [*RUN, "check", "i1.1", "--solution", "--format", "json"]
     found = subprocess.run(command, capture_output=True, text=True, timeout=LIMIT_S, check=False, preexec_fn=few)
     assert found.returncode == 3, found.stderr
+    assert f"only {most} files may be open" in found.stderr
     assert not found.stdout or json.loads(found.stdout)["verdict"] == "error"
+
+
+def test_where_more_descriptors_are_allowed_they_are_used() -> None:
+    few = lambda: resource.setrlimit(resource.RLIMIT_NOFILE, (40, 1024))  # noqa: E731
+    command = [*RUN, "check", "i1.3", "--solution", "--format", "json"]
+    found = subprocess.run(command, capture_output=True, text=True, timeout=LIMIT_S, check=False, preexec_fn=few)
+    assert found.returncode == 0, found.stdout + found.stderr
 
 
 def test_a_pipe_as_progress_file_or_output_holds_nothing_up(tmp_path: Path) -> None:

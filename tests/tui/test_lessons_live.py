@@ -193,7 +193,7 @@ async def test_i2_2(session: Session) -> None:
         await me.press("r")
         await me.sees("I heard: ", "Publishing: ")
         me.reads(
-            "`b` starts a listener of ours on `/chatter`. It hears your publisher while the topic's name is `chatter`"
+            "`b` starts one of our listeners on `/chatter`. It hears your publisher while the topic's name is `chatter`"
         )
         await me.press("b")
         await me.sees("● running  listener", "I heard: [Hello World: ")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import importlib
+import resource
 import time
 from collections.abc import Callable, Sequence
 from contextlib import nullcontext, suppress
@@ -18,6 +19,9 @@ from tutor.judge.check import Check
 from tutor.judge.events import CheckFinished, Event
 from tutor.judge.result import Environment, Report
 from tutor.judge.submission import Submission
+
+LEAST_DESCRIPTORS, ENOUGH_DESCRIPTORS = 512, 4096
+"""A check of all exercises has some 350 files and sockets open. With fewer allowed, Fast DDS goes on without some."""
 
 _INTERFACES = (
     "std_msgs",
@@ -66,6 +70,7 @@ async def run_check(
     except OSError as error:
         what = f"nothing can be sent to 127.0.0.1 ({error}), and nodes talk over it"
         raise EngineError(what, "switch the loopback interface on: sudo ip link set lo up") from error
+    _require_descriptors()
     ros = detect()
     try:
         process_setup.prepare_for_rclpy(ros, isolated=True)
@@ -110,3 +115,16 @@ async def run_check(
     )
     on_event(CheckFinished(report))
     return report
+
+
+def _require_descriptors() -> None:
+    """Allow this process as many open files as a check needs. Raises EngineError where that is impossible."""
+    soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
+    unlimited = resource.RLIM_INFINITY
+    most = ENOUGH_DESCRIPTORS if hard == unlimited else min(hard, ENOUGH_DESCRIPTORS)
+    if soft != unlimited and soft < most:
+        resource.setrlimit(resource.RLIMIT_NOFILE, (most, hard))
+        soft = most
+    if soft != unlimited and soft < LEAST_DESCRIPTORS:
+        text = f"only {soft} files may be open in a process here, and a check needs {LEAST_DESCRIPTORS}"
+        raise EngineError(text, f"allow more (ulimit -n {ENOUGH_DESCRIPTORS}, or nofile in /etc/security/limits.conf)")
