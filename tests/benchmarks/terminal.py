@@ -86,15 +86,14 @@ class Terminal:
         return False
 
     def close(self) -> None:
-        """Quit, and wait for it."""
+        """Quit, and wait for it. Raises TimeoutError where it does not end in time; it is killed then."""
         self.press(b"\x11")
-        while True:
-            try:
-                self.read(1.0)
-            except OSError:  # the other end is closed
-                break
-        os.waitpid(self.pid, 0)
-        os.close(self._fd)
+        try:
+            if not self.ended():
+                self.kill()
+                raise TimeoutError(f"it does not quit: {_ESCAPES.sub(b'', self._seen)[-3000:]!r}")
+        finally:
+            self.detach()
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,6 +13,8 @@ from pathlib import Path
 
 import pytest
 
+from tutor import cli
+
 ROOT = Path(__file__).parents[2]
 LIMIT_S = 60.0
 INTERRUPTED = (130, -signal.SIGINT)
@@ -101,6 +103,22 @@ def test_while_a_clone_is_looked_after() -> None:
         code, said = pressed([str(ROOT / "ros-tutor"), "list"], after(step / 1000))
         assert code in (*INTERRUPTED, 0), (step, code, said)
         assert said == "" or code == 0, (step, said)
+
+
+@pytest.mark.parametrize("cause", [KeyboardInterrupt, ValueError])
+def test_where_a_librarys_cleanup_fails_because_of_it(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], cause: type[BaseException]
+) -> None:
+    def run(_: object) -> int:
+        try:
+            raise cause
+        finally:
+            del run.never_set  # type: ignore[attr-defined]
+
+    monkeypatch.setattr(cli, "_run", run)
+    by_ctrl_c = cause is KeyboardInterrupt
+    assert cli.main([]) == (130 if by_ctrl_c else 3)
+    assert (capsys.readouterr().err == "") is by_ctrl_c
 
 
 PRESSES_IN_A_DESTRUCTOR = """

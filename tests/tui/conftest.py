@@ -85,6 +85,11 @@ class Learner(Person[TutorApp]):
         """The file that is shown."""
         return self.main.model.path
 
+    def background(self) -> list[str]:
+        """What each node wrote, shown or not."""
+        nodes = {} if self.app.main is None else self.main.nodes.known
+        return [f"{name}: {line.text}" for name, node in nodes.items() for line in node.state.lines]
+
     async def types(self, text: str) -> None:
         await self.pilot.press(*("enter" if c == "\n" else _character_to_key(c) for c in text))
 

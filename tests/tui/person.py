@@ -41,7 +41,11 @@ class Person[A: App[Any]]:
 
     async def until(self, seen: Callable[[], bool], what: object = "", *, limit_s: float | None = None) -> None:
         if not await seen_within(seen, self.limit_s if limit_s is None else limit_s):
-            pytest.fail(f"not seen: {what}\n{self.screen()}")
+            pytest.fail("\n".join([f"not seen: {what}", self.screen(), *self.background()]))
+
+    def background(self) -> list[str]:
+        """What else helps to see why something is not on the screen."""
+        return []
 
     def screen(self) -> str:
         """What is drawn, as text: the top screen over whatever is below."""

@@ -20,10 +20,21 @@ def main(argv: Sequence[str] | None = None) -> int:
     except SystemExit as end:  # argparse, after --help and --version
         return end.code if isinstance(end.code, int) else 0
     except Exception as error:  # the process's border: a learner gets one line, whatever happened
+        if _comes_from_ctrl_c(error):
+            return INTERRUPTED
         if os.environ.get("ROS_TUTOR_DEBUG") == "1":
             traceback.print_exc(file=sys.stderr)
         terminal.say(describe(error))
         return exit_code(error)
+
+
+def _comes_from_ctrl_c(error: BaseException | None) -> bool:
+    """Whether Ctrl+C led to this error: a `finally` of a library's (argparse's is one) may raise one of its own then."""
+    while error is not None:
+        if isinstance(error, KeyboardInterrupt):
+            return True
+        error = error.__cause__ or error.__context__
+    return False
 
 
 def _run(argv: Sequence[str] | None) -> int:
