@@ -182,8 +182,9 @@ def test_with_an_installed_ros_its_own_variables_stay(tmp_path: Path) -> None:
     assert setup_file(installed, tmp_path, "bash") == tmp_path / "install/local_setup.bash"
 
 
-def test_killed_it_takes_its_command_along(bench: Bench, workspace: Path) -> None:
-    command = [*TUTOR, "shell", "-c", "echo up; exec sleep 600", "--workspace", str(workspace)]
+@pytest.mark.parametrize("before", [[], ["nohup"]])
+def test_killed_it_takes_its_command_along(bench: Bench, workspace: Path, before: list[str]) -> None:
+    command = [*before, *TUTOR, "shell", "-c", "echo up; exec sleep 600", "--workspace", str(workspace)]
     shell = subprocess.Popen(command, env=users_env(bench), stdout=subprocess.PIPE)
     assert shell.stdout is not None
     with shell.stdout:

@@ -59,5 +59,6 @@ class Person[A: App[Any]]:
             return ""
         lines = screen._compositor.render_strips()
         assert len(lines) == height
-        assert all(line.cell_length <= width for line in lines)
+        too_long = [line.text for line in lines if line.cell_length > width]
+        assert not too_long, too_long
         return "\n".join(line.text for line in lines)

@@ -59,7 +59,8 @@ def _run(command: list[str], env: dict[str, str]) -> int:
     sys.stdout.flush()
 
     def as_from_a_terminal() -> None:
-        signal.signal(signal.SIGINT, signal.SIG_DFL)
+        for each in (signal.SIGINT, signal.SIGHUP):  # nohup ignores the latter, and it would be inherited
+            signal.signal(each, signal.SIG_DFL)
         prctl.die_with_parent(signal.SIGHUP)  # as when its terminal is closed
 
     # Ctrl+C is the shell's; we are only there to tidy up after it.
