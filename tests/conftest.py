@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+import os
 import signal
 import sys
 from collections.abc import Iterator
@@ -35,3 +36,18 @@ def pytest_runtest_call(item: pytest.Item) -> Iterator[None]:
     yield
     if "rclpy" in sys.modules and not before:
         assert PREPARES_FOR_RCLPY in item.path.parents, "rclpy is imported: run the test's code in another process"
+
+
+@pytest.fixture(autouse=True)
+def _environment_is_left_as_it_was() -> Iterator[None]:
+    """What a test leaves in the environment, every process inherits that a later test starts."""
+
+    def variables() -> dict[str, str]:
+        passing = ("PYTEST_CURRENT_TEST", "ROS_TUTOR_STARTED_AS")  # the latter names the process: it says so once
+        return {name: value for name, value in os.environ.items() if name not in passing}
+
+    before = variables()
+    yield
+    after = variables()
+    changed = {name: after.get(name) for name in before.keys() | after.keys() if before.get(name) != after.get(name)}
+    assert not changed

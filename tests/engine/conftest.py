@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import importlib
-import os
 import sys
 import warnings
 from collections.abc import AsyncIterator, Iterator
@@ -16,19 +15,18 @@ from tutor.ros import process_setup
 from tutor.ros.environment import RosEnvironment, detect
 
 
-@pytest.fixture(scope="package")
+@pytest.fixture(scope="module")  # "package" would last as long as the session: this folder is no package
 def ros() -> Iterator[RosEnvironment]:
     """ROS, chosen and isolated as for a check; `import rclpy` works from here on."""
-    environ, path = dict(os.environ), list(sys.path)
+    path = list(sys.path)
     chosen = detect()
-    process_setup.prepare_for_rclpy(chosen, isolated=True)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # of what ROS itself imports
-        importlib.import_module("rosidl_generator_py")
-        importlib.import_module("tutor.engine.runner")
-    yield chosen
-    os.environ.clear()
-    os.environ.update(environ)
+    with process_setup.environment_restored():
+        process_setup.prepare_for_rclpy(chosen, isolated=True)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of what ROS itself imports
+            importlib.import_module("rosidl_generator_py")
+            importlib.import_module("tutor.engine.runner")
+        yield chosen
     sys.path[:] = path
 
 

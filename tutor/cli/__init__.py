@@ -29,7 +29,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _comes_from_ctrl_c(error: BaseException | None) -> bool:
-    """Whether Ctrl+C led to this error: a `finally` of a library's (argparse's is one) may raise one of its own then."""
+    """Whether Ctrl+C led to this error: a `finally` of a library (argparse has one) may raise its own then."""
     while error is not None:
         if isinstance(error, KeyboardInterrupt):
             return True

@@ -55,9 +55,33 @@ async def run_check(
 
     `only`: the ids of the criteria to show (None: all). `start_limiter`: shared among checks that run at once.
     `isolation`: isolates all that is started of the submissions. `first`: each submission's check ends at the first
-    required criterion that fails; those not judged by then are skipped. Raises EngineError where checks cannot be run
-    here.
+    required criterion that fails; those not judged by then are skipped. The environment of this process is the user's
+    again afterwards. Raises EngineError where checks cannot be run here.
     """
+    from tutor.ros import process_setup
+
+    with process_setup.environment_restored():
+        return await _run_check(
+            submissions,
+            course,
+            only=only,
+            on_event=on_event,
+            start_limiter=start_limiter,
+            isolation=isolation,
+            first=first,
+        )
+
+
+async def _run_check(
+    submissions: Sequence[Submission],
+    course: Course,
+    *,
+    only: frozenset[str] | None,
+    on_event: Callable[[Event], None],
+    start_limiter: StartLimiter | None,
+    isolation: Isolation | None,
+    first: bool,
+) -> Report:
     from tutor.engine import unchanged
     from tutor.engine.modules import load_check
     from tutor.ros import bytecode, process_setup

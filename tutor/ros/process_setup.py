@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from functools import cache, cached_property
 from importlib.abc import MetaPathFinder
 from importlib.machinery import ModuleSpec, PathFinder
@@ -21,6 +22,31 @@ _OF_ROS = ("ROS_", "RMW_", "AMENT_", "FASTRTPS_", "FASTDDS_", "RCUTILS_", "OPENB
 
 _in_use: tuple[object, ...] | None = None
 """The ROS that this process was prepared for: once rclpy is imported, it can be no other."""
+
+_users_environ: dict[str, str] = {}
+_preparations = 0
+
+
+@contextmanager
+def environment_restored() -> Iterator[None]:
+    """Give the user's environment back at the end of whatever prepares this process for rclpy.
+
+    A node that the user runs later from this process would be set up as a check's otherwise. These may overlap: the
+    last to end restores.
+    """
+    global _preparations
+    if not _preparations:
+        _users_environ.clear()
+        _users_environ.update(os.environ)
+    _preparations += 1
+    try:
+        yield
+    finally:
+        _preparations -= 1
+        if not _preparations:
+            for name in set(os.environ) - set(_users_environ):
+                del os.environ[name]
+            os.environ.update(_users_environ)
 
 
 def prepare_for_rclpy(ros: RosEnvironment, *, isolated: bool) -> None:
