@@ -223,7 +223,9 @@ def _diagnose_rate(group: Sequence[RateProbe], wrong: RateProbe, declared: tuple
             return causes.diagnose_rate_as_period(wrong.name, step)
         return causes.diagnose_period_as_rate(wrong.name, step)
     rates_seen = [rate.hz for _, rate in measured]
-    if (seen := causes.diagnose_same_name(wrong.trace) or steps.diagnose_rate(wrong.trace, wrong.name)) is not None:
+    if (
+        seen := causes.diagnose_same_name(wrong.trace) or steps.diagnose_rate(wrong.trace, wrong.name, wrong.asked_hz)
+    ) is not None:
         return seen
     if len(rates_seen) > 1 and max(rates_seen) <= min(rates_seen) * (1 + TOLERANCE):
         return Cause(

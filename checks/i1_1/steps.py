@@ -139,13 +139,14 @@ def _diagnose_missing_f(read: NodeFile) -> Cause | None:
     return None
 
 
-def diagnose_rate(trace: Trace, name: str) -> Cause | None:
+def diagnose_rate(trace: Trace, name: str, asked_hz: float) -> Cause | None:
     """What keeps the rate from being what a parameter, which is read in Hz, says, as far as one line tells it."""
     read = file(trace)
     return (
         diagnose_whole_rate(trace, name)
         or period_slips.diagnose_period_unit(read)
-        or parameter_slips.diagnose_override(read, name)
+        or parameter_slips.diagnose_override(read, name, whole_program(read))
+        or period_slips.diagnose_sleep(read, asked_hz)
     )
 
 

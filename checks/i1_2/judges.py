@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from checks.i1_2 import backlog, rates, slowness, steps
 from checks.i1_2.facts import EVERY, FAST_HZ, OURS, Trial
 from checks.i1_2.reading import labelled, read
-from checks.i1_2.summaries import Summary, find_summaries, in_time, milestone, totals
+from checks.i1_2.summaries import Summary, count_complete, find_summaries, in_time, milestone, totals
 from tutor.judge import causes, ending
 from tutor.judge.trace import LogRecord
 from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped, undecided
@@ -196,6 +196,10 @@ def judge_slow_summary(steady: Trial, jump: Trial) -> Verdict:
     """Judge what `summary` asks for where the messages come slowly."""
     expected = EXPECTED_SUMMARY
     if not find_summaries(steady):
+        if (many := count_complete(steady)) > len(steady.sent) // EVERY:
+            text = f"{many} summaries for {len(steady.sent)} messages"
+            again = Cause("too many summaries", "one summary is written again and again", _every_ten(steady))
+            return failed(expected, text, again, _logged(steady))
         return failed(
             expected, f"none, after {len(steady.sent)} messages", diagnose_no_summary(steady), _logged(steady)
         )

@@ -112,6 +112,12 @@ def find_summaries(trial: Trial) -> tuple[Summary, ...]:
     return _alone(_likeliest(special, trial), special, trial)
 
 
+def count_complete(trial: Trial) -> int:
+    """How many lines would each be a summary, where they are too many to be told from what is logged anyway."""
+    of = [each for each in group_lines(trial.lines, trial) if each.messages > 1 and _complete(each, trial)]
+    return sum(each.times for each in of)
+
+
 def _complete(summary: Summary, trial: Trial) -> bool:
     """Whether it quotes a first message and a recent one."""
     firsts = {trial.sent[index].number for index in (0, *trial.jumps)}

@@ -73,6 +73,8 @@ def _diagnose_missing(trace: Trace, missing: Sequence[str]) -> Cause:
             f"name it {strange[0][1][1:]!r}, without a namespace or ~ in front",
         )
         return with_applicable_step(cause, trace, lambda: service_steps.rename_services(trace, strange))
+    if (destroyed := service_steps.diagnose_destroyed(trace)) is not None:
+        return destroyed
     cause = Cause(
         "service missing",
         f"{', '.join(missing)} {'is' if len(missing) == 1 else 'are'} not there",

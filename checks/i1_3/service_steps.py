@@ -14,6 +14,7 @@ from tutor.judge.edits import Edit
 from tutor.judge.rewriting.node import argument
 from tutor.judge.source import Function
 from tutor.judge.trace import Trace
+from tutor.judge.verdict import Cause
 
 
 def add_services(trace: Trace, missing: Sequence[str]) -> str | None:
@@ -45,9 +46,27 @@ def add_services(trace: Trace, missing: Sequence[str]) -> str | None:
     return None
 
 
+def diagnose_destroyed(trace: Trace) -> Cause | None:
+    """Whether a service is destroyed with an object that holds it: as soon as nothing refers to that any more."""
+    for code in learner_files(trace):
+        for call in code.calls("destroy_service"):
+            function = code.function_around(call)
+            if function is not None and function.name == "__del__":
+                step = code.as_step([edits.remove_statement(code.text, function)])
+                text = (
+                    f"line {call.lineno}: __del__ destroys the service when nothing refers to the object any more, as "
+                    "when its variable is assigned again"
+                )
+                return Cause("service destroyed", text, step) if step else None
+    return None
+
+
 def _place(code: Code) -> tuple[ast.stmt, str] | None:
     """The statement below which a service can be offered, and what the node is called there."""
     if made := code.calls("create_service"):
+        around = code.class_of(made[-1])
+        if around is not None and around.name not in code.node_classes:  # a class of the learner's own for a service
+            return None
         return code.outermost(made[-1]), code.node(made[-1])
     for call in code.calls("__init__", "create_node", "Node", *code.node_classes):
         statement = code.outermost(call)

@@ -156,8 +156,11 @@ def _are_alike(rate: Rate, other: Rate | None) -> bool:
 
 
 def _diagnose_other_rate(trace: Trace) -> Cause:
-    return period_slips.diagnose_integer_period(started_node(trace)) or Cause(
-        "wrong rate", f"{RATE} has an effect, but not this one", steps.use_parameter(trace, RATE)
+    read = started_node(trace)
+    return (
+        period_slips.diagnose_integer_period(read)
+        or period_slips.diagnose_sleep(read, LAUNCH_HZ)
+        or Cause("wrong rate", f"{RATE} has an effect, but not this one", steps.use_parameter(trace, RATE))
     )
 
 
@@ -170,7 +173,7 @@ def _diagnose_rounded_rate(rate: Rate | None, asked: float, step: str) -> Cause 
 
 
 def _diagnose_ignored(name: str, trace: Trace) -> Cause:
-    return parameter_slips.diagnose_override(started_node(trace), name) or Cause(
+    return steps.diagnose_override(trace, name) or Cause(
         "parameter ignored", f"{name} given at start-up has no effect", steps.use_parameter(trace, name)
     )
 
@@ -353,20 +356,19 @@ def judge_validation(seen: BadRates, switched: RuntimeChanges) -> Verdict:
             return failed(
                 expected,
                 f"{bad} was rejected, but {RATE} is {_show(value)} now",
-                Cause(
-                    "value changed all the same",
-                    "the value is not what it was",
-                    steps.refuse_bad_rates(seen.trace),
-                ),
+                _diagnose_change(seen.trace, "the value is not what it was"),
             )
     if not _goes_on(seen.rate, seen.base_hz, switched):
-        cause = (causes.diagnose_process(seen.trace) if seen.trace.exit else None) or Cause(
-            "value changed all the same",
-            "the rate changes although the value was rejected",
-            steps.refuse_bad_rates(seen.trace),
-        )
+        cause = causes.diagnose_process(seen.trace) if seen.trace.exit else None
+        cause = cause or _diagnose_change(seen.trace, "the rate changes although the value was rejected")
         return failed(expected, f"after the rejection: {describe(seen.rate, seen.messages)}", cause)
     return passed(expected, f'rejected: "{seen.rejected[0][0].reason}"; still {seen.rate}')
+
+
+def _diagnose_change(trace: Trace, text: str) -> Cause:
+    return parameter_slips.diagnose_callback_order(started_node(trace)) or Cause(
+        "value changed all the same", text, steps.refuse_bad_rates(trace)
+    )
 
 
 @_followable
@@ -394,6 +396,8 @@ def _diagnose_timer(seen: RateChanges, asked: float, rate: Rate | None) -> Cause
     diagnose_integer_period = period_slips.diagnose_integer_period(read)
     if rate is not None and rate.in_bursts:
         return diagnose_integer_period or causes.diagnose_bursts(steps.send_once_per_tick(trace))
+    if rate is not None and rate.hz < asked and (asleep := period_slips.diagnose_sleep(read, asked)) is not None:
+        return asleep
     before = DEFAULT_HZ if asked == UP_HZ else UP_HZ
     faster = seen.steps[0][1]
     left_behind = asked == DOWN_HZ and faster is not None and faster.hz > UP_HZ + DEFAULT_HZ / 2
@@ -462,7 +466,10 @@ def judge_atomic(seen: AtomicRequests, switched: RuntimeChanges) -> Verdict:
         return failed(
             expected,
             f"rejected, but {now}",
-            Cause("partial change", "the callback applies the first parameter before it looks at the second", partial),
+            parameter_slips.diagnose_callback_order(started_node(seen.trace))
+            or Cause(
+                "partial change", "the callback applies the first parameter before it looks at the second", partial
+            ),
         )
     if not _goes_on(seen.rate, seen.base_hz, switched):
         return failed(

@@ -11,11 +11,13 @@ from collections.abc import Callable, Sequence
 from checks.i2_1.facts import DEFAULTS, ENABLED, PREFIX, RATE, TOPIC, TYPE
 from checks.i2_1.program import whole_program
 from tutor.judge import causes
+from tutor.judge.causes import parameter_slips
 from tutor.judge.edits import Edit
 from tutor.judge.rewriting import parameters, publishing, whole
 from tutor.judge.rewriting.node import NodeFile, started_node
 from tutor.judge.trace import SetAnswer, Trace
 from tutor.judge.tracebacks import Frame
+from tutor.judge.verdict import Cause
 
 
 def declare_parameters(trace: Trace, names: Sequence[str]) -> str:
@@ -145,6 +147,12 @@ def checked_at_start(trace: Trace) -> str:
     return read.step(parameters.check_at_start(read, RATE), whole_program(read)) or (
         f"check it after declaring it, and log an error that names {RATE}"
     )
+
+
+def diagnose_override(trace: Trace, name: str) -> Cause | None:
+    """Whether the code itself gives the parameter another value than the one of the start."""
+    read = started_node(trace)
+    return parameter_slips.diagnose_override(read, name, whole_program(read))
 
 
 def whole_program_step(trace: Trace) -> str:

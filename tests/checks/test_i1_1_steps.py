@@ -94,6 +94,11 @@ def test_an_int_becomes_a_float() -> None:
         (changed(("1.0 / self.rate", "1 // self.rate")), "period made a whole number", "(1 / self.rate"),
         (changed(("1.0 / self.rate", "1000.0 / self.rate")), "wrong timer period", "timer(1.0 / self.rate"),
         (
+            changed(("        self.publisher.p", "        time.sleep(0.75)\n        self.publisher.p")),
+            "callback sleeps",
+            "msg = Float64()",
+        ),
+        (
             changed(("        self.timer =", "        self.rate = 1.0\n        self.timer =")),
             "value overwritten by the node",
             "value\n        self.publisher",
@@ -101,7 +106,7 @@ def test_an_int_becomes_a_float() -> None:
     ],
 )
 def test_why_the_rate_is_another(trace: Trace, cause: str, line: str) -> None:
-    found = steps.diagnose_rate(trace, "publish_rate")
+    found = steps.diagnose_rate(trace, "publish_rate", 8.0)
     assert found is not None
     assert found.name == cause
     assert line in after(found.hint, trace)
@@ -150,6 +155,6 @@ def test_what_is_not_declared_is_declared_and_used() -> None:
 
 
 def test_without_a_source_the_plain_words_are_left() -> None:
-    assert steps.diagnose_rate(changed(), "publish_rate") is None
+    assert steps.diagnose_rate(changed(), "publish_rate", 8.0) is None
     assert "random.uniform(20.0, 30.0)" in steps.draw_values(None)
     assert steps.add_publisher(Trace("node.py")) == ""

@@ -6,8 +6,9 @@ Everything here explains a failure that is certain; the source only chooses the 
 from __future__ import annotations
 
 import ast
+from collections.abc import Iterator, Sequence
 
-from tutor.judge.edits import remove_statement, replace_node, replace_nodes
+from tutor.judge.edits import Edit, remove_statement, replace_node, replace_nodes
 from tutor.judge.rewriting import parameters
 from tutor.judge.rewriting.node import NodeFile, argument
 from tutor.judge.source import Function, where
@@ -16,11 +17,66 @@ from tutor.judge.verdict import Cause
 _OVERWRITTEN = "value overwritten by the node"
 
 
-def diagnose_override(file: NodeFile, name: str) -> Cause | None:
-    """Whether the code itself gives the parameter, or what it has read of it, another value."""
+def diagnose_override(file: NodeFile, name: str, *whole: list[Edit]) -> Cause | None:
+    """Whether the code itself gives the parameter, or what it has read of it, another value.
+
+    `whole`: what the program becomes where no smaller edit is right.
+    """
     return (
-        _diagnose_own_set(file, name) or _diagnose_ignored_overrides(file, name) or _diagnose_reassignment(file, name)
+        _diagnose_own_set(file, name)
+        or _diagnose_ignored_overrides(file, name)
+        or _diagnose_parameter_overrides(file, name, *whole)
+        or _diagnose_reassignment(file, name)
     )
+
+
+def _diagnose_parameter_overrides(file: NodeFile, name: str, *whole: list[Edit]) -> Cause | None:
+    for call in file.calls("create_node", "Node", "__init__", *file.node_classes):
+        given = {each.arg: each.value for each in call.keywords}
+        if "parameter_overrides" not in given or name not in file.text:
+            continue
+        kept = [each for each in call.keywords if each.arg != "parameter_overrides"]
+        removed = [replace_node(file.text, call, ast.unparse(ast.Call(call.func, call.args, kept)))]
+        declared = name in {each.value for each in _texts(file.calls("declare_parameter", "declare_parameters"))}
+        step = file.step(*([removed] if declared else []), *whole)
+        text = f"line {call.lineno}: parameter_overrides wins over what is given at start-up"
+        return Cause(_OVERWRITTEN, text, step) if step else None
+    return None
+
+
+def _texts(calls: Sequence[ast.Call]) -> Iterator[ast.Constant]:
+    for call in calls:
+        yield from (each for each in ast.walk(call) if isinstance(each, ast.Constant))
+
+
+def diagnose_callback_order(file: NodeFile) -> Cause | None:
+    """Whether an on-set callback takes values over that another one refuses.
+
+    rclpy calls them all until one refuses, the last one added first (`Node.add_on_set_parameters_callback`).
+    """
+    calls = file.calls(parameters.ON_SET)
+    functions = [file.function(argument(call, 0, "callback")) for call in calls]
+    refusing = [_may_refuse(file, each) for each in functions]
+    changes = [
+        replace_node(file.text, call.func, f"{ast.unparse(call.func.value)}.{parameters.POST_SET}")
+        for call, may_refuse in zip(calls, refusing, strict=True)
+        if not may_refuse and isinstance(call.func, ast.Attribute)
+    ]
+    if any(each is None for each in functions) or not any(refusing) or not changes:
+        return None
+    step = file.step(changes)
+    first, then = (next(f for f, may in zip(functions, refusing, strict=True) if f and may is x) for x in (False, True))
+    text = (
+        f"{first.name} takes the values over, though {then.name} refuses them: of several on-set callbacks, the one "
+        "added last is called first"
+    )
+    return Cause("value taken over before it is checked", text, step) if step else None
+
+
+def _may_refuse(file: NodeFile, function: Function | None) -> bool:
+    if function is None:
+        return False
+    return any("successful=False" in ast.unparse(each).replace(" ", "") for each in file.reached(function))
 
 
 def _diagnose_own_set(file: NodeFile, name: str) -> Cause | None:

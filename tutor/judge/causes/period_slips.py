@@ -5,9 +5,9 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from tutor.judge.edits import replace_node
+from tutor.judge.edits import remove_statement, replace_node
 from tutor.judge.rewriting.node import NodeFile, argument
-from tutor.judge.source import values_of
+from tutor.judge.source import values_of, where
 from tutor.judge.verdict import Cause
 
 
@@ -33,6 +33,23 @@ def diagnose_period_unit(file: NodeFile) -> Cause | None:
                     "takes seconds"
                 )
                 return Cause("wrong timer period", text, step) if step else None
+    return None
+
+
+def diagnose_sleep(file: NodeFile, asked_hz: float) -> Cause | None:
+    """Whether the timer's callback, or what it calls, sleeps: the timer can be no faster than that.
+
+    A nap of less than a tenth of the period, at `asked_hz`, hardly counts.
+    """
+    called = file.reached(file.tick) if file.tick is not None else []
+    for call in file.calls("sleep"):
+        match call.args:
+            case [ast.Constant(value=int() | float() as nap_s)] if nap_s < 0.1 / asked_hz:
+                continue
+        if file.function_around(call) in called:
+            step = file.step([remove_statement(file.text, file.statement(call))])
+            text = f"{where(call)}: the timer's callback sleeps here, and meanwhile the timer stands still"
+            return Cause("callback sleeps", text, step) if step else None
     return None
 
 
