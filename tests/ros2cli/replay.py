@@ -31,6 +31,7 @@ from tests.ros2cli.normalising import TRACEBACK, normalise, of_both, without_ear
 from tests.ros2cli.records import Output, Record, read_all
 
 LIMIT_S = 60.0
+_WAITS = "stdout: waiting for service to become available..."
 SAME, WANTED, UNSUPPORTED, DIFFERS = "same", "wanted", "not supported", "differs"
 _NODES_END = re.compile(rf"\[[\w.]+-\d+\] ({TRACEBACK}|KeyboardInterrupt|Exception ignored in: .*|\S+Error: .*)$")
 _HINT = re.compile(r" \(is it [^()]+\?\)")
@@ -157,7 +158,7 @@ def judge(record: Record, ours: Output, paths: Mapping[str, str]) -> Result:
     diff = tuple(difflib.unified_diff(recorded, printed, "recorded", "ours", lineterm="", n=1))
     if ours.code == 2 and "not supported" in ours.stderr:
         return Result(record, UNSUPPORTED, ours.stderr.strip().splitlines()[-1], diff)
-    reason = _kinder(record, recorded, printed) or _wanted(record.command)
+    reason = _kinder(record, recorded, printed) or _wanted(record.command, recorded, printed)
     return Result(record, WANTED, reason, diff) if reason else Result(record, DIFFERS, "", diff)
 
 
@@ -182,14 +183,19 @@ def _kinder(record: Record, recorded: Sequence[str], printed: Sequence[str]) -> 
     if list(recorded) == [_HINT.sub("", line) for line in printed]:
         return "ours adds the name that is much like it"
     rest = iter(printed)
-    if record.interrupt_after_s and all(line in rest for line in recorded):  # `in` goes on from the line found last
+    told = [line for line in recorded if line != _WAITS]  # ours says so, too, but only where it has to wait
+    if record.interrupt_after_s and all(line in rest for line in told):  # `in` goes on from the line found last
         return f"within the {record.interrupt_after_s:g} s until Ctrl+C, ours got further"
     return ""
 
 
-def _wanted(command: str) -> str:
+def _wanted(command: str, recorded: Sequence[str], printed: Sequence[str]) -> str:
     known = tomllib.loads((Path(__file__).parent / "wanted.toml").read_text(encoding="utf-8"))["wanted"]
-    return next((each["reason"] for each in known if re.fullmatch(each["command"], command)), "")
+    for each in known:
+        lacks = [f"stdout: {line}" for line in each.get("lacks", ())]
+        if re.fullmatch(each["command"], command):
+            return each["reason"] if not lacks or [it for it in recorded if it not in lacks] == printed else ""
+    return ""
 
 
 def _prefixes() -> dict[str, str]:

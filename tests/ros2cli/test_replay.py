@@ -95,8 +95,16 @@ def test_ours_may_be_kinder_with_the_same_exit_code() -> None:
     assert kind("ros2 run my_pakage x", unknown, hint) == WANTED
 
 
+def test_a_wanted_difference_may_be_certain_lines_only() -> None:
+    recorded = out("domain_coordinator\nstd_msgs\n")
+    assert kind("ros2 pkg list", recorded, out("std_msgs\n")) == WANTED
+    assert kind("ros2 pkg list", recorded, out("")) == DIFFERS
+
+
 def test_until_ctrl_c_ours_may_get_further_but_not_less_far() -> None:
     waits, answers = out("waiting\n", code=2), out("waiting\nrequest\n", code=2)
     assert kind("ros2 service call /a x", waits, answers, ctrl_c_after_s=2.0) == WANTED
     assert kind("ros2 service call /a x", answers, waits, ctrl_c_after_s=2.0) == DIFFERS
     assert kind("ros2 service call /a x", waits, answers) == DIFFERS
+    waited = out("waiting for service to become available...\n", code=2)  # ours found it at once
+    assert kind("ros2 service call /a x", waited, out("request\n", code=2), ctrl_c_after_s=2.0) == WANTED
