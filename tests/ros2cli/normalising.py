@@ -35,7 +35,7 @@ _REPLACED = [
     (r"0x[0-9a-f]{6,}", "ADDRESS"),
     (r"GID: [0-9a-f.]+", "GID: ID"),
     (r"-?\d+\.\d{4,}(e[+-]?\d+)?", "FLOAT"),  # measured, or drawn at random
-    (r"b'\\x00\\x01\\x00\\x00.*'", "b'BYTES'"),
+    (r"b(['\"])\\x00\\x01\\x00\\x00.*\1", "b'BYTES'"),  # Python chooses the other quotes where a ' is in it
     (r"All log files can be found below \S+", "All log files can be found below FOLDER"),
     (r"^\s*\^C", ""),
 ]
