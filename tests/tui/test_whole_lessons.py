@@ -163,13 +163,8 @@ async def test_our_server_answers_my_client_and_my_own_server_runs_beside_it_too
         await me.sees("calculator_client.py")
         await me.press("b")
         await me.sees("● running  our server", "Calculator is up")
-        for _ in range(3):
-            client = await run_to_its_end(me)
-            if not client.failed:
-                break
-            # rmw gives the reader of an answer 100 ms to be found, which on a busy machine is too short: the answer is
-            # dropped, and the client says so.
-            assert any("did not answer within" in line.text for line in client.lines), client
+        client = await run_to_its_end(me)
+        assert not client.failed, client
         await me.sees("calculator_client.py", "add(10, 5) = 15", "■ ended")
         await me.press("b")
         await me.sees("■ our server")
