@@ -16,7 +16,7 @@ LOOK_EVERY_S = 0.1
 async def seen_within(seen: Callable[[], bool], limit_s: float) -> bool:
     """Whether it is there within `limit_s` seconds; those in which we were able to run, but not let, do not count.
 
-    Whoever looks so often, and sleeps so little between, waits for the CPU as long as anybody on the machine.
+    A process that looks this often, and sleeps this little in between, waits for the CPU as long as any on the machine.
     """
     began, waited, pause = time.monotonic(), own_cpu_time().waited_s, LOOK_AFTER_S
     while not seen():

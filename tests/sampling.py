@@ -18,7 +18,7 @@ CONTRACT = frozenset(name.casefold() for name in MEANINGS)
 
 
 def sample(cases: Sequence[Case]) -> list[Case]:
-    """Every tenth right one; so many wrong ones that each criterion of each exercise, and each cause, is there.
+    """Every tenth right one, and enough wrong ones to show each criterion of each exercise and each cause.
 
     Always the same ones, whatever order they come in: by name, and those that show most first.
     """

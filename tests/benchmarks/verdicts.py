@@ -92,7 +92,7 @@ async def take(name: str, exercise: str, kind: str, folder: Path) -> Taken:
 
 
 async def take_all(wanted: Sequence[tuple[str, str, str, Path]], jobs: int) -> list[Taken]:
-    """Check all, so many at a time; tells of each on stderr."""
+    """Check all, this many at a time; report each on stderr."""
     free, taken = asyncio.Semaphore(jobs), []
 
     async def one(name: str, exercise: str, kind: str, folder: Path) -> None:

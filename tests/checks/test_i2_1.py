@@ -438,7 +438,7 @@ def atomic(**but: Any) -> AtomicRequests:
 
 
 def test_a_rate_that_is_another_one_from_the_start_stays() -> None:
-    # Whoever never looks at publish_rate breaks other criteria.
+    # A node that never looks at publish_rate breaks other criteria.
     fixed = switched(before=rate(2.05))
     assert_passed(judge_validation(validated(hz=2.0), fixed))
     assert_passed(judge_atomic(atomic(rate=rate(2.0)), fixed))

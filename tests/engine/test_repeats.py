@@ -16,7 +16,7 @@ NO = Cause("no", "it does not", "do it")
 
 @dataclass(frozen=True)
 class Facts:
-    """The facts of the so many-th run of a scenario."""
+    """The facts of the n-th run of a scenario."""
 
     run: int
     alone: bool = True

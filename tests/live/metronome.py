@@ -35,7 +35,7 @@ def main() -> None:
             sent += 1
         time.sleep(max(0.0, begin + sent / rate - time.perf_counter()))
     print(f"{sent} {time.perf_counter() - begin:.3f}", flush=True)
-    time.sleep(LATEST_S)  # until it is ended: whoever leaves takes unread messages along
+    time.sleep(LATEST_S)  # until it is ended: a publisher that leaves takes unread messages along
 
 
 if __name__ == "__main__":

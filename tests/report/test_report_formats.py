@@ -247,7 +247,7 @@ def test_no_text_from_a_learner_breaks_a_format(text: str, line: str, status: St
 
 
 def test_the_code_of_a_next_step_keeps_its_lines() -> None:
-    """Whoever follows the step copies it: without its lines and their indentation, it is not Python."""
+    """Anyone who follows the step copies it: without its lines and their indentation, it is not Python."""
     step = "begin tick (line 3) with:\nif not self.on:\n    return"
     one = report(criterion("rate", failed("1 Hz", "2 Hz", Cause("wrong rate", "too fast", step))))
     for kind in ("text", "markdown", "junit"):

@@ -59,7 +59,7 @@ def run(code: str) -> None:
 
 
 def can_be_had(wanted: int) -> bool:
-    """Whether this id can be reserved; whoever else on this machine has it by chance does not hold it for long."""
+    """Whether this id can be reserved; if another process here has it by chance, it does not hold it for long."""
     end = time.monotonic() + 30
     while time.monotonic() < end:
         with ExitStack() as held:

@@ -1,4 +1,4 @@
-"""Shared memory of killed nodes is removed; what a living one uses, whoever's it is, stays."""
+"""Shared memory of killed nodes is removed; what a living one uses stays, whichever user owns it."""
 
 from __future__ import annotations
 

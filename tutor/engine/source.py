@@ -104,7 +104,7 @@ def _parsed(path: Path) -> ast.Module:
 
 
 def _source(path: Path) -> str | None:
-    """The text of a file; None where it cannot be read, or whoever reads it would take too long or too much."""
+    """The text of a file; None where it cannot be read, or reading it would take too long or too much memory."""
     text = _text(path, MOST_BYTES)
     if text is None or max(map(len, text.splitlines()), default=0) > LONGEST_LINE:
         return None
