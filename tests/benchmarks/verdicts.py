@@ -139,6 +139,8 @@ def main() -> int:
     arguments = parser.parse_args()
     cases = find(arguments.wanted)[0]
     cases = [case for case in (sample(cases) if arguments.sample else cases) if case.kind == WRONG]
+    if not cases:
+        parser.error("no wrong submission of this name")
     lessons = [lesson for lesson in load_course().lessons if any(case.exercise == lesson.id for case in cases)]
     print(f"{len(os.sched_getaffinity(0))} cores, load {os.getloadavg()[0]:.1f}; seconds")
     print(f"{'':<16}{'':>5}{'told':>7}{'':>14}{'whole':>7}{'':>14}{'CPU':>7}{'':>9}{'times':>8}")

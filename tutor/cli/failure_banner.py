@@ -16,7 +16,7 @@ _MARGIN = "┃ "
 
 
 def first_failure(name: str, result: CriterionResult, console: Console, most: int) -> list[Text]:
-    """The banner in at most this many rows of one line each; `name` is the criterion's, with its exercise where needed."""
+    """The banner in at most this many rows of one line; `name` is the criterion's, with its exercise where needed."""
     verdict = result.verdict
     head = Text(f"{MARKS[verdict.status]} {name} failed after {seconds(result.duration_s)}", f"bold {_RED}")
     said = [Text(one_line(verdict.cause or verdict.observed, 1000), "bold")]

@@ -8,7 +8,8 @@ import heapq
 import itertools
 import os
 import stat
-from collections.abc import Iterator
+import time
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from uuid import uuid4
@@ -55,40 +56,52 @@ def temporary_log_folder() -> Iterator[Path]:
 async def limit(path: Path, most: int = MOST_OF_THE_APP) -> None:
     """Keep the log files in a folder small until this is cancelled. The folder may come into being later."""
     while True:
+        began = time.monotonic()
         with contextlib.suppress(OSError):
             folder = os.open(path, _FOLDER)
             try:
                 keep_small(folder, most)
             finally:
                 os.close(folder)
-        await asyncio.sleep(LOOK_EVERY_S)
+        await asyncio.sleep(max(LOOK_EVERY_S, 20 * (time.monotonic() - began)))  # whatever is in it: 5 % of a core
 
 
 def keep_small(folder: int, most: int = MOST_BYTES) -> None:
     """Empty the log files in an open folder, and in the folders in it, if they take more than `most` bytes of disk."""
     with contextlib.ExitStack() as opened, contextlib.suppress(OSError):
-        folders = [folder, *_opened(folder, "", _FOLDER, opened)]
-        files = [file for each in folders for file in _opened(each, ".log", _FILE, opened)]
-        if sum(os.fstat(file).st_blocks * 512 for file in files) > most:
+        folders = [folder, *_opened(folder, _largest(folder, folders=True), _FOLDER, opened)]
+        logs = [(each, _largest(each)) for each in folders]
+        if _bytes(blocks for _, found in logs for blocks, _ in found) <= most:  # as nearly always: nothing is opened
+            return
+        files = [file for each, found in logs for file in _opened(each, found, _FILE, opened)]
+        if _bytes(os.fstat(file).st_blocks for file in files) > most:
             for file in files:
                 os.ftruncate(file, 0)  # loggers open it for appending, and go on at its new end
 
 
-def _opened(folder: int, ending: str, flags: int, opened: contextlib.ExitStack) -> Iterator[int]:
-    """What stands in a folder, opened, the largest if it is much: no links, and no file with another name elsewhere."""
-    folders = flags == _FOLDER
+def _bytes(blocks: Iterable[int]) -> int:
+    return 512 * sum(blocks)
+
+
+def _largest(folder: int, *, folders: bool = False) -> list[tuple[int, str]]:
+    """The log files in an open folder, or the folders in it, with the disk blocks of each; the largest of many."""
     with os.scandir(folder) as entries:
         found = [
             (_blocks(entry), entry.name)
             for entry in itertools.islice(entries, MOST_ENTRIES)
-            if entry.is_dir(follow_symlinks=False) == folders and entry.name.endswith(ending)
+            if entry.is_dir(follow_symlinks=False) == folders and (folders or entry.name.endswith(".log"))
         ]
-    for _, name in heapq.nlargest(MOST_OPENED, found):
+    return heapq.nlargest(MOST_OPENED, found)
+
+
+def _opened(folder: int, found: Iterable[tuple[int, str]], flags: int, opened: contextlib.ExitStack) -> Iterator[int]:
+    """Of what was found in a folder, opened: no links, and no file with another name elsewhere."""
+    for _, name in found:
         with contextlib.suppress(OSError):
             handle = os.open(name, flags, dir_fd=folder)
             opened.callback(os.close, handle)
             status = os.fstat(handle)
-            if folders or (stat.S_ISREG(status.st_mode) and status.st_nlink == 1):
+            if flags == _FOLDER or (stat.S_ISREG(status.st_mode) and status.st_nlink == 1):
                 yield handle
 
 

@@ -1,8 +1,9 @@
 """What killed processes have left of Fast DDS's shared memory: some 600 kB each, which nobody else ever removes.
 
 A file `fastrtps_NAME` in /dev/shm is stale by Fast DDS's own rule: it has a file of locks beside it (`_el`, `_sl`),
-and nobody holds the lock, for the kernel lets go of what a process held that is gone. The process that removes it holds the lock
-meanwhile; a port's, where processes meet, also its named mutex. Fast DDS looks again for a lock's file once it has it.
+and nobody holds the lock, for the kernel lets go of what a process held that is gone. The process that removes it
+holds the lock meanwhile; a port's, where processes meet, also its named mutex. Fast DDS looks again for a lock's file
+once it has it.
 """
 
 from __future__ import annotations

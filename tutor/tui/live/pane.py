@@ -35,6 +35,7 @@ from tutor.tui.live.publish_dialog import PublishScreen
 from tutor.tui.live.services_panel import ServicesPanel
 from tutor.tui.live.state import LiveState
 from tutor.tui.live.topics_panel import TopicsPanel, WatcherRequested
+from tutor.tui.widgets.steady_static import SteadyStatic
 from tutor.tui.widgets.strip import TabStrip
 
 MOST_MISSES = 3
@@ -101,11 +102,11 @@ class LivePane(Vertical):
     def compose(self) -> ComposeResult:
         with Horizontal(id="live-head"):
             yield TabStrip(TABS, id="live-tabs")
-            yield Static(id="live-status")
-        yield Static(id="live-empty")
-        yield Static(id="live-note", markup=False)
-        yield Static(id="live-miss", markup=False)
-        yield Static(id="live-publishing", markup=False)
+            yield SteadyStatic(id="live-status")
+        yield SteadyStatic(id="live-empty")
+        yield SteadyStatic(id="live-note", markup=False)
+        yield SteadyStatic(id="live-miss", markup=False)
+        yield SteadyStatic(id="live-publishing", markup=False)
         with ContentSwitcher(initial="topics", id="live-panels"):
             yield TopicsPanel(self.state, id="topics")
             yield ParametersPanel(self.state, id="parameters")

@@ -20,6 +20,7 @@ from tutor.tui.live.history import HistoryView, set_rows
 from tutor.tui.live.row_table import RowTable
 from tutor.tui.live.state import LiveState
 from tutor.tui.live.topics_panel import WatcherRequested
+from tutor.tui.widgets.steady_static import SteadyStatic
 from tutor.tui.widgets.strip import ActionBar
 
 _COLUMNS = ("Node", "Parameter", "Value", "Type", "Allowed")
@@ -47,7 +48,7 @@ class ParametersPanel(Vertical):
 
     def compose(self) -> ComposeResult:
         yield RowTable(id="parameters-table")
-        yield Static(id="parameters-silent", markup=False)
+        yield SteadyStatic(id="parameters-silent", markup=False)
         with Horizontal(id="parameter-edit"):
             yield Static(id="parameter-name", markup=False)
             yield Input(id="parameter-value", compact=True)

@@ -8,7 +8,7 @@ from itertools import zip_longest
 from rich.cells import cell_len
 from rich.segment import Segment
 from rich.style import Style
-from textual.geometry import Size
+from textual.geometry import Region, Size
 from textual.scroll_view import ScrollView
 from textual.selection import Selection
 from textual.strip import Strip
@@ -36,6 +36,7 @@ class LineView(ScrollView, can_focus=True):
         self.rows: Sequence[Row] = ()
         self.margins: Sequence[Piece] = ()
         """What stands at the left of each row, whatever is scrolled sideways; all of one width, or none at all."""
+        self._base = Style()
 
     def show_rows(self, rows: Sequence[Row], margins: Sequence[Piece] = ()) -> None:
         """Show other rows; the place that is looked at stays."""
@@ -57,11 +58,16 @@ class LineView(ScrollView, can_focus=True):
     def _margin_width(self) -> int:
         return cell_len(self.margins[0][0]) if self.margins else 0
 
+    def render_lines(self, crop: Region) -> list[Strip]:
+        """Some rows of the screen. Their common style is worked out once: it takes longer than a row."""
+        self._base = self.rich_style
+        return super().render_lines(crop)
+
     def render_line(self, y: int) -> Strip:
         """One row of the screen."""
         left, top = self.scroll_offset
         width, line = self.size.width, top + y
-        base = self.rich_style
+        base = self._base
         if line >= len(self.rows):
             return Strip.blank(width, base)
         text = Strip([Segment(text, self._style(kind, base)) for text, kind in self.rows[line]])

@@ -19,6 +19,7 @@ from tutor.session.node import NodeState, Phase
 from tutor.tui import loglines, messages
 from tutor.tui.widgets.line_view import Row
 from tutor.tui.widgets.log_view import LogView
+from tutor.tui.widgets.steady_static import SteadyStatic
 from tutor.tui.widgets.strip import TabStrip
 
 LEVELS = (Level.DEBUG, Level.INFO, Level.WARN, Level.ERROR)
@@ -71,8 +72,8 @@ class LogPane(Vertical):
 
     def compose(self) -> ComposeResult:
         yield TabStrip({"": ""}, id="log-nodes")
-        yield Static("no node yet", id="log-head", classes="log-line")
-        yield Static(id="log-tools", classes="log-line")
+        yield SteadyStatic("no node yet", id="log-head", classes="log-line")
+        yield SteadyStatic(id="log-tools", classes="log-line")
         yield Input(placeholder="only lines with this text; Enter keeps it, Esc ends it", id="log-filter")
         yield Static(
             Content.assemble(

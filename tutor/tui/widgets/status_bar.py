@@ -13,6 +13,7 @@ from tutor.content import Lesson
 from tutor.session.findings import Findings
 from tutor.session.node import NodeState, Phase
 from tutor.tui import wording
+from tutor.tui.widgets.steady_static import SteadyStatic
 
 WIDE = 100
 """From this many columns on, what runs is named."""
@@ -42,11 +43,11 @@ class StatusBar(Horizontal):
 
     def compose(self) -> ComposeResult:
         yield Static("ROS Tutor", id="bar-name")
-        yield Static(id="bar-lesson")
-        yield Static(id="bar-progress")
-        yield Static(id="bar-save")
-        yield Static(id="bar-check")
-        yield Static(id="bar-node")
+        yield SteadyStatic(id="bar-lesson")
+        yield SteadyStatic(id="bar-progress")
+        yield SteadyStatic(id="bar-save")
+        yield SteadyStatic(id="bar-check")
+        yield SteadyStatic(id="bar-node")
 
     def show_lesson(self, lesson: Lesson) -> None:
         """Name the lesson."""
