@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import time
 from collections.abc import Callable, Coroutine
+from dataclasses import replace
 from typing import Any
 
 from tutor.live.calls import ServiceCalls, describe
@@ -51,6 +52,7 @@ class Watcher:
         self._observer = Observer(domain_id, guarded=False)
         self._raw_subscription = RawSubscription(self._observer.node.context)
         self._graph = Graph()
+        self._connected: set[str] = set()  # nodes that have had endpoints
         self._topics = FollowedTopics(self._raw_subscription)
         self._parameters = ParameterWatch(self._observer, send)
         self._calls = ServiceCalls(self._observer, send)
@@ -129,9 +131,22 @@ class Watcher:
         if fingerprint == self._fingerprint and now < self._read_at + READ_GRAPH_EVERY_S:
             return
         self._fingerprint, self._read_at = fingerprint, now
-        graph = read_graph(self._observer.node, standard_topics=True)
+        graph = without_ghosts(read_graph(self._observer.node, standard_topics=True), self._connected)
         if graph != self._graph:
             self._graph = graph
             self._send(graph)
         self._topics.update_graph(graph)
         self._parameters.update_graph(graph)
+
+
+def without_ghosts(graph: Graph, connected: set[str]) -> Graph:
+    """The graph without nodes that have left. `connected` holds the nodes that have had endpoints, from call to call.
+
+    rmw lists a node for ever if what its process said of its nodes arrives after the process's farewell. All of its
+    endpoints are gone then, which a node that runs never loses.
+    """
+    now = {end.node for ends in (graph.publishers, graph.subscriptions) for end in ends}
+    now |= {end.node for ends in (graph.servers, graph.clients) for end in ends}
+    connected |= now
+    gone = connected - now
+    return replace(graph, nodes=tuple(node for node in graph.nodes if node not in gone))
