@@ -31,7 +31,7 @@ PREPARES_FOR_RCLPY = Path(__file__).with_name("engine")
 
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_call(item: pytest.Item) -> Iterator[None]:
-    """No test but those of the engine imports rclpy here: unprepared, Fast DDS ends the next process that uses it."""
+    """No test but those of the engine imports rclpy here: unprepared, Fast DDS ends the worker in a later test."""
     before = "rclpy" in sys.modules
     yield
     if "rclpy" in sys.modules and not before:

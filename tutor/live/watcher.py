@@ -140,10 +140,10 @@ class Watcher:
 
 
 def without_ghosts(graph: Graph, connected: set[str]) -> Graph:
-    """The graph without nodes that have left. `connected` holds the nodes that have had endpoints, from call to call.
+    """The graph without nodes that have left. `connected` collects the nodes that have had endpoints, over all calls.
 
-    rmw lists a node for ever if what its process said of its nodes arrives after the process's farewell. All of its
-    endpoints are gone then, which a node that runs never loses.
+    On a busy machine, rmw has gone on listing a node whose process had ended. All of that node's endpoints were gone,
+    and a running node never loses all of its own.
     """
     now = {end.node for ends in (graph.publishers, graph.subscriptions) for end in ends}
     now |= {end.node for ends in (graph.servers, graph.clients) for end in ends}

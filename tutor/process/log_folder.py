@@ -8,7 +8,6 @@ import heapq
 import itertools
 import os
 import stat
-import time
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -56,14 +55,13 @@ def temporary_log_folder() -> Iterator[Path]:
 async def limit(path: Path, most: int = MOST_OF_THE_APP) -> None:
     """Keep the log files in a folder small until this is cancelled. The folder may come into being later."""
     while True:
-        began = time.monotonic()
         with contextlib.suppress(OSError):
             folder = os.open(path, _FOLDER)
             try:
                 keep_small(folder, most)
             finally:
                 os.close(folder)
-        await asyncio.sleep(max(LOOK_EVERY_S, 20 * (time.monotonic() - began)))  # whatever is in it: 5 % of a core
+        await asyncio.sleep(LOOK_EVERY_S)
 
 
 def keep_small(folder: int, most: int = MOST_BYTES) -> None:

@@ -1,4 +1,4 @@
-"""A text of which most updates say what it says already."""
+"""A Static for text that is updated often and seldom changes."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from textual.widgets import Static
 
 
 class SteadyStatic(Static):
-    """A Static that an update with the text that it shows leaves alone: else each lays out and paints the whole screen.
+    """A Static that skips updates with the text it already shows: each would lay out and paint the whole screen again.
 
-    A running node brings such updates with each line of its log and each look at its graph.
+    A running node causes such updates with each line of its log and each change of its graph.
     """
 
     def update(self, content: VisualType = "", *, layout: bool = True) -> None:
-        """Show this."""
+        """Show this text."""
         if not _same(content, self.content):
             super().update(content, layout=layout)
 
