@@ -31,7 +31,7 @@ Where the answer to our announcement is lost, the next announcement of theirs co
 _POLL_S = 0.01
 _QUIET_S = 0.05  # what belongs together arrives within milliseconds
 _SURE_QUIET_S = 0.2  # before it is said that something is not there
-_LONG_QUIET_S = 3.2  # a name that was lost comes with the next heartbeat, within 3 s; one that is no node's never does
+_LONG_QUIET_S = 1.5  # a DDS program that is not a ROS node never gets a node's name
 _UNCOUNTED_QUIET_S = 0.5  # where it cannot be known how many there are
 _SLOW_QUIET_S = 1.0  # the longest, where all comes slowly
 _UNKNOWN = "_NODE_NAME_UNKNOWN_"
