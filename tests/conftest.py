@@ -29,6 +29,11 @@ gc.set_threshold(50_000, 20, 50)
 PREPARES_FOR_RCLPY = Path(__file__).with_name("engine")
 
 
+def pytest_collection_finish() -> None:
+    """No test module imports rclpy, not even by way of ours: the tests of the engine would find it unprepared."""
+    assert "rclpy" not in sys.modules, "a test module imports rclpy: import it in another process"
+
+
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_call(item: pytest.Item) -> Iterator[None]:
     """No test but those of the engine imports rclpy here: unprepared, Fast DDS ends the worker in a later test."""

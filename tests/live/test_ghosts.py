@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tutor.live.watcher import without_ghosts
+from tutor.live.ghosts import without_ghosts
 from tutor.ros_model import Graph, ServiceEndpoint
 
 SERVERS = tuple(ServiceEndpoint(f"{node}/add", "example_interfaces/srv/AddTwoInts", node) for node in ("/a", "/b"))

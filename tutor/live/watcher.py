@@ -5,10 +5,10 @@ from __future__ import annotations
 import asyncio
 import time
 from collections.abc import Callable, Coroutine
-from dataclasses import replace
 from typing import Any
 
 from tutor.live.calls import ServiceCalls, describe
+from tutor.live.ghosts import without_ghosts
 from tutor.live.node_parameters import ParameterWatch
 from tutor.live.protocol import (
     Call,
@@ -137,16 +137,3 @@ class Watcher:
             self._send(graph)
         self._topics.update_graph(graph)
         self._parameters.update_graph(graph)
-
-
-def without_ghosts(graph: Graph, connected: set[str]) -> Graph:
-    """The graph without nodes that have left. `connected` collects the nodes that have had endpoints, over all calls.
-
-    On a busy machine, rmw has gone on listing a node whose process had ended. All of that node's endpoints were gone,
-    and a running node never loses all of its own.
-    """
-    now = {end.node for ends in (graph.publishers, graph.subscriptions) for end in ends}
-    now |= {end.node for ends in (graph.servers, graph.clients) for end in ends}
-    connected |= now
-    gone = connected - now
-    return replace(graph, nodes=tuple(node for node in graph.nodes if node not in gone))
