@@ -47,9 +47,9 @@ def own_ports(environ: Mapping[str, str] = os.environ) -> tuple[int, int] | None
     named = {environ[name] for name in _PROFILE_VARIABLES if environ.get(name)}
     if Path("DEFAULT_FASTRTPS_PROFILES.xml").exists():  # Fast DDS reads it from the current folder
         return None
-    if not named:
-        return DDS_PORTS
-    return PORTS_OF_CHECKS if named == {str(PROFILE)} else None
+    if named == {str(PROFILE)}:
+        return PORTS_OF_CHECKS
+    return None if named - {str(PROMPT_PROFILE)} else DDS_PORTS
 
 
 def require_loopback() -> None:
