@@ -678,6 +678,23 @@ class EachAfterRestart(Counter):
             self.every = 1
 
 
+@dataclass
+class HeldUp(EachAfterRestart):
+    """The machine lets it run every third message of the new publisher only: it takes in three at once."""
+
+    held: list[Log] = field(default_factory=list)
+
+    def take(self, now: float, data: str) -> Iterator[Log]:
+        logs = list(super().take(now, data))
+        if self.every > 1:
+            yield from logs
+            return
+        self.held.extend(logs)
+        if self.total % 3 == 0:
+            yield from self.held
+            self.held.clear()
+
+
 class ByASlowTimer(Counter):
     """A timer sums up, once there are ten messages more: the third time it is late."""
 
@@ -1043,6 +1060,7 @@ class AgainAfterASecond(Counter):
         (CountsFromOne, "count", "off by one"),
         (LastIsTheHighest, "restart", "last message missing"),
         (EachAfterRestart, "restart", "summary for every message"),
+        (HeldUp, "restart", "summary for every message"),
         (PerMinuteLater, "rate", "rate per minute"),
         (Alarmed, "gaps", "gap not noticed"),
         (AlarmedByTens, "gaps", "false alarm"),
