@@ -38,6 +38,7 @@ from tutor.judge.rates import measure
 from tutor.judge.trace import Trace
 from tutor.judge.waiting import (
     IDLE_S,
+    RESENT_S,
     START_S,
     TRIES,
     find_stuck_frames,
@@ -122,7 +123,7 @@ async def parameters(bench: Bench) -> tuple[Parameter, ...] | None:
     """Which parameters does it declare? None where it never answers."""
     async with bench.start(FILE, watch={TOPIC: TYPE}, expected_s=7.0) as run:  # the rates wait for it
         bench.report_progress(0.1, "asking for its parameters")
-        if not await run.until(lambda: bool(run.graph.parameter_nodes), START_S):
+        if not await run.until(lambda: bool(run.graph.parameter_nodes), START_S, idle_s=RESENT_S):
             return None
         declared = await run.parameters(4.0)
         if declared is not None and not numeric_parameters(declared):

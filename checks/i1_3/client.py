@@ -37,7 +37,9 @@ def judge_client(seen: ClientRun) -> Verdict:
     calls_made = [f"{s.service} {s.request['a']} {s.request['b']} -> {s.response['sum']}" for s in seen.served[:12]]
     words = (*calls_made, *causes.output_tail(seen.trace, 4))
     if seen.exit is None:
-        observed = f"still running after {CLIENT_S:g} s; called {_listed(called)}"
+        idle = seen.watched_s < CLIENT_S
+        doing = f"does nothing any more after {seen.watched_s:.1f} s" if idle else f"still running after {CLIENT_S:g} s"
+        observed = f"{doing}; called {_listed(called)}"
         return failed(expected, observed, _with_step(_diagnose_hang(seen, missing), seen), words)
     ended = f"ended after {seen.exit.after_s:.1f} s with {seen.exit}"
     if seen.exit.code != 0:

@@ -111,8 +111,8 @@ class ClientRun:
     """A run of the client against our servers. None of it where the submission has no client.
 
     `up_s`: how long after its start our servers came up; None where it had ended by then. `stuck`: where it was when it
-    did not end; `clients`: the service clients that it had. `cpu_wait_s`: how long the machine kept it, or us, from
-    running until our servers were up.
+    did not end, for which it was watched for `watched_s`; `clients`: the service clients that it had. `cpu_wait_s`: how
+    long the machine kept it, or us, from running until our servers were up.
     """
 
     trace: Trace | None
@@ -122,6 +122,7 @@ class ClientRun:
     clients: tuple[ServiceEndpoint, ...] = ()
     up_s: float | None = None
     cpu_wait_s: float = 0.0
+    watched_s: float = CLIENT_S
 
     @property
     def slowed(self) -> bool:

@@ -9,7 +9,6 @@ from typing import Any
 from checks.i1_3 import division_by_zero, late_binding, service_steps, services, steps
 from checks.i1_3.code import Code, learner_files, with_applicable_step
 from checks.i1_3.facts import (
-    ANSWER_S,
     SAYS_ERROR,
     SIGNS,
     TYPE,
@@ -36,7 +35,7 @@ def judge_services(seen: ServiceCalls) -> Verdict:
         cause = _diagnose_missing(seen.trace, missing)
         return failed(expected, f"missing: {', '.join(missing)}", cause, causes.output_tail(seen.trace))
     if unanswered is not None:
-        observed = f"{unanswered.service}: {causes.describe_no_answer(seen.trace, ANSWER_S)}"
+        observed = f"{unanswered.service}: {causes.describe_no_answer(seen.trace, unanswered.took_s)}"
         silent = [service for service in seen.trace.graph.servers if service.name == unanswered.service]
         cause = causes.diagnose_incompatible_service(silent) or causes.diagnose_no_answer(
             seen.trace, seen.stuck, spins=seen.spins
@@ -120,7 +119,7 @@ def judge_operations(seen: ServiceCalls) -> Verdict:
         if answer.response is None:
             return failed(
                 f"{question} = {right}",
-                causes.describe_no_answer(seen.trace, ANSWER_S),
+                causes.describe_no_answer(seen.trace, answer.took_s),
                 _with_answer_step(
                     causes.diagnose_process(seen.trace)
                     or Cause(
@@ -242,7 +241,7 @@ def judge_division(seen: Division) -> Verdict:
         cause = _with_guard_step(cause, seen.trace)
         return failed(
             expected,
-            f"10 ÷ 0: {causes.describe_no_answer(seen.trace, ANSWER_S)}",
+            f"10 ÷ 0: {causes.describe_no_answer(seen.trace, seen.by_zero.took_s)}",
             cause,
             causes.output_tail(seen.trace),
         )

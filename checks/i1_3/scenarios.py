@@ -180,11 +180,12 @@ async def run_client(bench: Bench) -> ClientRun:
                 up_at = run.now()
 
         our_wait_s = run.our_cpu_wait_s()
-        await run.wait_for_exit(CLIENT_S, meanwhile=look)
+        await run.wait_for_exit(CLIENT_S, meanwhile=look, all_sent=lambda: up_at is not None)
+        watched_s = run.now() - run.started_at
         trace, served, ended = run.trace(), tuple(run.served), run.exit
         stuck = await run.dump_stacks() if ended is None else ()
         up_s = None if up_at is None else up_at - run.started_at
-        return ClientRun(trace, served, ended, stuck, tuple(clients), up_s, lost_s)
+        return ClientRun(trace, served, ended, stuck, tuple(clients), up_s, lost_s, watched_s)
 
 
 def operands() -> list[tuple[int, int]]:

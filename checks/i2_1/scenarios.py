@@ -41,6 +41,7 @@ from tutor.judge.trace import Sample, SetAnswer, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.waiting import (
     IDLE_S,
+    RESENT_S,
     START_S,
     find_stuck_frames,
     measure_steady_rate,
@@ -301,7 +302,7 @@ async def _stuck(bench: Bench, trace: Trace, answering: bool = False) -> tuple[F
 
 async def _node(run: Run) -> str | None:
     """The node to talk to: the one that has most of the parameters. None where no node answers."""
-    if not await run.until(lambda: bool(run.graph.parameter_nodes), START_S):
+    if not await run.until(lambda: bool(run.graph.parameter_nodes), START_S, idle_s=RESENT_S):
         return None
     declared = await run.parameters(ANSWER_S)
     if declared is None:

@@ -9,7 +9,6 @@ from functools import partial
 from checks.i2_3 import causes as why
 from checks.i2_3 import steps
 from checks.i2_3.facts import (
-    ANSWER_S,
     CALLS,
     EXCUSED_S,
     LONGEST_S,
@@ -85,7 +84,7 @@ def _judge_answer_alone(seen: SingleCalls) -> Verdict:
         )
     best = seen.quickest
     if best is None:
-        observed = causes.describe_no_answer(seen.trace, ANSWER_S)
+        observed = causes.describe_no_answer(seen.trace, max(call.answer.took_s for call in seen.calls))
         return failed(expected, observed, why.diagnose_no_answer(seen), causes.output_tail(seen.trace))
     for call in seen.calls:
         answer = call.answer

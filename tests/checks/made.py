@@ -115,7 +115,8 @@ def parameter(name: str, type_name: str, value: Any, **more: Any) -> Parameter:
 
 def answer(values: Mapping[str, Any], reason: str = "", *, successful: bool = True, answered: bool = True) -> SetAnswer:
     """The answer to setting parameters."""
-    return SetAnswer(values, answered, answered and successful, reason, START + 1, START + 1.01)
+    took_s = 0.01 if answered else 5.0
+    return SetAnswer(values, answered, answered and successful, reason, START + 1, START + 1 + took_s)
 
 
 def refused(values: Mapping[str, Any], reason: str = "the rate must be > 0") -> SetAnswer:
@@ -125,7 +126,8 @@ def refused(values: Mapping[str, Any], reason: str = "the rate must be > 0") -> 
 def called(service: str, a: int, b: int, result: int | None) -> CallAnswer:
     """A call; `result` None: no answer."""
     response = None if result is None else {"sum": result}
-    return CallAnswer(service, {"a": a, "b": b}, response, START, START + 0.01, 5.0)
+    took_s = 5.0 if result is None else 0.01
+    return CallAnswer(service, {"a": a, "b": b}, response, START, START + took_s, 5.0)
 
 
 def frame(function: str, path: str = f"{FOLDER}/node.py", line: int = 12, code: str = "pass") -> Frame:

@@ -227,6 +227,36 @@ async def test_an_answer_is_not_waited_for_when_the_node_is_gone(scene: Scene) -
         assert time.monotonic() - asked < 25
 
 
+WAITS_IN_CALLBACK = """
+import threading
+def never(request, response):
+    threading.Event().wait()
+
+def late(request, response):
+    threading.Event().wait(4.5)
+    response.sum = 7
+    return response
+
+node.create_service(AddTwoInts, "never", never)
+node.create_service(AddTwoInts, "late", late)
+"""
+
+
+async def test_an_answer_is_not_waited_for_when_the_node_waits_forever(scene: Scene) -> None:
+    async with scene.bench(node(WAITS_IN_CALLBACK)).start(FILE) as run:
+        await there(run, "/never")
+        await there(run, "/late")
+        late = await run.call("/late", ADD, {"a": 1, "b": 1}, limit_s=60)
+        assert late.response == {"sum": 7}
+        asked = time.monotonic()
+        assert (await run.call("/never", ADD, {"a": 1, "b": 1}, limit_s=60)).response is None
+        assert await run.parameters(60) is None
+        assert time.monotonic() - asked < 40
+        assert run.exit is None
+        assert not await run.wait_for_exit(60, all_sent=lambda: True)
+        assert time.monotonic() - asked < 50
+
+
 CALLS = """
 client = node.create_client(AddTwoInts, "add")
 assert client.wait_for_service(20)

@@ -33,6 +33,7 @@ from tutor.judge.trace import (
     Trace,
 )
 from tutor.judge.tracebacks import Frame
+from tutor.judge.waiting import RESENT_S
 from tutor.process import CpuMeter, CpuTime, LearnerProcess, own_cpu_time
 from tutor.process.cpu_wait import free_s
 from tutor.ros import echo, graph, parameters
@@ -195,14 +196,21 @@ class RosRun:
         idle = Idle(self._process.next_wake, self.our_cpu_wait_s, idle_s) if idle_s is not None else None
         return await self._until(seen, limit_s, lambda: (self._cpu().waited_s, self.our_cpu_wait_s()), idle)
 
-    async def wait_for_exit(self, limit_s: float, *, meanwhile: Callable[[], object] = lambda: None) -> bool:
+    async def wait_for_exit(
+        self,
+        limit_s: float,
+        *,
+        meanwhile: Callable[[], object] = lambda: None,
+        all_sent: Callable[[], bool] = lambda: False,
+    ) -> bool:
         def ended() -> bool:
             meanwhile()
             return self.exit is not None
 
         # Its other threads are kept waiting by the machine while the main thread sleeps: no excuse for a late end. Nor
         # are we: what we see late has its time all the same.
-        return await self._until(ended, limit_s, lambda: (self._cpu().main_waited_s,))
+        idle = Idle(self._process.next_wake, self.our_cpu_wait_s, RESENT_S)
+        return await self._until(ended, limit_s, lambda: (self._cpu().main_waited_s,), idle, all_sent)
 
     async def _until(
         self,
@@ -210,8 +218,12 @@ class RosRun:
         limit_s: float,
         waited_s: Callable[[], tuple[float, ...]],
         idle: Idle | None = None,
+        all_sent: Callable[[], bool] = lambda: True,
     ) -> bool:
-        """Wait as `until` does; the limit grows by what each of `waited_s` grows meanwhile, in seconds."""
+        """Wait as `until` does; the limit grows by what each of `waited_s` grows meanwhile, in seconds.
+
+        That the process is idle counts from when `all_sent()`: there is nothing more from us to come.
+        """
         loop = asyncio.get_running_loop()
         began, granted_s = loop.time(), 0.0
         deadline = began + limit_s
@@ -228,7 +240,7 @@ class RosRun:
                 ended_at = now
             if ended_at is not None and now - ended_at >= IN_FLIGHT_S:
                 return False
-            if idle is not None and idle.until(time.time() + deadline - now):
+            if idle is not None and all_sent() and idle.until(time.time() + deadline - now):
                 return False
             if now >= deadline:
                 if self._cpu().ran_s - ran_s >= ENOUGH_CPU_S:  # one that has used this much of the CPU has run
@@ -261,11 +273,12 @@ class RosRun:
         self, node: str, values: Mapping[str, Any], *, atomic: bool = False, limit_s: float = 5.0
     ) -> SetAnswer:
         asked = time.time()
-        return await self._while_alive(
+        answer = await self._while_alive(
             parameters.set_parameters(self._observer, node, values, atomic=atomic, limit_s=NEVER_S),
             limit_s,
-            SetAnswer(values, False, False, "", asked, asked + limit_s),
+            None,
         )
+        return answer or SetAnswer(values, False, False, "", asked, time.time())
 
     async def call(self, service: str, type: str, request: Mapping[str, Any], *, limit_s: float) -> CallAnswer:
         # A client that has just been made needs a moment to find the server: no part of what the service takes.
@@ -351,12 +364,13 @@ class RosRun:
         )
 
     async def _while_alive(self, asking: Coroutine[Any, Any, T], limit_s: float, otherwise: T) -> T:
-        """The answer, or `otherwise` where none comes within the limit, or before the process ends."""
+        """The answer, or `otherwise` where none comes within the limit, or before the process ends or falls idle."""
         task = asyncio.ensure_future(asking)
         task.add_done_callback(lambda _: self._facts.change())
         self._asking += 1
         try:
-            await self.until(task.done, limit_s)
+            # Whoever waits without a time-out does not answer, unless our message has yet to arrive.
+            await self.until(task.done, limit_s, idle_s=RESENT_S)
             return task.result() if task.done() else otherwise
         finally:
             self._asking -= 1

@@ -102,14 +102,26 @@ class Run(Protocol):
         will do nothing by itself before the limit: all its threads wait, none of them for a time within it.
         """
 
-    async def wait_for_exit(self, limit_s: float, *, meanwhile: Callable[[], object] = lambda: None) -> bool:
+    async def wait_for_exit(
+        self,
+        limit_s: float,
+        *,
+        meanwhile: Callable[[], object] = lambda: None,
+        all_sent: Callable[[], bool] = lambda: False,
+    ) -> bool:
         """Wait until the process has ended; `meanwhile` is called whenever a new fact has come in.
 
         Gives False when `limit_s` seconds have passed, and those in which the machine kept its main thread waiting.
+        Once `all_sent()`, there is nothing more from us that it could wait for: then also when it is idle (see
+        `until`) for longer than it takes to send a lost message again.
         """
 
     async def parameters(self, limit_s: float) -> tuple[Parameter, ...] | None:
-        """Ask every node for its parameters; None where no node answered within the limit."""
+        """Ask every node for its parameters; None where no node answered within the limit.
+
+        This and the next two give up, too, when the process is idle (see `until`) for longer than it takes to send a
+        lost message again.
+        """
 
     async def set_parameters(
         self, node: str, values: Mapping[str, Any], *, atomic: bool = False, limit_s: float = 5.0

@@ -101,7 +101,7 @@ class SetAnswer:
 
 @dataclass(frozen=True, slots=True)
 class CallAnswer:
-    """The answer to one service call. `response` is None where none came within `limit_s` seconds."""
+    """The answer to one service call. `response` is None where none came within `limit_s` seconds, or ever would."""
 
     service: str
     request: Mapping[str, Any]
@@ -112,7 +112,7 @@ class CallAnswer:
 
     @property
     def took_s(self) -> float:
-        """Seconds from the request to the answer, or to the limit."""
+        """Seconds from the request to the answer, or to when it was given up."""
         return self.answered_at - self.asked_at
 
 

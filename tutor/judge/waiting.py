@@ -27,6 +27,12 @@ IDLE_S = 0.7
 NO_NODE_S = 2.0
 """A node whose process has been idle for this long would be in the graph."""
 
+RESENT_S = 3.5
+"""A message that is lost on its way is sent again within 3 s, at its writer's next heartbeat (Fast DDS's default).
+
+What an idle process has done, or would do for what was sent to it, is seen by then, the graph included.
+"""
+
 STUCK_S = 1.5
 """A node that is up has run into what it waits for within this time."""
 
@@ -45,13 +51,13 @@ async def wait_until_seen(
     *,
     promised: Callable[[], bool] = lambda: False,
     rare_s: float = RARE_S,
-    idle_s: float | None = None,
+    idle_s: float = RESENT_S,
 ) -> bool:
     """Wait until `seen()`; give up when the process ends, never makes a node, or its node does nothing of the kind.
 
     `promised()`: something announces that it will come, such as a publisher on the topic; then `rare_s` more seconds
-    are waited for it. `idle_s`: give up, too, when the node has been idle for that long (see `Run.until`); not where
-    what is waited for is in the graph, which may reach us later than it is done.
+    are waited for it. `idle_s`: give up, too, when the node has been idle for that long (see `Run.until`); what is
+    waited for in the graph may reach us later than it is done.
     """
     if await run.until(lambda: seen() or bool(run.graph.nodes), START_S, idle_s=NO_NODE_S) and not seen():
         if not await run.until(lambda: seen() or promised(), SETTLE_S, idle_s=idle_s):

@@ -99,10 +99,10 @@ def diagnose_torn_thread(ended: Exit, output: Sequence[OutputLine]) -> Cause | N
     )
 
 
-def describe_no_answer(trace: Trace, limit_s: float) -> str:
-    """That a request got no answer: within the limit, or since the process had ended before."""
+def describe_no_answer(trace: Trace, waited_s: float) -> str:
+    """That a request got no answer in this time, or since the process had ended before."""
     if trace.exit is None:
-        return f"no answer in {limit_s:g} s"
+        return f"no answer in {waited_s:.2g} s"
     return f"no answer: the process ended by itself, {trace.exit.after_s:.1f} s after its start, with {trace.exit}"
 
 
