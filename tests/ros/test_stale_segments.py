@@ -16,6 +16,7 @@ import pytest
 from tests.ros.users_domain import users_domain
 from tutor.doctor.child import PROBE
 from tutor.ros import stale_segments
+from tutor.ros.discovery import DDS_PORTS
 from tutor.ros.environment import detect, learner_env
 
 LIMIT_S = 60.0
@@ -33,12 +34,16 @@ def env(tmp_path: Path) -> Iterator[dict[str, str]]:
 
 
 def locks_of(pid: int) -> set[Path]:
-    """The lock files that a process has open: one of its segment, and one of each port where it listens."""
+    """The lock files that a process has open: one of its segment, and one of each of its domain's ports.
+
+    The ports from 7000 on are no domain's: a node of another test may open the same one at any moment.
+    """
     links = []
     for each in Path(f"/proc/{pid}/fd").iterdir():
         with suppress(FileNotFoundError):  # it has just been closed
             links.append(os.readlink(each))
-    return {Path(link) for link in links if re.fullmatch(r"/dev/shm/fastrtps_\w+_[es]l", link)}
+    found = [found for link in links if (found := re.fullmatch(r"/dev/shm/fastrtps_(?:port(\d+)|\w+)_[es]l", link))]
+    return {Path(each[0]) for each in found if each[1] is None or int(each[1]) >= DDS_PORTS[0]}
 
 
 @contextmanager
