@@ -465,6 +465,28 @@ def test_client(served: tuple[ServedRequest, ...]) -> None:
 
 
 @pytest.mark.parametrize(
+    ("served", "code", "cpu_wait_s", "again"),
+    [
+        ((), 1, 0.1, False),
+        ((), 1, 0.2, True),  # it may have looked for the servers before the machine let us bring them up
+        (SERVED[:1], 1, 0.2, False),
+        ((), None, 0.2, False),  # it has had its 15 s
+        ((), None, 2.5, True),
+    ],
+)
+def test_a_client_is_tried_again_where_the_machine_may_be_why_it_called_nothing(
+    served: tuple[ServedRequest, ...], code: int | None, cpu_wait_s: float, again: bool
+) -> None:
+    assert replace(demonstration(served, code), cpu_wait_s=cpu_wait_s).slowed is again
+
+
+def test_a_client_that_waits_for_nothing_is_not_said_to_have_been_watched_to_the_end() -> None:
+    hanging = demonstration(SERVED[:1], None)
+    assert "still running after 15 s" in judge_client(hanging).observed
+    assert "does nothing any more after 6.2 s" in judge_client(replace(hanging, watched_s=6.2)).observed
+
+
+@pytest.mark.parametrize(
     ("seen", "cause", "word"),
     [
         (ClientRun(None), "file missing", "calculator_client.py"),
