@@ -38,7 +38,11 @@ def judge_client(seen: ClientRun) -> Verdict:
     words = (*calls_made, *causes.output_tail(seen.trace, 4))
     if seen.exit is None:
         idle = seen.watched_s < CLIENT_S
-        doing = f"does nothing any more after {seen.watched_s:.1f} s" if idle else f"still running after {CLIENT_S:g} s"
+        doing = (
+            f"idle after {seen.watched_s:.1f} s, with nothing left to wait for"
+            if idle
+            else f"still running after {CLIENT_S:g} s"
+        )
         observed = f"{doing}; called {_listed(called)}"
         return failed(expected, observed, _with_step(_diagnose_hang(seen, missing), seen), words)
     ended = f"ended after {seen.exit.after_s:.1f} s with {seen.exit}"

@@ -312,7 +312,7 @@ def _not_set(expected: str, answer: SetAnswer, trace: Trace, stuck: Sequence[Fra
     what = ", ".join(f"{name} to {_show(value)}" for name, value in answer.values.items())
     if not answer.answered:
         cause = _diagnose_no_answer(trace, stuck, spins=True)
-        observed = f"setting {what}: {causes.describe_no_answer(trace, answer.answered_at - answer.asked_at)}"
+        observed = f"setting {what}: {causes.describe_no_answer(trace, answer.took_s)}"
         return failed(expected, observed, cause, causes.output_tail(trace))
     cause = causes.diagnose_refusal(answer.reason, steps.accept_value(trace, answer))
     return failed(expected, f'setting {what}: rejected, "{answer.reason}"', cause)

@@ -483,7 +483,10 @@ def test_a_client_is_tried_again_where_the_machine_may_be_why_it_called_nothing(
 def test_a_client_that_waits_for_nothing_is_not_said_to_have_been_watched_to_the_end() -> None:
     hanging = demonstration(SERVED[:1], None)
     assert "still running after 15 s" in judge_client(hanging).observed
-    assert "does nothing any more after 6.2 s" in judge_client(replace(hanging, watched_s=6.2)).observed
+    assert (
+        "idle after 6.2 s, with nothing left to wait for; called "
+        in judge_client(replace(hanging, watched_s=6.2)).observed
+    )
 
 
 @pytest.mark.parametrize(

@@ -98,6 +98,11 @@ class SetAnswer:
     asked_at: float
     answered_at: float
 
+    @property
+    def took_s(self) -> float:
+        """Seconds from the request to the answer, or to when it was given up."""
+        return self.answered_at - self.asked_at
+
 
 @dataclass(frozen=True, slots=True)
 class CallAnswer:

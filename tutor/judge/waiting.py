@@ -56,8 +56,8 @@ async def wait_until_seen(
     """Wait until `seen()`; give up when the process ends, never makes a node, or its node does nothing of the kind.
 
     `promised()`: something announces that it will come, such as a publisher on the topic; then `rare_s` more seconds
-    are waited for it. `idle_s`: give up, too, when the node has been idle for that long (see `Run.until`); what is
-    waited for in the graph may reach us later than it is done.
+    are waited for it. `idle_s`: give up, too, when the node has been idle for that long (see `Run.until`); leave it as
+    it is for what is in the graph, which may reach us later than it is done.
     """
     if await run.until(lambda: seen() or bool(run.graph.nodes), START_S, idle_s=NO_NODE_S) and not seen():
         if not await run.until(lambda: seen() or promised(), SETTLE_S, idle_s=idle_s):

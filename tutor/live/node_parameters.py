@@ -82,7 +82,7 @@ class ParameterWatch:
             accepted=answer.successful,
             reason=answer.reason,
             at=answer.asked_at,
-            took_s=answer.answered_at - answer.asked_at,
+            took_s=answer.took_s,
         )
 
     async def _ask(self, node: str) -> None:
