@@ -12,6 +12,7 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from tutor.errors import CommandError
@@ -19,6 +20,7 @@ from tutor.ros.domain import participants_here
 
 if TYPE_CHECKING:
     from rclpy.node import Node
+    from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 T = TypeVar("T")
 
@@ -101,15 +103,30 @@ class Domain:
         """Wait until everything that is on the domain has been seen."""
         self._until(lambda: None, _QUIET_S)
 
+    def complete_publishers(self, topic: str) -> list[TopicEndpointInfo]:
+        """The publishers of a topic, as soon as all have been seen. Their nodes' names may still be unknown."""
+        ask = self.node.get_publishers_info_by_topic
+        self._until(lambda: None, _QUIET_S, lambda: (sorted(self._participants()), len(ask(topic))), named=False)
+        return list(ask(topic))
+
     def find(self, look: Callable[[], T | None]) -> T | None:
         """What `look` gives, as soon as it is not None; None where it is not there, which all has been seen for."""
         return self._until(look, _SURE_QUIET_S)
 
-    def _until(self, look: Callable[[], T | None], least_quiet_s: float) -> T | None:
+    def _until(
+        self,
+        look: Callable[[], T | None],
+        least_quiet_s: float,
+        fingerprint: Callable[[], object] | None = None,
+        *,
+        named: bool = True,
+    ) -> T | None:
+        """What `look` gives, or gives at last once `fingerprint` (else that of the graph) has kept still."""
         from tutor.ros.graph import graph_fingerprint
 
+        sight = fingerprint or partial(graph_fingerprint, self.node)
         start = changed = polled = time.monotonic()
-        seen = graph_fingerprint(self.node)
+        seen = sight()
         slowest_s, late_s = _POLL_S, 0.0
         while True:
             if (found := look()) is not None:
@@ -118,24 +135,24 @@ class Domain:
             # Where we are kept from running, so are our threads that the others talk to.
             late_s += max(0.0, now - polled - 2 * _POLL_S)
             slowest_s, polled = max(slowest_s, now - polled), now
-            if (sees := graph_fingerprint(self.node)) != seen:
+            if (sees := sight()) != seen:
                 slowest_s = max(slowest_s, now - changed)  # what comes slowly may have more to come
                 seen, changed = sees, now
             quiet_s = now - changed
-            if quiet_s >= max(least_quiet_s, min(2 * slowest_s, _SLOW_QUIET_S)) and self._all_are_met(quiet_s):
+            if quiet_s >= max(least_quiet_s, min(2 * slowest_s, _SLOW_QUIET_S)) and self._all_are_met(quiet_s, named):
                 return look()
             if now - start - late_s >= self.limit_s:
                 return look()
             time.sleep(_POLL_S)
 
-    def _all_are_met(self, quiet_s: float) -> bool:
+    def _all_are_met(self, quiet_s: float, named: bool) -> bool:
         met = self._participants()
         expected = participants_here(self.node.context.get_domain_id())
         if expected is None:
             return quiet_s >= _UNCOUNTED_QUIET_S
         if len(met) < expected:
             return False
-        return quiet_s >= _LONG_QUIET_S or self._all_have_names()
+        return not named or quiet_s >= _LONG_QUIET_S or self._all_have_names()
 
     def _participants(self) -> set[bytes]:
         """Those of this machine, ourselves included, of which something that they publish and subscribe to is known."""

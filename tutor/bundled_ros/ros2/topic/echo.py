@@ -131,8 +131,7 @@ def _qos(domain: Domain, arguments: argparse.Namespace) -> QoSProfile:
 
     profile = qos_of(arguments)
     if not asks_for_qos(arguments):
-        domain.complete()  # one publisher more may offer less
-        publishers = domain.node.get_publishers_info_by_topic(arguments.topic_name)
+        publishers = domain.complete_publishers(arguments.topic_name)  # one more may offer less
         if offered := [from_rclpy(info.qos_profile) for info in publishers]:
             chosen = echo_qos(offered)
             profile.reliability = ReliabilityPolicy.get_from_short_key(chosen.reliability)
