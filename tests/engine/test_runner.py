@@ -166,6 +166,62 @@ async def test_what_the_scenario_raises_is_what_went_wrong(scene: Scene) -> None
     assert "OSError: disk full" in result.criteria[0].verdict.cause
 
 
+async def test_a_failure_that_is_sure_is_told_before_the_scenario_ends(scene: Scene) -> None:
+    told = asyncio.Event()
+
+    async def counts(bench: Bench) -> str:
+        bench.report_facts("seven")  # of this, an early judge says nothing
+        await asyncio.sleep(0)
+        bench.report_facts("eight")
+        await told.wait()
+        return "nine"
+
+    def early(facts: str) -> Verdict | None:
+        return {"seven": passed("so far", "so good"), "eight": fails()}.get(facts)
+
+    async def waits(bench: Bench) -> str:
+        while not any(isinstance(event, CriterionJudged) and event.result.id == "a" for event in scene.events):
+            await asyncio.sleep(0.01)
+        told.set()
+        return "told"
+
+    result = await scene.judge(
+        criterion("a", counts, early=((counts, early),)),
+        criterion("b", counts),
+        criterion("c", counts, after=("a",)),
+        criterion("d", waits),
+    )
+    assert plain(result) == {"a": "failed", "b": "passed", "c": "skipped", "d": "passed"}
+
+
+async def test_a_failure_that_is_sure_waits_for_what_it_comes_after(scene: Scene) -> None:
+    async def counts(bench: Bench) -> str:
+        bench.report_facts("anything")
+        return "all"
+
+    async def later(bench: Bench) -> str:
+        await bench.facts(counts)
+        return "later"
+
+    result = await scene.judge(
+        criterion("a", later, judge=fails),
+        criterion("b", counts, after=("a",), early=((counts, fails),)),
+    )
+    assert plain(result) == {"a": "failed", "b": "skipped"}
+
+
+async def test_no_early_failure_by_what_the_machine_has_slowed_down(scene: Scene) -> None:
+    class Slowed:
+        slowed = True
+
+    async def counts(bench: Bench) -> str:
+        bench.report_facts(Slowed())
+        return "all"
+
+    result = await scene.judge(criterion("a", counts, early=((counts, fails),)))
+    assert plain(result) == {"a": "passed"}
+
+
 async def test_events_come_in_order_with_progress_that_goes_on(scene: Scene) -> None:
     async def steps(bench: Bench) -> str:
         for fraction in (-1.0, 0.0, 0.3, 0.7, 1.0, 4.0):

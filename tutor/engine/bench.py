@@ -49,6 +49,7 @@ class RosBench:
     `expected_s`: how many seconds of the clock its check asks for; where several are to start, the longest goes first
     (a start may say how many it asks for itself). `exceptions`: the check's own known ones. `sigkilled`: the
     files whose process was ended by SIGKILL. `follow`: what looks on while a start runs, given its watched topics.
+    `take_facts`: gets what the scenario reports before it ends.
     """
 
     submission: Submission
@@ -62,6 +63,7 @@ class RosBench:
     follow: Callable[[RosRun, Mapping[str, str]], AbstractAsyncContextManager[None]] = lambda run, watched: (
         nullcontext()
     )
+    take_facts: Callable[[object], None] = lambda facts: None
     sigkilled: list[Path] = field(default_factory=list)
 
     @asynccontextmanager
@@ -176,6 +178,9 @@ class RosBench:
 
     def report_progress(self, fraction: float, text: str) -> None:
         self.tell(min(1.0, max(0.0, fraction)), text[:MOST_CHARACTERS])
+
+    def report_facts(self, facts: object) -> None:
+        self.take_facts(facts)
 
 
 @asynccontextmanager

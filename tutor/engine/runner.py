@@ -68,6 +68,7 @@ class Runner:
         self._first = first
         self._scenarios: dict[Scenario[Any], asyncio.Task[Any]] = {}
         self._verdicts: dict[str, asyncio.Task[Verdict]] = {}
+        self._early: dict[str, asyncio.Future[Verdict]] = {}
         self._repeats: Counter[Scenario[Any]] = Counter()
         self._progress: dict[Scenario[Any], tuple[float, str, SoFar]] = {}
         self._published: set[str] = set()
@@ -92,6 +93,7 @@ class Runner:
                 for scenario in criterion.facts:
                     self._share(scenario)
             for criterion in needed:
+                self._early[criterion.id] = asyncio.get_running_loop().create_future()
                 self._verdicts[criterion.id] = asyncio.create_task(self._judge(criterion))
             results, unjudged = await self._judge_shown()
         finally:
@@ -169,6 +171,7 @@ class Runner:
             self._check.exceptions,
             self._isolation,
             provisional.follow,
+            lambda facts: self._take_facts(scenario, facts),
         )
         async with self._start_limiter.scenarios.at_work(alone=alone):
             if alone and self._elapsed() > REPEAT_WITHIN_S:
@@ -182,7 +185,7 @@ class Runner:
             if not (await asyncio.shield(self._verdicts[dependency])).passed:
                 return skip_after(dependency)
         try:
-            verdict = await self._judge_facts(criterion)
+            verdict = await self._judge_whole_or_early(criterion)
             text = self._texts.get(criterion.id)
             return point_to_todo(verdict, self._todo, text.hint if text else "")
         except Fault as error:
@@ -194,6 +197,25 @@ class Runner:
                 "this is a fault of ros-tutor, not of your code; please report it with the line below",
                 [where],
             )
+
+    def _take_facts(self, scenario: Scenario[Any], facts: object) -> None:
+        """Judge what a scenario has seen so far: a failure that is sure by now is final."""
+        for criterion in self._check.criteria:
+            early = self._early.get(criterion.id)
+            for reports, judge in criterion.early:
+                if early is None or early.done() or reports is not scenario or was_slowed(facts):
+                    continue
+                verdict = judge(facts)
+                if verdict is not None and verdict.status is Status.FAILED and not isinstance(verdict, Undecided):
+                    early.set_result(verdict)
+
+    async def _judge_whole_or_early(self, criterion: Criterion) -> Verdict:
+        early, whole = self._early[criterion.id], asyncio.ensure_future(self._judge_facts(criterion))
+        try:
+            await asyncio.wait({early, whole}, return_when=asyncio.FIRST_COMPLETED)
+            return whole.result() if whole.done() else early.result()
+        finally:
+            await _end([whole])
 
     async def _judge_facts(self, criterion: Criterion) -> Verdict:
         """Judge; again with new facts, where the machine may be why the criterion is not met."""

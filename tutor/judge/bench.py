@@ -188,6 +188,9 @@ class Bench(Protocol):
     def report_progress(self, fraction: float, text: str) -> None:
         """Tell the learner how far this scenario is (0 to 1) and what is being done to their node."""
 
+    def report_facts(self, facts: object) -> None:
+        """Give what is known by now, for the early judges of this scenario: a criterion may be sure to fail by it."""
+
 
 Scenario = Callable[[Bench], Awaitable[T]]
 """Does something to the learner's node and gives the facts seen; the key under which the facts are kept.

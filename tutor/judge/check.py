@@ -13,13 +13,20 @@ from tutor.judge.verdict import Verdict
 Judge = Callable[..., Verdict]
 """A pure function from the facts of the criterion's scenarios, in their order, to a verdict."""
 
+EarlyJudge = Callable[[Any], Verdict | None]
+"""A pure function from what a scenario has reported so far (`Bench.report_facts`) to a failure, if that is sure by now.
+
+Whatever it gives besides a failure says nothing. It must never fail what the judge would pass.
+"""
+
 
 @dataclass(frozen=True, slots=True)
 class Criterion:
     """One acceptance criterion.
 
     `facts` are the scenarios whose facts `judge` takes; they run at once with all others. `after` names criteria that
-    must have passed, else this one is skipped: what it says would be about their failure.
+    must have passed, else this one is skipped: what it says would be about their failure. `early`: scenarios that
+    report facts as they go, each with the judge of these.
     """
 
     id: str
@@ -27,6 +34,7 @@ class Criterion:
     facts: tuple[Scenario[Any], ...]
     after: tuple[str, ...] = ()
     bonus: bool = False
+    early: tuple[tuple[Scenario[Any], EarlyJudge], ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
