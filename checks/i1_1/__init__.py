@@ -10,7 +10,11 @@ CHECK = Check(
     (
         Criterion("publishes", judges.judge_publishes, (scenarios.plain_start,)),
         Criterion(
-            "range", judges.judge_range, (scenarios.collect_values, scenarios.collect_more_values), after=("publishes",)
+            "range",
+            judges.judge_range,
+            (scenarios.collect_values, scenarios.collect_more_values),
+            after=("publishes",),
+            early=((scenarios.collect_values, judges.judge_range_so_far),),
         ),
         Criterion("random", judges.judge_random, (scenarios.collect_values,), after=("publishes",)),
         Criterion("echo", judges.judge_echo, (scenarios.plain_start,), after=("publishes",)),

@@ -22,6 +22,15 @@ LISTEN_S = 26.0
 LEAST_S = 5.0
 """Values are collected for this long in any case: the other starts take as long, and more values tell more."""
 
+FAST_HZ = 8.0
+"""The highest rate that is tried first: one of `VALUES`."""
+
+MORE_S = 4.0
+"""At `FAST_HZ`, plenty of values come in this time."""
+
+LEAST_VALUES = 3
+"""With fewer values of a plain start, neither a regularity nor a range can be told from it."""
+
 ECHO_S = 14.0
 """The echo of a topic that has a message now and then shows one within this time."""
 
@@ -35,7 +44,7 @@ UNITS: dict[str, Callable[[float], float]] = {
 }
 """How a numeric parameter may be read: from its value to the rate in Hz that it asks for."""
 
-VALUES = {"Hz": (2.0, 8.0, 0.5), "s": (0.5, 0.125, 2.0), "ms": (500.0, 125.0, 2000.0)}
+VALUES = {"Hz": (2.0, FAST_HZ, 0.5), "s": (0.5, 0.125, 2.0), "ms": (500.0, 125.0, 2000.0)}
 SPARE_VALUES = {"Hz": (5.0, 1.0, 3.0, 10.0), "s": (1.0, 0.2, 0.4), "ms": (200.0, 1000.0, 400.0)}
 """Tried instead where the parameter's type or range does not allow the first ones."""
 
@@ -56,10 +65,14 @@ class PlainStart:
 
 @dataclass(frozen=True)
 class CollectedValues:
-    """The values of each of several starts without parameters; `trace` is one of them, for the words of a cause."""
+    """The values of each of several starts without parameters; `trace` is one of them, for the words of a cause.
+
+    `regular`: the values of a start at a higher rate, where these are plenty and clearly not random.
+    """
 
     runs: tuple[tuple[float, ...], ...]
     trace: Trace | None = None
+    regular: tuple[float, ...] = ()
 
     @property
     def all(self) -> tuple[float, ...]:

@@ -10,6 +10,7 @@ from dataclasses import replace
 from checks.i1_1 import steps
 from checks.i1_1.facts import (
     HIGHEST,
+    LEAST_VALUES,
     LISTEN_S,
     LOWEST,
     SUGGESTED_NAME,
@@ -92,6 +93,17 @@ def judge_range(found: CollectedValues, more: CollectedValues) -> Verdict:
     )
 
 
+def judge_range_so_far(found: CollectedValues) -> Verdict | None:
+    """Judge `range` by what has come by now; of few values, it cannot be told what all of them look like."""
+    if len(found.all) < LEAST_VALUES and all(map(_is_fahrenheit, found.all)):
+        return None
+    return judge_range(found, CollectedValues(()))
+
+
+def _is_fahrenheit(value: float) -> bool:
+    return 60 <= value <= 90
+
+
 def _diagnose_range(wrong: Sequence[float], values: Sequence[float], trace: Trace | None) -> Cause:
     if all(math.isfinite(value) and 0 < abs(value) < 1e-300 for value in wrong):
         return Cause(
@@ -99,7 +111,7 @@ def _diagnose_range(wrong: Sequence[float], values: Sequence[float], trace: Trac
             "a Python int was put into Float64.data: its bits are sent as if they were a float",
             steps.make_float(trace),
         )
-    if all(60 <= value <= 90 for value in values):
+    if all(map(_is_fahrenheit, values)):
         return Cause("out of range", "these look like degrees Fahrenheit", steps.draw_values(trace))
     return Cause("out of range", "values leave the range", steps.draw_values(trace))
 
@@ -107,7 +119,8 @@ def _diagnose_range(wrong: Sequence[float], values: Sequence[float], trace: Trac
 @_followable
 def judge_random(found: CollectedValues) -> Verdict:
     expected = "values that vary at random: not constant, not a ramp, not a short cycle"
-    told = [(run, pattern) for run in found.runs if (pattern := _pattern(run)) is not None]
+    runs = (*found.runs, found.regular)
+    told = [(run, pattern) for run in runs if (pattern := _pattern(run)) is not None]
     telling = sum(len(run) >= randomness.MIN_SAMPLE_SIZE for run in found.runs)
     if told and (any(pattern.significant for _, pattern in told) or len(told) >= telling):
         run, pattern = max(told, key=lambda each: (each[1].significant, len(each[0])))

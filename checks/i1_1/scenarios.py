@@ -6,12 +6,17 @@ import asyncio
 from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Sequence
 from contextlib import suppress
+from dataclasses import replace
+from typing import Any
 
 from checks.i1_1.facts import (
     ECHO_S,
+    FAST_HZ,
     FILE,
     LEAST_S,
+    LEAST_VALUES,
     LISTEN_S,
+    MORE_S,
     SPARE_VALUES,
     SUGGESTED_NAME,
     SUGGESTED_RATE,
@@ -26,6 +31,8 @@ from checks.i1_1.facts import (
     RateProbe,
     RateProbes,
     agreeing_groups,
+    count_agreeing,
+    group_probes,
     numeric_parameters,
     out_of_range,
     parameter_and_unit,
@@ -68,22 +75,46 @@ async def plain_start(bench: Bench) -> PlainStart:
 
 
 async def collect_values(bench: Bench) -> CollectedValues:
-    """Collect values from two plain starts; more of them where they look suspicious."""
-    seen: set[Run] = set()
+    """Collect values from two plain starts; more of them where they look suspicious.
+
+    Where another start, at a higher rate, has shown a pattern, nothing is to be gained from more.
+    """
+    seen: dict[Run, int] = {}
+    fast = asyncio.ensure_future(_regular_values(bench))
 
     def enough(run: Run) -> bool:
-        seen.add(run)
         mine = _data(run)
+        if len(mine) > seen.get(run, 0) and out_of_range(mine):
+            bench.report_facts(CollectedValues((tuple(mine),), run.trace()))
+        seen[run] = len(mine)
         others = {value for other in seen if other is not run for value in _data(other)}
         bench.report_progress(min(len(mine) / randomness.MIN_SAMPLE_SIZE, 1), f"{len(mine)} temperatures so far")
         # The same values in both starts may be a fixed list: only its second round would tell.
         doubtful = randomness.needs_more_values(mine) or len(others.intersection(mine)) > len(mine) / 2
-        return len(mine) >= randomness.FULL_SAMPLE_SIZE or (
-            not doubtful and run.now() >= run.samples_on(TOPIC)[0].source_time + LEAST_S
+        told = doubtful and fast.done() and bool(fast.result())
+        return (
+            (told and len(mine) >= LEAST_VALUES)
+            or len(mine) >= randomness.FULL_SAMPLE_SIZE
+            or (not doubtful and run.now() >= run.samples_on(TOPIC)[0].source_time + LEAST_S)
         )
 
-    runs = await asyncio.gather(_collect(bench, enough), _collect(bench, enough))
-    return CollectedValues(tuple(values for values, _ in runs), runs[0][1])
+    try:
+        runs = await asyncio.gather(_collect(bench, enough), _collect(bench, enough))
+        fast_values = fast.result() if fast.done() else ()
+    finally:
+        await _cancel([fast])
+    return CollectedValues(tuple(values for values, _ in runs), runs[0][1], fast_values)
+
+
+async def _regular_values(bench: Bench) -> tuple[float, ...]:
+    """The values of the start at the highest rate, where these are enough to show that they are not random."""
+    with suppress(MachineTooBusy):
+        probe = await bench.facts(probe_fast)
+        values = tuple(_data(probe.trace))
+        pattern = randomness.find_pattern(values) if len(values) >= randomness.FULL_SAMPLE_SIZE else None
+        if probe.agrees and pattern is not None and pattern.significant:
+            return values
+    return ()
 
 
 async def collect_more_values(bench: Bench) -> CollectedValues:
@@ -132,13 +163,25 @@ async def parameters(bench: Bench) -> tuple[Parameter, ...] | None:
         return declared
 
 
+async def probe_fast(bench: Bench) -> RateProbe:
+    """Start it at the highest rate that is tried, by the name that the skeleton suggests.
+
+    Where its values look suspicious, it is listened to until they are plenty: it takes far longer at any other rate.
+    """
+    return await _probe_rate(bench, SUGGESTED_RATE, "Hz", FAST_HZ, False)
+
+
 async def probe_rates(bench: Bench) -> RateProbes:
     """Start it once for each value of each parameter that may be the rate.
 
     The name that the skeleton suggests is tried while the node is asked which parameters it has: most have that one.
     """
+
+    async def probe(attempt: _Attempt) -> RateProbe:
+        return await (bench.facts(probe_fast) if attempt[2] == FAST_HZ else _probe_rate(bench, *attempt))
+
     suggested = [(SUGGESTED_RATE, "Hz", value, False) for value in VALUES["Hz"]]
-    begun = {each: asyncio.ensure_future(_probe_rate(bench, *each)) for each in suggested}
+    begun = {each: asyncio.ensure_future(probe(each)) for each in suggested}
     try:
         declared = await bench.facts(parameters)
         if any(p.name == SUGGESTED_RATE for p in declared or ()):
@@ -159,15 +202,21 @@ async def _probe_declared(
     tried: list[RateProbe] = []
 
     async def attempt(plan: Iterable[_Attempt]) -> bool:
-        # As soon as every value of one parameter and unit agrees, the others need not be waited for.
+        # As soon as every value of one parameter and unit agrees, the others need not be waited for; nor when each
+        # parameter and unit has one that does not, and another one, for the cause.
         wanted = Counter((name, unit) for name, unit, _, _ in plan)
+
+        def decided() -> bool:
+            if any(len(group) == wanted[parameter_and_unit(group[0])] for group in agreeing_groups(tried)):
+                return True
+            refuted = [group for group in group_probes(tried) if len(group) > 1 and count_agreeing(group) < len(group)]
+            return wanted.keys() <= {parameter_and_unit(group[0]) for group in refuted}
+
         pending = {
             begun.pop(each) if each in begun else asyncio.ensure_future(_probe_rate(bench, *each)) for each in plan
         }
         try:
-            while pending and not any(
-                len(group) == wanted[parameter_and_unit(group[0])] for group in agreeing_groups(tried)
-            ):
+            while pending and not decided():
                 done, pending = await asyncio.wait(pending, return_when=asyncio.FIRST_COMPLETED)
                 tried.extend(task.result() for task in done)
         finally:
@@ -188,7 +237,7 @@ async def _probe_declared(
     return RateProbes(declared, tuple(tried))
 
 
-async def _cancel(tasks: Collection[asyncio.Task[RateProbe]]) -> None:
+async def _cancel(tasks: Collection[asyncio.Task[Any]]) -> None:
     for task in tasks:
         task.cancel()
     await asyncio.gather(*tasks, return_exceptions=True)
@@ -239,7 +288,11 @@ async def _probe_rate(bench: Bench, name: str, unit: str, value: float, whole: b
 
         def decided(least_s: float) -> bool:
             rate = measure(run.samples_on(TOPIC))
-            return rate is not None and (rate.span_s >= 0.95 * least_s or (rate.samples > 50 and rate.hz > 20))
+            if rate is None:
+                return False
+            # Of a slow rate, the window is so long that far too many messages are told in less of it.
+            far_above = asked_hz < 1 and rate.is_far_above(asked_hz, window)
+            return far_above or rate.span_s >= 0.95 * least_s or (rate.samples > 50 and rate.hz > 20)
 
         if not await wait_for_message(run, TOPIC, TYPE):
             return measured()
@@ -259,6 +312,9 @@ async def _probe_rate(bench: Bench, name: str, unit: str, value: float, whole: b
         else:
             raise MachineTooBusy("this machine is too busy to measure a rate")
         bench.report_progress(1.0, f"{name}:={value:g} measured")
+        if probe.agrees and asked_hz == FAST_HZ and randomness.needs_more_values(_data(run)):
+            await run.until(lambda: len(_data(run)) >= randomness.FULL_SAMPLE_SIZE, MORE_S)
+            return replace(probe, trace=run.trace())
         return probe
 
 

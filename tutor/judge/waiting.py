@@ -15,6 +15,12 @@ START_S = 15.0
 SETTLE_S = 5.0
 """A node that is up does what it does within this time, a pause of 2 s at its start included."""
 
+OTHER_TYPE_S = 1.0
+"""A publisher of another type on the topic is the one that the node has; echo could not choose between two types."""
+
+OTHER_TOPIC_S = 2.5
+"""A node that publishes such messages elsewhere has all its publishers within this time, a pause of 2 s included."""
+
 RARE_S = 12.0
 """A publisher that exists may wait this long between messages."""
 
@@ -52,16 +58,24 @@ async def wait_until_seen(
     promised: Callable[[], bool] = lambda: False,
     rare_s: float = RARE_S,
     idle_s: float = RESENT_S,
+    settle_s: Callable[[], float] = lambda: SETTLE_S,
 ) -> bool:
     """Wait until `seen()`; give up when the process ends, never makes a node, or its node does nothing of the kind.
 
     `promised()`: something announces that it will come, such as a publisher on the topic; then `rare_s` more seconds
     are waited for it. `idle_s`: give up, too, when the node has been idle for that long (see `Run.until`); leave it as
-    it is for what is in the graph, which may reach us later than it is done.
+    it is for what is in the graph, which may reach us later than it is done. `settle_s()`: how long a node that is up
+    may take until something is seen or promised, by what is known of it by then; no longer than `SETTLE_S`.
     """
     if await run.until(lambda: seen() or bool(run.graph.nodes), START_S, idle_s=NO_NODE_S) and not seen():
-        if not await run.until(lambda: seen() or promised(), SETTLE_S, idle_s=idle_s):
-            return seen()
+        up_at, cpu_wait_s = run.now(), run.node_cpu_wait_s()
+
+        def settled() -> bool:
+            return run.now() - up_at - (run.node_cpu_wait_s() - cpu_wait_s) >= settle_s()
+
+        await run.until(lambda: seen() or promised() or settled(), SETTLE_S, idle_s=idle_s)
+        if not seen() and not promised():
+            return False
         if not seen():
             await run.until(seen, rare_s, idle_s=idle_s)
     return seen()
@@ -69,12 +83,20 @@ async def wait_until_seen(
 
 async def wait_for_message(run: Run, topic: str, type_name: str, *, rare_s: float = RARE_S) -> bool:
     """Wait for a message of this type on this (watched) topic."""
+
+    def settle_s() -> float:
+        others = [(p.topic, p.type) for p in run.graph.publishers if (p.topic == topic) != (p.type == type_name)]
+        if any(other == topic for other, _ in others):
+            return OTHER_TYPE_S
+        return OTHER_TOPIC_S if others else SETTLE_S
+
     return await wait_until_seen(
         run,
         lambda: bool(run.samples_on(topic)),
         promised=lambda: any(p.topic == topic and p.type == type_name for p in run.graph.publishers),
         rare_s=rare_s,
         idle_s=IDLE_S,
+        settle_s=settle_s,
     )
 
 
