@@ -8,10 +8,25 @@ from tutor.judge.check import Check, Criterion
 CHECK = Check(
     "i2.1",
     (
-        Criterion("defaults", judges.judge_defaults, (scenarios.plain_start,)),
+        Criterion(
+            "defaults",
+            judges.judge_defaults,
+            (scenarios.plain_start,),
+            early=((scenarios.plain_start, judges.judge_defaults_so_far),),
+        ),
         Criterion("launch-params", judges.judge_launch, (scenarios.start_with_parameters,)),
-        Criterion("runtime-params", judges.judge_runtime, (scenarios.switch_at_runtime, scenarios.change_rate)),
-        Criterion("validation", judges.judge_validation, (scenarios.ask_for_bad_rates, scenarios.switch_at_runtime)),
+        Criterion(
+            "runtime-params",
+            judges.judge_runtime,
+            (scenarios.switch_at_runtime, scenarios.change_rate),
+            early=((scenarios.switch_at_runtime, judges.judge_changes),),
+        ),
+        Criterion(
+            "validation",
+            judges.judge_validation,
+            (scenarios.ask_for_bad_rates, scenarios.switch_at_runtime),
+            early=((scenarios.ask_for_bad_rates, judges.judge_validation_so_far),),
+        ),
         Criterion("timer", judges.judge_timer, (scenarios.change_rate,)),
         Criterion("atomic", judges.judge_atomic, (scenarios.set_atomically, scenarios.switch_at_runtime), bonus=True),
         Criterion(

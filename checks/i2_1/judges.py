@@ -67,6 +67,11 @@ def judge_defaults(seen: PlainStart) -> Verdict:
     return passed(expected, observed)
 
 
+def judge_defaults_so_far(seen: PlainStart) -> Verdict | None:
+    """Judge `defaults` as soon as the node has told its parameters."""
+    return judge_defaults(seen) if seen.parameters is not None else None
+
+
 def _is(parameter: Parameter | None, kind: str, value: Any) -> bool:
     return parameter is not None and (parameter.type, parameter.value) == (kind, value)
 
@@ -177,15 +182,18 @@ def _diagnose_ignored(name: str, trace: Trace) -> Cause:
     )
 
 
+EXPECTED_CHANGES = f"setting {PREFIX} and {ENABLED} on the running node takes effect within one period"
+
+
 @_followable
-def judge_runtime(seen: RuntimeChanges, retimed: RateChanges) -> Verdict:
-    expected = f"setting {PREFIX} and {ENABLED} on the running node takes effect within one period"
+def judge_changes(seen: RuntimeChanges) -> Verdict:
+    """Judge `runtime-params`, but for a rate that is another one afterwards: `timer` may tell why."""
+    if seen.set_prefix is None:
+        return _not_running(seen, EXPECTED_CHANGES)
     for answer in (seen.set_prefix, seen.set_off, seen.set_later, seen.set_on):
-        if answer is None:
-            return _not_running(seen, expected)
-        if not answer.answered or not answer.successful:
-            return _not_set(expected, answer, seen.trace, seen.stuck)
-    assert seen.set_on is not None
+        if answer is not None and not (answer.answered and answer.successful):
+            return _not_set(EXPECTED_CHANGES, answer, seen.trace, seen.stuck)
+    expected = EXPECTED_CHANGES
     if seen.after_prefix is None:
         return failed(
             expected,
@@ -211,12 +219,21 @@ def judge_runtime(seen: RuntimeChanges, retimed: RateChanges) -> Verdict:
                 slips.boolean_compared_with_text(seen.trace) or steps.keep_timer_running(seen.trace),
             ),
         )
-    # A timer that is left behind, whatever is set, is for `timer` to report.
-    return _why_not_as_before(seen, expected, any_rate=not judge_timer(retimed).passed) or passed(
+    assert seen.set_on is not None
+    return _why_not_as_before(seen, expected, any_rate=True) or passed(
         expected,
         f'"{text_of(seen.after_prefix)}"; silence while false; resumed '
         f"{seen.resumed.source_time - seen.set_on.asked_at:.2f} s after true",
     )
+
+
+@_followable
+def judge_runtime(seen: RuntimeChanges, retimed: RateChanges) -> Verdict:
+    verdict = judge_changes(seen)
+    # A timer that is left behind, whatever is set, is for `timer` to report.
+    if not verdict.passed or not judge_timer(retimed).passed:
+        return verdict
+    return _why_not_as_before(seen, EXPECTED_CHANGES, any_rate=False) or verdict
 
 
 def _why_not_as_before(seen: RuntimeChanges, expected: str, *, any_rate: bool) -> Verdict | None:
@@ -330,9 +347,31 @@ def _ended_by(bad: float, expected: str, trace: Trace) -> Verdict | None:
 
 @_followable
 def judge_validation(seen: BadRates, switched: RuntimeChanges) -> Verdict:
-    expected = f"{RATE} 0.0 and -1.0 are rejected with a reason; the value and the rate stay at {seen.base_hz} Hz"
+    expected = _expected_refusal(seen)
     if not seen.rejected:
         return _not_running(seen, expected)
+    if (accepted := _not_refused(seen, expected)) is not None:
+        return accepted
+    if not _goes_on(seen.rate, seen.base_hz, switched):
+        cause = causes.diagnose_process(seen.trace) if seen.trace.exit else None
+        cause = cause or _diagnose_change(seen.trace, "the rate changes although the value was rejected")
+        return failed(expected, f"after the rejection: {describe(seen.rate, seen.messages)}", cause)
+    return passed(expected, f'rejected: "{seen.rejected[0][0].reason}"; still {seen.rate}')
+
+
+@_followable
+def judge_validation_so_far(seen: BadRates) -> Verdict:
+    """Judge `validation` by the answers that have come by now."""
+    expected = _expected_refusal(seen)
+    return _not_refused(seen, expected) or passed(expected, "so far")
+
+
+def _expected_refusal(seen: BadRates) -> str:
+    return f"{RATE} 0.0 and -1.0 are rejected with a reason; the value and the rate stay at {seen.base_hz} Hz"
+
+
+def _not_refused(seen: BadRates, expected: str) -> Verdict | None:
+    """What is wrong with the answers to bad rates, if anything is."""
     for answer, value in seen.rejected:
         bad = answer.values[RATE]
         if not answer.answered:
@@ -357,11 +396,7 @@ def judge_validation(seen: BadRates, switched: RuntimeChanges) -> Verdict:
                 f"{bad} was rejected, but {RATE} is {_show(value)} now",
                 _diagnose_change(seen.trace, "the value is not what it was"),
             )
-    if not _goes_on(seen.rate, seen.base_hz, switched):
-        cause = causes.diagnose_process(seen.trace) if seen.trace.exit else None
-        cause = cause or _diagnose_change(seen.trace, "the rate changes although the value was rejected")
-        return failed(expected, f"after the rejection: {describe(seen.rate, seen.messages)}", cause)
-    return passed(expected, f'rejected: "{seen.rejected[0][0].reason}"; still {seen.rate}')
+    return None
 
 
 def _diagnose_change(trace: Trace, text: str) -> Cause:

@@ -58,6 +58,7 @@ async def plain_start(bench: Bench) -> PlainStart:
         bench.report_progress(0.2, "asking for its parameters")
         node = await _node(run)
         declared = await run.parameters(ANSWER_S) if node else None
+        bench.report_facts(PlainStart(run.trace(), declared, None))
         bench.report_progress(0.5, "waiting for a message, then pressing Ctrl+C")
         if node:
             await wait_for_message(run, TOPIC, TYPE, rare_s=RARE_S)
@@ -140,11 +141,15 @@ async def switch_at_runtime(bench: Bench) -> RuntimeChanges:
 
         await run.until(lambda: shown() is not None or old() is not None, 2 * period + 2)
         changed, before = shown(), measure(run.samples_on(TOPIC))
+        seen = RuntimeChanges(run.trace(), prefix, later, base_hz, set_prefix, changed, before=before)
+        if not set_prefix.successful or changed is None:
+            return seen
         bench.report_progress(0.4, f"setting {ENABLED} to false, listening for silence")
         set_off = await run.set_parameters(node, {ENABLED: False}, limit_s=ANSWER_S)
         if not set_off.answered:
-            dump_stacks = await run.dump_stacks()
-            return RuntimeChanges(run.trace(), prefix, later, base_hz, set_prefix, changed, set_off, stuck=dump_stacks)
+            return replace(seen, trace=run.trace(), set_off=set_off, stuck=await run.dump_stacks())
+        if not set_off.successful:
+            return replace(seen, trace=run.trace(), set_off=set_off)
         quiet_from = set_off.answered_at + period + 0.1
 
         def noise() -> list[Sample]:
@@ -153,7 +158,9 @@ async def switch_at_runtime(bench: Bench) -> RuntimeChanges:
         await run.until(lambda: bool(noise()) or run.now() >= quiet_from + 1.5 * period, 3 * period + 2)
         sent, off_for_s = tuple(noise()), run.now() - set_off.answered_at
         bench.report_progress(0.6, f"setting {PREFIX} to {later}, then {ENABLED} to true")
-        seen = RuntimeChanges(run.trace(), prefix, later, base_hz, set_prefix, changed, set_off, sent, off_for_s)
+        seen = replace(seen, trace=run.trace(), set_off=set_off, sent_while_off=sent, off_for_s=off_for_s)
+        if sent:
+            return seen
         set_later = await run.set_parameters(node, {PREFIX: later}, limit_s=ANSWER_S)
         if not set_later.answered:
             return replace(seen, trace=run.trace(), set_later=set_later, stuck=await run.dump_stacks())
@@ -167,7 +174,7 @@ async def switch_at_runtime(bench: Bench) -> RuntimeChanges:
         since = set_on.answered_at + period + 0.1
         again, rate = await _as_before(run, base_hz, since=since) if (first := resumed()) is not None else ((), None)
         seen = replace(seen, trace=run.trace(), set_later=set_later, set_on=set_on, resumed=first)
-        return replace(seen, before=before, again=again, rate=rate)
+        return replace(seen, again=again, rate=rate)
 
 
 async def _as_before(run: Run, hz: float, *, since: float) -> tuple[tuple[Sample, ...], Rate | None]:
@@ -195,6 +202,10 @@ async def _validated(bench: Bench, from_hz: float | None) -> BadRates:
         if node is None:
             return BadRates(trace := run.trace(), stuck=await _stuck(bench, trace, answering), answering=answering)
         base_hz = await _base_hz(run)
+        if from_hz is not None:
+            refused = await _ask_for_bad(bench, run, node, base_hz)  # most that do not refuse show it at once
+            if any(answer.successful or not answer.answered for answer, _ in refused.rejected):
+                return refused
         if from_hz is None or await _takes(run, node, from_hz, base_hz):
             return await _refusing(bench, run, node, from_hz or base_hz)
     # Whether it takes a good rate is judged elsewhere: a node that does not must still refuse from where it starts.
@@ -211,7 +222,17 @@ async def _takes(run: Run, node: str, new_hz: float, old_hz: float) -> bool:
 
 
 async def _refusing(bench: Bench, run: Run, node: str, base_hz: float) -> BadRates:
-    """Ask this node, which publishes at `base_hz`, for bad rates."""
+    """Ask this node, which publishes at `base_hz`, for bad rates, and measure what it publishes at then."""
+    seen = await _ask_for_bad(bench, run, node, base_hz)
+    if not seen.rejected[-1][0].answered:
+        return seen
+    bench.report_progress(0.7, "measuring the rate after it")
+    rate, messages = await measure_steady_rate(run, TOPIC, base_hz, since=seen.rejected[-1][0].answered_at)
+    return replace(seen, trace=run.trace(), rate=rate, messages=messages)
+
+
+async def _ask_for_bad(bench: Bench, run: Run, node: str, base_hz: float) -> BadRates:
+    """Ask this node for bad rates, until it does not answer."""
     (before,) = await _held(run, (RATE,))
     rejected: list[tuple[SetAnswer, Any]] = []
     for bad in BAD_RATES:
@@ -221,9 +242,8 @@ async def _refusing(bench: Bench, run: Run, node: str, base_hz: float) -> BadRat
             rejected.append((answer, None))
             return BadRates(run.trace(), base_hz, before, tuple(rejected), stuck=await run.dump_stacks())
         rejected.append((answer, (await _held(run, (RATE,)))[0]))
-    bench.report_progress(0.7, "measuring the rate after it")
-    rate, messages = await measure_steady_rate(run, TOPIC, base_hz, since=rejected[-1][0].answered_at)
-    return BadRates(run.trace(), base_hz, before, tuple(rejected), rate, messages)
+        bench.report_facts(BadRates(run.trace(), base_hz, before, tuple(rejected)))
+    return BadRates(run.trace(), base_hz, before, tuple(rejected))
 
 
 async def change_rate(bench: Bench) -> RateChanges:
@@ -240,7 +260,12 @@ async def change_rate(bench: Bench) -> RateChanges:
             answer = await run.set_parameters(node, {RATE: new_hz}, limit_s=ANSWER_S)
             if not answer.answered:
                 return RateChanges(run.trace(), (*steps, (answer, None, 0)), await run.dump_stacks())
-            steps.append((answer, *await _changed_rate(run, answer, new_hz, old_hz)))
+            if not answer.successful:
+                return RateChanges(run.trace(), (*steps, (answer, None, 0)))
+            rate, messages = await _changed_rate(run, answer, new_hz, old_hz)
+            steps.append((answer, rate, messages))
+            if rate is not None and rate.agrees(DEFAULT_HZ):
+                break  # it has no effect, as the first one; of any other rate, the second change tells more
             old_hz = new_hz
         return RateChanges(run.trace(), tuple(steps))
 

@@ -8,9 +8,24 @@ from tutor.judge.check import Check, Criterion
 CHECK = Check(
     "i2.3",
     (
-        Criterion("blocks", judges.judge_blocks, (scenarios.call_singly, scenarios.call_concurrently)),
-        Criterion("timer", judges.judge_timer, (scenarios.run_idle, scenarios.call_singly)),
-        Criterion("concurrent", judges.judge_concurrent, (scenarios.call_concurrently, scenarios.call_singly)),
+        Criterion(
+            "blocks",
+            judges.judge_blocks,
+            (scenarios.call_singly, scenarios.call_concurrently),
+            early=((scenarios.call_singly, judges.judge_blocks_so_far),),
+        ),
+        Criterion(
+            "timer",
+            judges.judge_timer,
+            (scenarios.run_idle, scenarios.call_singly),
+            early=((scenarios.run_idle, judges.judge_idle_timer), (scenarios.call_singly, judges.judge_timer_so_far)),
+        ),
+        Criterion(
+            "concurrent",
+            judges.judge_concurrent,
+            (scenarios.call_concurrently, scenarios.call_singly),
+            early=((scenarios.call_concurrently, judges.judge_concurrent_so_far),),
+        ),
         Criterion("shutdown", judges.judge_shutdown, (scenarios.run_idle,)),
         Criterion(
             "parallel",

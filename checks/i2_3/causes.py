@@ -11,6 +11,7 @@ from checks.i2_3.facts import SERVICE, SHORTEST_S, TYPE, CallBatch, IdleRun, Sin
 from checks.i2_3.pace import Fault, TimerPace
 from checks.i2_3.ticks import HZ, Series
 from tutor.judge import causes, tracebacks
+from tutor.judge.causes import names
 from tutor.judge.rewriting.node import NodeFile, started_node
 from tutor.judge.trace import CallAnswer, Trace
 from tutor.judge.tracebacks import Frame
@@ -67,7 +68,7 @@ def diagnose_no_answer(seen: SingleCalls) -> Cause:
     if not seen.spins or causes.is_in_blocking_call(seen.stuck):
         return _with_step(causes.diagnose_no_answer(seen.trace, seen.stuck), started_node(seen.trace))
     blocked = causes.diagnose_blocked(seen.trace, seen.stuck, spins=True)
-    if blocked is not None and blocked.name != "blocked executor":
+    if blocked is not None and blocked.name != names.BLOCKED_EXECUTOR:
         return _with_step(blocked, started_node(seen.trace))
     if (locked := causes.diagnose_lock_wait(seen.trace, seen.stuck)) is not None:
         return _with_step(replace(locked, name="no answer"), started_node(seen.trace))
@@ -176,7 +177,7 @@ def diagnose_disturbed_timer(seen: SingleCalls, timer: TimerPace) -> Cause:
     where = f", at {own}" if own else ""
     if not seen.stuck:
         return Cause(
-            "blocked executor",
+            names.BLOCKED_EXECUTOR,
             "the timer stands still during a call",
             steps.use_threads(source)
             or "use a MultiThreadedExecutor, and put the timer and the service into different callback groups",
@@ -185,13 +186,13 @@ def diagnose_disturbed_timer(seen: SingleCalls, timer: TimerPace) -> Cause:
         if (locked := causes.diagnose_lock_wait(seen.trace, seen.stuck)) is not None:
             return replace(locked, hint=steps.separate_groups(source) or locked.hint)
         return Cause(
-            "blocked executor",
+            names.BLOCKED_EXECUTOR,
             f"the timer stands still while the service works{where}: {steps.what_timer_waits_for(source)}",
             steps.separate_groups(source)
             or "give the timer a ReentrantCallbackGroup of its own, and the executor at least 2 threads: num_threads=4",
         )
     return Cause(
-        "blocked executor",
+        names.BLOCKED_EXECUTOR,
         f"one thread runs all callbacks, and while the service works{where}, the timer waits",
         steps.use_threads(source)
         or "use executor = MultiThreadedExecutor(num_threads=4), executor.add_node(node), executor.spin()",

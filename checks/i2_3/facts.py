@@ -91,7 +91,8 @@ class SingleCalls:
 
     `later` are those made for a second time, with large numbers, where nothing was wrong with the first. `stuck`: where
     the node's threads are during a call (innermost frames first), looked up where the call was not answered or the
-    timer stood still; `spins`: whether the node answered anything at all then.
+    timer stood still; `spins`: whether the node answered anything at all then. `idle`: what the timer does without a
+    call, where the first call and its repetitions are told of before all is over.
     """
 
     trace: Trace
@@ -99,6 +100,7 @@ class SingleCalls:
     stuck: tuple[Frame, ...] = ()
     spins: bool = True
     later: tuple[Call, ...] = ()
+    idle: IdleRun | None = None
 
     @property
     def first_and_later(self) -> tuple[SingleCalls, ...]:

@@ -30,6 +30,7 @@ from checks.i2_3.facts import (
 from checks.i2_3.pace import Fault, TimerPace
 from checks.i2_3.ticks import HZ, Series, best_series
 from tutor.judge import causes, ending
+from tutor.judge.causes import names
 from tutor.judge.rates import TOLERANCE
 from tutor.judge.rewriting.node import started_node
 from tutor.judge.step_parsing import NotAnEdit, apply_step
@@ -42,6 +43,11 @@ def judge_blocks(seen: SingleCalls, several: ConcurrentCalls) -> Verdict:
     alike = any(three.right < CALLS for three in several.batches[:1])
     verdict = _judge_answer(replace(seen, later=())) if alike else _of_both(seen, _judge_answer)
     return _followed(verdict, seen.trace)
+
+
+def judge_blocks_so_far(seen: SingleCalls) -> Verdict | None:
+    """Judge `blocks` by the calls that have been answered by now."""
+    return _followed(_judge_answer(seen), seen.trace) if seen.quickest is not None else None
 
 
 def _followed(verdict: Verdict, trace: Trace) -> Verdict:
@@ -116,6 +122,23 @@ def judge_timer(alone: IdleRun, seen: SingleCalls) -> Verdict:
     return _followed(_of_both(seen, partial(_judge_timer, alone)), alone.trace)
 
 
+def judge_idle_timer(alone: IdleRun) -> Verdict | None:
+    """Judge `timer` by what it does while nobody calls, if it has another pace then."""
+    likely = best_series(alone.series)
+    if likely is None or likely.is_10_hz:
+        return None
+    return _followed(_judge_timer(alone, SingleCalls(alone.trace)), alone.trace)
+
+
+def judge_timer_so_far(seen: SingleCalls) -> Verdict | None:
+    """Judge `timer` by the first call, when no more is to be made of it."""
+    if seen.idle is None or seen.quickest is None:
+        return None
+    verdict = _judge_timer(seen.idle, seen)
+    # Where it stands still, it is about to be looked up where the threads are.
+    return None if verdict.cause.startswith(names.BLOCKED_EXECUTOR) else _followed(verdict, seen.idle.trace)
+
+
 def _judge_timer(alone: IdleRun, seen: SingleCalls) -> Verdict:
     expected = (
         f"the timer of {HZ:g} Hz (±{TOLERANCE:.0%}) logs during a call at the pace it has outside one, without a gap "
@@ -176,6 +199,12 @@ def judge_concurrent(seen: ConcurrentCalls, one: SingleCalls | None = None) -> V
         else why.diagnose_lost_calls(seen.trace, three, answered)
     )
     return _followed(failed(expected, observed, cause, told), seen.trace)
+
+
+def judge_concurrent_so_far(seen: ConcurrentCalls) -> Verdict | None:
+    """Judge `concurrent` by itself: where none is answered, the single calls tell more of the cause."""
+    answered = any(answer.response is not None for three in seen.batches[:1] for answer in three.answers)
+    return judge_concurrent(seen) if answered else None
 
 
 def judge_parallel(one: SingleCalls, several: ConcurrentCalls) -> Verdict:

@@ -61,45 +61,70 @@ async def run_idle(bench: Bench) -> IdleRun:
         await listen(run, since, lambda: has_service(run.graph.servers))
         share = (run.node_cpu_wait_s() - cpu_wait_s) / max(0.1, run.now() - listened_at)
         series = timer_series(all_series(logs_since(run.logs, since)))
-        trace = run.trace()
+        busy = share >= CPU_WAIT_SHARE and any(may_be_10_hz(each, share) for each in series if not each.is_10_hz)
+        idle = IdleRun(run.trace(), series, busy)
         bench.report_progress(0.8, "pressing Ctrl+C")
-        ended = await run.interrupt() if run.exit is None else None
-    busy = share >= CPU_WAIT_SHARE and any(may_be_10_hz(each, share) for each in series if not each.is_10_hz)
-    return IdleRun(trace, series, busy, ended)
+        return replace(idle, ending=await run.interrupt() if run.exit is None else None)
 
 
 async def call_singly(bench: Bench) -> SingleCalls:
     """Call the service, then once more, and watch the timer meanwhile and until it is seen again."""
+    looking: list[asyncio.Task[tuple[tuple[Frame, ...], bool]]] = []
+
+    def suspect(answer: CallAnswer) -> None:
+        looking.append(asyncio.ensure_future(_stuck(bench, answer)))
+
+    try:
+        seen, well = await _call_singly(bench, suspect)
+        if seen.calls and seen.trace.exit is None and not well:
+            stuck, spins = await (looking[0] if looking else _stuck(bench, seen.calls[-1].answer))
+            return replace(seen, stuck=stuck, spins=spins)
+        return seen
+    finally:
+        for task in looking:
+            task.cancel()
+        await asyncio.gather(*looking, return_exceptions=True)
+
+
+async def _call_singly(bench: Bench, suspect: Callable[[CallAnswer], None]) -> tuple[SingleCalls, bool]:
+    """The calls, and whether there was nothing wrong with the first; `suspect` is called as soon as there is."""
     async with bench.start(FILE) as run:
         bench.report_progress(0.1, f"waiting for {SERVICE}")
         if not await _serves(run):
-            return SingleCalls(run.trace())
+            return SingleCalls(run.trace()), False
         bench.report_progress(0.2, f"calling {SERVICE}")
-        calls, well = await _call(bench, run, _operands, MOST_TRIES)
+        calls, well = await _call(bench, run, _operands, MOST_TRIES, suspect)
         later: Sequence[Call] = ()
+        bench.report_facts(SingleCalls(run.trace(), tuple(calls), idle=await bench.facts(run_idle)))
         if well and run.exit is None:
             bench.report_progress(0.6, f"calling {SERVICE} once more, with large numbers")
             later, _ = await _call(bench, run, _large, TRIES)  # no more of them: without a word they take nothing back
-        seen = SingleCalls(run.trace(), tuple(calls), later=tuple(later))
-    if seen.trace.exit is None and not well:
-        stuck, spins = await _stuck(bench, calls[-1].answer)
-        return replace(seen, stuck=stuck, spins=spins)
-    return seen
+        return SingleCalls(run.trace(), tuple(calls), later=tuple(later)), well
 
 
 async def _call(
-    bench: Bench, run: Run, operands: Callable[[], Mapping[str, int]], most: int
+    bench: Bench,
+    run: Run,
+    operands: Callable[[], Mapping[str, int]],
+    most: int,
+    suspect: Callable[[CallAnswer], None] = lambda answer: None,
 ) -> tuple[list[Call], bool]:
-    """Make a call, and again where a busy machine leaves it in doubt; and whether there was nothing wrong with it."""
+    """Make a call, and again where a busy machine leaves it in doubt; and whether there was nothing wrong with it.
+
+    `suspect`: called where the first one leaves the timer standing still.
+    """
     calls: list[Call] = []
     series: Sequence[Series] = ()
     while not calls or (run.exit is None and needs_repeat(run.logs, calls, series, most)):
         lost_s = _lost_s(run)
         answer = await run.call(SERVICE, TYPE, operands(), limit_s=ANSWER_S)
         lost_s = _lost_s(run) - lost_s
+        bench.report_facts(SingleCalls(run.trace(), (*calls, Call(answer, run.now(), lost_s))))
         series = (await bench.facts(run_idle)).series
         await next_tick(run, series, answer)
         calls.append(Call(answer, run.now(), lost_s))
+        if len(calls) == 1 and run.exit is None and is_disturbed(run.logs, calls[0], series):
+            suspect(answer)
     last = calls[-1]
     well = not is_disturbed(run.logs, last, series) or is_excused(run.logs, last, series)
     return calls, last.answer.response is not None and well

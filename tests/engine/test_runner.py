@@ -169,6 +169,9 @@ async def test_what_the_scenario_raises_is_what_went_wrong(scene: Scene) -> None
 async def test_a_failure_that_is_sure_is_told_before_the_scenario_ends(scene: Scene) -> None:
     told = asyncio.Event()
 
+    async def enough(bench: Bench) -> str:
+        return "eight"
+
     async def counts(bench: Bench) -> str:
         bench.report_facts("seven")  # of this, an early judge says nothing
         await asyncio.sleep(0)
@@ -190,8 +193,9 @@ async def test_a_failure_that_is_sure_is_told_before_the_scenario_ends(scene: Sc
         criterion("b", counts),
         criterion("c", counts, after=("a",)),
         criterion("d", waits),
+        criterion("e", enough, waits, early=((enough, early),)),
     )
-    assert plain(result) == {"a": "failed", "b": "passed", "c": "skipped", "d": "passed"}
+    assert plain(result) == {"a": "failed", "b": "passed", "c": "skipped", "d": "passed", "e": "failed"}
 
 
 async def test_a_failure_that_is_sure_waits_for_what_it_comes_after(scene: Scene) -> None:

@@ -177,8 +177,10 @@ class Runner:
             if alone and self._elapsed() > REPEAT_WITHIN_S:
                 raise MachineTooBusy(TOO_BUSY)
             facts = await scenario(bench)
-            # Where a process was killed, the scenario is repeated: who did it cannot be known from one.
-            return await scenario(bench) if bench.sigkilled else facts
+            if bench.sigkilled:  # who did it cannot be known from one
+                facts = await scenario(bench)
+        self._take_facts(scenario, facts)
+        return facts
 
     async def _judge(self, criterion: Criterion) -> Verdict:
         for dependency in criterion.after:

@@ -14,9 +14,10 @@ Judge = Callable[..., Verdict]
 """A pure function from the facts of the criterion's scenarios, in their order, to a verdict."""
 
 EarlyJudge = Callable[[Any], Verdict | None]
-"""A pure function from what a scenario has reported so far (`Bench.report_facts`) to a failure, if that is sure by now.
+"""A pure function from the facts of one scenario to a failure, if that is sure whatever the others say.
 
-Whatever it gives besides a failure says nothing. It must never fail what the judge would pass.
+They may be those that the scenario has reported so far (`Bench.report_facts`). Whatever it gives besides a failure says
+nothing. It must never fail what the judge would pass.
 """
 
 
@@ -25,8 +26,8 @@ class Criterion:
     """One acceptance criterion.
 
     `facts` are the scenarios whose facts `judge` takes; they run at once with all others. `after` names criteria that
-    must have passed, else this one is skipped: what it says would be about their failure. `early`: scenarios that
-    report facts as they go, each with the judge of these.
+    must have passed, else this one is skipped: what it says would be about their failure. `early`: scenarios
+    that may be enough for a failure, each with the judge of its facts.
     """
 
     id: str
