@@ -15,7 +15,10 @@ CHECK = Check(
         Criterion("count", with_deeper_cause(judges.judge_count), (scenarios.steady, scenarios.jump, scenarios.fast)),
         Criterion("rate", with_deeper_cause(judges.judge_rate), (scenarios.steady, scenarios.jump)),
         Criterion(
-            "summary", with_deeper_cause(judges.judge_summary), (scenarios.steady, scenarios.jump, scenarios.fast)
+            "summary",
+            with_deeper_cause(judges.judge_summary),
+            (scenarios.steady, scenarios.jump, scenarios.fast),
+            early=((scenarios.fast, with_deeper_cause(judges.judge_silence)),),
         ),
         Criterion(
             "restart",

@@ -11,16 +11,18 @@ from checks.i1_2.facts import TOPIC, TYPE, Trial
 from tutor.judge import causes, source
 from tutor.judge.verdict import Cause, Status, Verdict
 
-Judge = Callable[..., Verdict]
 
-
-def with_deeper_cause(judge: Judge) -> Judge:
+def with_deeper_cause[V: Verdict | None](judge: Callable[..., V]) -> Callable[..., V]:
     """The judge, with another cause for its failures where what was fed shows one that lies deeper."""
 
     @wraps(judge)
-    def judged(*trials: Trial) -> Verdict:
+    def judged(*trials: Trial) -> V:
         verdict = judge(*trials)
-        if verdict.status is not Status.FAILED or any(causes.diagnose_process(each.trace) for each in trials):
+        if (
+            verdict is None
+            or verdict.status is not Status.FAILED
+            or any(causes.diagnose_process(each.trace) for each in trials)
+        ):
             return verdict
         cause = _diagnose_double_count(trials) or _diagnose_waiting(trials)
         return verdict if cause is None else replace(verdict, cause=str(cause), hint=cause.hint)

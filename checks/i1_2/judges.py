@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from checks.i1_2 import backlog, rates, slowness, steps
-from checks.i1_2.facts import EVERY, FAST_HZ, OURS, Trial
+from checks.i1_2.facts import EVERY, FAST_HZ, FAST_MESSAGES, OURS, Trial
 from checks.i1_2.reading import labelled, read
 from checks.i1_2.summaries import Summary, count_complete, find_summaries, in_time, milestone, totals
 from tutor.judge import causes, ending
@@ -224,6 +224,14 @@ def judge_slow_summary(steady: Trial, jump: Trial) -> Verdict:
         f"{len(complete)} for {len(steady.sent)} messages, with both contents",
         [str(summary) for summary in complete],
     )
+
+
+def judge_silence(fast: Trial) -> Verdict | None:
+    """Judge `summary` by the fast stretch alone, where the node takes part in all and logs nothing of any message."""
+    if not fast.spins or fast.lines or len(fast.sent) < FAST_MESSAGES:
+        return None
+    observed = f"none, after {len(fast.sent)} messages"
+    return failed(EXPECTED_SUMMARY, observed, diagnose_no_summary(fast), _logged(fast))
 
 
 def _diagnose_interval(summaries: Sequence[Summary], trial: Trial, messages: int) -> Cause | None:

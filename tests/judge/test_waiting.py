@@ -7,7 +7,7 @@ from collections.abc import Callable
 import pytest
 
 from tutor.judge.trace import Sample
-from tutor.judge.waiting import OTHER_TOPIC_S, OTHER_TYPE_S, RARE_S, SETTLE_S, wait_for_message
+from tutor.judge.waiting import OTHER_NAME_S, OTHER_TYPE_S, RARE_S, SETTLE_S, wait_for_message
 from tutor.ros_model import Graph, TopicEndpoint
 
 TOPIC, TYPE = "/sensor/temperature", "std_msgs/msg/Float64"
@@ -47,7 +47,7 @@ class Clock:
         ([(0.0, TOPIC, TYPE)], RARE_S),
         ([(0.0, "/status", "std_msgs/msg/String")], SETTLE_S),
         ([(0.0, TOPIC, "std_msgs/msg/String")], OTHER_TYPE_S),
-        ([(0.0, "/temperature", TYPE)], OTHER_TOPIC_S),
+        ([(0.0, "/temperature", TYPE)], OTHER_NAME_S),
         ([(0.0, "/temperature", TYPE), (2.0, TOPIC, TYPE)], 2.0 + RARE_S),
     ],
 )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 
 from tutor.errors import MachineTooBusy
 from tutor.judge.bench import Bench, Run
@@ -16,10 +16,11 @@ SETTLE_S = 5.0
 """A node that is up does what it does within this time, a pause of 2 s at its start included."""
 
 OTHER_TYPE_S = 1.0
-"""A publisher of another type on the topic is the one that the node has; echo could not choose between two types."""
+"""An endpoint of the right name, but another type, is the one that the node has: two would be in each other's way."""
 
-OTHER_TOPIC_S = 2.5
-"""A node that publishes such messages elsewhere has all its publishers within this time, a pause of 2 s included."""
+OTHER_NAME_S = 2.5
+"""A node that has an endpoint of the right type, but another name, has all that it will have within this time, a pause
+of 2 s included."""
 
 RARE_S = 12.0
 """A publisher that exists may wait this long between messages."""
@@ -81,22 +82,23 @@ async def wait_until_seen(
     return seen()
 
 
+def settle_s(there: Iterable[tuple[str, str]], name: str, type_name: str) -> float:
+    """How long to wait for an endpoint of this name and type, when the node has `there`, as (name, type) each."""
+    others = [other for other, kind in there if (other == name) != (kind == type_name)]
+    if name in others:
+        return OTHER_TYPE_S
+    return OTHER_NAME_S if others else SETTLE_S
+
+
 async def wait_for_message(run: Run, topic: str, type_name: str, *, rare_s: float = RARE_S) -> bool:
     """Wait for a message of this type on this (watched) topic."""
-
-    def settle_s() -> float:
-        others = [(p.topic, p.type) for p in run.graph.publishers if (p.topic == topic) != (p.type == type_name)]
-        if any(other == topic for other, _ in others):
-            return OTHER_TYPE_S
-        return OTHER_TOPIC_S if others else SETTLE_S
-
     return await wait_until_seen(
         run,
         lambda: bool(run.samples_on(topic)),
         promised=lambda: any(p.topic == topic and p.type == type_name for p in run.graph.publishers),
         rare_s=rare_s,
         idle_s=IDLE_S,
-        settle_s=settle_s,
+        settle_s=lambda: settle_s(((p.topic, p.type) for p in run.graph.publishers), topic, type_name),
     )
 
 
