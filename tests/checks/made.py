@@ -134,7 +134,8 @@ def frame(function: str, path: str = f"{FOLDER}/node.py", line: int = 12, code: 
     return Frame(path, line, function, code)
 
 
-def assert_passed(verdict: Verdict) -> None:
+def assert_passed(verdict: Verdict | None) -> None:
+    assert verdict is not None
     assert verdict.status is Status.PASSED, verdict
     assert verdict.expected
     assert verdict.observed
@@ -145,8 +146,9 @@ def assert_undecided(verdict: Verdict) -> None:
     assert isinstance(verdict, Undecided), verdict
 
 
-def assert_failed(verdict: Verdict, cause: str, *words: str) -> None:
+def assert_failed(verdict: Verdict | None, cause: str, *words: str) -> None:
     """It failed for this cause (by its name), said all that a diagnosis needs, and these words among it."""
+    assert verdict is not None
     assert verdict.status is Status.FAILED, verdict
     assert verdict.cause.partition(":")[0] == cause, verdict
     assert verdict.expected

@@ -27,6 +27,7 @@ from checks.i1_1.judges import (
     judge_publishes,
     judge_random,
     judge_range,
+    judge_range_so_far,
     judge_rate,
     judge_shutdown,
 )
@@ -116,6 +117,19 @@ def test_range_not(values: tuple[float, ...], cause: str, word: str) -> None:
     assert_failed(judge_range(CollectedValues((values, ())), CollectedValues(())), cause, word)
 
 
+@given(st.lists(st.floats(), max_size=9).map(tuple))
+def test_a_range_that_fails_so_far_fails(values: tuple[float, ...]) -> None:
+    so_far = judge_range_so_far(CollectedValues((values,)))
+    whole = judge_range(CollectedValues((values, (25.0,))), CollectedValues(()))
+    assert so_far is None or so_far.passed or not values or not whole.passed
+
+
+def test_of_two_values_it_is_not_told_that_all_are_in_fahrenheit() -> None:
+    assert judge_range_so_far(CollectedValues(((70.0, 75.0),))) is None
+    assert_failed(judge_range_so_far(CollectedValues(((70.0, 75.0, 80.0),))), "out of range", "Fahrenheit")
+    assert_failed(judge_range_so_far(CollectedValues(((35.0,),))), "out of range", "1 of 1 values outside")
+
+
 def test_the_values_of_other_starts_count_too() -> None:
     verdict = judge_range(CollectedValues(((25.0,), (24.0,))), CollectedValues(((21.0, 19.5),)))
     assert_failed(verdict, "out of range", "1 of 4 values outside, such as 19.5")
@@ -157,6 +171,12 @@ def test_random(runs: tuple[tuple[float, ...], ...]) -> None:
 )
 def test_random_not(runs: tuple[tuple[float, ...], ...], cause: str) -> None:
     assert_failed(judge_random(CollectedValues(runs)), cause)
+
+
+def test_a_start_at_a_higher_rate_may_show_the_rule_behind_few_values() -> None:
+    few = (drawn(9)[:3], drawn(9)[:3])
+    assert_passed(judge_random(CollectedValues(few)))
+    assert_failed(judge_random(CollectedValues(few, regular=(21.5,) * 24)), "constant value")
 
 
 def test_echo() -> None:

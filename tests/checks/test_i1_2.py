@@ -149,11 +149,14 @@ def restart(node: Counter, **more: object) -> Trial:
 def judged(make: Callable[[], Counter], **more: object) -> dict[str, Verdict]:
     """The verdicts on a node of which three are made."""
     even, jumped = steady(make(), **more), jump(make(), **more)  # type: ignore[arg-type]
-    restarted = restart(make(), **more)
+    restarted, quick = restart(make(), **more), fast(make(), **more)
+    summary = judges.judge_summary(even, jumped, quick)
+    silent = judges.judge_silence(quick)
+    assert silent is None or summary.status is silent.status is Status.FAILED
     return {
-        "count": judges.judge_count(even, jumped, fast(make(), **more)),
+        "count": judges.judge_count(even, jumped, quick),
         "rate": judges.judge_rate(even, jumped),
-        "summary": judges.judge_summary(even, jumped, fast(make(), **more)),
+        "summary": summary,
         "restart": continuity.judge_restart(restarted, even, jumped),
         "gaps": continuity.judge_gaps(jumped, even),
     }

@@ -32,12 +32,14 @@ from checks.i2_1.facts import (
 from checks.i2_1.judges import (
     judge_atomic,
     judge_bad_launch,
+    judge_changes,
     judge_defaults,
     judge_launch,
     judge_runtime,
     judge_shutdown,
     judge_timer,
     judge_validation,
+    judge_validation_so_far,
 )
 from tests.checks.made import (
     CRASH,
@@ -213,6 +215,9 @@ def switched(**but: Any) -> RuntimeChanges:
     return RuntimeChanges(prefix="Servus7", later="Gruezi9", **facts)
 
 
+ENDS_THERE = switched(set_later=None, set_on=None, resumed=None, again=(), rate=None)
+"""What is seen where a change is refused or ignored: no more is asked for then."""
+
 UNHEARD = switched(before=None)
 
 
@@ -286,6 +291,26 @@ def test_runtime_not(found: RuntimeChanges, cause: str, word: str) -> None:
     assert_failed(runtime(found), cause, word)
 
 
+@pytest.mark.parametrize(
+    ("found", "cause"),
+    [
+        (replace(ENDS_THERE, set_prefix=not_set("no way"), after_prefix=None, set_off=None), "rejected"),
+        (replace(ENDS_THERE, after_prefix=None, set_off=None), "parameter ignored"),
+        (replace(ENDS_THERE, set_off=not_set("no way")), "rejected"),
+        (replace(ENDS_THERE, sent_while_off=tuple(samples(TOPIC, 1.0, count=2))), "parameter ignored"),
+        (switched(again=samples(TOPIC, 1.0, data="Hello 5")), "parameter ignored"),
+    ],
+)
+def test_a_change_that_shows_nothing_is_a_failure_whatever_comes_after_it(found: RuntimeChanges, cause: str) -> None:
+    for verdict in (judge_changes(found), runtime(found), runtime(found, retimed(UP_HZ, None))):
+        assert_failed(verdict, cause)
+
+
+def test_a_rate_that_changed_waits_for_what_the_timer_shows() -> None:
+    assert_passed(judge_changes(switched(rate=rate(2.0))))
+    assert_failed(runtime(switched(rate=rate(2.0))), "rate changed")
+
+
 # --- bad rates ---------------------------------------------------------------
 
 REFUSED = tuple((refused({RATE: bad}), 1.0) for bad in BAD_RATES)
@@ -326,6 +351,11 @@ def test_validation(found: BadRates) -> None:
 def test_a_reason_of_their_own_may_have_words_of_rclpys(reason: str) -> None:
     refusing = validated(*((refused({RATE: bad}, reason), 1.0) for bad in BAD_RATES))
     assert_passed(judge_validation(refusing, UNHEARD))
+
+
+def test_answers_that_are_right_so_far_are_no_failure() -> None:
+    assert_passed(judge_validation_so_far(validated(hz=None)))
+    assert_passed(judge_validation_so_far(BadRates(RUNNING, rejected=REFUSED[:1])))
 
 
 def rejected(which: SetAnswer, held: Any = 1.0) -> BadRates:

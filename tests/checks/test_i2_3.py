@@ -14,11 +14,15 @@ from hypothesis import strategies as st
 from checks.i2_3.facts import SERVICE, TYPE, Call, CallBatch, ConcurrentCalls, IdleRun, Interrupted, SingleCalls
 from checks.i2_3.judges import (
     judge_blocks,
+    judge_blocks_so_far,
     judge_concurrent,
+    judge_concurrent_so_far,
+    judge_idle_timer,
     judge_parallel,
     judge_shutdown,
     judge_shutdown_busy,
     judge_timer,
+    judge_timer_so_far,
 )
 from checks.i2_3.listening import logs_since
 from checks.i2_3.pace import Fault, measure_timer
@@ -259,6 +263,26 @@ def test_a_timer_that_stands_still_is_found_out(text: Text, every: int) -> None:
     assert_failed(judge_timer(alone, alone_thread), "blocked executor", "one thread")
 
 
+def test_what_the_single_calls_show_so_far() -> None:
+    logs, idle = ticking(every=1, until_s=8), idle_run(ticking(every=1))
+    paused = ticking(every=1, stands_still=(1.2, 2.6), until_s=8)
+    still = ticking(every=1, stands_still=(0.3, 3.31), until_s=8)
+    assert_passed(judge_timer_so_far(single_calls(logs, until=START + 8, idle=idle)))
+    assert_failed(judge_timer_so_far(single_calls(paused, until=START + 8, idle=idle)), "timer pauses")
+    # Where it waits is yet to be seen, or what it does without a call.
+    assert judge_timer_so_far(single_calls(still, until=START + 8, idle=idle)) is None
+    assert judge_timer_so_far(single_calls(paused, until=START + 8)) is None
+    assert_failed(judge_blocks_so_far(single_calls(logs, answer(sum_=9))), "wrong sum")
+    assert_passed(judge_blocks_so_far(single_calls(logs)))
+    assert judge_blocks_so_far(single_calls(logs, answer(sum_=None))) is None
+
+
+def test_a_timer_of_another_pace_needs_no_call() -> None:
+    assert judge_idle_timer(idle_run(ticking(every=1))) is None
+    assert judge_idle_timer(idle_run(())) is None
+    assert_failed(judge_idle_timer(idle_run(ticking(hz=20.0, every=1))), "wrong timer period")
+
+
 def test_a_timer_that_pauses_for_a_part_of_a_call() -> None:
     logs = ticking(every=1, stands_still=(1.2, 2.6), until_s=8)
     verdict = judge_timer(idle_run(ticking(every=1)), single_calls(logs, until=START + 8, stuck=IN_WORKER))
@@ -486,6 +510,12 @@ def test_three_at_once() -> None:
     assert_failed(judge_concurrent(three(1005, None, None)), "no answer", "2 of 3")
     assert_failed(judge_concurrent(ConcurrentCalls(CRASHED, three(1005, None, None).batches)), "unhandled exception")
     assert judge_concurrent(ConcurrentCalls(trace(graph=UP))).status is Status.SKIPPED
+
+
+def test_three_of_which_none_is_answered_wait_for_the_single_calls() -> None:
+    assert_failed(judge_concurrent_so_far(three(3005, 3005, 3005)), "shared state")
+    assert_passed(judge_concurrent_so_far(three(1005, 2005, 3005)))
+    assert judge_concurrent_so_far(three(None, None, None)) is None
 
 
 @given(st.permutations([1005, 2005, 3005]))
