@@ -11,7 +11,9 @@ from dataclasses import replace
 from checks.i2_3.facts import (
     ANSWER_S,
     CALLS,
+    EXCUSED_S,
     FILE,
+    LONGEST_S,
     SERVICE,
     TYPE,
     WORK_S,
@@ -53,12 +55,13 @@ async def run_idle(bench: Bench) -> IdleRun:
     async with bench.start(FILE) as run:  # first, like `call_singly`, which waits for it
         bench.report_progress(0.1, "waiting for the timer's log messages")
         await wait_until_seen(run, lambda: bool(run.graph.nodes))
-        await _spins(run)
+        spins = await _spins(run)
         since = run.now()
-        await wait_until_seen(run, lambda: bool(logs_since(run.logs, since)), idle_s=IDLE_S)
+        logs = await wait_until_seen(run, lambda: bool(logs_since(run.logs, since)), idle_s=IDLE_S)
         listened_at, cpu_wait_s = run.now(), run.node_cpu_wait_s()
         bench.report_progress(0.3, "listening to the timer")
-        await listen(run, since, lambda: has_service(run.graph.servers))
+        if logs or spins or await _spins(run):  # else it has had twice `SPINS_S`, and a timer needs a node that spins
+            await listen(run, since, lambda: has_service(run.graph.servers))
         share = (run.node_cpu_wait_s() - cpu_wait_s) / max(0.1, run.now() - listened_at)
         series = timer_series(all_series(logs_since(run.logs, since)))
         busy = share >= CPU_WAIT_SHARE and any(may_be_10_hz(each, share) for each in series if not each.is_10_hz)
@@ -90,10 +93,11 @@ async def _call_singly(bench: Bench, suspect: Callable[[CallAnswer], None]) -> t
     """The calls, and whether there was nothing wrong with the first; `suspect` is called as soon as there is."""
     async with bench.start(FILE) as run:
         bench.report_progress(0.1, f"waiting for {SERVICE}")
-        if not await _serves(run):
+        if not await _is_served(run):
             return SingleCalls(run.trace()), False
+        limit_s = await _answer_limit_s(run)
         bench.report_progress(0.2, f"calling {SERVICE}")
-        calls, well = await _call(bench, run, _operands, MOST_TRIES, suspect)
+        calls, well = await _call(bench, run, _operands, MOST_TRIES, suspect, limit_s=limit_s)
         later: Sequence[Call] = ()
         bench.report_facts(SingleCalls(run.trace(), tuple(calls), idle=await bench.facts(run_idle)))
         if well and run.exit is None:
@@ -108,6 +112,8 @@ async def _call(
     operands: Callable[[], Mapping[str, int]],
     most: int,
     suspect: Callable[[CallAnswer], None] = lambda answer: None,
+    *,
+    limit_s: float = ANSWER_S,
 ) -> tuple[list[Call], bool]:
     """Make a call, and again where a busy machine leaves it in doubt; and whether there was nothing wrong with it.
 
@@ -117,7 +123,7 @@ async def _call(
     series: Sequence[Series] = ()
     while not calls or (run.exit is None and needs_repeat(run.logs, calls, series, most)):
         lost_s = _lost_s(run)
-        answer = await run.call(SERVICE, TYPE, operands(), limit_s=ANSWER_S)
+        answer = await run.call(SERVICE, TYPE, operands(), limit_s=limit_s)
         lost_s = _lost_s(run) - lost_s
         bench.report_facts(SingleCalls(run.trace(), (*calls, Call(answer, run.now(), lost_s))))
         series = (await bench.facts(run_idle)).series
@@ -130,18 +136,23 @@ async def _call(
     return calls, last.answer.response is not None and well
 
 
-async def _serves(run: Run) -> bool:
-    """Wait for the service, and for the node to answer anything: it may be in the graph long before it spins."""
-    there = await wait_until_seen(run, lambda: has_service(run.graph.servers))
-    if there:
-        await _spins(run)
-    return there
+async def _is_served(run: Run) -> bool:
+    return await wait_until_seen(run, lambda: has_service(run.graph.servers))
 
 
-async def _spins(run: Run) -> None:
-    """Wait until the node answers what every node does, unless it never will."""
+async def _answer_limit_s(run: Run) -> float:
+    """How long a call may take: one that answers nothing yet has begun to spin and has done the work by then."""
+    return ANSWER_S if await _spins(run) else SPINS_S + LONGEST_S + EXCUSED_S
+
+
+async def _spins(run: Run) -> bool:
+    """Wait until the node answers what every node does; False where it could, and does not.
+
+    It may be in the graph long before it spins.
+    """
     if await run.until(lambda: bool(run.graph.parameter_nodes), IN_GRAPH_S):
-        await run.parameters(SPINS_S)
+        return await run.parameters(SPINS_S) is not None
+    return True
 
 
 def _lost_s(run: Run) -> float:
@@ -164,32 +175,33 @@ async def call_concurrently(bench: Bench) -> ConcurrentCalls:
     """Three calls at once, each with its own sum."""
     async with bench.start(FILE, expected_s=3.5) as run:
         bench.report_progress(0.1, f"waiting for {SERVICE}")
-        if not await _serves(run):
+        if not await _is_served(run):
             return ConcurrentCalls(run.trace())
+        limit_s = await _answer_limit_s(run)
         bench.report_progress(0.3, f"calling {SERVICE} three times at once")
         made: list[CallBatch] = []
         while not made or needs_repeat_at_once(ConcurrentCalls(run.trace(), tuple(made))):
             lost_s = _lost_s(run)
-            made.append(CallBatch(await _ask_at_once(run, _different()), _lost_s(run) - lost_s))
+            made.append(CallBatch(await _ask_at_once(run, _different(), limit_s), _lost_s(run) - lost_s))
         return ConcurrentCalls(run.trace(), tuple(made))
 
 
-async def _ask_at_once(run: Run, requests: Sequence[Mapping[str, int]]) -> tuple[CallAnswer, ...]:
-    """Make all calls at once; give up when none has been answered for as long as one call may take."""
+async def _ask_at_once(run: Run, requests: Sequence[Mapping[str, int]], limit_s: float) -> tuple[CallAnswer, ...]:
+    """Make all calls at once; give up when none has been answered for `limit_s`, as long as one call may take."""
     calls: list[asyncio.Task[CallAnswer]] = []
     asked_at = run.now()
     for request in requests:
         if len(calls) == len(requests) - 1:
             await run.until(lambda: run.now() >= asked_at + APART_S, 1.0)
-        calls.append(asyncio.create_task(run.call(SERVICE, TYPE, request, limit_s=len(requests) * ANSWER_S)))
+        calls.append(asyncio.create_task(run.call(SERVICE, TYPE, request, limit_s=len(requests) * limit_s)))
     while (answered := _done(calls)) < len(calls):
-        if not await run.until(lambda answered=answered: _done(calls) > answered, ANSWER_S):  # type: ignore[misc]
+        if not await run.until(lambda answered=answered: _done(calls) > answered, limit_s):  # type: ignore[misc]
             break
     for call in calls:
         call.cancel()
     await asyncio.gather(*calls, return_exceptions=True)
     return tuple(
-        CallAnswer(SERVICE, request, None, asked_at, run.now(), ANSWER_S) if call.cancelled() else call.result()
+        CallAnswer(SERVICE, request, None, asked_at, run.now(), limit_s) if call.cancelled() else call.result()
         for request, call in zip(requests, calls, strict=True)
     )
 
@@ -203,7 +215,9 @@ async def interrupt_during_call(bench: Bench) -> Interrupted:
     """Press Ctrl+C during a call."""
     async with bench.start(FILE, expected_s=2.0) as run:
         bench.report_progress(0.1, f"waiting for {SERVICE}")
-        called = await _serves(run)
+        called = await _is_served(run)
+        if called:
+            await _spins(run)
         call = asyncio.create_task(run.call(SERVICE, TYPE, _operands(), limit_s=ANSWER_S))
         try:
             if called:

@@ -62,7 +62,7 @@ for number in range(2 * len(os.sched_getaffinity(0))):
 ON_A_TERMINAL = """
 out, out_end = pty.openpty()
 check = subprocess.Popen(
-    [sys.executable, "-m", "tutor", "check", "i1.1", "--solution", "--criterion", "range"],
+    [sys.executable, "-m", "tutor", "check", "i1.3", "--solution", "--criterion", "services"],
     stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=out_end, env={**os.environ, "TERM": "xterm"},
 )
 os.close(out_end)
@@ -90,10 +90,10 @@ else:
 
 IN_THE_APP = """
 engine = subprocess.Popen(
-    [sys.executable, "-m", "tutor.engine", "i1.1", "lessons/i1_1/solution", "--criterion", "range"],
+    [sys.executable, "-m", "tutor.engine", "i1.3", "lessons/i1_3/solution", "--criterion", "services"],
     stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, text=True,
 )
-assert json.loads(engine.stdout.readline()) == {"event": "CheckStarted", "exercise": "i1.1", "criteria": ["range"]}
+assert json.loads(engine.stdout.readline()) == {"event": "CheckStarted", "exercise": "i1.3", "criteria": ["services"]}
 said = json.loads(engine.stdout.readline())
 assert (said["event"], said["doing"]) == ("Progress", "waiting for other checks on this machine"), said
 if sys.argv[1] == "press":
