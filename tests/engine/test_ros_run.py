@@ -16,6 +16,7 @@ from tutor.judge import tracebacks
 from tutor.judge.bench import Run
 from tutor.judge.causes import diagnose_process
 from tutor.judge.exceptions import parse
+from tutor.judge.trace import Echo
 from tutor.ros_model import QoS
 
 CHATTER = {"/chatter": "std_msgs/msg/String"}
@@ -256,6 +257,33 @@ async def test_an_answer_is_not_waited_for_when_the_node_waits_forever(scene: Sc
         )
         assert time.monotonic() - asked < 40
         assert (answered.response, parameters, ended, run.exit) == (None, None, False, None)
+
+
+LATCHED = """
+from rclpy.qos import DurabilityPolicy, QoSProfile
+publisher = node.create_publisher(String, "chatter", QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL))
+publisher.publish(String(data="once"))
+"""
+ONCE = """
+publisher = node.create_publisher(String, "chatter", 10)
+publisher.publish(String(data="once"))
+"""
+ENDS = "import os; node.create_timer(1.0, lambda: os._exit(0))\n"
+
+
+async def test_echo_waits_for_nothing_that_will_not_come(scene: Scene) -> None:
+    async def echo(program: str) -> Echo:
+        async with scene.bench(node(program)).start(FILE) as run:
+            assert await run.until(lambda: any(each.topic == "/chatter" for each in run.graph.publishers), 20)
+            return await run.echo("/chatter", samples=1, limit_s=60)
+
+    began = time.monotonic()
+    assert [sample.message["data"] for sample in (await echo(LATCHED)).samples] == ["once"]
+    for program in (ONCE, ONCE + ENDS):
+        shown = await echo(program)
+        assert (shown.types, shown.samples) == (("std_msgs/msg/String",), ())
+        assert shown.limit_s < 20
+    assert time.monotonic() - began < 40
 
 
 CALLS = """

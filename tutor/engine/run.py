@@ -307,7 +307,17 @@ class RosRun:
             talker.close()
 
     async def echo(self, topic: str, *, samples: int, limit_s: float) -> Echo:
-        shown = await echo.echo_topic(self._domain_id, topic, samples=samples, limit_s=limit_s)
+        over = asyncio.Event()
+        echoing = asyncio.ensure_future(
+            echo.echo_topic(self._domain_id, topic, samples=samples, limit_s=limit_s, over=over)
+        )
+        echoing.add_done_callback(lambda _: self._facts.change())
+        try:
+            await self.until(echoing.done, limit_s, idle_s=RESENT_S)
+            over.set()
+            shown = await echoing
+        finally:
+            echoing.cancel()
         # echo asks a graph that has long settled; a newcomer may not have met every publisher yet.
         settled = {endpoint.type for endpoint in self.graph.publishers if endpoint.topic == topic}
         return replace(shown, types=tuple(sorted(settled.union(shown.types))))

@@ -11,16 +11,21 @@ from tutor.ros.qos import from_rclpy
 from tutor.ros_model import QoS, echo_qos
 
 
-async def echo_topic(domain_id: int, topic: str, *, samples: int, limit_s: float) -> Echo:
-    """Join as a new participant, choose type and QoS, get `samples` messages of `topic` within `limit_s` seconds."""
+async def echo_topic(domain_id: int, topic: str, *, samples: int, limit_s: float, over: asyncio.Event) -> Echo:
+    """Join as a new participant, choose type and QoS, get `samples` messages of `topic` within `limit_s` seconds.
+
+    It ends sooner where `over` is set: nothing more is to come.
+    """
     changed = asyncio.Event()
     observer = Observer(domain_id, changed.set)
     loop = asyncio.get_running_loop()
-    deadline = loop.time() + limit_s
+    began, ending = loop.time(), asyncio.ensure_future(over.wait())
+    deadline = began + limit_s
+    ending.add_done_callback(lambda _: changed.set())
     try:
         types: tuple[str, ...] = ()
         qos = QoS()
-        while loop.time() < deadline:
+        while loop.time() < deadline and not over.is_set():
             publishers = observer.node.get_publishers_info_by_topic(topic)
             types = tuple(sorted({info.topic_type for info in publishers}))
             if publishers:
@@ -32,7 +37,12 @@ async def echo_topic(domain_id: int, topic: str, *, samples: int, limit_s: float
                 observer.watch(topic, types[0], qos)
             except UnknownType:
                 types = ()
-        while topic in observer.samples and len(observer.samples[topic]) < samples and loop.time() < deadline:
+        while (
+            topic in observer.samples
+            and len(observer.samples[topic]) < samples
+            and loop.time() < deadline
+            and not over.is_set()
+        ):
             changed.clear()
             try:
                 await asyncio.wait_for(changed.wait(), deadline - loop.time())
@@ -43,7 +53,8 @@ async def echo_topic(domain_id: int, topic: str, *, samples: int, limit_s: float
             types=types,
             qos=qos,
             samples=tuple(observer.samples.get(topic, ())),
-            limit_s=limit_s,
+            limit_s=round(loop.time() - began, 1) if over.is_set() else limit_s,
         )
     finally:
+        ending.cancel()
         observer.close()
