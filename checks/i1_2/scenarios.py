@@ -31,7 +31,7 @@ from checks.i1_2.summaries import find_summaries, milestone
 from tutor.judge.bench import Bench, Publisher, Run
 from tutor.judge.ending import repeat_if_doubtful
 from tutor.judge.tracebacks import Frame
-from tutor.judge.waiting import settle_s, wait_until_log_quiet, wait_until_seen
+from tutor.judge.waiting import patience_s, wait_until_log_quiet, wait_until_seen
 
 SPIN_S = 2.0
 """A node that is subscribed and spins answers a request within this time; for one that sleeps first, twice as long."""
@@ -140,7 +140,7 @@ async def _wait_for_match(run: Run, talker: Publisher, settled_s: float) -> bool
         lambda: talker.subscribers > 0,
         promised=announced,
         rare_s=1.0,
-        settle_s=lambda: settle_s(((each.topic, each.type) for each in run.graph.subscriptions), TOPIC, TYPE),
+        settle_s=lambda: patience_s(((each.topic, each.type) for each in run.graph.subscriptions), TOPIC, TYPE),
     )
     met_at = run.now()
     if run.exit is not None:

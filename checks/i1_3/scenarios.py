@@ -33,7 +33,7 @@ from tutor.judge.bench import Bench, Run
 from tutor.judge.ending import repeat_if_doubtful
 from tutor.judge.trace import CallAnswer, Trace
 from tutor.judge.tracebacks import Frame
-from tutor.judge.waiting import SETTLE_S, settle_s, wait_until_log_quiet, wait_until_seen
+from tutor.judge.waiting import SETTLE_S, patience_s, wait_until_log_quiet, wait_until_seen
 from tutor.ros_model import Graph, ServiceEndpoint
 
 DYING_S = 10.0
@@ -76,7 +76,7 @@ async def _services(run: Run) -> bool:
 
     def limit_s() -> float:
         there = [(each.name, each.type) for each in run.graph.servers if each.name not in SIGNS or each.type != TYPE]
-        return min((settle_s(there, name, TYPE) for name in missing_services(run.graph.servers)), default=SETTLE_S)
+        return min((patience_s(there, name, TYPE) for name in missing_services(run.graph.servers)), default=SETTLE_S)
 
     await wait_until_seen(run, all_there, settle_s=limit_s)
     return known

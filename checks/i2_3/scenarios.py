@@ -201,7 +201,7 @@ async def _ask_at_once(run: Run, requests: Sequence[Mapping[str, int]], limit_s:
         call.cancel()
     await asyncio.gather(*calls, return_exceptions=True)
     return tuple(
-        CallAnswer(SERVICE, request, None, asked_at, run.now(), limit_s) if call.cancelled() else call.result()
+        CallAnswer(SERVICE, request, None, asked_at, run.now()) if call.cancelled() else call.result()
         for request, call in zip(requests, calls, strict=True)
     )
 

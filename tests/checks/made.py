@@ -127,7 +127,7 @@ def called(service: str, a: int, b: int, result: int | None) -> CallAnswer:
     """A call; `result` None: no answer."""
     response = None if result is None else {"sum": result}
     took_s = 5.0 if result is None else 0.01
-    return CallAnswer(service, {"a": a, "b": b}, response, START, START + took_s, 5.0)
+    return CallAnswer(service, {"a": a, "b": b}, response, START, START + took_s)
 
 
 def frame(function: str, path: str = f"{FOLDER}/node.py", line: int = 12, code: str = "pass") -> Frame:

@@ -94,7 +94,7 @@ def seen_in(logs: Sequence[LogRecord]) -> tuple[Series, ...]:
 
 def answer(took_s: float = 3.01, a: int = 5, b: int = 3, sum_: int | None = 8, asked_at: float = ASKED) -> CallAnswer:
     response = None if sum_ is None else {"sum": sum_}
-    return CallAnswer(SERVICE, {"a": a, "b": b}, response, asked_at, asked_at + took_s, 12.0)
+    return CallAnswer(SERVICE, {"a": a, "b": b}, response, asked_at, asked_at + took_s)
 
 
 def single_calls(

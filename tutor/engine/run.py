@@ -295,7 +295,6 @@ class RosRun:
             response=None if response is None else to_plain(response),
             asked_at=asked,
             answered_at=time.time(),
-            limit_s=limit_s,
         )
 
     @asynccontextmanager

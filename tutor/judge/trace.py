@@ -106,14 +106,13 @@ class SetAnswer:
 
 @dataclass(frozen=True, slots=True)
 class CallAnswer:
-    """The answer to one service call. `response` is None where none came within `limit_s` seconds, or ever would."""
+    """The answer to one service call. `response` is None where none came within the limit, or ever would."""
 
     service: str
     request: Mapping[str, Any]
     response: Mapping[str, Any] | None
     asked_at: float
     answered_at: float
-    limit_s: float
 
     @property
     def took_s(self) -> float:

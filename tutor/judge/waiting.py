@@ -82,7 +82,7 @@ async def wait_until_seen(
     return seen()
 
 
-def settle_s(there: Iterable[tuple[str, str]], name: str, type_name: str) -> float:
+def patience_s(there: Iterable[tuple[str, str]], name: str, type_name: str) -> float:
     """How long to wait for an endpoint of this name and type, when the node has `there`, as (name, type) each."""
     others = [other for other, kind in there if (other == name) != (kind == type_name)]
     if name in others:
@@ -98,7 +98,7 @@ async def wait_for_message(run: Run, topic: str, type_name: str, *, rare_s: floa
         promised=lambda: any(p.topic == topic and p.type == type_name for p in run.graph.publishers),
         rare_s=rare_s,
         idle_s=IDLE_S,
-        settle_s=lambda: settle_s(((p.topic, p.type) for p in run.graph.publishers), topic, type_name),
+        settle_s=lambda: patience_s(((p.topic, p.type) for p in run.graph.publishers), topic, type_name),
     )
 
 
