@@ -21,7 +21,14 @@ from tutor.judge.randomness import FULL_SAMPLE_SIZE, MIN_SAMPLE_SIZE, find_patte
 
 TRIALS = 500
 
-chance = random.Random(20260101)
+SEED = 20260101
+chance = random.Random(SEED)
+
+
+@pytest.fixture(autouse=True)
+def same_chance() -> None:
+    """Each test draws the same values, whichever ran before it."""
+    chance.seed(SEED)
 
 
 def drawn(draw: Callable[[], float]) -> Callable[[int], list[float]]:
