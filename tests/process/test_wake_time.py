@@ -30,11 +30,12 @@ def running(code: str) -> Iterator[int]:
 
 
 def waiting(pid: int) -> NextWake:
-    """What it waits for, once it does."""
-    deadline = time.monotonic() + LIMIT_S
-    while (found := next_wake([pid])).at == 0.0:
+    """What it waits for, once it does and has not run for a moment: its threads are looked at one after another."""
+    deadline, before = time.monotonic() + LIMIT_S, NextWake()
+    while (found := next_wake([pid])).at == 0.0 or found.timeslices != before.timeslices:
         assert time.monotonic() < deadline
-        time.sleep(0.01)
+        before = found
+        time.sleep(0.05)
     return found
 
 
