@@ -480,6 +480,11 @@ def test_a_client_is_tried_again_where_the_machine_may_be_why_it_called_nothing(
     assert replace(demonstration(served, code), cpu_wait_s=cpu_wait_s).slowed is again
 
 
+def test_a_client_that_cannot_be_connected_is_not_tried_again() -> None:
+    unconnected = (ServiceEndpoint("/add", "example_interfaces/srv/AddTwoInts", "/client", "best_effort"),)
+    assert not replace(demonstration((), 1), cpu_wait_s=2.5, clients=unconnected).slowed
+
+
 def test_a_client_that_waits_for_nothing_is_not_said_to_have_been_watched_to_the_end() -> None:
     hanging = demonstration(SERVED[:1], None)
     assert "still running after 15 s" in judge_client(hanging).observed
