@@ -55,12 +55,14 @@ async def run_idle(bench: Bench) -> IdleRun:
     async with bench.start(FILE) as run:  # first, like `call_singly`, which waits for it
         bench.report_progress(0.1, "waiting for the timer's log messages")
         await wait_until_seen(run, lambda: bool(run.graph.nodes))
-        spins = await _spins(run)
+        up_at = run.now()
+        may_tick = await _spins(run) or bool(logs_since(run.logs, up_at))  # a timer needs a node that spins
         since = run.now()
-        logs = await wait_until_seen(run, lambda: bool(logs_since(run.logs, since)), idle_s=IDLE_S)
+        if may_tick:
+            await wait_until_seen(run, lambda: bool(logs_since(run.logs, since)), idle_s=IDLE_S)
         listened_at, cpu_wait_s = run.now(), run.node_cpu_wait_s()
         bench.report_progress(0.3, "listening to the timer")
-        if logs or spins or await _spins(run):  # else it has had twice `SPINS_S`, and a timer needs a node that spins
+        if may_tick:
             await listen(run, since, lambda: has_service(run.graph.servers))
         share = (run.node_cpu_wait_s() - cpu_wait_s) / max(0.1, run.now() - listened_at)
         series = timer_series(all_series(logs_since(run.logs, since)))
@@ -80,7 +82,7 @@ async def call_singly(bench: Bench) -> SingleCalls:
     try:
         seen, well = await _call_singly(bench, suspect)
         if seen.calls and seen.trace.exit is None and not well:
-            stuck, spins = await (looking[0] if looking else _stuck(bench, seen.calls[-1].answer))
+            stuck, spins = await (looking[-1] if looking else _stuck(bench, seen.calls[-1].answer))
             return replace(seen, stuck=stuck, spins=spins)
         return seen
     finally:
@@ -90,12 +92,14 @@ async def call_singly(bench: Bench) -> SingleCalls:
 
 
 async def _call_singly(bench: Bench, suspect: Callable[[CallAnswer], None]) -> tuple[SingleCalls, bool]:
-    """The calls, and whether there was nothing wrong with the first; `suspect` is called as soon as there is."""
+    """The calls, and whether there was nothing wrong with the first; `suspect` is called as soon as there may be."""
     async with bench.start(FILE) as run:
         bench.report_progress(0.1, f"waiting for {SERVICE}")
         if not await _is_served(run):
             return SingleCalls(run.trace()), False
         limit_s = await _answer_limit_s(run)
+        if limit_s < ANSWER_S:
+            suspect(CallAnswer(SERVICE, _operands(), None, run.now(), run.now()))
         bench.report_progress(0.2, f"calling {SERVICE}")
         calls, well = await _call(bench, run, _operands, MOST_TRIES, suspect, limit_s=limit_s)
         later: Sequence[Call] = ()
