@@ -48,7 +48,11 @@ class Clock:
         ([(0.0, "/status", "std_msgs/msg/String")], SETTLE_S),
         ([(0.0, TOPIC, "std_msgs/msg/String")], OTHER_TYPE_S),
         ([(0.0, "/temperature", TYPE)], OTHER_NAME_S),
+        ([(2.0, "/temperature", TYPE)], 2.0 + OTHER_NAME_S),
+        ([(4.0, "/temperature", TYPE)], SETTLE_S),
         ([(0.0, "/temperature", TYPE), (2.0, TOPIC, TYPE)], 2.0 + RARE_S),
+        ([(3.0, "/temperature", TYPE), (3.25, TOPIC, TYPE)], 3.25 + RARE_S),
+        ([(3.0, TOPIC, "std_msgs/msg/String"), (3.25, TOPIC, TYPE)], 3.25 + RARE_S),
     ],
 )
 async def test_what_is_there_says_how_long_to_wait(

@@ -65,14 +65,17 @@ async def wait_until_seen(
 
     `promised()`: something announces that it will come, such as a publisher on the topic; then `rare_s` more seconds
     are waited for it. `idle_s`: give up, too, when the node has been idle for that long (see `Run.until`); leave it as
-    it is for what is in the graph, which may reach us later than it is done. `settle_s()`: how long a node that is up
-    may take until something is seen or promised, by what is known of it by then; no longer than `SETTLE_S`.
+    it is for what is in the graph, which may reach us later than it is done. `settle_s()`: how much
+    longer, by what is known of the node now, something may take to be seen or promised; `SETTLE_S` in all, at most.
     """
     if await run.until(lambda: seen() or bool(run.graph.nodes), START_S, idle_s=NO_NODE_S) and not seen():
-        up_at, cpu_wait_s = run.now(), run.node_cpu_wait_s()
+        limit_s, since, cpu_wait_s = SETTLE_S, run.now(), run.node_cpu_wait_s()
 
         def settled() -> bool:
-            return run.now() - up_at - (run.node_cpu_wait_s() - cpu_wait_s) >= settle_s()
+            nonlocal limit_s, since, cpu_wait_s
+            if (now_s := settle_s()) != limit_s:  # what says so has just come, and more may come with it
+                limit_s, since, cpu_wait_s = now_s, run.now(), run.node_cpu_wait_s()
+            return run.now() - since - (run.node_cpu_wait_s() - cpu_wait_s) >= limit_s
 
         await run.until(lambda: seen() or promised() or settled(), SETTLE_S, idle_s=idle_s)
         if not seen() and not promised():
