@@ -46,7 +46,7 @@ def judge_blocks(seen: SingleCalls, several: ConcurrentCalls) -> Verdict:
 
 
 def judge_blocks_so_far(seen: SingleCalls) -> Verdict | None:
-    """Judge `blocks` by the calls that have been answered by now."""
+    """Judge `blocks` by the first call and its repetitions, if any was answered."""
     return _followed(_judge_answer(seen), seen.trace) if seen.quickest is not None else None
 
 

@@ -76,13 +76,14 @@ async def call_singly(bench: Bench) -> SingleCalls:
     """Call the service, then once more, and watch the timer meanwhile and until it is seen again."""
     looking: list[asyncio.Task[tuple[tuple[Frame, ...], bool]]] = []
 
-    def suspect(answer: CallAnswer) -> None:
-        looking.append(asyncio.ensure_future(_stuck(bench, answer)))
+    def suspect(answers: bool) -> None:
+        looking.append(asyncio.ensure_future(_stuck(bench, answers=answers)))
 
     try:
         seen, well = await _call_singly(bench, suspect)
         if seen.calls and seen.trace.exit is None and not well:
-            stuck, spins = await (looking[-1] if looking else _stuck(bench, seen.calls[-1].answer))
+            answers = seen.calls[-1].answer.response is not None
+            stuck, spins = await (looking[-1] if looking else _stuck(bench, answers=answers))
             return replace(seen, stuck=stuck, spins=spins)
         return seen
     finally:
@@ -91,17 +92,19 @@ async def call_singly(bench: Bench) -> SingleCalls:
         await asyncio.gather(*looking, return_exceptions=True)
 
 
-async def _call_singly(bench: Bench, suspect: Callable[[CallAnswer], None]) -> tuple[SingleCalls, bool]:
-    """The calls, and whether there was nothing wrong with the first; `suspect` is called as soon as there may be."""
+async def _call_singly(bench: Bench, suspect: Callable[[bool], None]) -> tuple[SingleCalls, bool]:
+    """The calls, and whether there was nothing wrong with the first.
+
+    `suspect` is called as soon as there may be, with whether the node answers.
+    """
     async with bench.start(FILE) as run:
         bench.report_progress(0.1, f"waiting for {SERVICE}")
         if not await _is_served(run):
             return SingleCalls(run.trace()), False
-        limit_s = await _answer_limit_s(run)
-        if limit_s < ANSWER_S:
-            suspect(CallAnswer(SERVICE, _operands(), None, run.now(), run.now()))
+        if not (spins := await _spins(run)):
+            suspect(False)
         bench.report_progress(0.2, f"calling {SERVICE}")
-        calls, well = await _call(bench, run, _operands, MOST_TRIES, suspect, limit_s=limit_s)
+        calls, well = await _call(bench, run, _operands, MOST_TRIES, suspect, limit_s=_answer_limit_s(spins))
         later: Sequence[Call] = ()
         bench.report_facts(SingleCalls(run.trace(), tuple(calls), idle=await bench.facts(run_idle)))
         if well and run.exit is None:
@@ -115,7 +118,7 @@ async def _call(
     run: Run,
     operands: Callable[[], Mapping[str, int]],
     most: int,
-    suspect: Callable[[CallAnswer], None] = lambda answer: None,
+    suspect: Callable[[bool], None] = lambda answers: None,
     *,
     limit_s: float = ANSWER_S,
 ) -> tuple[list[Call], bool]:
@@ -129,24 +132,24 @@ async def _call(
         lost_s = _lost_s(run)
         answer = await run.call(SERVICE, TYPE, operands(), limit_s=limit_s)
         lost_s = _lost_s(run) - lost_s
-        bench.report_facts(SingleCalls(run.trace(), (*calls, Call(answer, run.now(), lost_s))))
         series = (await bench.facts(run_idle)).series
         await next_tick(run, series, answer)
         calls.append(Call(answer, run.now(), lost_s))
         if len(calls) == 1 and run.exit is None and is_disturbed(run.logs, calls[0], series):
-            suspect(answer)
+            suspect(answer.response is not None)
     last = calls[-1]
     well = not is_disturbed(run.logs, last, series) or is_excused(run.logs, last, series)
     return calls, last.answer.response is not None and well
 
 
 async def _is_served(run: Run) -> bool:
+    """Wait for the service, and give whether it is there."""
     return await wait_until_seen(run, lambda: has_service(run.graph.servers))
 
 
-async def _answer_limit_s(run: Run) -> float:
-    """How long a call may take: one that answers nothing yet has begun to spin and has done the work by then."""
-    return ANSWER_S if await _spins(run) else SPINS_S + LONGEST_S + EXCUSED_S
+def _answer_limit_s(spins: bool) -> float:
+    """How long a call may take: a node that answers nothing yet has begun to spin, and done the work, by then."""
+    return ANSWER_S if spins else SPINS_S + LONGEST_S + EXCUSED_S
 
 
 async def _spins(run: Run) -> bool:
@@ -163,15 +166,15 @@ def _lost_s(run: Run) -> float:
     return run.node_cpu_wait_s() + run.our_cpu_wait_s()
 
 
-async def _stuck(bench: Bench, before: CallAnswer) -> tuple[tuple[Frame, ...], bool]:
+async def _stuck(bench: Bench, *, answers: bool) -> tuple[tuple[Frame, ...], bool]:
     """Call once more, only to see where the node is while it works on the call, and whether it spins at all."""
     async with bench.start(FILE) as run:
         bench.report_progress(0.9, "looking where the node is during a call")
-        await wait_until_seen(run, lambda: has_service(run.graph.servers))
+        await _is_served(run)
         spins = await run.parameters(2.0) is not None
         # A callback that answers is in the middle of its work; one that does not may come to a halt after it.
-        into_s = WORK_S / 2 if before.response is not None else WORK_S + 0.5
-        await run.call(SERVICE, TYPE, before.request, limit_s=into_s)
+        into_s = WORK_S / 2 if answers else WORK_S + 0.5
+        await run.call(SERVICE, TYPE, _operands(), limit_s=into_s)
         return await run.dump_stacks(), spins
 
 
@@ -181,7 +184,7 @@ async def call_concurrently(bench: Bench) -> ConcurrentCalls:
         bench.report_progress(0.1, f"waiting for {SERVICE}")
         if not await _is_served(run):
             return ConcurrentCalls(run.trace())
-        limit_s = await _answer_limit_s(run)
+        limit_s = _answer_limit_s(await _spins(run))
         bench.report_progress(0.3, f"calling {SERVICE} three times at once")
         made: list[CallBatch] = []
         while not made or needs_repeat_at_once(ConcurrentCalls(run.trace(), tuple(made))):
