@@ -228,7 +228,7 @@ def judge_slow_summary(steady: Trial, jump: Trial) -> Verdict:
 
 def judge_silence(fast: Trial) -> Verdict | None:
     """Judge `summary` by the fast stretch alone, where the node takes part in all and logs nothing of any message."""
-    if not fast.spins or fast.lines or len(fast.sent) < FAST_MESSAGES:
+    if not fast.spins or fast.lines or len(fast.sent) < FAST_MESSAGES or not backlog.fast_enough(fast):
         return None
     observed = f"none, after {len(fast.sent)} messages"
     return failed(EXPECTED_SUMMARY, observed, diagnose_no_summary(fast), _logged(fast))
