@@ -6,6 +6,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from tutor.judge import causes
 from tutor.judge.trace import CallAnswer, Ending, Exit, Level, LogRecord, OutputLine, ServedRequest, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.wording import shape
@@ -132,7 +133,7 @@ class ClientRun:
 
         One whose clients cannot be connected would have looked in vain at any time.
         """
-        if self.served or any(client.reliability == "best_effort" for client in self.clients):
+        if self.served or causes.diagnose_incompatible_service(self.clients) is not None:
             return False
         return self.cpu_wait_s >= (ROUGH_S if self.exit is not None else MUCH_S)
 

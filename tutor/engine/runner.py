@@ -202,13 +202,15 @@ class Runner:
 
     def _take_facts(self, scenario: Scenario[Any], facts: object) -> None:
         """Judge what a scenario has seen so far: a failure that is sure by now is final."""
+        if was_slowed(facts):
+            return
         for criterion in self._check.criteria:
             early = self._early.get(criterion.id)
             for reports, judge in criterion.early:
-                if early is None or early.done() or reports is not scenario or was_slowed(facts):
+                if early is None or early.done() or reports is not scenario:
                     continue
                 verdict = judge(facts)
-                if verdict is not None and verdict.status is Status.FAILED and not isinstance(verdict, Undecided):
+                if verdict is not None and verdict.status is Status.FAILED:
                     early.set_result(verdict)
 
     async def _judge_whole_or_early(self, criterion: Criterion) -> Verdict:
