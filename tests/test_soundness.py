@@ -37,9 +37,10 @@ ALL = sorted(_HERE, key=lambda case: not case.expected.keeps_busy)
 
 
 @pytest.fixture(scope="module")
-def outcomes() -> Iterator[dict[str, Future[Outcome]]]:
-    """The outcome of each case, as it comes: several are judged at a time, since a check mostly waits."""
-    futures: dict[str, Future[Outcome]] = {str(case): Future() for case in ALL}
+def outcomes(request: pytest.FixtureRequest) -> Iterator[dict[str, Future[Outcome]]]:
+    """The outcome of each selected case, as it comes: several are judged at a time, since a check mostly waits."""
+    selected = [item.callspec.params["case"] for item in request.session.items if hasattr(item, "callspec")]
+    futures: dict[str, Future[Outcome]] = {str(case): Future() for case in selected}
 
     async def one(case: Case, free: asyncio.Semaphore, alone: asyncio.Lock) -> None:
         async with alone if case.expected.keeps_busy else nullcontext(), free:
@@ -53,7 +54,7 @@ def outcomes() -> Iterator[dict[str, Future[Outcome]]]:
     async def everything() -> None:
         free = asyncio.Semaphore(JOBS)
         alone = asyncio.Lock()
-        await asyncio.gather(*(one(case, free, alone) for case in ALL))
+        await asyncio.gather(*(one(case, free, alone) for case in selected))
 
     loop = asyncio.new_event_loop()
     task = loop.create_task(everything())
