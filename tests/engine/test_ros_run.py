@@ -377,9 +377,14 @@ async def test_a_flood_neither_hangs_nor_grows_without_bound(scene: Scene, monke
 BIG = """
 publisher = node.create_publisher(String, "chatter", 10)
 node.declare_parameter("name", "x" * 100_000)
+sent = 0
 def big():
-    publisher.publish(String(data="x" * 1_000_000))
-    node.get_logger().info("y" * 1_000_000)
+    global sent
+    publisher.publish(String(data="x" * 250_000))
+    node.get_logger().info("y" * 250_000)
+    sent += 1
+    if sent == 40:
+        print("sent 40")
 node.create_timer(0.02, big)
 """
 
@@ -389,9 +394,10 @@ async def test_big_messages_are_cut_and_no_more_is_taken_than_can_be_kept(
 ) -> None:
     from tutor.ros import intake, messages, observer
 
-    monkeypatch.setattr(intake, "MOST_BYTES", 1_000_000)
+    monkeypatch.setattr(intake, "MOST_BYTES", 250_000)
     async with scene.bench(node(BIG)).start(FILE, watch=CHATTER) as run:
         assert await run.until(lambda: len(run.samples_on("/chatter")) >= 5 and len(run.logs) >= 6, UP_S)
+        assert await run.until(lambda: any(line.text == "sent 40" for line in run.output), UP_S)
         declared = await run.parameters(10)
         trace = run.trace()
     assert {len(sample.message["data"]) for sample in trace.samples_on("/chatter")} == {messages.MOST_CHARACTERS}
