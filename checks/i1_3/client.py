@@ -84,6 +84,9 @@ def _with_step(cause: Cause, seen: ClientRun) -> Cause:
     raised = own_frame.code if found is not None and (own_frame := found.own(trace.folder)) is not None else ""
     if cause.name == "did not end" and own is not None and "sleep(" in own.code:
         fixes: Sequence[_Step] = [partial(_without, names=("sleep",))]
+    elif cause.name == "did not end" and own is not None and ".wait(" in own.code:
+        line, file_name = own.line, own.name
+        fixes = [lambda code, *_: client_requests.set_event(code, line) if code.file == file_name else None]
     elif cause.name == "did not end" and not _missing(seen) and source.calls(trace, "Thread"):
         fixes = [lambda code, *_: steps.shut_down_rclpy(code)]
     else:

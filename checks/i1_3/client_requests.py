@@ -131,6 +131,50 @@ def _answer_to(code: Code, asked: ast.Assign, future: str, change: Changes) -> N
                 change.swaps.append((each.value, f"{future}.result()"))
 
 
+def set_event(code: Code, line: int) -> str | None:
+    """The step by which an answer ends the wait for an event on this line (1-based), where nothing sets the event."""
+    waits = [call for call in code.calls("wait") if call.lineno == line and isinstance(call.func, ast.Attribute)]
+    made = [each for each in code.nodes if isinstance(each, ast.Assign) and _makes_event(each.value)]
+    asked = [
+        each
+        for call, _ in find_requests(code, "call_async")
+        if isinstance(each := code.statement(call), ast.Assign) and each.value is call
+    ]
+    for wait in waits:
+        assert isinstance(wait.func, ast.Attribute)
+        event = ast.unparse(wait.func.value)
+        makes = next((each for each in made if ast.unparse(each.targets[0]) == event), None)
+        if makes is None or not asked or _is_set(code, event):
+            continue
+        if not code.calls("Thread"):  # nothing takes the answer in while this thread waits
+            same = [each for each in asked if code.function_around(each) is code.function_around(wait)]
+            spin = [f"{_spin(code)}({code.node(each)}, {_future(each)})" for each in same]
+            change = edits.replace_statement(code.statement(wait), spin[0]) if len(spin) == 1 else None
+            return code.as_step(change, code.importing("rclpy")) if change is not None else None
+        changes = []
+        for each in asked:
+            callback = f"{_future(each)}.add_done_callback(lambda _: {event}.set())"
+            fresh = next(code.ancestors(each)) is next(code.ancestors(makes))  # made for each request
+            changes.append(edits.insert_after(each, callback if fresh else f"{event}.clear()\n{callback}"))
+        return code.as_step(changes)
+    return None
+
+
+def _makes_event(value: ast.expr) -> bool:
+    return isinstance(value, ast.Call) and source.called_name(value) == "Event"
+
+
+def _is_set(code: Code, event: str) -> bool:
+    """Whether something sets an event of this name, or of its last part (`self.answered`, `client.answered`)."""
+    name = event.rpartition(".")[2]
+    setters = (each.value for each in code.nodes if isinstance(each, ast.Attribute) and each.attr == "set")
+    return any(ast.unparse(each).rpartition(".")[2] == name for each in setters)
+
+
+def _future(asked: ast.Assign) -> str:
+    return ast.unparse(asked.targets[0])
+
+
 def _of(call: ast.Call) -> Iterator[ast.expr]:
     yield from call.args
     yield from (each.value for each in call.keywords)

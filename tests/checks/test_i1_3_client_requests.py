@@ -204,3 +204,39 @@ def test_what_is_not_called_comes_into_the_list(text: str, after: str | None) ->
 )
 def test_a_program_that_did_all_its_work_ends_with_0(text: str, after: str | None) -> None:
     assert followed(text, steps.end_with_zero) == after
+
+
+WAITS = """\
+node = rclpy.create_node("client")
+{spins}client = node.create_client(AddTwoInts, "add")
+{before}for a in (1, 2):
+{within}    future = client.call_async(AddTwoInts.Request(a=a))
+{wait}    print(future.result())
+"""
+SPINS = "threading.Thread(target=rclpy.spin, args=(node,)).start()\n"
+MADE = "answered = threading.Event()\n"
+CALLBACK = "    future.add_done_callback(lambda _: answered.set())\n"
+WAIT = "    answered.wait()\n"
+
+
+def _ending_the_wait(text: str) -> str | None:
+    line = (HEAD + text).splitlines().index(WAIT.rstrip()) + 1
+    return followed(text, lambda code: client_requests.set_event(code, line))
+
+
+@pytest.mark.parametrize(
+    ("spins", "before", "within", "instead"),
+    [
+        pytest.param(SPINS, "", f"    {MADE}", CALLBACK + WAIT, id="an event for each answer"),
+        pytest.param(SPINS, MADE, "", f"    answered.clear()\n{CALLBACK}{WAIT}", id="one event for all"),
+        pytest.param("", MADE, "", "    rclpy.spin_until_future_complete(node, future)\n", id="nothing spins"),
+    ],
+)
+def test_an_event_that_nothing_sets_is_set_by_the_answer(spins: str, before: str, within: str, instead: str) -> None:
+    text = WAITS.format(spins=spins, before=before, within=within, wait=WAIT)
+    assert _ending_the_wait(text) == WAITS.format(spins=spins, before=before, within=within, wait=instead)
+
+
+@pytest.mark.parametrize("sets", ["answered.set()\n", "node.on_answer = answered.set\n"])
+def test_an_event_that_something_sets_is_left_alone(sets: str) -> None:
+    assert _ending_the_wait(WAITS.format(spins=SPINS, before=MADE + sets, within="", wait=WAIT)) is None
