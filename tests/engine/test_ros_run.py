@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import time
+import warnings
 from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
@@ -317,6 +318,17 @@ async def test_a_server_of_ours_that_breaks_is_our_fault(scene: Scene) -> None:
         run.serve("/add", ADD, broken)
         with pytest.raises(EngineError, match="ours"):
             await run.until(lambda: run.exit is not None, UP_S)
+
+
+async def test_no_word_is_said_of_a_client_that_left_before_its_answer(scene: Scene) -> None:
+    def answer_too_late(request: Mapping[str, Any]) -> Mapping[str, Any]:
+        # What rclpy says when it sends such an answer; a warning is an error in the tests, and would end the executor.
+        warnings.warn("failed to send response (timeout): client will not receive response", RuntimeWarning, 1)
+        return {"sum": 9}
+
+    async with scene.bench(node(CALLS)).start(FILE) as run:
+        run.serve("/add", ADD, answer_too_late)
+        assert await run.until(lambda: run.exit is not None, UP_S)
 
 
 async def test_a_process_that_ignores_ctrl_c_is_still_there_and_then_gone(scene: Scene) -> None:

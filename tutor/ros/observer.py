@@ -8,6 +8,7 @@ import functools
 import itertools
 import threading
 import time
+import warnings
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -120,6 +121,8 @@ class Observer:
             self._hand_to_loop(on_served, asked, answered)
             return set_fields(response, answered)
 
+        # Of a client that ended before its answer, rclpy warns on stderr; it is no fault of ours.
+        warnings.filterwarnings("ignore", "failed to send response", RuntimeWarning)
         self._servers.append(
             self.node.create_service(interface_class(type_name), service, answer, callback_group=self._gate)
         )
