@@ -43,7 +43,9 @@ ALL = sorted(_HERE, key=lambda case: not case.expected.keeps_busy)
 @pytest.fixture(scope="module")
 def outcomes(request: pytest.FixtureRequest) -> Iterator[dict[str, Future[Outcome]]]:
     """The outcome of each selected case, as it comes: several are judged at a time, since a check mostly waits."""
-    selected = [item.callspec.params["case"] for item in request.session.items if hasattr(item, "callspec")]
+    items = [item for item in request.session.items if isinstance(item, pytest.Function)]
+    params = [item.callspec.params["case"] for item in items if "outcomes" in item.fixturenames]
+    selected = [case for case in params if isinstance(case, Case)]
     futures: dict[str, Future[Outcome]] = {str(case): Future() for case in selected}
 
     async def one(case: Case, free: asyncio.Semaphore, alone: asyncio.Lock) -> None:

@@ -84,13 +84,13 @@ def _with_step(cause: Cause, seen: ClientRun) -> Cause:
     raised = own_frame.code if found is not None and (own_frame := found.own(trace.folder)) is not None else ""
     if cause.name == "did not end" and own is not None and "sleep(" in own.code:
         fixes: Sequence[_Step] = [partial(_without, names=("sleep",))]
-    elif cause.name == "did not end" and own is not None and ".wait(" in own.code:
-        line, file_name = own.line, own.name
-        fixes = [lambda code, *_: client_requests.set_event(code, line) if code.file == file_name else None]
     elif cause.name == "did not end" and not _missing(seen) and source.calls(trace, "Thread"):
         fixes = [lambda code, *_: steps.shut_down_rclpy(code)]
     else:
         fixes = _STEPS.get(cause.name, [])
+    if cause.name == "did not end" and own is not None and ".wait(" in own.code:
+        line, file_name = own.line, own.name
+        fixes = [lambda code, *_: client_requests.set_event(code, line) if code.file == file_name else None, *fixes]
     first = bool(fixes) or _is_due_to_no_answer(found)
     if "input(" in raised or (own is not None and "input(" in own.code):
         fixes, first = [lambda code, *_: steps.remove_input(code)], True

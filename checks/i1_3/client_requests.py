@@ -133,35 +133,26 @@ def _answer_to(code: Code, asked: ast.Assign, future: str, change: Changes) -> N
 
 def set_event(code: Code, line: int) -> str | None:
     """The step by which an answer ends the wait for an event on this line (1-based), where nothing sets the event."""
-    waits = [call for call in code.calls("wait") if call.lineno == line and isinstance(call.func, ast.Attribute)]
-    made = [each for each in code.nodes if isinstance(each, ast.Assign) and _makes_event(each.value)]
-    asked = [
-        each
-        for call, _ in find_requests(code, "call_async")
-        if isinstance(each := code.statement(call), ast.Assign) and each.value is call
-    ]
-    for wait in waits:
-        assert isinstance(wait.func, ast.Attribute)
-        event = ast.unparse(wait.func.value)
-        makes = next((each for each in made if ast.unparse(each.targets[0]) == event), None)
-        if makes is None or not asked or _is_set(code, event):
-            continue
-        if not code.calls("Thread"):  # nothing takes the answer in while this thread waits
-            same = [each for each in asked if code.function_around(each) is code.function_around(wait)]
-            spin = [f"{_spin(code)}({code.node(each)}, {_future(each)})" for each in same]
-            change = edits.replace_statement(code.statement(wait), spin[0]) if len(spin) == 1 else None
-            return code.as_step(change, code.importing("rclpy")) if change is not None else None
-        changes = []
-        for each in asked:
-            callback = f"{_future(each)}.add_done_callback(lambda _: {event}.set())"
-            fresh = next(code.ancestors(each)) is next(code.ancestors(makes))  # made for each request
-            changes.append(edits.insert_after(each, callback if fresh else f"{event}.clear()\n{callback}"))
-        return code.as_step(changes)
-    return None
-
-
-def _makes_event(value: ast.expr) -> bool:
-    return isinstance(value, ast.Call) and source.called_name(value) == "Event"
+    wait = next((call for call in code.calls("wait") if call.lineno == line), None)
+    if wait is None or not isinstance(wait.func, ast.Attribute):
+        return None
+    event = ast.unparse(wait.func.value)
+    made = next((call for call in code.calls("Event") if code.assigned_to(call) == event), None)
+    asked = [(call, future) for call, _ in find_requests(code, "call_async") if (future := code.assigned_to(call))]
+    if made is None or not asked or _is_set(code, event):
+        return None
+    if not code.calls("Thread"):  # nothing takes the answer in while this thread waits
+        beside = [each for each in asked if code.function_around(each[0]) is code.function_around(wait)]
+        if len(beside) != 1:
+            return None
+        spin = f"{_spin(code)}({code.node(wait)}, {beside[0][1]})"
+        return code.as_step(edits.replace_statement(code.statement(wait), spin), code.importing("rclpy"))
+    changes = []
+    for call, future in asked:
+        statement, callback = code.statement(call), f"{future}.add_done_callback(lambda _: {event}.set())"
+        fresh = next(code.ancestors(statement)) is next(code.ancestors(code.statement(made)))  # made for each request
+        changes.append(edits.insert_after(statement, callback if fresh else f"{event}.clear()\n{callback}"))
+    return code.as_step(changes)
 
 
 def _is_set(code: Code, event: str) -> bool:
@@ -169,10 +160,6 @@ def _is_set(code: Code, event: str) -> bool:
     name = event.rpartition(".")[2]
     setters = (each.value for each in code.nodes if isinstance(each, ast.Attribute) and each.attr == "set")
     return any(ast.unparse(each).rpartition(".")[2] == name for each in setters)
-
-
-def _future(asked: ast.Assign) -> str:
-    return ast.unparse(asked.targets[0])
 
 
 def _of(call: ast.Call) -> Iterator[ast.expr]:
