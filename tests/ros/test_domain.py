@@ -8,6 +8,7 @@ import sys
 import threading
 import time
 from contextlib import ExitStack
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -63,23 +64,30 @@ def can_be_had(wanted: int) -> bool:
     end = time.monotonic() + 30
     while time.monotonic() < end:
         with ExitStack() as held:
-            for _ in range(len(IDS) - 200):
+            for _ in range(len(IDS) // 2):
                 if held.enter_context(reserve_domain()) == wanted:
                     return True
         time.sleep(0.05)
     return False
 
 
+LOCALHOST_PORTS = range(10, 10 + 2 * 32)
+"""Where a node that uses localhost only looks for others, above its domain's first port."""
+
+
 def test_no_domain_id_that_ros_knows_leads_to_the_ports_of_a_check() -> None:
-    farthest = FIRST + PER_DOMAIN * 232 + 10 + 2 * 31 + 1  # at which a node on 232 looks for others on localhost
-    assert farthest < FIRST + PER_DOMAIN * IDS[0]
-    assert FIRST + PER_DOMAIN * (IDS[-1] + 1) <= 32768
-    assert PER_DOMAIN * IDS.step >= 10 + 2 * 32  # nor do those of one check look at the ports of another
+    assert FIRST + PER_DOMAIN * 232 + LOCALHOST_PORTS[-1] < FIRST + PER_DOMAIN * IDS[0]
+    assert FIRST + PER_DOMAIN * IDS[-1] + LOCALHOST_PORTS[-1] < 32768
 
 
-def test_no_port_of_a_check_is_one_where_a_users_nodes_meet() -> None:
-    users = {DDS_PORTS[0] + DDS_PORTS[1] * id_ for id_ in range(233)}
-    assert users.isdisjoint(FIRST + PER_DOMAIN * id_ + port for id_ in IDS for port in (0, *range(10, 34)))
+def test_no_check_looks_for_others_at_the_ports_of_another() -> None:
+    assert min(b - a for a, b in pairwise(IDS)) * PER_DOMAIN > LOCALHOST_PORTS[-1]
+
+
+def test_no_port_of_a_check_is_one_where_a_users_nodes_look_for_others() -> None:
+    looked_at = (0, 1, *LOCALHOST_PORTS)
+    users = {DDS_PORTS[0] + DDS_PORTS[1] * id_ + port for id_ in range(233) for port in looked_at}
+    assert users.isdisjoint(FIRST + PER_DOMAIN * id_ + port for id_ in IDS for port in looked_at)
 
 
 @needs_own_network

@@ -16,7 +16,7 @@ _GROUP = f"239.{'.'.join(map(str, secrets.token_bytes(3)))}"
 """The multicast group in which the participants of our checks find each other. Each process that checks has one of its
 own, so that a process that joins another check's domain meets nobody there."""
 _LOOPBACK = "127.0.0.1"
-PORTS_OF_CHECKS = (2016, 25)
+PORTS_OF_CHECKS = (2000, 25)
 """As `DDS_PORTS`, for a check: what isolated.xml says."""
 DDS_PORTS = (7400, 250)
 """The first UDP port of domain 0 where nothing else is set, and how many ports there are to a domain."""
