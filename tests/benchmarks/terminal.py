@@ -20,6 +20,7 @@ SIZE = (36, 120)
 LIMIT_S = 30.0
 
 _ESCAPES = re.compile(rb"\x1b\[[0-9;?<>=]*[ -/]*[@-~]|\x1b[@-_]|\x1b\][^\x07]*\x07")
+_TAKES_TERMINAL = b"\x1b[?1049h"
 _TICK = os.sysconf("SC_CLK_TCK")
 
 
@@ -37,10 +38,13 @@ class Terminal:
         self._seen = b""
         os.write(self._fd, key)
 
-    def until(self, text: bytes, limit_s: float = LIMIT_S) -> float:
-        """Read until this text has come out; the time then (`perf_counter`)."""
+    def until(self, text: bytes, limit_s: float = LIMIT_S, *, resumed: bool = False) -> float:
+        """Read until this text has come out; the time then (`perf_counter`).
+
+        `resumed`: since the last key the app has given the terminal away, and the text comes after it got it back.
+        """
         deadline = time.perf_counter() + limit_s
-        while text not in _ESCAPES.sub(b"", self._seen):
+        while text not in _ESCAPES.sub(b"", self._seen.partition(_TAKES_TERMINAL)[2] if resumed else self._seen):
             left = deadline - time.perf_counter()
             if left <= 0:
                 raise TimeoutError(f"{text!r} is not drawn: {_ESCAPES.sub(b'', self._seen)[-3000:]!r}")

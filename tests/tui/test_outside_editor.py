@@ -127,7 +127,7 @@ def test_what_an_editor_leaves_running_is_not_ours(me: Seated) -> None:
         while not left.exists():
             assert time.monotonic() < deadline
             app.read(0.02)
-        app.until(b"not checked yet")
+        app.until(b"not checked yet", resumed=True)
         daemon = int(left.read_text())
         left.unlink()
         try:
