@@ -19,7 +19,7 @@ from tutor.ros.discovery import DDS_PORTS, PORTS_OF_CHECKS, own_ports
 IDS = tuple(id_ for id_ in range(240, 1224) if id_ % 10 in {0, 3})
 """The ids of checks. Their ports are below those that Linux gives away by itself (32768). A node that is told to use
 localhost only looks for others at 64 ports from its domain's on, and Fast DDS 2.14 lets in whoever it finds there, of
-whatever domain: so there are 75 ports from one id to the next, and none is among those 64 of any domain of the user's."""
+whatever domain: so there are 75 ports from one id to the next, and none is among those 64 of any domain of a user."""
 _UDP_TABLES = (Path("/proc/net/udp"), Path("/proc/net/udp6"))
 
 # Each process takes them in an order of its own, and one that was just given back comes last: somebody may still have
