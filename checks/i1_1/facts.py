@@ -44,8 +44,10 @@ UNITS: dict[str, Callable[[float], float]] = {
 }
 """How a numeric parameter may be read: from its value to the rate in Hz that it asks for."""
 
-VALUES = {"Hz": (2.0, FAST_HZ, 0.5), "s": (0.5, 0.125, 2.0), "ms": (500.0, 125.0, 2000.0)}
-SPARE_VALUES = {"Hz": (5.0, 1.0, 3.0, 10.0), "s": (1.0, 0.2, 0.4), "ms": (200.0, 1000.0, 400.0)}
+VALUES = {"Hz": (2.0, FAST_HZ, 0.7), "s": (0.5, 0.125, 1.5), "ms": (500.0, 125.0, 1500.0)}
+"""The slowest ones show a rate that is made a whole number: 0 and 1 Hz, or 1 and 2 s, are beyond the tolerance."""
+
+SPARE_VALUES = {"Hz": (5.0, 1.0, 3.0, 10.0), "s": (1.0, 2.0, 0.2, 0.4), "ms": (200.0, 1000.0, 400.0)}
 """Tried instead where the parameter's type or range does not allow the first ones."""
 
 

@@ -49,7 +49,7 @@ MOST_SAID_S = 2.0
 @repeat_if_doubtful
 async def call_each_service(bench: Bench) -> ServiceCalls:
     """Call every service once as `ros2 service call` does, then press Ctrl+C."""
-    async with bench.start(SERVER) as run:
+    async with bench.start(SERVER, expected_s=0.5) as run:
         bench.report_progress(0.1, "waiting for the four services")
         known = await _services(run)
         spins = await run.parameters(2.0) is not None
@@ -106,7 +106,7 @@ async def _stuck(bench: Bench, unanswered: CallAnswer) -> tuple[Frame, ...]:
 
 async def call_with_random_operands(bench: Bench) -> ServiceCalls:
     """Calculate with operands by chance."""
-    async with bench.start(SERVER) as run:
+    async with bench.start(SERVER, expected_s=0.3) as run:
         known = await _services(run)
         met = run.graph
         there = [name for name in SIGNS if name not in missing_services(met.servers)]
@@ -157,7 +157,7 @@ async def run_client(bench: Bench) -> ClientRun:
     """Run the client, and bring up our four servers when it has been there for a while."""
     if not bench.has_file(CLIENT):
         return ClientRun(None)
-    async with bench.start(CLIENT) as run:
+    async with bench.start(CLIENT, expected_s=2.0) as run:
         bench.report_progress(0.2, "running the client, before there is a server")
         clients: set[ServiceEndpoint] = set()  # what it had while it ran: afterwards, the graph no longer knows
         due_at = inf

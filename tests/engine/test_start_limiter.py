@@ -6,7 +6,7 @@ import asyncio
 
 import pytest
 
-from tutor.engine.start_limiter import StartLimiter
+from tutor.engine.start_limiter import ITERATIONS, StartLimiter
 
 
 class Starts:
@@ -32,7 +32,7 @@ class Starts:
 
 
 async def settle() -> None:
-    for _ in range(10):
+    for _ in range(5 + ITERATIONS):
         await asyncio.sleep(0)
 
 
@@ -40,15 +40,35 @@ async def test_the_longest_goes_first_and_a_slot_is_free_when_a_process_is_up() 
     starts = Starts(2)
     tasks = [starts.begin(name, asks) for name, asks in (("a", 1), ("b", 1), ("c", 2), ("d", 5), ("e", 2))]
     await settle()
-    assert starts.began == ["a", "b"]
-    starts.up["a"].set()
+    assert starts.began == ["d", "c"]  # of two that are as long, the one that came first
+    tasks.append(starts.begin("f", 9))
     await settle()
-    assert starts.began == ["a", "b", "d"]
+    assert starts.began == ["d", "c"]
     starts.up["d"].set()
-    starts.up["b"].set()
     await settle()
-    assert starts.began == ["a", "b", "d", "c", "e"]  # of two that are as long, the one that came first
-    for name in "abcde":
+    assert starts.began == ["d", "c", "f"]
+    starts.up["c"].set()
+    starts.up["f"].set()
+    await settle()
+    assert starts.began == ["d", "c", "f", "e", "a"]
+    for name in "abcdef":
+        starts.up[name].set()
+        starts.over[name].set()
+    await asyncio.gather(*tasks)
+
+
+async def test_those_that_are_begun_a_moment_later_take_part() -> None:
+    """As where a scenario begins several starts, each in a task of its own."""
+    starts = Starts(1)
+
+    async def begin(name: str, expected_s: float) -> None:
+        await asyncio.sleep(0)
+        await starts.begin(name, expected_s)
+
+    tasks = [starts.begin("a", 1), asyncio.ensure_future(begin("b", 2))]
+    await settle()
+    assert starts.began == ["b"]
+    for name in "ba":
         starts.up[name].set()
         starts.over[name].set()
     await asyncio.gather(*tasks)

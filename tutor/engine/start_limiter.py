@@ -19,6 +19,9 @@ from tutor.engine.alone import ScenariosAtWork
 MORE_THAN_CORES = 1
 """Starts in flight beyond one for each core: a start waits, too, for the disk and for its peers."""
 
+ITERATIONS = 5
+"""Those who ask within this many iterations of the event loop ask at once: a scenario may begin several starts."""
+
 
 class StartLimiter:
     """How many may start at a time: `slots` (by default one for each core that is ours, and one more).
@@ -53,10 +56,9 @@ class StartLimiter:
             up()
 
     async def _acquire(self, expected_s: float) -> None:
-        if self._free:
-            self._free -= 1
-            return
         turn = asyncio.get_running_loop().create_future()
+        if not self._waiting:
+            self._give_soon(ITERATIONS)
         heapq.heappush(self._waiting, (-expected_s, next(self._number), turn))
         try:
             await turn
@@ -65,10 +67,19 @@ class StartLimiter:
                 self._release()
             raise
 
-    def _release(self) -> None:
-        while self._waiting:
+    def _give_soon(self, iterations: int) -> None:
+        if iterations:
+            asyncio.get_running_loop().call_soon(self._give_soon, iterations - 1)
+        else:
+            self._give()
+
+    def _give(self) -> None:
+        while self._free and self._waiting:
             _, _, turn = heapq.heappop(self._waiting)
             if not turn.done():
                 turn.set_result(None)
-                return
+                self._free -= 1
+
+    def _release(self) -> None:
         self._free += 1
+        self._give()
