@@ -60,7 +60,7 @@ from tutor.ros_model import Parameter
 @repeat_if_doubtful
 async def plain_start(bench: Bench) -> PlainStart:
     """Start it plainly: does it publish, does echo show it, does Ctrl+C end it cleanly?"""
-    async with bench.start(FILE, watch={TOPIC: TYPE}, expected_s=1.5) as run:
+    async with bench.start(FILE, watch={TOPIC: TYPE}, expected_s=7.0) as run:  # first: much is told by it alone
         bench.report_progress(0.1, f"waiting for the first message on {TOPIC}")
         echo = None
         if await wait_for_message(run, TOPIC, TYPE):
@@ -140,7 +140,7 @@ async def collect_more_values(bench: Bench) -> CollectedValues:
 
 async def _collect(bench: Bench, enough: Callable[[Run], bool]) -> tuple[tuple[float, ...], Trace]:
     """The values of one plain start, and its trace."""
-    async with bench.start(FILE, watch={TOPIC: TYPE}) as run:
+    async with bench.start(FILE, watch={TOPIC: TYPE}, expected_s=1 + LEAST_S) as run:
         if await wait_for_message(run, TOPIC, TYPE):
             await run.until(lambda: enough(run), LISTEN_S)
         return tuple(_data(run)), run.trace()
@@ -152,7 +152,7 @@ def _data(seen: Run | Trace) -> list[float]:
 
 async def parameters(bench: Bench) -> tuple[Parameter, ...] | None:
     """Which parameters does it declare? None where it never answers."""
-    async with bench.start(FILE, watch={TOPIC: TYPE}, expected_s=7.0) as run:  # the rates wait for it
+    async with bench.start(FILE, watch={TOPIC: TYPE}, expected_s=5.0) as run:  # the rates wait for it
         bench.report_progress(0.1, "asking for its parameters")
         if not await run.until(lambda: bool(run.graph.parameter_nodes), START_S, idle_s=RESENT_S):
             return None

@@ -81,14 +81,13 @@ class ParameterStarts:
 
 @dataclass(frozen=True)
 class RuntimeChanges:
-    """A plain start on which message_prefix and enabled are set: to another prefix, off, to `later`, and on again.
+    """A plain start on which message_prefix and enabled are set: to `prefix`, off, to `later`, and on again.
 
-    `before`: the rate until it was off; `again`: what came more than a period after it was on, `rate` the rate of it.
+    `after_prefix` and `before` are of another start: the first message with the prefix that was set there, and the rate
+    until then. `again`: what came after it was on, at the latest from a period later on, `rate` the rate of it.
     """
 
     trace: Trace
-    prefix: str
-    later: str
     base_hz: float = DEFAULT_HZ
     set_prefix: SetAnswer | None = None
     after_prefix: Sample | None = None
@@ -103,6 +102,13 @@ class RuntimeChanges:
     rate: Rate | None = None
     stuck: tuple[Frame, ...] = ()
     answering: bool = False
+    prefix: str = "Servus7"
+    later: str = "Gruezi9"
+
+    @property
+    def period_s(self) -> float:
+        """The seconds between two messages."""
+        return 1 / self.base_hz
 
 
 @dataclass(frozen=True)

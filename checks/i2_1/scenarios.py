@@ -54,7 +54,7 @@ from tutor.ros_model import Parameter
 @repeat_if_doubtful
 async def plain_start(bench: Bench) -> PlainStart:
     """A plain start: which parameters has it, and does Ctrl+C end it cleanly?"""
-    async with bench.start(FILE, watch={TOPIC: TYPE}, expected_s=1.5) as run:
+    async with bench.start(FILE, watch={TOPIC: TYPE}, expected_s=7.0) as run:  # first: much is told by it alone
         bench.report_progress(0.2, "asking for its parameters")
         node = await _node(run)
         declared = await run.parameters(ANSWER_S) if node else None
@@ -114,54 +114,79 @@ async def start_with_parameters(bench: Bench) -> ParameterStarts:
 
 
 async def switch_at_runtime(bench: Bench) -> RuntimeChanges:
-    """Set message_prefix and enabled while it runs. A change may take one period of the rate to show."""
-    prefix, later = "Servus7", "Gruezi9"
-    async with bench.start(FILE, watch={TOPIC: TYPE}) as run:
+    """Set message_prefix while it runs, and on another start enabled, too. A change may take one period to show."""
+    switching = asyncio.ensure_future(_switch_enabled(bench))
+    try:
+        named = await _set_prefix(bench)
+        if named.after_prefix is None:
+            return named
+        switched = await switching
+    finally:
+        switching.cancel()
+        await asyncio.gather(switching, return_exceptions=True)
+    return replace(switched, after_prefix=named.after_prefix, before=named.before)
+
+
+async def _set_prefix(bench: Bench) -> RuntimeChanges:
+    """Set message_prefix while it publishes."""
+    async with bench.start(FILE, watch={TOPIC: TYPE}, expected_s=3.0) as run:
         bench.report_progress(0.05, "waiting for it to publish")
         node, answering = await _publishing(run)
         if node is None:
             return RuntimeChanges(
-                trace := run.trace(), prefix, later, stuck=await _stuck(bench, trace, answering), answering=answering
+                trace := run.trace(), stuck=await _stuck(bench, trace, answering), answering=answering
             )
-        base_hz = await _base_hz(run)
-        period = 1 / base_hz
-        bench.report_progress(0.2, f"setting {PREFIX} to {prefix}")
-        set_prefix = await run.set_parameters(node, {PREFIX: prefix}, limit_s=ANSWER_S)
-        if not set_prefix.answered:
-            return RuntimeChanges(run.trace(), prefix, later, base_hz, set_prefix, stuck=await run.dump_stacks())
-        due = set_prefix.answered_at + period + 0.1
+        seen = RuntimeChanges(run.trace(), await _base_hz(run))
+        bench.report_progress(0.2, f"setting {PREFIX} to {seen.prefix}")
+        answer = await run.set_parameters(node, {PREFIX: seen.prefix}, limit_s=ANSWER_S)
+        if not answer.answered:
+            return replace(seen, trace=run.trace(), set_prefix=answer, stuck=await run.dump_stacks())
+        due = answer.answered_at + seen.period_s + 0.1
 
         def shown() -> Sample | None:
-            return next(
-                (s for s in run.samples_on(TOPIC) if s.source_time > set_prefix.asked_at and prefix in text_of(s)), None
-            )
+            since = answer.asked_at
+            return next((s for s in run.samples_on(TOPIC) if s.source_time > since and seen.prefix in text_of(s)), None)
 
         def old() -> Sample | None:
-            return next((s for s in run.samples_on(TOPIC) if s.source_time > due and prefix not in text_of(s)), None)
+            return next(
+                (s for s in run.samples_on(TOPIC) if s.source_time > due and seen.prefix not in text_of(s)), None
+            )
 
-        await run.until(lambda: shown() is not None or old() is not None, 2 * period + 2)
-        changed, before = shown(), measure(run.samples_on(TOPIC))
-        seen = RuntimeChanges(run.trace(), prefix, later, base_hz, set_prefix, changed, before=before)
-        if not set_prefix.successful or changed is None:
-            return seen
+        await run.until(lambda: shown() is not None or old() is not None, 2 * seen.period_s + 2)
+        changed = shown() if answer.successful else None
+        before = measure(run.samples_on(TOPIC))
+        return replace(seen, trace=run.trace(), set_prefix=answer, after_prefix=changed, before=before)
+
+
+async def _switch_enabled(bench: Bench) -> RuntimeChanges:
+    """Set message_prefix, and enabled to false; then another prefix, and enabled to true."""
+    async with bench.start(FILE, watch={TOPIC: TYPE}) as run:
+        node = await _node(run)
+        if node is None:
+            return RuntimeChanges(run.trace())
+        seen = RuntimeChanges(run.trace(), await _base_hz(run), answering=True)
+        set_prefix = await run.set_parameters(node, {PREFIX: seen.prefix}, limit_s=ANSWER_S)
+        if not set_prefix.answered:
+            return replace(seen, trace=run.trace(), set_prefix=set_prefix, stuck=await run.dump_stacks())
         bench.report_progress(0.4, f"setting {ENABLED} to false, listening for silence")
         set_off = await run.set_parameters(node, {ENABLED: False}, limit_s=ANSWER_S)
+        seen = replace(seen, trace=run.trace(), set_prefix=set_prefix, set_off=set_off)
         if not set_off.answered:
-            return replace(seen, trace=run.trace(), set_off=set_off, stuck=await run.dump_stacks())
+            return replace(seen, trace=run.trace(), stuck=await run.dump_stacks())
         if not set_off.successful:
-            return replace(seen, trace=run.trace(), set_off=set_off)
-        quiet_from = set_off.answered_at + period + 0.1
+            return seen
+        quiet_from = set_off.answered_at + seen.period_s + 0.1
 
         def noise() -> list[Sample]:
             return [s for s in run.samples_on(TOPIC) if s.source_time > quiet_from]
 
-        await run.until(lambda: bool(noise()) or run.now() >= quiet_from + 1.5 * period, 3 * period + 2)
+        await run.until(lambda: bool(noise()) or run.now() >= quiet_from + 1.5 * seen.period_s, 3 * seen.period_s + 2)
         sent, off_for_s = tuple(noise()), run.now() - set_off.answered_at
-        bench.report_progress(0.6, f"setting {PREFIX} to {later}, then {ENABLED} to true")
-        seen = replace(seen, trace=run.trace(), set_off=set_off, sent_while_off=sent, off_for_s=off_for_s)
+        bench.report_progress(0.6, f"setting {PREFIX} to {seen.later}, then {ENABLED} to true")
+        seen = replace(seen, trace=run.trace(), sent_while_off=sent, off_for_s=off_for_s)
         if sent:
             return seen
-        set_later = await run.set_parameters(node, {PREFIX: later}, limit_s=ANSWER_S)
+        set_later = await run.set_parameters(node, {PREFIX: seen.later}, limit_s=ANSWER_S)
         if not set_later.answered:
             return replace(seen, trace=run.trace(), set_later=set_later, stuck=await run.dump_stacks())
         set_on = await run.set_parameters(node, {ENABLED: True}, limit_s=ANSWER_S)
@@ -169,20 +194,31 @@ async def switch_at_runtime(bench: Bench) -> RuntimeChanges:
         def resumed() -> Sample | None:
             return next((s for s in run.samples_on(TOPIC) if s.source_time > set_on.asked_at), None)
 
-        await run.until(lambda: resumed() is not None, 2 * period + 2)
+        await run.until(lambda: resumed() is not None, 2 * seen.period_s + 2)
         bench.report_progress(0.8, "listening whether it goes on as before")
-        since = set_on.answered_at + period + 0.1
-        again, rate = await _as_before(run, base_hz, since=since) if (first := resumed()) is not None else ((), None)
-        seen = replace(seen, trace=run.trace(), set_later=set_later, set_on=set_on, resumed=first)
-        return replace(seen, again=again, rate=rate)
+        since = set_on.answered_at + seen.period_s + 0.1
+        seen = replace(seen, set_later=set_later, set_on=set_on, resumed=resumed())
+        again, rate = await _as_before(run, seen, since=since) if seen.resumed is not None else ((), None)
+        return replace(seen, trace=run.trace(), again=again, rate=rate)
 
 
-async def _as_before(run: Run, hz: float, *, since: float) -> tuple[tuple[Sample, ...], Rate | None]:
-    """The messages from `since` on, and their rate: by little more than two periods of `hz`, if these show it."""
+async def _as_before(run: Run, seen: RuntimeChanges, *, since: float) -> tuple[tuple[Sample, ...], Rate | None]:
+    """The messages from `since` on, and their rate: by little more than two periods, if these show it.
 
-    def received() -> tuple[Sample, ...]:
+    Those from the first one on will do, if nothing is wrong with them: until `since`, something may be.
+    """
+    assert seen.resumed is not None
+    hz, first = seen.base_hz, seen.resumed.source_time
+
+    def received(since: float = since) -> tuple[Sample, ...]:
         return tuple(sample for sample in run.samples_on(TOPIC) if sample.source_time >= since)
 
+    await run.until(lambda: run.now() >= first + 2.2 / hz, 2.2 / hz + 2)
+    soon = received(first)
+    rate = measure(soon)
+    right = all(seen.later in text and seen.prefix not in text for text in map(text_of, soon))
+    if right and len(soon) > 2 and rate is not None and rate.agrees(hz):
+        return soon, rate
     await run.until(lambda: run.now() >= since + 2.2 / hz, 3.5 / hz + 2)
     rate = measure(received())
     if rate is None or not rate.agrees(hz):
@@ -247,17 +283,23 @@ async def _ask_for_bad(bench: Bench, run: Run, node: str, base_hz: float) -> Bad
 
 
 async def change_rate(bench: Bench) -> RateChanges:
-    """Ask for a faster and then for a slower rate; each may take effect after one period of the old one."""
+    """Ask for a faster and then for a slower rate; each may take effect after one period of the old one.
+
+    Whether it publishes at all, the plain start tells: the first message need not be waited for.
+    """
     async with bench.start(FILE, watch={TOPIC: TYPE}) as run:
-        bench.report_progress(0.05, "waiting for it to publish")
-        node, answering = await _publishing(run)
+        bench.report_progress(0.05, "waiting for it to answer")
+        node = await _node(run)
         if node is None:
-            return RateChanges(trace := run.trace(), stuck=await _stuck(bench, trace, answering), answering=answering)
+            return RateChanges(trace := run.trace(), stuck=await _stuck(bench, trace))
         steps: list[tuple[SetAnswer, Rate | None, int]] = []
         old_hz = await _base_hz(run)
         for done, new_hz in ((0.3, UP_HZ), (0.6, DOWN_HZ)):
             bench.report_progress(done, f"setting {RATE} to {new_hz}")
             answer = await run.set_parameters(node, {RATE: new_hz}, limit_s=ANSWER_S)
+            plain = await bench.facts(plain_start)
+            if not plain.trace.samples_on(TOPIC):
+                return RateChanges(plain.trace, stuck=plain.stuck, answering=plain.parameters is not None)
             if not answer.answered:
                 return RateChanges(run.trace(), (*steps, (answer, None, 0)), await run.dump_stacks())
             if not answer.successful:

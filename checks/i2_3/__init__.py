@@ -41,5 +41,5 @@ CHECK = Check(
             bonus=True,
         ),
     ),
-    expected_s=8.0,  # two single calls of 3 s, each until the next tenth tick's message, 4 s and 8 s after the start
+    expected_s=6.3,  # two single calls of 3 s
 )

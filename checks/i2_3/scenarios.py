@@ -15,6 +15,7 @@ from checks.i2_3.facts import (
     FILE,
     LONGEST_S,
     SERVICE,
+    SHORTEST_S,
     TYPE,
     WORK_S,
     Call,
@@ -26,6 +27,7 @@ from checks.i2_3.facts import (
     has_service,
     is_disturbed,
     is_excused,
+    right_sum,
 )
 from checks.i2_3.listening import listen, logs_since, may_be_10_hz, next_tick
 from checks.i2_3.repeats import MOST_TRIES, TRIES, needs_repeat, needs_repeat_at_once
@@ -104,35 +106,52 @@ async def _call_singly(bench: Bench, suspect: Callable[[bool], None]) -> tuple[S
         if not (spins := await _spins(run)):
             suspect(False)
         bench.report_progress(0.2, f"calling {SERVICE}")
-        calls, well = await _call(bench, run, _operands, MOST_TRIES, suspect, limit_s=_answer_limit_s(spins))
-        later: Sequence[Call] = ()
-        bench.report_facts(SingleCalls(run.trace(), tuple(calls), idle=await bench.facts(run_idle)))
-        if well and run.exit is None:
-            bench.report_progress(0.6, f"calling {SERVICE} once more, with large numbers")
-            later, _ = await _call(bench, run, _large, TRIES)  # no more of them: without a word they take nothing back
+        second: list[asyncio.Task[_Made]] = []
+        try:
+            calls, well = await _call_first(bench, run, suspect, second, _answer_limit_s(spins))
+            later: Sequence[Call] = ()
+            idle = await bench.facts(run_idle)
+            bench.report_facts(SingleCalls(run.trace(), tuple(calls), idle=idle))
+            if well and run.exit is None:
+                bench.report_progress(0.6, f"calling {SERVICE} once more, with large numbers")
+                later = await _call_again(run, idle.series, *second)
+        finally:
+            for task in second:
+                task.cancel()
+            await asyncio.gather(*second, return_exceptions=True)
         return SingleCalls(run.trace(), tuple(calls), later=tuple(later)), well
 
 
-async def _call(
+_Made = tuple[CallAnswer, float]
+"""A call's answer, and the seconds in which the machine kept the node or us from running meanwhile."""
+
+
+async def _make_call(run: Run, operands: Mapping[str, int], limit_s: float) -> _Made:
+    lost_s = _lost_s(run)
+    answer = await run.call(SERVICE, TYPE, operands, limit_s=limit_s)
+    return answer, _lost_s(run) - lost_s
+
+
+async def _call_first(
     bench: Bench,
     run: Run,
-    operands: Callable[[], Mapping[str, int]],
-    most: int,
-    suspect: Callable[[bool], None] = lambda answers: None,
-    *,
-    limit_s: float = ANSWER_S,
+    suspect: Callable[[bool], None],
+    second: list[asyncio.Task[_Made]],
+    limit_s: float,
 ) -> tuple[list[Call], bool]:
     """Make a call, and again where a busy machine leaves it in doubt; and whether there was nothing wrong with it.
 
-    `suspect`: called where the first one leaves the timer standing still.
+    `suspect`: called where the first one leaves the timer standing still. `second`: gets the call that comes next,
+    where all is well when the first is answered: what the timer does after that is seen meanwhile.
     """
     calls: list[Call] = []
     series: Sequence[Series] = ()
-    while not calls or (run.exit is None and needs_repeat(run.logs, calls, series, most)):
-        lost_s = _lost_s(run)
-        answer = await run.call(SERVICE, TYPE, operands(), limit_s=limit_s)
-        lost_s = _lost_s(run) - lost_s
+    while not calls or (run.exit is None and needs_repeat(run.logs, calls, series, MOST_TRIES)):
+        await asyncio.gather(*second)  # it would be in the way
+        answer, lost_s = await _make_call(run, _operands(), limit_s)
         series = (await bench.facts(run_idle)).series
+        if not calls and run.exit is None and _is_well(run, Call(answer, run.now(), lost_s), series):
+            second.append(asyncio.ensure_future(_make_call(run, _large(), ANSWER_S)))
         await next_tick(run, series, answer)
         calls.append(Call(answer, run.now(), lost_s))
         if len(calls) == 1 and run.exit is None and is_disturbed(run.logs, calls[0], series):
@@ -140,6 +159,29 @@ async def _call(
     last = calls[-1]
     well = not is_disturbed(run.logs, last, series) or is_excused(run.logs, last, series)
     return calls, last.answer.response is not None and well
+
+
+async def _call_again(run: Run, series: Sequence[Series], begun: asyncio.Task[_Made] | None = None) -> list[Call]:
+    """Make a call with large numbers, or take the one that is `begun`; again where a busy machine leaves it in doubt.
+
+    No more often than the first: without a word of the timer it takes nothing back.
+    """
+    calls: list[Call] = []
+    while not calls or (run.exit is None and needs_repeat(run.logs, calls, series, TRIES)):
+        answer, lost_s = await (begun if begun and not calls else _make_call(run, _large(), ANSWER_S))
+        call = Call(answer, run.now(), lost_s)
+        if is_disturbed(run.logs, call, series):  # or is it only that its next message is still to come?
+            await next_tick(run, series, answer)
+            call = replace(call, until=run.now())
+        calls.append(call)
+    return calls
+
+
+def _is_well(run: Run, call: Call, series: Sequence[Series]) -> bool:
+    """Whether the call was answered right and in time, and nothing has disturbed the timer until then."""
+    answer = call.answer
+    right = answer.response is not None and answer.response["sum"] == right_sum(answer)
+    return right and call.in_time and answer.took_s >= SHORTEST_S and not is_disturbed(run.logs, call, series)
 
 
 async def _is_served(run: Run) -> bool:

@@ -212,7 +212,7 @@ def switched(**but: Any) -> RuntimeChanges:
         "rate": rate(1.0),
         **but,
     }
-    return RuntimeChanges(prefix="Servus7", later="Gruezi9", **facts)
+    return RuntimeChanges(**facts)
 
 
 ENDS_THERE = switched(set_later=None, set_on=None, resumed=None, again=(), rate=None)
@@ -263,9 +263,9 @@ def test_a_timer_that_is_left_behind_by_a_rate_as_well_is_told_of_once() -> None
 @pytest.mark.parametrize(
     ("found", "cause", "word"),
     [
-        (RuntimeChanges(CRASHED, "", ""), "unhandled exception", "to start with"),
-        (RuntimeChanges(SILENT, "", ""), "no spin", ""),
-        (RuntimeChanges(RUNNING, "", ""), "no spin", "no parameter call"),
+        (RuntimeChanges(CRASHED), "unhandled exception", "to start with"),
+        (RuntimeChanges(SILENT), "no spin", ""),
+        (RuntimeChanges(RUNNING), "no spin", "no parameter call"),
         (switched(set_prefix=not_set("", answered=False)), "blocked executor", "no answer in 5 s"),
         (switched(set_off=not_set("", answered=False), trace=BROKEN_LATER), "unhandled exception", "line 12"),
         (switched(set_off=not_set("Callback returned an invalid type")), "callback returns None", ""),
