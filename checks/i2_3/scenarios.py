@@ -149,6 +149,8 @@ async def _call_first(
     while not calls or (run.exit is None and needs_repeat(run.logs, calls, series, MOST_TRIES)):
         await asyncio.gather(*second)  # it would be in the way
         answer, lost_s = await _make_call(run, _operands(), limit_s)
+        if not calls and _is_wrong(answer):
+            bench.report_facts(SingleCalls(run.trace(), (Call(answer, run.now(), lost_s),)))
         series = (await bench.facts(run_idle)).series
         if not calls and run.exit is None and _is_well(run, Call(answer, run.now(), lost_s), series):
             second.append(asyncio.ensure_future(_make_call(run, _large(), ANSWER_S)))
@@ -179,9 +181,12 @@ async def _call_again(run: Run, series: Sequence[Series], begun: asyncio.Task[_M
 
 def _is_well(run: Run, call: Call, series: Sequence[Series]) -> bool:
     """Whether the call was answered right and in time, and nothing has disturbed the timer until then."""
-    answer = call.answer
-    right = answer.response is not None and answer.response["sum"] == right_sum(answer)
-    return right and call.in_time and answer.took_s >= SHORTEST_S and not is_disturbed(run.logs, call, series)
+    return call.in_time and not _is_wrong(call.answer) and not is_disturbed(run.logs, call, series)
+
+
+def _is_wrong(answer: CallAnswer) -> bool:
+    """Whether it has an answer that no repetition makes right: another sum, or one that comes too soon."""
+    return answer.response is not None and (answer.response["sum"] != right_sum(answer) or answer.took_s < SHORTEST_S)
 
 
 async def _is_served(run: Run) -> bool:
