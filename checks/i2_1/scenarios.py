@@ -45,6 +45,7 @@ from tutor.judge.waiting import (
     START_S,
     find_stuck_frames,
     measure_steady_rate,
+    patience_s,
     wait_for_message,
     wait_until_seen,
 )
@@ -81,21 +82,18 @@ async def start_with_parameters(bench: Bench) -> ParameterStarts:
             rate, messages = await measure_steady_rate(run, TOPIC, hz, since=run.samples_on(TOPIC)[0].source_time)
             return run.trace(), rate, messages
 
-    def offered(run: Run) -> bool:
-        return any(p.topic == TOPIC for p in run.graph.publishers)
-
     async def silent() -> tuple[Trace, Parameter | None, float, Sample | None]:
         parameters = {ENABLED: False, RATE: LAUNCH_HZ}
         async with bench.start(FILE, parameters=parameters, watch={TOPIC: TYPE}, expected_s=2.5) as run:
             bench.report_progress(0.3, f"{ENABLED}:=false, listening for silence")
             node = await _node(run)
             declared = await run.parameters(ANSWER_S) if node else None
-            await wait_until_seen(run, lambda: offered(run))
+            await wait_until_seen(run, lambda: _offers(run))
             since = run.now()
             # Two periods of the default rate, in case the rate that was given here has no effect.
             await run.until(lambda: bool(run.samples_on(TOPIC)) or run.now() - since >= 2.2 / DEFAULT_HZ, 4.0)
             trace, quiet_s, woken = run.trace(), run.now() - since, None
-            if node and not trace.samples_on(TOPIC) and not offered(run):
+            if node and not trace.samples_on(TOPIC) and not _offers(run):
                 # It may make its publisher only when it is enabled.
                 bench.report_progress(0.7, f"setting {ENABLED} to true")
                 await run.set_parameters(node, {ENABLED: True}, limit_s=ANSWER_S)
@@ -160,8 +158,16 @@ async def _set_prefix(bench: Bench) -> RuntimeChanges:
 
 async def _switch_enabled(bench: Bench) -> RuntimeChanges:
     """Set message_prefix, and enabled to false; then another prefix, and enabled to true."""
+    seen = await _switch(bench, at_once=True)
+    answers = (seen.set_prefix, seen.set_off)
+    if all(answer is None or answer.answered for answer in answers):
+        return seen
+    return await _switch(bench, at_once=False)  # it may not have had its timer yet
+
+
+async def _switch(bench: Bench, *, at_once: bool) -> RuntimeChanges:
     async with bench.start(FILE, watch={TOPIC: TYPE}) as run:
-        node = await _node(run)
+        node = await _ready(run, at_once=at_once)
         if node is None:
             return RuntimeChanges(run.trace())
         seen = RuntimeChanges(run.trace(), await _base_hz(run), answering=True)
@@ -287,9 +293,16 @@ async def change_rate(bench: Bench) -> RateChanges:
 
     Whether it publishes at all, the plain start tells: the first message need not be waited for.
     """
+    seen = await _change_rate(bench, at_once=True)
+    if all(answer.answered for answer, _, _ in seen.steps[:1]):
+        return seen
+    return await _change_rate(bench, at_once=False)  # it may not have had its timer yet
+
+
+async def _change_rate(bench: Bench, *, at_once: bool) -> RateChanges:
     async with bench.start(FILE, watch={TOPIC: TYPE}) as run:
-        bench.report_progress(0.05, "waiting for it to answer")
-        node = await _node(run)
+        bench.report_progress(0.05, "waiting for it to publish")
+        node = await _ready(run, at_once=at_once)
         if node is None:
             return RateChanges(trace := run.trace(), stuck=await _stuck(bench, trace))
         steps: list[tuple[SetAnswer, Rate | None, int]] = []
@@ -383,6 +396,24 @@ async def _publishing(run: Run) -> tuple[str | None, bool]:
     node = await _node(run)
     publishes = node is not None and await wait_for_message(run, TOPIC, TYPE, rare_s=RARE_S)
     return (node if publishes else None), node is not None
+
+
+async def _ready(run: Run, *, at_once: bool) -> str | None:
+    """The node to talk to, once it publishes or, `at_once`, has its publisher; None where no node answers."""
+    node = await _node(run)
+    if node is not None and not at_once:
+        await wait_for_message(run, TOPIC, TYPE, rare_s=RARE_S)
+    elif node is not None:
+
+        def settle_s() -> float:
+            return patience_s(((each.topic, each.type) for each in run.graph.publishers), TOPIC, TYPE)
+
+        await wait_until_seen(run, lambda: _offers(run), settle_s=settle_s)
+    return node
+
+
+def _offers(run: Run) -> bool:
+    return any(publisher.topic == TOPIC for publisher in run.graph.publishers)
 
 
 async def _held(run: Run, names: Sequence[str]) -> tuple[Any, ...]:
