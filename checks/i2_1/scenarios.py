@@ -45,8 +45,8 @@ from tutor.judge.waiting import (
     START_S,
     find_stuck_frames,
     measure_steady_rate,
-    patience_s,
     wait_for_message,
+    wait_for_publisher,
     wait_until_seen,
 )
 from tutor.ros_model import Parameter
@@ -404,11 +404,7 @@ async def _ready(run: Run, *, at_once: bool) -> str | None:
     if node is not None and not at_once:
         await wait_for_message(run, TOPIC, TYPE, rare_s=RARE_S)
     elif node is not None:
-
-        def settle_s() -> float:
-            return patience_s(((each.topic, each.type) for each in run.graph.publishers), TOPIC, TYPE)
-
-        await wait_until_seen(run, lambda: _offers(run), settle_s=settle_s)
+        await wait_for_publisher(run, TOPIC, TYPE)
     return node
 
 

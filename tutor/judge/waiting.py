@@ -101,8 +101,21 @@ async def wait_for_message(run: Run, topic: str, type_name: str, *, rare_s: floa
         promised=lambda: any(p.topic == topic and p.type == type_name for p in run.graph.publishers),
         rare_s=rare_s,
         idle_s=IDLE_S,
-        settle_s=lambda: patience_s(((p.topic, p.type) for p in run.graph.publishers), topic, type_name),
+        settle_s=lambda: _publisher_patience_s(run, topic, type_name),
     )
+
+
+async def wait_for_publisher(run: Run, topic: str, type_name: str) -> bool:
+    """Wait for a publisher on this topic; of another type, it is the one that the node has."""
+    return await wait_until_seen(
+        run,
+        lambda: any(publisher.topic == topic for publisher in run.graph.publishers),
+        settle_s=lambda: _publisher_patience_s(run, topic, type_name),
+    )
+
+
+def _publisher_patience_s(run: Run, topic: str, type_name: str) -> float:
+    return patience_s(((each.topic, each.type) for each in run.graph.publishers), topic, type_name)
 
 
 async def find_stuck_frames(bench: Bench, file: str) -> tuple[Frame, ...]:
