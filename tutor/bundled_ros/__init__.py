@@ -1,1 +1,1 @@
-"""What the bundled ROS lacks, and the exercises need. A real one, where installed, always goes first."""
+"""Parts of ROS 2 that the pip wheels lack and the exercises need. An installed ROS 2 always takes precedence."""

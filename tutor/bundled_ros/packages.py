@@ -1,7 +1,6 @@
-"""Finding a ROS package's programs and files by the ament index, as `ros2 run` and launch's `Node` do.
+"""Look up a ROS package's executables and files in the ament index, for `ros2 run` and launch's `Node`.
 
-Packages that are not built into a prefix are found all the same where `tutor.bundled_ros.ros2.overlay` has put them
-there.
+Packages that were never built are found too, once `tutor.bundled_ros.ros2.overlay` has linked them into a prefix.
 """
 
 from __future__ import annotations
@@ -13,13 +12,13 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 INDEX = Path("share") / "ament_index" / "resource_index" / "packages"
-_MUCH_LIKE = 0.8
-_LONGEST_INTERPRETER = 110
-"""Characters of a path; older kernels read 127 of a script's first line."""
+_SIMILARITY_CUTOFF = 0.8
+_MAX_INTERPRETER_LENGTH = 110
+"""Longest interpreter path for a `#!` line, in characters: older kernels read only the line's first 127."""
 
 
 class PackageNotFound(LookupError):
-    """No prefix of AMENT_PREFIX_PATH has this package."""
+    """No prefix on AMENT_PREFIX_PATH has this package."""
 
     def __init__(self, package: str) -> None:
         self.package = package
@@ -29,7 +28,7 @@ class PackageNotFound(LookupError):
 
 
 class ExecutableNotFound(LookupError):
-    """The package is there, but has no program of this name."""
+    """The package exists but has no executable of this name."""
 
     def __init__(self, package: str, executable: str, programs: list[str]) -> None:
         self.package = package
@@ -39,43 +38,43 @@ class ExecutableNotFound(LookupError):
 
 
 def hint(name: str, names: Iterable[str]) -> str:
-    """The end of a message that asks which of the names was meant; nothing where none is much like it."""
-    near = difflib.get_close_matches(name, list(names), cutoff=_MUCH_LIKE)
+    """Return a " (is it NAME?)" suffix that suggests similar names; empty if none is similar enough."""
+    near = difflib.get_close_matches(name, list(names), cutoff=_SIMILARITY_CUTOFF)
     return f" (is it {' or '.join(near)}?)" if near else ""
 
 
 def find_executable(package: str, executable: str) -> list[str]:
-    """The command that starts a program of a package: one word, or the interpreter and our script.
+    """Return the command that starts a package's executable: its path, or the interpreter followed by our script.
 
-    Raises PackageNotFound, ExecutableNotFound.
+    Raises PackageNotFound or ExecutableNotFound.
     """
-    prefix = _prefix(package)
-    found = _programs(prefix, package)
+    prefix = _find_prefix(package)
+    found = _find_programs(prefix, package)
     if executable not in found:
         raise ExecutableNotFound(package, executable, sorted(found))
     program = str(found[executable])
-    # Our own script's first line may be one that the kernel cannot read: too long, or with spaces in the path.
-    unreadable = len(sys.executable) > _LONGEST_INTERPRETER or " " in sys.executable
+    # The kernel cannot run our own scripts if their #! line is too long or has spaces in the interpreter's path.
+    unreadable = len(sys.executable) > _MAX_INTERPRETER_LENGTH or " " in sys.executable
     return [sys.executable, "-P", program] if unreadable and _is_our_script(found[executable]) else [program]
 
 
 def programs_of(package: str) -> list[str]:
-    """The names of a package's programs, sorted. Raises PackageNotFound."""
-    return sorted(_programs(_prefix(package), package))
+    """Return the sorted names of a package's executables. Raises PackageNotFound."""
+    return sorted(_find_programs(_find_prefix(package), package))
 
 
 def find_share(package: str) -> Path:
-    """The folder of a package's files: `launch/`, `config/` and the like are in it. Raises PackageNotFound."""
-    return _prefix(package) / "share" / package
+    """Return a package's share folder, which holds `launch/`, `config/` and the like. Raises PackageNotFound."""
+    return _find_prefix(package) / "share" / package
 
 
 def programs(package: str) -> dict[str, Path]:
-    """The programs of a package, by name. Raises PackageNotFound."""
-    return _programs(_prefix(package), package)
+    """Map the names of a package's executables to their paths. Raises PackageNotFound."""
+    return _find_programs(_find_prefix(package), package)
 
 
 def packages_with_programs() -> list[str]:
-    """The names of all packages that have programs, sorted."""
+    """Return the sorted names of all packages that have executables."""
     names = {
         path.name
         for prefix in _prefixes()
@@ -87,27 +86,27 @@ def packages_with_programs() -> list[str]:
 
 
 def has_package(package: str) -> bool:
-    """Whether a prefix of AMENT_PREFIX_PATH has this package."""
-    return _is_name(package) and any((prefix / INDEX / package).is_file() for prefix in _prefixes())
+    """Return whether a prefix on AMENT_PREFIX_PATH has this package."""
+    return _is_valid_name(package) and any((prefix / INDEX / package).is_file() for prefix in _prefixes())
 
 
 def _prefixes() -> Iterator[Path]:
     return (Path(entry) for entry in os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep) if entry)
 
 
-def _prefix(package: str) -> Path:
+def _find_prefix(package: str) -> Path:
     for prefix in _prefixes():
-        if _is_name(package) and (prefix / INDEX / package).is_file():
+        if _is_valid_name(package) and (prefix / INDEX / package).is_file():
             return prefix
     raise PackageNotFound(package)
 
 
-def _is_name(text: str) -> bool:
+def _is_valid_name(text: str) -> bool:
     return bool(text) and "/" not in text
 
 
-def _programs(prefix: Path, package: str) -> dict[str, Path]:
-    """The executable files of a package, by name."""
+def _find_programs(prefix: Path, package: str) -> dict[str, Path]:
+    """Map the names of a package's executable files to their paths."""
     found: dict[str, Path] = {}
     for folder, below, files in os.walk(prefix / "lib" / package):
         below[:] = sorted(name for name in below if not name.startswith("."))

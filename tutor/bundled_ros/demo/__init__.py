@@ -1,1 +1,1 @@
-"""The demo nodes of ROS (`demo_nodes_py`, `demo_nodes_cpp`), where no real ones are installed."""
+"""The demo nodes of ROS (`demo_nodes_py`, `demo_nodes_cpp`), used when the real ones are not installed."""

@@ -1,6 +1,6 @@
-"""`talker` and `listener`, behaving as those of `demo_nodes_py` and `demo_nodes_cpp` do.
+"""`talker` and `listener`, which behave like the nodes of `demo_nodes_py` and `demo_nodes_cpp`.
 
-Run by path, with any Python that has rclpy: none of our code is imported.
+Run this file by its path with any Python that has rclpy; it imports none of our own code.
 
     nodes.py demo_nodes_py|demo_nodes_cpp talker|listener [--ros-args ...]
 """
@@ -15,7 +15,7 @@ from rclpy.node import Node
 from rclpy.utilities import try_shutdown
 from std_msgs.msg import String
 
-# How the two packages' talkers differ: the first number, the queue's depth, and the quotes in the log.
+# How the two packages' talkers differ: the first count, the queue depth, and the quotes in the log.
 _TALKERS = {"demo_nodes_py": (0, 10, '"'), "demo_nodes_cpp": (1, 7, "'")}
 
 
@@ -26,9 +26,9 @@ class Talker(Node):
         super().__init__("talker")
         self._count, depth, self._quote = _TALKERS[package]
         self._publisher = self.create_publisher(String, "chatter", depth)
-        self._timer = self.create_timer(1.0, self._talk)
+        self._timer = self.create_timer(1.0, self._publish)
 
-    def _talk(self) -> None:
+    def _publish(self) -> None:
         message = String(data=f"Hello World: {self._count}")
         self._count += 1
         self.get_logger().info(f"Publishing: {self._quote}{message.data}{self._quote}")  # type: ignore[no-untyped-call]
@@ -36,13 +36,13 @@ class Talker(Node):
 
 
 class Listener(Node):
-    """Logs each text on `chatter`."""
+    """Logs each message on `chatter`."""
 
     def __init__(self) -> None:
         super().__init__("listener")
-        self._subscription = self.create_subscription(String, "chatter", self._hear, 10)
+        self._subscription = self.create_subscription(String, "chatter", self._on_message, 10)
 
-    def _hear(self, message: String) -> None:
+    def _on_message(self, message: String) -> None:
         self.get_logger().info(f"I heard: [{message.data}]")  # type: ignore[no-untyped-call]
 
 

@@ -1,7 +1,7 @@
-"""Runs launch files: with the installed `launch` where there is one, else with the subset of it in `site/`.
+"""Run launch files with the installed `launch`, or else with the subset of it in `site/`.
 
-`site/` holds two packages named `launch` and `launch_ros`. They are importable only in a process that runs a launch
-file, and import none of our code.
+`site/` holds two packages named `launch` and `launch_ros`. They can be imported only in a process that runs a launch
+file, and they import none of our own code.
 """
 
 from tutor.bundled_ros.launching.runner import run

@@ -1,4 +1,4 @@
-"""Runs one launch file in this process, as `ros2 launch` does."""
+"""Run one launch file in this process, as `ros2 launch` does."""
 
 from __future__ import annotations
 
@@ -13,21 +13,21 @@ from typing import Any, Protocol
 from tutor.bundled_ros import packages
 
 SUBSTITUTES = Path(__file__).parent / "site"
-"""The folder of the `launch` and `launch_ros` that stand in for the real ones."""
+"""The folder of our substitutes for `launch` and `launch_ros`."""
 
 
 class Resolver(Protocol):
-    """Finds packages; LookupError with a message for users where there is none."""
+    """Finds packages. Raises LookupError, with a message for the user, if it does not."""
 
     def find_executable(self, package: str, executable: str) -> list[str]:
-        """The words of the command that runs a package's executable."""
+        """Return the command words that run a package's executable."""
 
     def find_share(self, package: str) -> Path:
-        """A package's share folder."""
+        """Return a package's share folder."""
 
 
 def has_real_launch() -> bool:
-    """Whether a real `launch` is installed. A mere folder of that name on the path does not count."""
+    """Return whether a real `launch` is installed. A folder that merely has this name does not count."""
     spec = importlib.util.find_spec("launch")
     return spec is not None and spec.origin is not None and Path(spec.origin).parent != SUBSTITUTES / "launch"
 
@@ -42,15 +42,15 @@ def run(
     debug: bool = False,
     resolver: Resolver = packages,
 ) -> int:
-    """Run the launch file, or only print its arguments, or all that it describes.
+    """Run the launch file, or only print its arguments or its description.
 
-    Returns the exit code: 0, or 1 after an error.
+    Returns the exit code: 0, 1 after an error, or 130 after a Ctrl+C that the launch itself did not handle.
 
-    `arguments`: `name:=value`, or a mapping. `noninteractive`: no terminal passes Ctrl+C on to the nodes;
-    found out where it is not given. `resolver` serves the substitutes only: a real launch finds packages by itself.
+    `arguments` are `name:=value` words or a mapping. `noninteractive` means that no terminal sends Ctrl+C to the nodes
+    (None: if stdin is not a terminal). `resolver` is for our substitutes only: a real launch finds packages by itself.
     """
     try:
-        pairs = list(arguments.items()) if isinstance(arguments, Mapping) else _pairs(arguments)
+        pairs = list(arguments.items()) if isinstance(arguments, Mapping) else _parse_arguments(arguments)
     except ValueError as error:
         print(error, file=sys.stderr)
         return 1
@@ -66,8 +66,8 @@ def run(
         return 130
 
 
-def _pairs(arguments: Sequence[str]) -> list[tuple[str, str]]:
-    """Names and values, the last value of each name; ValueError where one is malformed."""
+def _parse_arguments(arguments: Sequence[str]) -> list[tuple[str, str]]:
+    """Parse `name:=value` words; the last value of a name wins. Raises ValueError for a malformed word."""
     values: dict[str, str] = {}
     for argument in arguments:
         name, sign, value = argument.partition(":=")
@@ -112,7 +112,7 @@ def _show(launch: Any, path: Path | str, show: Callable[[Any, Any], None]) -> in
         description = sources.get_launch_description_from_any_launch_file(str(path))
     except Exception as error:
         print(f"{type(error).__name__}: {error}", file=sys.stderr)
-        _show_learners_part(error)
+        _print_learner_traceback(error)
         return 1
     show(launch, description)
     return 0
@@ -134,19 +134,19 @@ def _show_arguments(launch: Any, description: Any) -> None:
         print("\n  No arguments.")
     elif any(argument._conditionally_included for argument in declared):
         print("\n* argument(s) which are only used if specific conditions occur")
-    _show_unreadable()
+    _print_unreadable()
 
 
-def _show_unreadable() -> None:
-    """Say which included files could not be read: what they declare is not in the list."""
+def _print_unreadable() -> None:
+    """Report included files that could not be read: their arguments are missing from the list."""
     unreadable = getattr(importlib.import_module("launch.launch_description_source"), "unreadable", {})
     for path, error in unreadable.items():
         cause = error.__cause__ or error
         print(f"the arguments of {path} are missing: {type(cause).__name__}: {cause}", file=sys.stderr)
 
 
-def _show_learners_part(error: Exception) -> None:
+def _print_learner_traceback(error: Exception) -> None:
     with contextlib.suppress(ImportError):
-        shown = importlib.import_module("launch._tracebacks").of_learner(error)
-        if shown is not None:
-            print(shown, file=sys.stderr)
+        text = importlib.import_module("launch._tracebacks").of_learner(error)
+        if text is not None:
+            print(text, file=sys.stderr)

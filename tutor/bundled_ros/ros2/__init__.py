@@ -1,1 +1,1 @@
-"""The `ros2` command where no ROS 2 is installed: `launch` and `run`, as far as the exercises need them."""
+"""A `ros2` command for machines without an installed ROS 2, limited to what the exercises need."""

@@ -11,5 +11,5 @@ try:
     from tutor.bundled_ros.ros2.command import main
 
     sys.exit(main(sys.argv[1:]))
-except KeyboardInterrupt:  # while it was being imported
+except KeyboardInterrupt:  # Ctrl+C during the imports
     sys.exit(int(signal.SIGINT))

@@ -1,4 +1,4 @@
-"""Asks a service and waits for the answer, so that Ctrl+C works meanwhile."""
+"""Waiting for services and their responses in a way that Ctrl+C can interrupt."""
 
 from __future__ import annotations
 
@@ -14,15 +14,17 @@ if TYPE_CHECKING:
 
     from tutor.bundled_ros.ros2.domain import Domain
 
-SLICE_S = 0.1
-REMARK_AFTER_S = 6.0
-"""After this long, a wait without a limit is reported to the user, on stderr."""
+SPIN_TIMEOUT_S = 0.1
+"""Timeout of one `spin_once()`, so that Ctrl+C is handled soon."""
+
+NOTICE_AFTER_S = 6.0
+"""How long an unlimited wait goes on before the user is told about it on stderr."""
 
 
-def wait_for_answer(domain: Domain, future: Future, *, remark: Callable[[], str] | None = None) -> Any:
-    """The result of a call, however long it takes; after some seconds `remark` says once what is waited for.
+def wait_for_answer(domain: Domain, future: Future, *, notice: Callable[[], str] | None = None) -> Any:
+    """Spin until a call has its result, and return it, however long that takes.
 
-    Raises CommandError where the call fails.
+    After NOTICE_AFTER_S seconds, the text that `notice` returns is printed once. Raises CommandError if the call fails.
     """
     from rclpy.executors import SingleThreadedExecutor
 
@@ -31,10 +33,10 @@ def wait_for_answer(domain: Domain, future: Future, *, remark: Callable[[], str]
     try:
         started = time.monotonic()
         while not future.done():
-            executor.spin_once(timeout_sec=SLICE_S)
-            if remark is not None and time.monotonic() > started + REMARK_AFTER_S:
-                print(remark(), file=sys.stderr, flush=True)
-                remark = None
+            executor.spin_once(timeout_sec=SPIN_TIMEOUT_S)
+            if notice is not None and time.monotonic() > started + NOTICE_AFTER_S:
+                print(notice(), file=sys.stderr, flush=True)
+                notice = None
     finally:
         executor.remove_node(domain.node)
         executor.shutdown()
@@ -44,16 +46,16 @@ def wait_for_answer(domain: Domain, future: Future, *, remark: Callable[[], str]
 
 
 def wait_until(
-    ready: Callable[[], bool], *, limit_s: float | None = None, remark: Callable[[], str] | None = None
+    ready: Callable[[], bool], *, limit_s: float | None = None, notice: Callable[[], str] | None = None
 ) -> bool:
-    """Wait until something is so, `limit_s` seconds at most (None: as long as it takes); whether it is."""
+    """Poll until `ready` is true, for at most `limit_s` seconds (None: forever). Return whether it became true."""
     started = time.monotonic()
     while not ready():
         waited = time.monotonic() - started
         if limit_s is not None and waited > limit_s:
             return False
-        if remark is not None and waited > REMARK_AFTER_S:
-            print(remark(), file=sys.stderr, flush=True)
-            remark = None
-        time.sleep(SLICE_S / 10)
+        if notice is not None and waited > NOTICE_AFTER_S:
+            print(notice(), file=sys.stderr, flush=True)
+            notice = None
+        time.sleep(SPIN_TIMEOUT_S / 10)
     return True

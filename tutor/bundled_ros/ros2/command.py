@@ -1,4 +1,4 @@
-"""The command line of `ros2`: its commands, and how it ends."""
+"""The command line of `ros2`: its commands and its exit codes."""
 
 from __future__ import annotations
 
@@ -28,19 +28,19 @@ COMMANDS = {
     "service": "See and call services",
     "topic": "See and publish messages on topics",
 }
-"""Each command and what it is for; it is the module (or the package of verbs) of this name in this package."""
+"""Each command with its help text. A command is a module, or a package of verbs, of the same name in this package."""
 
-_ELSEWHERE = ("bag", "component", "control", "lifecycle", "multicast", "security")
+_UNSUPPORTED_COMMANDS = ("bag", "component", "control", "lifecycle", "multicast", "security")
 
 
 def main(argv: Sequence[str]) -> int:
-    """Run `ros2 ARGV...`; gives its exit code: 0, 1 where it cannot be done, 2 for wrong usage and after Ctrl+C."""
-    signal.signal(signal.SIGINT, signal.default_int_handler)  # a job in the background has inherited an ignored one
-    signal.signal(signal.SIGTERM, _terminated)
+    """Run `ros2 ARGV...` and return its exit code: 0, 1 for a failure, 2 for wrong usage or after Ctrl+C."""
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # background jobs inherit SIG_IGN
+    signal.signal(signal.SIGTERM, _on_sigterm)
     try:
         return _run(argv)
     except KeyboardInterrupt:
-        signal.signal(signal.SIGINT, signal.SIG_IGN)  # pressed once more, it would end in a traceback
+        signal.signal(signal.SIGINT, signal.SIG_IGN)  # a second Ctrl+C would print a traceback
         return int(signal.SIGINT)
     except _Terminated:
         return int(signal.SIGTERM)
@@ -50,7 +50,7 @@ def main(argv: Sequence[str]) -> int:
 
 
 def build_parser() -> LazyParser:
-    """The parser of the whole command line; that of a command or a verb is filled when it is reached."""
+    """Build the parser of the whole command line. Subparsers get their arguments only when they are used."""
     parser = LazyParser(prog="ros2", description="The ros2 command, where no ROS 2 is installed.")
     parser.add_argument(
         "--use-python-default-buffering",
@@ -62,41 +62,43 @@ def build_parser() -> LazyParser:
 
 
 def _run(argv: Sequence[str]) -> int:
-    if argv and argv[0] in _ELSEWHERE:
-        return _say(f"ros2: `ros2 {argv[0]}` needs an installed ROS 2; this ros2 knows: {', '.join(COMMANDS)}", 2)
+    if argv and argv[0] in _UNSUPPORTED_COMMANDS:
+        return _print_error(
+            f"ros2: `ros2 {argv[0]}` needs an installed ROS 2; this ros2 knows: {', '.join(COMMANDS)}", 2
+        )
     parser = build_parser()
-    if completing.is_asked():
-        completing.answer(parser)
+    if completing.is_requested():
+        completing.print_completions(parser)
     arguments = parser.parse_args(argv)
     sys.stdout, sys.stderr = guard_terminal(sys.stdout), guard_terminal(sys.stderr)
     if not arguments.use_python_default_buffering:
-        _write_by_lines(sys.stdout)
+        _set_line_buffering(sys.stdout)
     try:
         if problem := shared_memory.problem():
             raise CommandError(problem)
         code = arguments.run(arguments)
     except CommandError as error:
-        return _say(str(error), error.code)
-    except (LookupError, RuntimeError) as error:  # among them what ROS itself refuses, as an RCLError
-        return _say(str(error), 1)
+        return _print_error(str(error), error.code)
+    except (LookupError, RuntimeError) as error:  # including ROS's own RCLError
+        return _print_error(str(error), 1)
     sys.stdout.flush()
     return int(code or 0)
 
 
-def _write_by_lines(stream: Any) -> None:
+def _set_line_buffering(stream: Any) -> None:
     if hasattr(stream, "reconfigure"):
         stream.reconfigure(line_buffering=True, errors="backslashreplace")
 
 
 class _Terminated(BaseException):
-    """SIGTERM has come."""
+    """SIGTERM was received."""
 
 
-def _terminated(_number: int, _frame: FrameType | None) -> NoReturn:
+def _on_sigterm(_number: int, _frame: FrameType | None) -> NoReturn:
     raise _Terminated
 
 
-def _say(text: str, code: int) -> int:
+def _print_error(text: str, code: int) -> int:
     sys.stdout.flush()
     print(text, file=sys.stderr)
     return code

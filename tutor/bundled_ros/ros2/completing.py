@@ -1,4 +1,4 @@
-"""Tab completion of `ros2`, by argcomplete: verbs and options by the parser, names and types by what is there now."""
+"""Tab completion of `ros2` with argcomplete: verbs and options from the parser, names and types from the live graph."""
 
 from __future__ import annotations
 
@@ -6,27 +6,27 @@ import os
 
 from tutor.bundled_ros.ros2.parsing import LazyParser
 
-ASKED = "_ARGCOMPLETE"
-"""The variable by which a shell asks for completions, in place of running the command."""
+_COMPLETE_VARIABLE = "_ARGCOMPLETE"
+"""The variable that a shell sets when it wants completions rather than the command itself."""
 
 
-def is_asked() -> bool:
-    """Whether the shell wants completions."""
-    return ASKED in os.environ
+def is_requested() -> bool:
+    """Return whether the shell wants completions."""
+    return _COMPLETE_VARIABLE in os.environ
 
 
-def answer(parser: LazyParser) -> None:
-    """Give the shell its completions, and end the process."""
+def print_completions(parser: LazyParser) -> None:
+    """Print the completions for the shell and end the process."""
     import argcomplete
     from argcomplete.lexers import split_line
 
-    # argcomplete patches the arguments that a parser has, and misses those that it would get later.
-    parser.fill_along(split_line(os.environ["COMP_LINE"], int(os.environ["COMP_POINT"]))[3][1:])
+    # argcomplete patches the arguments a parser already has and misses any that are added later.
+    parser.fill_for(split_line(os.environ["COMP_LINE"], int(os.environ["COMP_POINT"]))[3][1:])
     argcomplete.autocomplete(parser, exclude=["-h", "--help"])
 
 
-def registration(shell: str) -> str:
-    """The lines of bash or zsh that make Tab ask `ros2`."""
+def registration_code(shell: str) -> str:
+    """Return the bash or zsh code that registers completion for `ros2`."""
     from argcomplete.shell_integration import shellcode
 
     return shellcode(["ros2"], shell=shell)

@@ -1,4 +1,4 @@
-"""`ros2 doctor`, in short; `ros-tutor doctor` says more about this machine."""
+"""A short `ros2 doctor`; `ros-tutor doctor` checks this machine in more depth."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from tutor.ros_model import is_standard_topic
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """[--report] [--include-warnings]; --report-failed is refused."""
+    """[--report] [--include-warnings]; --report-failed is rejected."""
     parser.add_argument("--report", "-r", action="store_true", help="what is here, without judging it")
     parser.add_argument("--include-warnings", "-iw", action="store_true", help="warnings count as failures")
     parser.add_argument("--report-failed", "-rf", action="store_true", help="not supported here")
 
 
 def main(arguments: argparse.Namespace) -> int:
-    """Print what is wrong, and how many checks passed; 1 where one failed."""
+    """Print the problems and how many checks passed. Return 1 if one failed, 2 for an unsupported option."""
     if arguments.report_failed:
         print("ros2 doctor: --report-failed is not supported here; use --report", file=sys.stderr)
         return 2
@@ -57,10 +57,10 @@ def _report() -> Iterator[tuple[str, list[tuple[str, str]]]]:
             ("processor", platform.machine()),
         ],
     )
-    yield "ROS 2 INFORMATION", [("distribution name", _distribution()), ("rclpy", _version())]
+    yield "ROS 2 INFORMATION", [("distribution name", _distribution()), ("rclpy", _rclpy_version())]
     yield "RMW MIDDLEWARE", [("middleware name", _middleware())]
     with join_domain(argparse.Namespace()) as domain:
-        domain.complete()
+        domain.wait_for_discovery()
         yield (
             "TOPIC LIST",
             [
@@ -74,7 +74,7 @@ def _distribution() -> str:
     return os.environ.get("ROS_DISTRO") or "jazzy"
 
 
-def _version() -> str:
+def _rclpy_version() -> str:
     try:
         return version("ros-rclpy")
     except PackageNotFoundError:
@@ -88,7 +88,7 @@ def _middleware() -> str:
 
 
 def _topics(domain: Domain) -> list[tuple[str, list[str], int, int]]:
-    """Each topic with its types, publishers and subscribers, our own node's left out."""
+    """Return (name, types, publisher count, subscription count) of each topic that is not one of ROS's own."""
     return [
         (name, types, domain.node.count_publishers(name), domain.node.count_subscribers(name))
         for name, types in domain.node.get_topic_names_and_types()
@@ -96,13 +96,13 @@ def _topics(domain: Domain) -> list[tuple[str, list[str], int, int]]:
     ]
 
 
-def _network() -> Iterator[str]:
+def _check_network() -> Iterator[str]:
     text = os.environ.get("ROS_DOMAIN_ID", "0") or "0"
     if not text.isdecimal() or int(text) > 232:
         yield f"ROS_DOMAIN_ID is {text}: it must be a number from 0 to 232"
 
 
-def _middleware_works() -> Iterator[str]:
+def _check_middleware() -> Iterator[str]:
     try:
         with join_domain(argparse.Namespace()):
             pass
@@ -110,9 +110,9 @@ def _middleware_works() -> Iterator[str]:
         yield f"no node can be made: {error}"
 
 
-def _topics_have_two_ends() -> Iterator[str]:
+def _check_topics() -> Iterator[str]:
     with join_domain(argparse.Namespace()) as domain:
-        domain.complete()
+        domain.wait_for_discovery()
         for name, _, publishers, subscribers in _topics(domain):
             if not subscribers:
                 yield f"Publisher without subscriber detected on {name}."
@@ -121,7 +121,7 @@ def _topics_have_two_ends() -> Iterator[str]:
 
 
 _CHECKS: dict[str, Callable[[], Iterator[str]]] = {
-    "network": _network,
-    "middleware": _middleware_works,
-    "topic": _topics_have_two_ends,
+    "network": _check_network,
+    "middleware": _check_middleware,
+    "topic": _check_topics,
 }

@@ -1,7 +1,8 @@
-"""Our node on the user's domain, and when it has seen all that is there.
+"""A node on the user's domain, and how long it waits until discovery is complete.
 
-There is no daemon that has watched the domain before. Fast DDS gives each participant (usually a process) UDP ports
-of its own, so that those of this machine can be counted without asking; a list is complete when as many have been met.
+There is no daemon that has been watching the domain. Fast DDS opens separate UDP ports for each participant (usually
+one per process), so the participants on this machine can be counted without asking them; discovery is complete once
+as many have been discovered.
 """
 
 from __future__ import annotations
@@ -25,24 +26,25 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 
 LIMIT_S = 4.0
-"""The longest wait for participants whose ports are open, but which do not answer.
+"""Upper bound of a wait for participants whose ports are open but which have not answered.
 
-Where the answer to our announcement is lost, the next announcement of theirs comes within 3 s.
+If the answer to our announcement gets lost, their own next announcement comes within 3 s.
 """
 
 _POLL_S = 0.01
-_QUIET_S = 0.05  # what belongs together arrives within milliseconds
-_SURE_QUIET_S = 0.2  # before it is said that something is not there
-_LONG_QUIET_S = 1.5  # a DDS program that is not a ROS node never gets a node's name
-_UNCOUNTED_QUIET_S = 0.5  # where it cannot be known how many there are
-_SLOW_QUIET_S = 1.0  # the longest, where all comes slowly
-_UNKNOWN = "_NODE_NAME_UNKNOWN_"
-_HOST = 4  # this many bytes of a participant's id are those of its machine
-_BOOKKEEPING = "ros_discovery_info"  # the DDS topic on which each participant says which nodes it has
+# How long the graph must have been unchanged before it counts as complete:
+_QUIET_S = 0.05  # usually: related changes arrive within milliseconds
+_SURE_QUIET_S = 0.2  # before something is reported as missing
+_LONG_QUIET_S = 1.5  # while node names are unknown: a DDS program that is not a ROS node never gets one
+_UNCOUNTED_QUIET_S = 0.5  # if the participants cannot be counted
+_SLOW_QUIET_S = 1.0  # upper bound on a slow machine
+_UNKNOWN_NODE_NAME = "_NODE_NAME_UNKNOWN_"
+_HOST_BYTES = 4  # length of the part of a participant's id that identifies its machine
+_DISCOVERY_TOPIC = "ros_discovery_info"  # the DDS topic on which each participant lists its nodes
 
 
 def add_direct_arguments(parser: argparse.ArgumentParser) -> None:
-    """The options of each verb that joins the domain."""
+    """Add the options of every verb that joins the domain."""
     parser.add_argument(
         "--spin-time",
         type=float,
@@ -52,17 +54,17 @@ def add_direct_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def add_strategy_arguments(parser: argparse.ArgumentParser) -> None:
-    """The options of each verb for which ros2cli would ask its daemon."""
+    """Add the options of every verb for which ros2cli would ask its daemon."""
     add_direct_arguments(parser)
     parser.add_argument("--no-daemon", action="store_true", help="always so here: there is no daemon")
 
 
 @contextmanager
 def join_domain(arguments: argparse.Namespace, *, name: str | None = None) -> Iterator[Domain]:
-    """Join the domain with a node, for as long as the block lasts.
+    """Create a node on the domain for the duration of the block.
 
-    The node is hidden, as those of ros2cli are, unless it is given a name. Nothing spins it: a verb that has
-    subscriptions, timers or clients does. Raises CommandError where ROS cannot be joined.
+    Unless given a name, the node is hidden, like those of ros2cli. Nothing spins it: a verb with subscriptions, timers
+    or clients spins it itself. Raises CommandError for an invalid `name`.
     """
     import rclpy
     from rclpy.exceptions import InvalidNodeNameException
@@ -70,7 +72,7 @@ def join_domain(arguments: argparse.Namespace, *, name: str | None = None) -> It
 
     from tutor.ros.participant import new_context
 
-    # Python's own handler raises KeyboardInterrupt; rclpy's would end the context under whatever is going on.
+    # Python's own handler raises KeyboardInterrupt; rclpy's would shut the context down in the middle of a call.
     context = new_context()
     try:
         node = rclpy.create_node(
@@ -94,84 +96,95 @@ def join_domain(arguments: argparse.Namespace, *, name: str | None = None) -> It
 
 @dataclass(slots=True)
 class Domain:
-    """The domain as `node` sees it. `limit_s` bounds each wait for what is there to be seen."""
+    """The domain as `node` sees it. `limit_s` bounds each wait for discovery."""
 
     node: Node
     limit_s: float = LIMIT_S
 
-    def complete(self) -> None:
-        """Wait until everything that is on the domain has been seen."""
-        self._until(lambda: None, _QUIET_S)
+    def wait_for_discovery(self) -> None:
+        """Wait until everything on the domain has been discovered."""
+        self._poll_until_discovered(lambda: None, _QUIET_S)
 
-    def complete_publishers(self, topic: str) -> list[TopicEndpointInfo]:
-        """The publishers of a topic, as soon as all have been seen. Their nodes' names may still be unknown."""
+    def discover_publishers(self, topic: str) -> list[TopicEndpointInfo]:
+        """Return the publishers of a topic once all are discovered. Their nodes' names may still be unknown."""
         ask = self.node.get_publishers_info_by_topic
-        self._until(lambda: None, _QUIET_S, lambda: (sorted(self._participants()), len(ask(topic))), named=False)
+        self._poll_until_discovered(
+            lambda: None, _QUIET_S, lambda: (sorted(self._discovered_participants()), len(ask(topic))), named=False
+        )
         return list(ask(topic))
 
     def find(self, look: Callable[[], T | None]) -> T | None:
-        """What `look` gives, as soon as it is not None; None where it is not there, which all has been seen for."""
-        return self._until(look, _SURE_QUIET_S)
+        """Return what `look` returns as soon as that is not None; return None once discovery is complete without it."""
+        return self._poll_until_discovered(look, _SURE_QUIET_S)
 
-    def _until(
+    def _poll_until_discovered(
         self,
         look: Callable[[], T | None],
-        least_quiet_s: float,
+        min_quiet_s: float,
         fingerprint: Callable[[], object] | None = None,
         *,
         named: bool = True,
     ) -> T | None:
-        """What `look` gives, or gives at last once `fingerprint` (else that of the graph) has kept still."""
+        """Return what `look` returns as soon as that is not None, or its result once discovery is complete.
+
+        Discovery is complete once all participants are known and `fingerprint` (default: the graph's) stays the same.
+        `named`: the nodes' names must be known as well.
+        """
         from tutor.ros.graph import graph_fingerprint
 
-        sight = fingerprint or partial(graph_fingerprint, self.node)
+        get_fingerprint = fingerprint or partial(graph_fingerprint, self.node)
         start = changed = polled = time.monotonic()
-        seen = sight()
-        slowest_s, late_s = _POLL_S, 0.0
+        last_seen = get_fingerprint()
+        slowest_step_s, starved_s = _POLL_S, 0.0
         while True:
             if (found := look()) is not None:
                 return found
             now = time.monotonic()
-            # Where we are kept from running, so are our threads that the others talk to.
-            late_s += max(0.0, now - polled - 2 * _POLL_S)
-            slowest_s, polled = max(slowest_s, now - polled), now
-            if (sees := sight()) != seen:
-                slowest_s = max(slowest_s, now - changed)  # what comes slowly may have more to come
-                seen, changed = sees, now
+            # While this process is starved of CPU, so are the DDS threads that receive the others' messages.
+            starved_s += max(0.0, now - polled - 2 * _POLL_S)
+            slowest_step_s, polled = max(slowest_step_s, now - polled), now
+            if (latest := get_fingerprint()) != last_seen:
+                slowest_step_s = max(slowest_step_s, now - changed)  # slow changes may be followed by more
+                last_seen, changed = latest, now
             quiet_s = now - changed
-            if quiet_s >= max(least_quiet_s, min(2 * slowest_s, _SLOW_QUIET_S)) and self._all_are_met(quiet_s, named):
+            enough_s = max(min_quiet_s, min(2 * slowest_step_s, _SLOW_QUIET_S))
+            if quiet_s >= enough_s and self._all_are_discovered(quiet_s, named):
                 return look()
-            if now - start - late_s >= self.limit_s:
+            if now - start - starved_s >= self.limit_s:
                 return look()
             time.sleep(_POLL_S)
 
-    def _all_are_met(self, quiet_s: float, named: bool) -> bool:
-        met = self._participants()
+    def _all_are_discovered(self, quiet_s: float, named: bool) -> bool:
+        discovered = self._discovered_participants()
         expected = participants_here(self.node.context.get_domain_id())
         if expected is None:
             return quiet_s >= _UNCOUNTED_QUIET_S
-        if len(met) < expected:
+        if len(discovered) < expected:
             return False
-        return not named or quiet_s >= _LONG_QUIET_S or self._all_have_names()
+        return not named or quiet_s >= _LONG_QUIET_S or self._all_nodes_have_names()
 
-    def _participants(self) -> set[bytes]:
-        """Those of this machine, ourselves included, of which something that they publish and subscribe to is known."""
+    def _discovered_participants(self) -> set[bytes]:
+        """Return the ids of this machine's participants, ours included, whose endpoints have been discovered."""
         node = self.node
         asks = (node.get_publishers_info_by_topic, node.get_subscriptions_info_by_topic)
-        senders, readers = ({_id(info) for info in ask(_BOOKKEEPING, no_mangle=True)} for ask in asks)
-        own = (_id(info) for info in node.get_publishers_info_by_topic("/rosout") if info.node_name == node.get_name())
-        host = next((each[:_HOST] for each in own), b"")
+        senders, readers = ({_participant_id(info) for info in ask(_DISCOVERY_TOPIC, no_mangle=True)} for ask in asks)
+        own = (
+            _participant_id(info)
+            for info in node.get_publishers_info_by_topic("/rosout")
+            if info.node_name == node.get_name()
+        )
+        host = next((each[:_HOST_BYTES] for each in own), b"")
         return {each for each in senders & readers if each.startswith(host)}
 
-    def _all_have_names(self) -> bool:
+    def _all_nodes_have_names(self) -> bool:
         return not any(
-            info.node_name == _UNKNOWN
+            info.node_name == _UNKNOWN_NODE_NAME
             for topic, _ in self.node.get_topic_names_and_types()
             for ask in (self.node.get_publishers_info_by_topic, self.node.get_subscriptions_info_by_topic)
             for info in ask(topic)
         )
 
 
-def _id(info: Any) -> bytes:
-    """The id of the participant that an endpoint belongs to."""
+def _participant_id(info: Any) -> bytes:
+    """Return the id of the participant that an endpoint belongs to."""
     return bytes(info.endpoint_gid[:12])

@@ -1,4 +1,4 @@
-"""Message, service and action types by name, as rosidl_runtime_py finds them."""
+"""Look up message, service and action types by name, as rosidl_runtime_py does."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 _INDEX = Path("share") / "ament_index" / "resource_index" / "rosidl_interfaces"
-_PARTS = {
+_REQUIRED_ATTRIBUTES = {
     "msg": ("SLOT_TYPES",),
     "srv": ("Request", "Response"),
     "action": ("Goal", "Result", "Feedback"),
@@ -17,36 +17,36 @@ _PARTS = {
 
 
 class UnknownInterface(LookupError):
-    """There is no such type here, or it is of another kind."""
+    """No such type exists here, or it is of another kind."""
 
 
-class OfAnotherKind(UnknownInterface):
-    """It is here, but no message, service or action, as it was to be."""
+class WrongInterfaceKind(UnknownInterface):
+    """The type exists but is not the message, service or action that was asked for."""
 
 
 def find_interface(name: str, kind: str) -> Any:
-    """The class of a type, from `std_msgs/msg/String` or `std_msgs/String`; `kind` is msg, srv or action.
+    """Return the class of a type such as `std_msgs/msg/String` or `std_msgs/String`; `kind` is msg, srv or action.
 
-    Raises UnknownInterface, and OfAnotherKind where there is something else of this name.
+    Raises UnknownInterface, or WrongInterfaceKind if the name belongs to something else.
     """
-    *where, last = name.split("/")
-    if len(where) == 1:
-        where.append(kind)
+    *path, last = name.split("/")
+    if len(path) == 1:
+        path.append(kind)
     try:
-        found = getattr(importlib.import_module(".".join(where)), last)
+        found = getattr(importlib.import_module(".".join(path)), last)
     except (ImportError, AttributeError, ValueError) as error:
         raise UnknownInterface(name) from error
-    if not all(hasattr(found, part) for part in _PARTS[kind]):
-        raise OfAnotherKind(name)
+    if not all(hasattr(found, attribute) for attribute in _REQUIRED_ATTRIBUTES[kind]):
+        raise WrongInterfaceKind(name)
     return found
 
 
 def types_by_package() -> dict[str, list[str]]:
-    """The types of each package that has any, such as `msg/String`, in the order of its index in the ament prefixes."""
+    """Map each package that has types to their names, such as `msg/String`, in the order of its ament index file."""
     found: dict[str, list[str]] = {}
     for index in _indices():
         for package in sorted(index.iterdir()):
-            if package.name not in found:  # the first prefix counts
+            if package.name not in found:  # the first prefix wins
                 lines = package.read_text(encoding="utf-8").splitlines()
                 kinds = (".msg", ".srv", ".action", ".idl")
                 names = dict.fromkeys(line.rpartition(".")[0] for line in lines if line.endswith(kinds))
@@ -55,7 +55,7 @@ def types_by_package() -> dict[str, list[str]]:
 
 
 def message_names(**_: object) -> list[str]:
-    """All message types, for Tab."""
+    """Return all message types, for Tab completion."""
     return [
         f"{package}/{name}"
         for package, names in types_by_package().items()

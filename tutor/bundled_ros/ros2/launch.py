@@ -1,4 +1,4 @@
-"""`ros2 launch`: runs a launch file, named by its path or by a package and its file name."""
+"""`ros2 launch`: run a launch file, given by its path or by a package and a file name."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from tutor.bundled_ros.ros2.parsing import complete_with
 from tutor.bundled_ros.ros2.pkg.names import all_packages
 from tutor.errors import CommandError
 
-_LAUNCH_FILES = ("launch.py", "launch.xml", "launch.yaml", "launch.yml", ".launch")
+_LAUNCH_SUFFIXES = ("launch.py", "launch.xml", "launch.yaml", "launch.yml", ".launch")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -38,27 +38,27 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--launch-prefix", help="start every process with this command, in quotes")
     parser.add_argument("--launch-prefix-filter", help="only those whose name this regular expression matches")
     first = parser.add_argument("package", metavar="package_name", help="a package, or the path of a launch file")
-    complete_with(first, _packages_and_files)
+    complete_with(first, _complete_packages_and_files)
     second = parser.add_argument(
         "file", metavar="launch_file_name", nargs="?", help="the launch file's name in the package"
     )
-    complete_with(second, _files_of_package)
+    complete_with(second, _complete_files_of_package)
     rest = parser.add_argument(
         "arguments", metavar="launch_arguments", nargs="*", help="name:=value (of two of one name, the last counts)"
     )
-    complete_with(rest, _nothing)
+    complete_with(rest, _complete_nothing)
 
 
 def main(arguments: argparse.Namespace) -> int:
-    """Launch, and give launch's own exit code. Raises CommandError."""
-    overlaying.overlay_workspace(_place(arguments))
+    """Run the launch file and return launch's own exit code. Raises CommandError."""
+    overlaying.overlay_workspace(_search_start(arguments))
     given = list(arguments.arguments)
-    if _by_path(arguments):
+    if _is_path(arguments):
         path = Path(arguments.package)
         if arguments.file is not None:
             given.insert(0, arguments.file)
     else:
-        path = _in_package(arguments.package, arguments.file)
+        path = _find_in_package(arguments.package, arguments.file)
     check_arguments(given)
     if arguments.launch_prefix_filter is not None and arguments.launch_prefix is None:
         raise CommandError("--launch-prefix must be specified if --launch-prefix-filter is provided")
@@ -68,7 +68,7 @@ def main(arguments: argparse.Namespace) -> int:
     if arguments.show_all_subprocesses_output:
         os.environ["OVERRIDE_LAUNCH_PROCESS_OUTPUT"] = "both"
     overlaying.restore_buffering()
-    from tutor.bundled_ros import launching  # late: --help and wrong usage need none of it
+    from tutor.bundled_ros import launching  # late: --help and usage errors do not need it
 
     code: int = launching.run(
         path,
@@ -83,21 +83,24 @@ def main(arguments: argparse.Namespace) -> int:
 
 
 def check_arguments(given: Sequence[str]) -> None:
-    """Raise CommandError where something is not a launch argument."""
+    """Raise CommandError if a word is not a launch argument."""
     for argument in given:
         name, sign, value = argument.partition(":=")
         if not (name and sign and value):
             raise CommandError(f"malformed launch argument '{argument}', expected format '<name>:=<value>'")
 
 
-def _place(arguments: argparse.Namespace) -> Path:
-    """Where to look for packages: the launch file, where one is named by its path; else the current folder."""
+def _search_start(arguments: argparse.Namespace) -> Path:
+    """Return where to start looking for packages: the launch file given by its path, or else the current folder."""
     named = Path(arguments.package)
     return Path(os.path.abspath(named)) if named.is_file() else Path.cwd()
 
 
-def _by_path(arguments: argparse.Namespace) -> bool:
-    """Whether the first word is a path: it is the only one that is not an argument, or no package and there."""
+def _is_path(arguments: argparse.Namespace) -> bool:
+    """Return whether the first word is the launch file's path, not a package followed by a file name.
+
+    Raises CommandError if it is neither.
+    """
     if arguments.file is not None and packages.has_package(arguments.package):
         return False
     if Path(arguments.package).is_file():
@@ -109,7 +112,7 @@ def _by_path(arguments: argparse.Namespace) -> bool:
     return False
 
 
-def _in_package(package: str, name: str) -> Path:
+def _find_in_package(package: str, name: str) -> Path:
     try:
         share = packages.find_share(package)
     except packages.PackageNotFound as error:
@@ -132,31 +135,31 @@ def _in_package(package: str, name: str) -> Path:
 
 
 def _files_below(share: Path) -> Iterator[Path]:
-    for folder, below, files in os.walk(share, followlinks=True):  # of a package that is not built, they are links
+    for folder, below, files in os.walk(share, followlinks=True):  # a package that is not built is made of links
         below[:] = [each for each in below if not each.startswith((".", "__"))]
         yield from (Path(folder) / name for name in files)
 
 
-def _packages_and_files(prefix: str, **_: object) -> list[str]:
-    """For Tab: the packages, and what there is below the path that was begun: launch files, and folders to go into."""
-    where, slash, _begun = prefix.rpartition("/")
-    start = where + slash
-    there = [] if start and not Path(start).is_dir() else sorted(Path(start or ".").iterdir())
-    folders = [f"{start}{path.name}/" for path in there if path.is_dir() and not path.name.startswith(".")]
-    files = [f"{start}{path.name}" for path in there if path.name.endswith(_LAUNCH_FILES)]
+def _complete_packages_and_files(prefix: str, **_: object) -> list[str]:
+    """Complete packages, and the launch files and folders below the path typed so far."""
+    parent, slash, _begun = prefix.rpartition("/")
+    start = parent + slash
+    entries = [] if start and not Path(start).is_dir() else sorted(Path(start or ".").iterdir())
+    folders = [f"{start}{path.name}/" for path in entries if path.is_dir() and not path.name.startswith(".")]
+    files = [f"{start}{path.name}" for path in entries if path.name.endswith(_LAUNCH_SUFFIXES)]
     return [*([] if slash else all_packages()), *files, *folders]
 
 
-def _files_of_package(parsed_args: argparse.Namespace, **_: object) -> list[str]:
-    """For Tab: the launch files of the package that was typed."""
+def _complete_files_of_package(parsed_args: argparse.Namespace, **_: object) -> list[str]:
+    """Complete the launch files of the package that was typed."""
     all_packages()
     try:
         share = packages.find_share(parsed_args.package)
     except packages.PackageNotFound:
         return []
-    return sorted({path.name for path in _files_below(share) if path.name.endswith(_LAUNCH_FILES)})
+    return sorted({path.name for path in _files_below(share) if path.name.endswith(_LAUNCH_SUFFIXES)})
 
 
-def _nothing(**_: object) -> list[str]:
-    """For Tab: no file names where launch arguments belong."""
+def _complete_nothing(**_: object) -> list[str]:
+    """Complete nothing: the shell must not offer file names where launch arguments belong."""
     return []

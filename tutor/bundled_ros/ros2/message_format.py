@@ -1,4 +1,4 @@
-"""The options of verbs that print messages: what is cut, left out and how lists are written."""
+"""The options of verbs that print messages: what is truncated, what is left out and how lists are written."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from tutor.ros.yaml_format import LONGEST, to_csv, to_yaml
 
 
 def add_format_arguments(parser: argparse.ArgumentParser) -> None:
-    """--full-length, --truncate-length, --no-arr, --no-str and --flow-style."""
+    """Add --full-length, --truncate-length, --no-arr, --no-str and --flow-style."""
     add = parser.add_argument
     add("--full-length", "-f", action="store_true", help="long arrays and texts in full")
     add(
@@ -28,7 +28,7 @@ def add_format_arguments(parser: argparse.ArgumentParser) -> None:
 
 @dataclass(frozen=True, slots=True)
 class MessageFormat:
-    """What the options ask for."""
+    """How messages are printed. `longest` is the length at which arrays and texts are truncated (None: never)."""
 
     longest: int | None
     no_arrays: bool
@@ -37,12 +37,12 @@ class MessageFormat:
 
     @classmethod
     def of(cls, arguments: argparse.Namespace) -> MessageFormat:
-        """As the options say."""
+        """Build the format from the parsed options."""
         longest = None if arguments.full_length else arguments.truncate_length
         return cls(longest, arguments.no_arr, arguments.no_str, arguments.flow_style)
 
     def yaml(self, message: Any) -> str:
-        """The message as YAML."""
+        """Format the message as YAML."""
         return to_yaml(
             message,
             longest=self.longest,
@@ -52,5 +52,5 @@ class MessageFormat:
         )
 
     def csv(self, message: Any) -> str:
-        """The message's values, separated by commas."""
+        """Format the message's values, separated by commas."""
         return to_csv(message, longest=self.longest, no_arrays=self.no_arrays, no_texts=self.no_texts)

@@ -1,7 +1,7 @@
-"""An ament prefix made on the spot, with the packages that are not built, as if they were and its setup were sourced.
+"""A temporary ament prefix that makes source-only packages look built and sourced.
 
-What looks packages up (launch's `Node`, `FindPackageShare`, `ament_index_python`, the real `ros2`) finds them there.
-Real packages go first: only what no prefix has is added, at the end of AMENT_PREFIX_PATH.
+Everything that looks packages up (launch's `Node`, `FindPackageShare`, `ament_index_python`, the real `ros2`) finds
+them there. Built packages take precedence: only what no prefix has is added, at the end of AMENT_PREFIX_PATH.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ _DEMO = Path(__file__).resolve().parents[1] / "demo"
 _MODULES = Path("lib") / "python3" / "site-packages"
 _DEMO_PACKAGES = ("demo_nodes_cpp", "demo_nodes_py")
 
-_OF_PACKAGE = """\
+_PACKAGE_SCRIPT = """\
 #!{python} -P
 import importlib
 import sys
@@ -40,7 +40,7 @@ for part in function.split("."):
 sys.exit(program())
 """
 
-_OF_DEMO = """\
+_DEMO_SCRIPT = """\
 #!{python} -P
 import runpy
 import sys
@@ -49,7 +49,7 @@ sys.argv[1:1] = [{name!r}, {program!r}]
 runpy.run_path({nodes!r}, run_name="__main__")
 """
 
-_ROS2 = """\
+_ROS2_SCRIPT = """\
 #!{python} -P
 import sys
 
@@ -62,23 +62,23 @@ sys.exit(main(sys.argv[1:]))
 def make_overlay(
     prefix: Path, near: Path | None, environ: MutableMapping[str, str], *, python: str = sys.executable
 ) -> None:
-    """Make the prefix, a folder that is not there yet, and change `environ` so that it is used.
+    """Create the folder `prefix`, which must not exist yet, and change `environ` so that it is used.
 
-    `near`: the launch file (or folder) whose workspace's packages are added; a launch file outside any workspace has
-    the modules beside it in `my_package`. `python`: the interpreter that the programs are to run with. Where there is
-    no real `ros2`, the prefix has one.
+    `near` is the launch file (or folder) whose workspace's packages are added; outside any workspace, the modules
+    beside the launch file become part of `my_package`. `python` is the interpreter that runs the programs. If PATH has
+    no `ros2`, the prefix gets ours.
     """
-    there = [Path(entry) for entry in environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep) if entry]
-    made: set[str] = set()
-    for package in _packages(near, environ):
-        if package.name in made or any((each / INDEX / package.name).is_file() for each in there):
+    prefixes = [Path(entry) for entry in environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep) if entry]
+    added: set[str] = set()
+    for package in _source_packages(near, environ):
+        if package.name in added or any((each / INDEX / package.name).is_file() for each in prefixes):
             continue
         if package.name in _DEMO_PACKAGES and not package.programs:
-            continue  # its programs are C++ that is not built; ours do the same
-        made.add(package.name)
+            continue  # its C++ programs are not built; ours do the same
+        added.add(package.name)
         for program, target in package.programs.items():
             folders = [str(folder) for folder in package.modules]
-            script = _OF_PACKAGE.format(python=python, name=package.name, folders=folders, target=target)
+            script = _PACKAGE_SCRIPT.format(python=python, name=package.name, folders=folders, target=target)
             _write_program(prefix / "lib" / package.name / program, script)
         _add_package(prefix, package.name, package.share)
         if len(package.modules) > 1:
@@ -87,34 +87,38 @@ def make_overlay(
         elif (package.modules[0] / "__init__.py").is_file():
             _append(environ, "PYTHONPATH", package.modules[0].parent)
     for name in _DEMO_PACKAGES:
-        if name not in made and not any((each / INDEX / name).is_file() for each in there):
+        if name not in added and not any((each / INDEX / name).is_file() for each in prefixes):
             for program in ("talker", "listener"):
-                script = _OF_DEMO.format(python=python, name=name, program=program, nodes=str(_DEMO / "nodes.py"))
+                script = _DEMO_SCRIPT.format(python=python, name=name, program=program, nodes=str(_DEMO / "nodes.py"))
                 _write_program(prefix / "lib" / name / program, script)
             share = _DEMO / "share" / name
             _add_package(prefix, name, {entry.name: entry for entry in share.iterdir()} if share.is_dir() else {})
     if not _has_ros2(environ):
-        _write_program(prefix / "bin" / "ros2", _ROS2.format(python=python))
+        _write_program(prefix / "bin" / "ros2", _ROS2_SCRIPT.format(python=python))
         _append(environ, "PATH", prefix / "bin")
     _append(environ, "AMENT_PREFIX_PATH", prefix)
 
 
-def _packages(near: Path | None, environ: Mapping[str, str]) -> Iterator[SourcePackage]:
-    """All packages that there are as sources; of two with one name, the first counts."""
-    around = list(sources.workspace_packages(near)) if near is not None else []
-    yield from around
-    if near is not None and near.is_file() and not any(package.name == sources.TEMPLATE.name for package in around):
+def _source_packages(near: Path | None, environ: Mapping[str, str]) -> Iterator[SourcePackage]:
+    """Yield all source-only packages; of two with the same name, the first wins."""
+    in_workspace = list(sources.workspace_packages(near)) if near is not None else []
+    yield from in_workspace
+    if (
+        near is not None
+        and near.is_file()
+        and not any(package.name == sources.TEMPLATE.name for package in in_workspace)
+    ):
         yield sources.package_with(near.parent)
-    workspace = _workspace(environ)
+    workspace = _find_workspace(environ)
     if workspace.is_dir():
         yield from sources.packages_below(workspace)
     yield sources.template_package()
 
 
-def _workspace(environ: Mapping[str, str]) -> Path:
+def _find_workspace(environ: Mapping[str, str]) -> Path:
     if named := environ.get("ROS_TUTOR_WORKSPACE"):
         return Path(named).expanduser()
-    from tutor.workspace import find_workspace  # late: most launch files are in a workspace, or beside their modules
+    from tutor.workspace import find_workspace  # late: most launch files are in a workspace or beside their modules
 
     return find_workspace()
 
@@ -130,7 +134,7 @@ def _add_package(prefix: Path, name: str, share: Mapping[str, Path]) -> None:
 
 
 def _add_modules(folder: Path, package: SourcePackage) -> None:
-    """A package whose modules are in several folders, importable by its name."""
+    """Make a package whose modules are in several folders importable by its name."""
     init = folder / package.name / "__init__.py"
     init.parent.mkdir(parents=True, exist_ok=True)
     init.write_text(f"__path__ = {[str(each) for each in package.modules]!r}\n", encoding="utf-8")

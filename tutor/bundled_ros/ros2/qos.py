@@ -1,4 +1,4 @@
-"""The QoS options of verbs that publish or subscribe, and the QoS that they ask for."""
+"""The QoS options of verbs that publish or subscribe, and the profile they select."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from rclpy.qos import QoSProfile
 
-# As rclpy's enums list them; written out, so that help and usage errors need no rclpy.
+# As in rclpy's enums; spelled out so that help and usage errors do not need rclpy.
 PROFILES = (
     "unknown",
     "default",
@@ -35,7 +35,7 @@ _OVERRIDES = (
 
 
 def add_qos_arguments(parser: argparse.ArgumentParser, profile: str) -> None:
-    """The options `--qos-...`; `profile` is the preset that holds where none is given."""
+    """Add the `--qos-...` options; `profile` is the default preset."""
     parser.add_argument("--qos-profile", choices=PROFILES, default=profile, help=f"the preset (default: {profile})")
     parser.add_argument("--qos-depth", metavar="N", type=int, help="the length of the queue")
     parser.add_argument("--qos-history", choices=_HISTORIES, help="what is kept in the queue")
@@ -47,13 +47,13 @@ def add_qos_arguments(parser: argparse.ArgumentParser, profile: str) -> None:
     )
 
 
-def asks_for_qos(arguments: argparse.Namespace) -> bool:
-    """Whether an option asks for more than a preset."""
+def overrides_qos(arguments: argparse.Namespace) -> bool:
+    """Return whether any option overrides the preset."""
     return any(getattr(arguments, name) is not None for name in _OVERRIDES)
 
 
-def qos_of(arguments: argparse.Namespace) -> QoSProfile:
-    """The preset with the options' changes."""
+def qos_from_arguments(arguments: argparse.Namespace) -> QoSProfile:
+    """Return the preset with the options' overrides applied."""
     from rclpy import qos
     from rclpy.duration import Duration
 

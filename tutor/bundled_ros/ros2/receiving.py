@@ -1,4 +1,4 @@
-"""Takes the messages of a topic in batches: at 10 kHz, a hundred wake-ups a second, not ten thousand."""
+"""Take a topic's messages in batches: at 10 kHz that is a hundred wake-ups a second, not ten thousand."""
 
 from __future__ import annotations
 
@@ -13,18 +13,20 @@ if TYPE_CHECKING:
     from rclpy.subscription import Subscription
 
 DEPTH = 10_000
-"""Messages that may wait until they are taken: a second of a 10 kHz topic."""
+"""Queue depth in messages: one second of a 10 kHz topic."""
 
 BIG = 10_000
+"""Messages larger than this, in bytes, get a shorter queue, so that it holds at most MOST_BYTES."""
+
 MOST_BYTES = 30_000_000
-"""Of messages with more than `BIG` bytes, no more than `MOST_BYTES` may wait, or are given at once."""
+"""Bound on the memory of one batch and of a queue of big messages, in bytes."""
 
 _WAIT_NS = 50_000_000  # Ctrl+C takes effect between two waits
-_EVENTS_EVERY_S = 0.1
-_MOST_AT_ONCE = 5_000
+_EVENTS_PERIOD_S = 0.1
+_MAX_BATCH = 5_000
 
 Received = tuple[Any, dict[str, Any]]
-"""A message (bytes, where it is raw) and rmw's facts about it: timestamps in ns, numbers."""
+"""A message (bytes if raw) and its rmw message info: timestamps in ns and sequence numbers."""
 
 
 def receive(
@@ -37,9 +39,9 @@ def receive(
     gather_s: float,
     on_lost: Callable[[Any], None] | None = None,
 ) -> Iterator[list[Received]]:
-    """Subscribe, and give what has arrived, batch by batch, forever; an empty batch at least ten times a second.
+    """Subscribe and yield messages in batches, forever; a batch, perhaps empty, comes at least ten times a second.
 
-    Between two batches, messages gather for `gather_s` seconds. `on_lost` is called for messages that never came.
+    Messages accumulate for `gather_s` seconds between two batches. `on_lost` is called when messages were lost.
     """
     import rclpy
     from rclpy.event_handler import SubscriptionEventCallbacks
@@ -47,32 +49,32 @@ def receive(
     from rclpy.serialization import deserialize_message
 
     node = domain.node
-    group = _only_events()
+    group = _events_only_group()
 
     def subscribe() -> Subscription:
         events = SubscriptionEventCallbacks(message_lost=on_lost)
         return node.create_subscription(
-            message_type, topic, _taken_here, qos, callback_group=group, event_callbacks=events, raw=raw
+            message_type, topic, _never_called, qos, callback_group=group, event_callbacks=events, raw=raw
         )
 
     subscription = subscribe()
-    # Tells of lost messages and of QoS that does not fit, and follows a simulation's clock.
+    # The executor handles lost-message and incompatible-QoS events, and /clock with simulated time.
     executor = rclpy.executors.SingleThreadedExecutor(context=node.context)
     executor.add_node(node)
-    waiting = implementation.WaitSet(1, 0, 0, 0, 0, 0, node.context.handle)
-    events_at = 0.0
+    wait_set = implementation.WaitSet(1, 0, 0, 0, 0, 0, node.context.handle)
+    next_events_at = 0.0
     while True:
-        waiting.clear_entities()
-        waiting.add_subscription(subscription.handle)
-        waiting.wait(_WAIT_NS)
-        found, size = _all_of(subscription, raw, deserialize_message)
+        wait_set.clear_entities()
+        wait_set.add_subscription(subscription.handle)
+        wait_set.wait(_WAIT_NS)
+        taken, size = _all_of(subscription, raw, deserialize_message)
         if qos.depth == DEPTH and size > BIG:
             qos.depth = max(1, MOST_BYTES // size)
             node.destroy_subscription(subscription)
             subscription = subscribe()
-        yield found
-        if (now := time.monotonic()) >= events_at:
-            events_at = now + _EVENTS_EVERY_S
+        yield taken
+        if (now := time.monotonic()) >= next_events_at:
+            next_events_at = now + _EVENTS_PERIOD_S
             executor.spin_once(timeout_sec=0)
         time.sleep(gather_s)
 
@@ -80,26 +82,26 @@ def receive(
 def _all_of(
     subscription: Subscription, raw: bool, deserialize: Callable[[bytes, Any], Any]
 ) -> tuple[list[Received], int]:
-    """What waits, or some of it where it is big; and the size of the first message, in bytes."""
-    found: list[Received] = []
+    """Take the queued messages (at most MOST_BYTES of them). Return them and the size of the first, in bytes."""
+    taken: list[Received] = []
     take, message_type = subscription.handle.take_message, subscription.msg_type
     with subscription.handle:
         if (first := take(message_type, True)) is None:
             return [], 0
         size = len(first[0])
-        found.append(first if raw else (deserialize(first[0], message_type), first[1]))
-        most = min(_MOST_AT_ONCE, max(1, MOST_BYTES // size))
-        while len(found) < most and (one := take(message_type, raw)) is not None:
-            found.append(one)
-    return found, size
+        taken.append(first if raw else (deserialize(first[0], message_type), first[1]))
+        limit = min(_MAX_BATCH, max(1, MOST_BYTES // size))
+        while len(taken) < limit and (one := take(message_type, raw)) is not None:
+            taken.append(one)
+    return taken, size
 
 
-def _only_events() -> Any:
+def _events_only_group() -> Any:
     from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
     from rclpy.subscription import Subscription
 
     class OnlyEvents(MutuallyExclusiveCallbackGroup):
-        """Keeps the executor from the messages."""
+        """Keeps the executor from taking the messages."""
 
         def can_execute(self, entity: Any) -> bool:
             return not isinstance(entity, Subscription) and bool(super().can_execute(entity))  # type: ignore[no-untyped-call]
@@ -107,5 +109,5 @@ def _only_events() -> Any:
     return OnlyEvents()  # type: ignore[no-untyped-call]
 
 
-def _taken_here(_message: Any) -> None:
+def _never_called(_message: Any) -> None:
     raise AssertionError("the executor takes no messages")

@@ -1,4 +1,4 @@
-"""`ros2 run`: starts a program of a package."""
+"""`ros2 run`: run a package's executable."""
 
 from __future__ import annotations
 
@@ -13,38 +13,44 @@ from tutor.bundled_ros.ros2 import overlaying
 from tutor.bundled_ros.ros2.parsing import complete_with
 from tutor.errors import CommandError
 
-_SAYS = "[ros2run]:"
+_LOG_PREFIX = "[ros2run]:"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """[--prefix COMMAND] PACKAGE EXECUTABLE [ARGUMENT ...]."""
     parser.add_argument("--prefix", help="start the program with this command, in quotes")
-    complete_with(parser.add_argument("package", metavar="package_name", help="the package"), _packages)
-    complete_with(parser.add_argument("executable", metavar="executable_name", help="its program"), _programs)
+    complete_with(parser.add_argument("package", metavar="package_name", help="the package"), _complete_packages)
+    complete_with(
+        parser.add_argument("executable", metavar="executable_name", help="its program"), _complete_executables
+    )
     parser.add_argument("rest", metavar="argv", nargs=argparse.REMAINDER, help="what to pass to the program")
 
 
 def main(arguments: argparse.Namespace) -> int:
-    """Run the program to its end, and give its exit code (-N after signal N). Raises CommandError."""
+    """Run the program to its end and return its exit code (-N after signal N). Raises CommandError."""
     overlaying.overlay_workspace(Path.cwd())
     overlaying.restore_buffering()
-    command = [*shlex.split(arguments.prefix or ""), *_find(arguments.package, arguments.executable), *arguments.rest]
-    # Ctrl+C reaches the program by itself; we only have to be there still when it has ended.
+    command = [
+        *shlex.split(arguments.prefix or ""),
+        *_find_command(arguments.package, arguments.executable),
+        *arguments.rest,
+    ]
+    # The terminal sends Ctrl+C to the program as well; we only have to outlive it.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     try:
-        program = subprocess.Popen(command, preexec_fn=_as_from_a_terminal)
+        program = subprocess.Popen(command, preexec_fn=_restore_sigint)
     except OSError as error:
         raise CommandError(f"{command[0]} cannot be started: {error.strerror}") from error
     signal.signal(signal.SIGTERM, lambda *_: program.terminate())
     code = program.wait()
     if code > 0:
-        print(f"{_SAYS} Process exited with failure {code}")
+        print(f"{_LOG_PREFIX} Process exited with failure {code}")
     elif code < 0:
-        print(f"{_SAYS} {signal.strsignal(-code)}")
+        print(f"{_LOG_PREFIX} {signal.strsignal(-code)}")
     return code
 
 
-def _find(package: str, executable: str) -> list[str]:
+def _find_command(package: str, executable: str) -> list[str]:
     try:
         return packages.find_executable(package, executable)
     except packages.PackageNotFound as error:
@@ -53,17 +59,17 @@ def _find(package: str, executable: str) -> list[str]:
         raise CommandError(f"No executable found{error.hint}") from error
 
 
-def _packages(**_: object) -> list[str]:
-    """For Tab: the packages that have programs."""
+def _complete_packages(**_: object) -> list[str]:
+    """Complete packages that have executables."""
     overlaying.overlay_workspace(Path.cwd())
     return packages.packages_with_programs()
 
 
-def _programs(parsed_args: argparse.Namespace, **_: object) -> list[str]:
-    """For Tab: the programs of the package that was typed."""
+def _complete_executables(parsed_args: argparse.Namespace, **_: object) -> list[str]:
+    """Complete the executables of the package that was typed."""
     overlaying.overlay_workspace(Path.cwd())
     return packages.programs_of(parsed_args.package)
 
 
-def _as_from_a_terminal() -> None:
+def _restore_sigint() -> None:
     signal.signal(signal.SIGINT, signal.SIG_DFL)

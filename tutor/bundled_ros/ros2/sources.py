@@ -1,4 +1,4 @@
-"""Packages that are there as sources only: the learner's own, and those that we bring."""
+"""Source-only packages: the learner's own and the ones that come with the tutorial."""
 
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ from pathlib import Path
 from typing import Any
 
 TEMPLATE = Path(__file__).resolve().parents[2] / "workspace" / "template" / "src" / "my_package"
-_MARKER = ".ros-tutor"
-_RUN_SETUP_S = 10.0
-_DEEPEST = 5
-_NEAR = 2
-_MOST = 2000
-_BUILT = frozenset({"build", "install", "log", "node_modules", "venv"})
-_IGNORED = ("COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE")
+_WORKSPACE_MARKER = ".ros-tutor"
+_RUN_SETUP_TIMEOUT_S = 10.0
+_MAX_DEPTH = 5  # levels searched in a workspace
+_MAX_DEPTH_ELSEWHERE = 2
+_MAX_FOLDERS = 2000
+_SKIPPED = frozenset({"build", "install", "log", "node_modules", "venv"})
+_IGNORE_MARKERS = ("COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE")
 
-# Gives what setup.py passes to setup(), as JSON, where that cannot be read off.
-_CAPTURE = """
+# Prints the console scripts that setup.py passes to setup(), as JSON, for a setup.py that cannot be parsed statically.
+_CAPTURE_SCRIPT = """
 import json, sys, types
 caught = {}
 stub = types.ModuleType("setuptools")
@@ -41,8 +41,9 @@ print(json.dumps((caught.get("entry_points") or {}).get("console_scripts") or []
 class SourcePackage:
     """A Python package of ROS nodes.
 
-    `programs` maps the name of each to `module:function` (the module within the Python package). `modules` are the
-    folders of the Python package, searched in this order; `share` maps names to what its share folder has.
+    `programs` maps each executable's name to `module:function`, with the module's name inside the Python package.
+    `modules` are the folders of the Python package, in search order; `share` maps names to the entries of its share
+    folder.
     """
 
     name: str
@@ -52,46 +53,46 @@ class SourcePackage:
 
 
 def workspace_packages(place: Path) -> Iterator[SourcePackage]:
-    """The packages of the workspace that `place` (a file or folder) is in, its own package first."""
+    """Yield the packages of the workspace around `place` (a file or folder), first the one that contains it."""
     folder = place if place.is_dir() else place.parent
     for parent in (folder, *folder.parents):
         if (parent / "package.xml").is_file():
-            yield from _packages((parent, *_folders(_workspace_of(parent))))
+            yield from _read_packages((parent, *_find_package_folders(_workspace_of(parent))))
             return
-        if (parent / _MARKER).is_dir():
+        if (parent / _WORKSPACE_MARKER).is_dir():
             yield from packages_below(parent)
             return
     yield from packages_below(folder)
 
 
 def packages_below(folder: Path) -> Iterator[SourcePackage]:
-    """The packages in a workspace, or in a folder."""
-    yield from _packages(_folders(folder))
+    """Yield the packages in a workspace or any other folder."""
+    yield from _read_packages(_find_package_folders(folder))
 
 
 def _workspace_of(package: Path) -> Path:
-    """Where the packages beside one are: below the nearest folder `src` around it, else in the folder that it is in."""
+    """Return the folder that holds a package and its neighbours: the nearest `src` above it, else its parent."""
     sources = next((parent for parent in package.parents if parent.name == "src"), None)
     return package.parent if sources is None else sources
 
 
-def _folders(root: Path) -> Iterator[Path]:
-    """The folders of packages in a folder, as colcon finds them: at any depth, but none within another.
+def _find_package_folders(root: Path) -> Iterator[Path]:
+    """Yield the package folders below a folder, as colcon does: at any depth, but none inside another package.
 
-    What is hidden, built or has a file COLCON_IGNORE is left out. A folder that is not a workspace may be large, such
-    as the home folder: it is searched `_NEAR` levels deep.
+    Hidden folders, build output and folders with a COLCON_IGNORE file are skipped. A folder that is not a workspace
+    may be huge, such as the home folder, so only `_MAX_DEPTH_ELSEWHERE` levels of it are searched.
     """
     level = [root]
     seen = 0
-    is_workspace = root.name == "src" or (root / "src").is_dir() or (root / _MARKER).is_dir()
-    for depth in range((_DEEPEST if is_workspace else _NEAR) + 1):
+    is_workspace = root.name == "src" or (root / "src").is_dir() or (root / _WORKSPACE_MARKER).is_dir()
+    for depth in range((_MAX_DEPTH if is_workspace else _MAX_DEPTH_ELSEWHERE) + 1):
         below: list[Path] = []
         for folder in level:
             if depth and (folder / "package.xml").is_file():
                 yield folder
                 continue
             seen += 1
-            if seen <= _MOST:
+            if seen <= _MAX_FOLDERS:
                 below += _subfolders(folder)
         level = below
 
@@ -101,13 +102,13 @@ def _subfolders(folder: Path) -> list[Path]:
         names = [entry.name for entry in os.scandir(folder) if entry.is_dir()]
     except OSError:
         return []
-    kept = (folder / name for name in sorted(names) if not name.startswith((".", "__")) and name not in _BUILT)
-    return [path for path in kept if not any((path / marker).exists() for marker in _IGNORED)]
+    kept = (folder / name for name in sorted(names) if not name.startswith((".", "__")) and name not in _SKIPPED)
+    return [path for path in kept if not any((path / marker).exists() for marker in _IGNORE_MARKERS)]
 
 
 def package_with(folder: Path) -> SourcePackage:
-    """`my_package` as it would be with the files of a folder in it: its modules go before those of the template."""
-    programs = {**_with_main(TEMPLATE / TEMPLATE.name), **_with_main(folder)}
+    """Return `my_package` as if it held a folder's files; its modules take precedence over the template's."""
+    programs = {**_modules_with_main(TEMPLATE / TEMPLATE.name), **_modules_with_main(folder)}
     share = {entry.name: entry for entry in folder.iterdir() if not entry.name.startswith((".", "__"))}
     for usual in ("launch", "config"):
         share.setdefault(usual, folder)
@@ -115,16 +116,16 @@ def package_with(folder: Path) -> SourcePackage:
 
 
 def template_package() -> SourcePackage:
-    """`my_package` as a new workspace has it."""
-    return _package(TEMPLATE)
+    """Return `my_package` as it is in a new workspace."""
+    return _read_package(TEMPLATE)
 
 
-def _packages(folders: Iterable[Path]) -> Iterator[SourcePackage]:
+def _read_packages(folders: Iterable[Path]) -> Iterator[SourcePackage]:
     for folder in dict.fromkeys(folders):
-        yield _package(folder)
+        yield _read_package(folder)
 
 
-def _package(folder: Path) -> SourcePackage:
+def _read_package(folder: Path) -> SourcePackage:
     found = re.search(r"<name>\s*([\w-]+)\s*</name>", (folder / "package.xml").read_text(encoding="utf-8"))
     name = found[1] if found else folder.name
     programs = {
@@ -136,8 +137,8 @@ def _package(folder: Path) -> SourcePackage:
     return SourcePackage(name, programs, (folder / name,), share)
 
 
-def _with_main(folder: Path) -> dict[str, str]:
-    """The modules that have a main(), as the setup.py of a new workspace makes programs of them."""
+def _modules_with_main(folder: Path) -> dict[str, str]:
+    """Map each module that has a main() to its entry point, like the setup.py of a new workspace."""
     return {
         module.stem: f"{module.stem}:main"
         for module in sorted(folder.glob("*.py"))
@@ -151,17 +152,17 @@ def _console_scripts(folder: Path, name: str) -> dict[str, str]:
     if setup.is_file():
         source = setup.read_bytes()
         if source == (TEMPLATE / "setup.py").read_bytes():
-            return {program: f"{name}.{target}" for program, target in _with_main(folder / name).items()}
-        read = _read_off(source)
-        entries = _run_setup(folder) if read is None else read
+            return {program: f"{name}.{target}" for program, target in _modules_with_main(folder / name).items()}
+        parsed = _parse_setup_py(source)
+        entries = _run_setup_py(folder) if parsed is None else parsed
     if (folder / "setup.cfg").is_file() and not entries:
-        entries = _of_setup_cfg(folder / "setup.cfg")
+        entries = _read_setup_cfg(folder / "setup.cfg")
     pairs = (entry.partition("=") for entry in entries)
     return {program.strip(): target.strip() for program, sign, target in pairs if sign}
 
 
-def _read_off(source: bytes) -> list[str] | None:
-    """The console scripts of a setup.py, without running it; None where they are not written down plainly."""
+def _parse_setup_py(source: bytes) -> list[str] | None:
+    """Return the console scripts of a setup.py without running it; None if they cannot be evaluated statically."""
     try:
         tree = ast.parse(source)
     except (SyntaxError, ValueError):
@@ -177,15 +178,15 @@ def _read_off(source: bytes) -> list[str] | None:
         for keyword in call.keywords:
             if keyword.arg == "entry_points":
                 try:
-                    found = ast.literal_eval(_Plain(names).visit(keyword.value))
+                    found = ast.literal_eval(_ConstantFolder(names).visit(keyword.value))
                     return [str(entry) for entry in found.get("console_scripts", [])]
                 except (ValueError, TypeError, AttributeError):
                     return None
     return []
 
 
-class _Plain(ast.NodeTransformer):
-    """Puts in what is known: f-strings and sums of plain texts, and names of such."""
+class _ConstantFolder(ast.NodeTransformer):
+    """Folds constants: names of known constants, and f-strings and sums of constants."""
 
     def __init__(self, names: Mapping[str, Any]) -> None:
         self._names = names
@@ -201,22 +202,28 @@ class _Plain(ast.NodeTransformer):
 
     def visit_BinOp(self, node: ast.BinOp) -> ast.expr:
         left, right = self.visit(node.left), self.visit(node.right)
-        plain = isinstance(left, ast.Constant) and isinstance(right, ast.Constant) and isinstance(node.op, ast.Add)
-        return ast.Constant(f"{left.value}{right.value}") if plain else node
-
-
-def _run_setup(folder: Path) -> list[str]:
-    try:
-        ran = subprocess.run(
-            [sys.executable, "-c", _CAPTURE], cwd=folder, capture_output=True, timeout=_RUN_SETUP_S, check=True
+        is_constant = (
+            isinstance(left, ast.Constant) and isinstance(right, ast.Constant) and isinstance(node.op, ast.Add)
         )
-        entries = json.loads(ran.stdout.splitlines()[-1])
+        return ast.Constant(f"{left.value}{right.value}") if is_constant else node
+
+
+def _run_setup_py(folder: Path) -> list[str]:
+    try:
+        done = subprocess.run(
+            [sys.executable, "-c", _CAPTURE_SCRIPT],
+            cwd=folder,
+            capture_output=True,
+            timeout=_RUN_SETUP_TIMEOUT_S,
+            check=True,
+        )
+        entries = json.loads(done.stdout.splitlines()[-1])
         return [str(entry) for entry in entries]
     except (OSError, subprocess.SubprocessError, ValueError, IndexError, TypeError):
         return []
 
 
-def _of_setup_cfg(path: Path) -> list[str]:
+def _read_setup_cfg(path: Path) -> list[str]:
     parser = configparser.ConfigParser(interpolation=None)
     try:
         parser.read(path, encoding="utf-8")

@@ -1,4 +1,4 @@
-"""How to start `ros2` from outside: the installed one, or ours."""
+"""How to start `ros2` as a subprocess: the installed one or ours."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ if TYPE_CHECKING:
 
 
 def ros2_command(ros: RosEnvironment, env: Mapping[str, str]) -> list[str]:
-    """The first words of a `ros2` command that is to be run in the environment `env`.
+    """Return the command words that start `ros2` in the environment `env`.
 
-    Raises CommandError where the ROS that is sourced has no ros2.
+    Raises CommandError if the sourced ROS has no ros2.
     """
     if ros.kind == "bundled":
-        # -P: a module in the learner's folder must not take the place of one of ours.
+        # -P: a module in the learner's folder must not shadow one of ours.
         return [str(ros.python), "-P", "-m", "tutor.bundled_ros.ros2"]
     real = shutil.which("ros2", path=env.get("PATH", ""))
     if real is None:
@@ -28,5 +28,5 @@ def ros2_command(ros: RosEnvironment, env: Mapping[str, str]) -> list[str]:
 
 
 def is_launch_file(path: Path) -> bool:
-    """Whether a file's name says that it is a launch file, to be run by `ros2 launch`."""
+    """Return whether a file's name marks it as a launch file for `ros2 launch`."""
     return path.name.endswith(("_launch.py", ".launch.py"))

@@ -1,4 +1,4 @@
-"""How a shell of the user's own becomes a sourced terminal: after their own rc file, which is read and left alone."""
+"""Turn the user's own shell into a sourced terminal. Their rc file is read first and never changed."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ import shutil
 from collections.abc import Mapping
 from pathlib import Path
 
-from tutor.bundled_ros.ros2.completing import registration
+from tutor.bundled_ros.ros2.completing import registration_code
 
 SHELLS = ("bash", "zsh")
-# What another ROS may have set in an rc file: with ours, it would be half of each.
-_OF_ANOTHER_ROS = ("ROS_DISTRO", "ROS_VERSION", "ROS_PYTHON_VERSION", "COLCON_PREFIX_PATH", "CMAKE_PREFIX_PATH")
+# Set by another ROS that the rc file may source: mixed with ours, neither would work.
+_OTHER_ROS_VARIABLES = ("ROS_DISTRO", "ROS_VERSION", "ROS_PYTHON_VERSION", "COLCON_PREFIX_PATH", "CMAKE_PREFIX_PATH")
 
 _PROMPT = {
     "bash": """\
@@ -42,7 +42,7 @@ unset __ros_tutor_users
 
 
 def users_shell(environ: Mapping[str, str] = os.environ) -> tuple[str, Path]:
-    """The user's own shell, `bash` or `zsh`, and where it is; bash where theirs is another. Raises LookupError."""
+    """Return the name and path of the user's shell if it is bash or zsh, else of bash or zsh. Raises LookupError."""
     own = Path(environ.get("SHELL", ""))
     if own.name in SHELLS and os.access(own, os.X_OK):
         return own.name, own
@@ -63,32 +63,33 @@ def interactive(
     mark: str,
     setup: Path | None,
 ) -> list[str]:
-    """The command of an interactive shell; its rc files are written into `tools`, and `env` is added to.
+    """Return the command of an interactive shell; write its rc files into `tools` and extend `env`.
 
-    `changed` and `dropped` are said again after the user's own rc file, which may have set them for another ROS; the
-    programs in `tools` go first on PATH. `setup` is sourced last. `mark` is put before the prompt. Raises OSError.
+    The variables in `changed` are exported, and those in `dropped` unset, again after the user's own rc file, which may
+    have set them for another ROS. The programs in `tools` come first on PATH. `setup` is sourced last. `mark` is put
+    before the prompt. Raises OSError.
     """
-    lines = _again(changed, dropped, tools)
+    lines = _restore_environment(changed, dropped, tools)
     if setup is not None:
         lines += f"source {shlex.quote(str(setup))}\n"
     lines += f"__ros_tutor_mark={shlex.quote(mark)}\n{_PROMPT[shell]}"
     if shell == "bash":
         rc = tools / "bashrc"
-        rc.write_text(f"[ -f ~/.bashrc ] && . ~/.bashrc\n{lines}{registration('bash')}", encoding="utf-8")
+        rc.write_text(f"[ -f ~/.bashrc ] && . ~/.bashrc\n{lines}{registration_code('bash')}", encoding="utf-8")
         return [str(path), "--rcfile", str(rc), "-i"]
     folder = tools / "zsh"
     folder.mkdir(exist_ok=True)
     users = env.get("ZDOTDIR") or env.get("HOME", "")
     unset = "" if env.get("ZDOTDIR") else '[[ "$ZDOTDIR" == "$HOME" ]] && unset ZDOTDIR\n'
     zshenv = _ZSHENV.format(users=shlex.quote(users), ours=shlex.quote(str(folder)))
-    completion = _ZSH_COMPLETION.format(dump=shlex.quote(str(folder / "zcompdump"))) + registration("zsh")
+    completion = _ZSH_COMPLETION.format(dump=shlex.quote(str(folder / "zcompdump"))) + registration_code("zsh")
     (folder / ".zshenv").write_text(zshenv, encoding="utf-8")
     (folder / ".zshrc").write_text(f"{_ZSHRC.format(unset=unset)}{lines}{completion}", encoding="utf-8")
     env["ZDOTDIR"] = str(folder)
     return [str(path), "-i"]
 
 
-def _again(changed: Mapping[str, str], dropped: list[str], tools: Path) -> str:
+def _restore_environment(changed: Mapping[str, str], dropped: list[str], tools: Path) -> str:
     exports = [
         f"export {name}={shlex.quote(value)}\n"
         for name, value in sorted(changed.items())
@@ -96,5 +97,5 @@ def _again(changed: Mapping[str, str], dropped: list[str], tools: Path) -> str:
     ]
     if (tools / "bin").is_dir():
         exports.append(f'export PATH={shlex.quote(str(tools / "bin"))}:"$PATH"\n')
-        dropped = sorted({*dropped, *_OF_ANOTHER_ROS})
+        dropped = sorted({*dropped, *_OTHER_ROS_VARIABLES})
     return "".join(exports) + (f"unset {' '.join(dropped)}\n" if dropped else "")

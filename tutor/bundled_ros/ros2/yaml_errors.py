@@ -1,8 +1,8 @@
-"""What is wrong with a YAML text that a user has typed."""
+"""One-line messages for YAML that a user has typed."""
 
 from __future__ import annotations
 
 
 def yaml_problem(error: Exception) -> str:
-    """What a yaml.YAMLError says, in one line and without the place."""
+    """Return the problem that a yaml.YAMLError reports, in one line and without its position."""
     return " ".join(str(getattr(error, "problem", None) or error).split())

@@ -12,7 +12,7 @@ from tutor.bundled_ros.ros2.node.names import nodes
 from tutor.bundled_ros.ros2.parsing import complete_with
 from tutor.bundled_ros.ros2.topic.names import full_name
 
-Found = list[tuple[str, Sequence[str]]]
+NodesAndTypes = list[tuple[str, Sequence[str]]]
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -23,15 +23,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(arguments: argparse.Namespace) -> None:
-    """Print the nodes with a client or a server of the action. Raises CommandError where the name cannot be one."""
+    """Print the nodes with a client or a server of the action. Raises CommandError for an invalid name."""
     from rclpy.action.graph import get_action_client_names_and_types_by_node, get_action_server_names_and_types_by_node
 
     name = arguments.action_name
     with join_domain(arguments) as domain:
         expanded = full_name(domain, name)
-        domain.complete()
-        clients = _of_action(domain, expanded, get_action_client_names_and_types_by_node)
-        servers = _of_action(domain, expanded, get_action_server_names_and_types_by_node)
+        domain.wait_for_discovery()
+        clients = _nodes_with_action(domain, expanded, get_action_client_names_and_types_by_node)
+        servers = _nodes_with_action(domain, expanded, get_action_server_names_and_types_by_node)
     print(f"Action: {name}")
     for title, found in (("clients", clients), ("servers", servers)):
         print(f"Action {title}: {len(found)}")
@@ -39,10 +39,12 @@ def main(arguments: argparse.Namespace) -> None:
             print(f"    {node} [{', '.join(types)}]" if arguments.show_types else f"    {node}")
 
 
-def _of_action(domain: Domain, action: str, ask: Callable[..., Iterable[tuple[str, Sequence[str]]]]) -> Found:
-    found: Found = []
+def _nodes_with_action(
+    domain: Domain, action: str, query: Callable[..., Iterable[tuple[str, Sequence[str]]]]
+) -> NodesAndTypes:
+    found: NodesAndTypes = []
     for node in nodes(domain, hidden=True):
-        there: dict[str, Any] = dict(ask(domain.node, node.name, node.namespace))
-        if action in there:
-            found.append((node.full, there[action]))
+        actions: dict[str, Any] = dict(query(domain.node, node.name, node.namespace))
+        if action in actions:
+            found.append((node.full, actions[action]))
     return found

@@ -17,7 +17,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def main(arguments: argparse.Namespace) -> None:
     """Print the actions."""
     with join_domain(arguments) as domain:
-        domain.complete()
+        domain.wait_for_discovery()
         found = actions(domain)
     if arguments.count_actions:
         print(len(found))

@@ -1,4 +1,4 @@
-"""Actions by name, and what Tab offers for them."""
+"""Action names and types, and their tab completion."""
 
 from __future__ import annotations
 
@@ -10,21 +10,21 @@ from tutor.bundled_ros.ros2.interfaces import types_by_package
 
 
 def actions(domain: Domain) -> list[tuple[str, Sequence[str]]]:
-    """All actions that are seen, with their types."""
+    """Return all discovered actions with their types."""
     from rclpy.action.graph import get_action_names_and_types
 
     return list(get_action_names_and_types(domain.node))
 
 
 def action_names(parsed_args: argparse.Namespace, **_: object) -> list[str]:
-    """The actions that Tab offers."""
+    """Complete action names."""
     with join_domain(parsed_args) as domain:
-        domain.complete()
+        domain.wait_for_discovery()
         return [name for name, _ in actions(domain)]
 
 
 def action_types(parsed_args: argparse.Namespace, **_: object) -> list[str]:
-    """The types that Tab offers: those of the action that was named, else all."""
+    """Complete types: those of the action that was typed, else all."""
     if name := getattr(parsed_args, "action_name", None):
         with join_domain(parsed_args) as domain:
             if types := domain.find(lambda: dict(actions(domain)).get(name)):

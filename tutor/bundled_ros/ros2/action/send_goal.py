@@ -1,4 +1,4 @@
-"""`ros2 action send_goal`. The wheels on PyPI have no action type, so that it is proved for wrong input only."""
+"""`ros2 action send_goal`. The wheels on PyPI have no action type, so it is tested with wrong input only."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(arguments: argparse.Namespace) -> None:
-    """Send the goal and print what becomes of it; Ctrl+C cancels it. Raises CommandError."""
+    """Send the goal and print its outcome; Ctrl+C cancels it. Raises CommandError."""
     from rclpy.action.client import ActionClient
 
     try:
@@ -44,7 +44,7 @@ def main(arguments: argparse.Namespace) -> None:
         print("Waiting for an action server to become available...")
         wait_until(client.server_is_ready)
         print(f"Sending goal:\n     {to_yaml(goal)}")
-        handle = wait_for_answer(domain, client.send_goal_async(goal, _tell if arguments.feedback else None))
+        handle = wait_for_answer(domain, client.send_goal_async(goal, _print_feedback if arguments.feedback else None))
         if not handle.accepted:
             print("Goal was rejected.")
             return
@@ -61,5 +61,5 @@ def main(arguments: argparse.Namespace) -> None:
         print(f"Goal finished with status: {STATUS[result.status]}")
 
 
-def _tell(message: Any) -> None:
+def _print_feedback(message: Any) -> None:
     print(f"Feedback:\n    {to_yaml(message.feedback)}")

@@ -15,9 +15,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(arguments: argparse.Namespace) -> int:
-    """Print the action's types; 1 where there is no such action."""
+    """Print the action's types. Return 1 if there is no such action."""
     with join_domain(arguments) as domain:
         types = domain.find(lambda: dict(actions(domain)).get(arguments.action_name))
-    for each in types or ():
-        print(each)
+    for type_name in types or ():
+        print(type_name)
     return 0 if types else 1

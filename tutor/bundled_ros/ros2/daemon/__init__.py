@@ -1,4 +1,4 @@
-"""`ros2 daemon`: there is none, and none is needed; scripts that start, stop or ask for one go on."""
+"""`ros2 daemon`: a stub, since no daemon is needed. It keeps scripts working that start, stop or query the daemon."""
 
 VERBS = {
     "start": "Do nothing: no daemon is needed",

@@ -6,5 +6,5 @@ import argparse
 
 
 def main(_arguments: argparse.Namespace) -> None:
-    """Say why nothing is started."""
+    """Explain why nothing is started."""
     print("No daemon is needed: this ros2 finds the nodes by itself each time")

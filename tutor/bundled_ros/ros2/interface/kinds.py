@@ -1,4 +1,4 @@
-"""Choosing between messages, services and actions, and what Tab offers for types."""
+"""Selecting messages, services or actions, and the tab completion of types and packages."""
 
 from __future__ import annotations
 
@@ -10,28 +10,28 @@ KINDS = {"msg": "Messages", "srv": "Services", "action": "Actions"}
 
 
 def add_kind_arguments(parser: argparse.ArgumentParser) -> None:
-    """[-m] [-s] [-a]."""
+    """Add [-m] [-s] [-a]."""
     parser.add_argument("-m", "--only-msgs", action="store_true", help="only message types")
     parser.add_argument("-s", "--only-srvs", action="store_true", help="only service types")
     parser.add_argument("-a", "--only-actions", action="store_true", help="only action types")
 
 
-def chosen(arguments: argparse.Namespace) -> list[str]:
-    """The kinds that are asked for: all where none is named."""
+def selected_kinds(arguments: argparse.Namespace) -> list[str]:
+    """Return the kinds that were selected; all if none was."""
     flags = {"msg": arguments.only_msgs, "srv": arguments.only_srvs, "action": arguments.only_actions}
-    return [kind for kind, asked in flags.items() if asked] or list(flags)
+    return [kind for kind, is_selected in flags.items() if is_selected] or list(flags)
 
 
-def of_kind(names: list[str], kind: str) -> list[str]:
-    """Of names such as `msg/String`, those of a kind."""
+def filter_by_kind(names: list[str], kind: str) -> list[str]:
+    """Filter names such as `msg/String` by their kind."""
     return [name for name in names if name.startswith(f"{kind}/")]
 
 
 def type_names(**_: object) -> list[str]:
-    """The types that Tab offers."""
+    """Complete type names."""
     return [f"{package}/{name}" for package, names in types_by_package().items() for name in names]
 
 
 def package_names(**_: object) -> list[str]:
-    """The packages that Tab offers."""
+    """Complete packages that have types."""
     return list(types_by_package())

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from tutor.bundled_ros.ros2.interface.kinds import KINDS, add_kind_arguments, chosen, of_kind
+from tutor.bundled_ros.ros2.interface.kinds import KINDS, add_kind_arguments, filter_by_kind, selected_kinds
 from tutor.bundled_ros.ros2.interfaces import types_by_package
 
 
@@ -16,8 +16,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def main(arguments: argparse.Namespace) -> None:
     """Print all types, by kind."""
     found = types_by_package()
-    for kind in chosen(arguments):
+    for kind in selected_kinds(arguments):
         print(f"{KINDS[kind]}:")
         for package, names in found.items():
-            for name in sorted(of_kind(names, kind)):
+            for name in sorted(filter_by_kind(names, kind)):
                 print(f"    {package}/{name}")

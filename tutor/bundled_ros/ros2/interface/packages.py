@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from tutor.bundled_ros.ros2.interface.kinds import KINDS, add_kind_arguments, chosen, of_kind
+from tutor.bundled_ros.ros2.interface.kinds import KINDS, add_kind_arguments, filter_by_kind, selected_kinds
 from tutor.bundled_ros.ros2.interfaces import types_by_package
 
 
@@ -14,9 +14,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(arguments: argparse.Namespace) -> None:
-    """Print the packages that have types, of these kinds."""
-    kinds = chosen(arguments)
-    kinds = kinds if len(kinds) == len(KINDS) else kinds[:1]  # of several, ros2cli takes the first
+    """Print the packages that have types of the selected kinds."""
+    kinds = selected_kinds(arguments)
+    kinds = kinds if len(kinds) == len(KINDS) else kinds[:1]  # like ros2cli, which uses only the first of two
     for package, names in types_by_package().items():
-        if any(of_kind(names, kind) for kind in kinds):
+        if any(filter_by_kind(names, kind) for kind in kinds):
             print(package)

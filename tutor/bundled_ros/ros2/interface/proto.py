@@ -20,7 +20,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(arguments: argparse.Namespace) -> None:
-    """Print the value that a message, request or goal has when nothing is filled in. Raises CommandError."""
+    """Print a message, request or goal with its default values. Raises CommandError."""
     parts = arguments.type.split("/")
     if len(parts) != 3 or parts[1] not in _PART:
         raise CommandError(f"Invalid name '{arguments.type}'. Expected three parts separated by '/'")

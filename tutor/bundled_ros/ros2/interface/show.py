@@ -29,12 +29,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(arguments: argparse.Namespace) -> None:
-    """Print the definition, that of nested types set in below their field. Raises CommandError where there is none."""
+    """Print the definition, with nested types indented below their field. Raises CommandError if there is none."""
     _show(arguments.type, comments=not arguments.no_comments, nested_comments=arguments.all_comments, depth=0)
 
 
 def _show(name: str, *, comments: bool, nested_comments: bool, depth: int) -> None:
-    for text in _definition(name).splitlines():
+    for text in _read_definition(name).splitlines():
         line = _Line.of(name, text.rstrip())
         shown = line.text if comments else line.without_comment()
         if shown is not None:
@@ -45,7 +45,7 @@ def _show(name: str, *, comments: bool, nested_comments: bool, depth: int) -> No
 
 @dataclass(frozen=True, slots=True)
 class _Line:
-    """A line of a definition, as rosidl's own parser reads it: by itself, so that it finds few kinds of comments."""
+    """One line of a definition, parsed by rosidl's own parser. It sees a single line, so it recognises few comments."""
 
     text: str
     is_comment: bool = False
@@ -54,29 +54,29 @@ class _Line:
 
     @classmethod
     def of(cls, name: str, text: str) -> _Line:
-        """Raises CommandError where it is not one."""
+        """Parse a line of the type `name`. Raises CommandError if it is not valid."""
         from rosidl_adapter.parser import InvalidSpecification, parse_message_string
 
         if text == "---":
             return cls(text)
         package, _, last = name.split("/")
         try:
-            with contextlib.redirect_stderr(None):  # the parser prints there what it raises as well
-                read = parse_message_string(package, last, text)
+            with contextlib.redirect_stderr(None):  # the parser also prints the error that it raises
+                parsed = parse_message_string(package, last, text)
         except (InvalidSpecification, ValueError, TypeError) as error:
             raise CommandError(f"{name} has a line that is not a field: {text}") from error
-        element = next(iter([*read.fields, *read.constants]), None)
+        element = next(iter([*parsed.fields, *parsed.constants]), None)
         comments = element.annotations.get("comment") if element is not None else None
-        nested = read.fields[0].type if read.fields and not read.fields[0].type.is_primitive_type() else None
+        nested = parsed.fields[0].type if parsed.fields and not parsed.fields[0].type.is_primitive_type() else None
         return cls(
             text,
-            is_comment=bool(read.annotations["comment"]),
+            is_comment=bool(parsed.annotations["comment"]),
             trailing_comment=comments[0] if comments else None,
             nested=f"{nested.pkg_name}/msg/{nested.type}" if nested is not None else None,
         )
 
     def without_comment(self) -> str | None:
-        """What is left of it where comments are left out; None where nothing is."""
+        """Return the line without its comment; None if nothing is left."""
         if not self.text or self.is_comment:
             return None
         if self.trailing_comment is None:
@@ -84,7 +84,7 @@ class _Line:
         return self.text[: self.text.find(self.trailing_comment) - 1].strip()
 
 
-def _definition(name: str) -> str:
+def _read_definition(name: str) -> str:
     parts = name.split("/")
     if len(parts) == 3 and not all(parts):
         raise CommandError(f"Invalid name '{name}'. Must not contain empty parts")
@@ -94,7 +94,7 @@ def _definition(name: str) -> str:
         share = packages.find_share(parts[0])
     except packages.PackageNotFound as error:
         raise CommandError(f"Unknown package '{parts[0]}'") from error
-    if not (share / parts[1] / f"{parts[2]}.{parts[1]}").is_file() and (found := _in_another_prefix(name)) is not None:
+    if not (share / parts[1] / f"{parts[2]}.{parts[1]}").is_file() and (found := _find_elsewhere(name)) is not None:
         share = found
     file = share / parts[1] / f"{parts[2]}.{parts[1]}"
     try:
@@ -103,8 +103,8 @@ def _definition(name: str) -> str:
         raise CommandError(f"Could not find the interface '{file.with_suffix('.idl')}'") from error
 
 
-def _in_another_prefix(name: str) -> Path | None:
-    """The share folder that has this definition, where the first prefix with the package has only part of it."""
+def _find_elsewhere(name: str) -> Path | None:
+    """Find a definition in a later prefix, in case the first one with this package has only part of its types."""
     import os
 
     package, kind, last = name.split("/")
@@ -116,7 +116,7 @@ def _in_another_prefix(name: str) -> Path | None:
 
 
 class _TypeOrStdin(argparse.Action):
-    """Reads the type from standard input where it is given as `-`."""
+    """Reads the type from standard input if it is given as `-`."""
 
     def __call__(self, parser: argparse.ArgumentParser, namespace: argparse.Namespace, values: Any, *_: Any) -> None:
         if values == "-":

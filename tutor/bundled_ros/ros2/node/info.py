@@ -24,10 +24,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(arguments: argparse.Namespace) -> None:
-    """Print all that belongs to a node. Raises CommandError where there is none of this very name."""
+    """Print a node's topics, services and actions. Raises CommandError if no node has exactly this name."""
     wanted, hidden = arguments.node_name, arguments.include_hidden
     with join_domain(arguments) as domain:
-        domain.complete()
+        domain.wait_for_discovery()
         count = [node.full for node in nodes(domain, hidden=hidden)].count(wanted)
         if not count:
             raise CommandError(f"Unable to find node '{wanted}'")
@@ -38,14 +38,14 @@ def main(arguments: argparse.Namespace) -> None:
                 file=sys.stderr,
             )
         print(wanted)
-        for title, ask in _parts(domain.node):
+        for title, query in _sections(domain.node):
             print(f"  {title}:")
-            found = [(name, types) for name, types in ask(*NodeName.parse(wanted)) if hidden or not _is_hidden(name)]
+            found = [(name, types) for name, types in query(*NodeName.parse(wanted)) if hidden or not _is_hidden(name)]
             print("\n".join(f"    {name}: {', '.join(types)}" for name, types in found))
 
 
-def _parts(node: Any) -> list[tuple[str, NamesAndTypes]]:
-    asked = {
+def _sections(node: Any) -> list[tuple[str, NamesAndTypes]]:
+    methods = {
         "Subscribers": "get_subscriber_names_and_types_by_node",
         "Publishers": "get_publisher_names_and_types_by_node",
         "Service Servers": "get_service_names_and_types_by_node",
@@ -54,7 +54,7 @@ def _parts(node: Any) -> list[tuple[str, NamesAndTypes]]:
     from rclpy.action import graph
 
     return [
-        *((title, getattr(node, name)) for title, name in asked.items()),
+        *((title, getattr(node, name)) for title, name in methods.items()),
         ("Action Servers", lambda *name: graph.get_action_server_names_and_types_by_node(node, *name)),
         ("Action Clients", lambda *name: graph.get_action_client_names_and_types_by_node(node, *name)),
     ]

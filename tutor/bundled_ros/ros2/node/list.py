@@ -19,7 +19,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def main(arguments: argparse.Namespace) -> None:
     """Print the nodes."""
     with join_domain(arguments) as domain:
-        domain.complete()
+        domain.wait_for_discovery()
         names = sorted(node.full for node in nodes(domain, hidden=arguments.all))
     if arguments.count_nodes:
         print(len(names))

@@ -1,4 +1,4 @@
-"""A node's parameters, asked for over its parameter services."""
+"""A client of a node's parameter services, and what the `ros2 param` verbs share."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ from tutor.bundled_ros.ros2.parsing import complete_with
 from tutor.errors import CommandError
 from tutor.ros_model import NodeName
 
-SERVICES_LIMIT_S = 5.0
+SERVICES_TIMEOUT_S = 5.0
 
 
 def add_node_arguments(parser: argparse.ArgumentParser) -> None:
-    """NODE, and what each verb that asks one node has besides."""
+    """Add NODE and the options that all verbs on a single node share."""
     add_strategy_arguments(parser)
     complete_with(parser.add_argument("node_name", help="the node, such as /talker"), node_names)
     parser.add_argument("--include-hidden-nodes", action="store_true", help="hidden nodes as well")
 
 
 def add_timeout(parser: argparse.ArgumentParser) -> None:
-    """How long a node that is not there is waited for."""
+    """Add --timeout, the wait for a node that does not exist yet."""
     parser.add_argument(
         "--timeout",
         metavar="N",
@@ -36,40 +36,40 @@ def add_timeout(parser: argparse.ArgumentParser) -> None:
 
 
 class ParameterClient:
-    """The parameter services of one node. Each method raises CommandError where the node does not answer."""
+    """The parameter services of one node. Each method raises CommandError if a call fails."""
 
     def __init__(self, domain: Domain, node_name: str) -> None:
         from rclpy.parameter_client import AsyncParameterClient
 
         self._domain, self.node_name = domain, node_name
         self._client = AsyncParameterClient(domain.node, node_name)
-        if not wait_until(self._client.services_are_ready, limit_s=SERVICES_LIMIT_S):
+        if not wait_until(self._client.services_are_ready, limit_s=SERVICES_TIMEOUT_S):
             raise CommandError(f"Wait for service timed out waiting for parameter services for node {node_name}")
 
     def names(self, prefixes: Sequence[str] = ()) -> list[str]:
-        """The names of its parameters, sorted."""
-        answer = self._answer(self._client.list_parameters(list(prefixes) or None))
+        """Return the node's sorted parameter names, optionally only those below some prefixes."""
+        answer = self._await_answer(self._client.list_parameters(list(prefixes) or None))
         return sorted(answer.result.names)
 
     def values(self, names: Sequence[str]) -> list[Any]:
-        """Their values (rcl_interfaces/msg/ParameterValue); empty where one is not declared."""
-        return list(self._answer(self._client.get_parameters(list(names))).values)
+        """Return the values (rcl_interfaces/msg/ParameterValue); an empty list if a parameter is not declared."""
+        return list(self._await_answer(self._client.get_parameters(list(names))).values)
 
     def descriptors(self, names: Sequence[str]) -> list[Any]:
-        """What it says about them (rcl_interfaces/msg/ParameterDescriptor)."""
-        return list(self._answer(self._client.describe_parameters(list(names))).descriptors)
+        """Return the descriptors (rcl_interfaces/msg/ParameterDescriptor)."""
+        return list(self._await_answer(self._client.describe_parameters(list(names))).descriptors)
 
     def set(self, parameters: Sequence[Any]) -> list[Any]:
-        """Set them, each by itself; gives a SetParametersResult for each."""
-        return list(self._answer(self._client.set_parameters(list(parameters))).results)
+        """Set the parameters one by one and return a SetParametersResult for each."""
+        return list(self._await_answer(self._client.set_parameters(list(parameters))).results)
 
-    def _answer(self, future: Any) -> Any:
-        return wait_for_answer(self._domain, future, remark=lambda: f"{self.node_name} has not answered yet")
+    def _await_answer(self, future: Any) -> Any:
+        return wait_for_answer(self._domain, future, notice=lambda: f"{self.node_name} has not answered yet")
 
 
 @contextmanager
 def parameter_client(arguments: argparse.Namespace) -> Iterator[ParameterClient]:
-    """Join the domain, and find the node that was named. Raises CommandError where it is not there."""
+    """Join the domain and find the named node. Raises CommandError if it does not exist."""
     name = NodeName.parse(arguments.node_name).full
     with join_domain(arguments) as domain:
         find_node(domain, name, hidden=arguments.include_hidden_nodes, limit_s=arguments.timeout)
@@ -77,17 +77,17 @@ def parameter_client(arguments: argparse.Namespace) -> Iterator[ParameterClient]
 
 
 def find_node(domain: Domain, name: str, *, hidden: bool, limit_s: float | None) -> None:
-    """Find a node by its full name. Raises CommandError where it is not there, nor comes within `limit_s` seconds."""
+    """Wait for a node, by its full name. Raises CommandError if it does not appear within `limit_s` seconds."""
 
-    def is_there() -> bool:
+    def exists() -> bool:
         return any(node.full == name for node in nodes(domain, hidden=hidden))
 
-    if domain.find(lambda: is_there() or None) is None and not wait_until(is_there, limit_s=limit_s or 0.0):
+    if domain.find(lambda: exists() or None) is None and not wait_until(exists, limit_s=limit_s or 0.0):
         raise CommandError("Node not found")
 
 
 def parameter_names(parsed_args: argparse.Namespace, **_: object) -> list[str]:
-    """The parameters that Tab offers, of the node that was named."""
+    """Complete the parameters of the node that was typed."""
     with join_domain(parsed_args) as domain:
         name = NodeName.parse(parsed_args.node_name).full
         find_node(domain, name, hidden=True, limit_s=None)
@@ -95,20 +95,22 @@ def parameter_names(parsed_args: argparse.Namespace, **_: object) -> list[str]:
 
 
 def print_results(results: Sequence[tuple[str, Any]]) -> None:
-    """Print what became of each change: what was done to stdout, what was refused to stderr.
+    """Print the outcome of each change: successes to stdout, rejections to stderr.
 
-    Each result has its words: `"Set parameter {}"` gives `Set parameter successful` or `Setting parameter failed`.
+    Each result comes with both texts, such as `"Set parameter successful|Setting parameter failed"`.
     """
-    for words, result in results:
-        done, _, refused = words.partition("|")
+    for texts, result in results:
+        success, _, failure = texts.partition("|")
         reason = f": {result.reason}" if result.reason else ""
-        print((done if result.successful else refused) + reason, file=sys.stdout if result.successful else sys.stderr)
+        print(
+            (success if result.successful else failure) + reason, file=sys.stdout if result.successful else sys.stderr
+        )
 
 
 def plain_value(value: Any) -> Any:
-    """A ParameterValue as a Python value; None where it is not set."""
+    """Convert a ParameterValue to a Python value; None if it is not set."""
     from rclpy.parameter import parameter_value_to_python
 
-    found = parameter_value_to_python(value)
-    to_list: Callable[[], Any] | None = getattr(found, "tolist", None)
-    return to_list() if to_list is not None else found
+    converted = parameter_value_to_python(value)
+    to_list: Callable[[], Any] | None = getattr(converted, "tolist", None)
+    return to_list() if to_list is not None else converted

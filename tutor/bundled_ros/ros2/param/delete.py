@@ -22,9 +22,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(arguments: argparse.Namespace) -> None:
-    """Delete the parameter; a node that refuses says why on stderr, and the exit code is 0 all the same."""
+    """Delete the parameter. If the node rejects that, its reason goes to stderr, and the exit code is still 0."""
     from rcl_interfaces.msg import Parameter
 
     with parameter_client(arguments) as node:
-        results = node.set([Parameter(name=arguments.parameter_name)])  # a value of the type "not set" deletes it
+        results = node.set([Parameter(name=arguments.parameter_name)])  # a value of type NOT_SET deletes the parameter
     print_results([("Deleted parameter successfully|Deleting parameter failed", result) for result in results])

@@ -23,7 +23,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(arguments: argparse.Namespace) -> None:
-    """Print what the node says about the parameters; nothing about those that it has not declared."""
+    """Print the parameters' descriptors; undeclared parameters are skipped."""
     with parameter_client(arguments) as node:
         for descriptor in node.descriptors(arguments.parameter_names):
             _print(descriptor)

@@ -28,7 +28,7 @@ def main(arguments: argparse.Namespace) -> None:
 
 
 def _insert(tree: dict[str, Any], path: list[str], value: Any) -> None:
-    """Put `a.b.c` below `a` and `b`."""
+    """Insert the value of `a.b.c` as `tree[a][b][c]`."""
     for part in path[:-1]:
         tree = tree.setdefault(part, {})
     tree[path[-1]] = value

@@ -25,7 +25,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(arguments: argparse.Namespace) -> None:
-    """Print the value. Raises CommandError where the node or the parameter is not there."""
+    """Print the value. Raises CommandError if there is no such node or parameter."""
     with parameter_client(arguments) as node:
         values = node.values([arguments.parameter_name])
     if not values:

@@ -25,10 +25,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(arguments: argparse.Namespace) -> None:
-    """Print the parameters of a node, or of all. Raises CommandError where the named one is not there."""
-    pattern = _pattern(arguments.filter)
+    """Print the parameters of one node or of all. Raises CommandError if the named node does not exist."""
+    pattern = _compile_pattern(arguments.filter)
     with join_domain(arguments) as domain:
-        domain.complete()
+        domain.wait_for_discovery()
         found = sorted(nodes(domain, hidden=arguments.include_hidden_nodes))
         if arguments.node_name:
             wanted = NodeName.parse(arguments.node_name).full
@@ -36,27 +36,29 @@ def main(arguments: argparse.Namespace) -> None:
             if not found:
                 raise CommandError("Node not found")
         for node in found:
-            _print(domain, node.full, pattern, arguments)
+            _print_node(domain, node.full, pattern, arguments)
 
 
-def _pattern(given: list[str] | None) -> re.Pattern[str]:
+def _compile_pattern(given: list[str] | None) -> re.Pattern[str]:
     try:
         return re.compile(given[0] if given else "")
     except re.error as error:
         raise CommandError(f"'{given[0] if given else ''}' is not a regular expression: {error}") from error
 
 
-def _print(domain: Domain, node: str, pattern: re.Pattern[str], arguments: argparse.Namespace) -> None:
+def _print_node(domain: Domain, node: str, pattern: re.Pattern[str], arguments: argparse.Namespace) -> None:
     try:
-        asked = ParameterClient(domain, node)
-        names = [name for name in asked.names(arguments.param_prefixes) if pattern.match(name)]
+        client = ParameterClient(domain, node)
+        names = [name for name in client.names(arguments.param_prefixes) if pattern.match(name)]
         types = (
-            {each.name: PARAMETER_TYPES[each.type] for each in asked.descriptors(names)} if arguments.param_type else {}
+            {info.name: PARAMETER_TYPES[info.type] for info in client.descriptors(names)}
+            if arguments.param_type
+            else {}
         )
     except CommandError as error:
         if arguments.node_name:
             raise
-        print(error, file=sys.stderr)  # the others' parameters are shown all the same
+        print(error, file=sys.stderr)  # still show the other nodes' parameters
         return
     if not arguments.node_name and names:
         print(f"{node}:")

@@ -19,15 +19,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(arguments: argparse.Namespace) -> None:
-    """Set what the file has; what the node refuses goes to stderr, and the exit code is 0 all the same."""
+    """Set the parameters in the file. Rejections go to stderr, and the exit code is still 0."""
     with parameter_client(arguments) as node:
-        parameters = _read(arguments.parameter_file, wildcard=not arguments.no_use_wildcard)
+        parameters = _read_parameters(arguments.parameter_file, wildcard=not arguments.no_use_wildcard)
         results = node.set(parameters)
-    words = (f"Set parameter {each.name} successful|Set parameter {each.name} failed" for each in parameters)
-    print_results(list(zip(words, results, strict=True)))
+    texts = (f"Set parameter {each.name} successful|Set parameter {each.name} failed" for each in parameters)
+    print_results(list(zip(texts, results, strict=True)))
 
 
-def _read(file: str, *, wildcard: bool) -> list[Any]:
+def _read_parameters(file: str, *, wildcard: bool) -> list[Any]:
     import yaml
     from rclpy.parameter import parameter_dict_from_yaml_file
 
@@ -39,5 +39,5 @@ def _read(file: str, *, wildcard: bool) -> list[Any]:
         raise CommandError(str(error)) from error
     except yaml.YAMLError as error:
         raise CommandError(f"{file} is not YAML: {yaml_problem(error)}") from error
-    except (TypeError, AttributeError, ValueError) as error:  # a list, a text, or nothing where names belong
+    except (TypeError, AttributeError, ValueError) as error:  # not a mapping of node names
         raise CommandError(f"{file} is not a parameter file: it has no node with ros__parameters") from error

@@ -23,7 +23,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(arguments: argparse.Namespace) -> None:
-    """Set the parameter; a node that refuses says why on stderr, and the exit code is 0 all the same."""
+    """Set the parameter. If the node rejects that, its reason goes to stderr, and the exit code is still 0."""
     from rcl_interfaces.msg import Parameter
     from rclpy.parameter import get_parameter_value
 

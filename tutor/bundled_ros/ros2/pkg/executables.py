@@ -17,7 +17,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(arguments: argparse.Namespace) -> None:
-    """Print the programs. Raises CommandError where there is no such package."""
+    """Print the executables. Raises CommandError if there is no such package."""
     known = all_packages()
     wanted = arguments.package_name
     if wanted is not None and wanted not in known:

@@ -1,4 +1,4 @@
-"""Packages by name: those of the prefixes, and of the workspace around the current folder."""
+"""Package names: those in the ament prefixes and in the workspace around the current folder."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from tutor.bundled_ros.ros2 import overlaying
 
 
 def all_packages() -> list[str]:
-    """The names of all packages, sorted."""
+    """Add the workspace's packages to the environment and return the sorted names of all packages."""
     overlaying.overlay_workspace(Path.cwd())
     prefixes = [Path(entry) for entry in os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep) if entry]
     return sorted(
@@ -19,5 +19,5 @@ def all_packages() -> list[str]:
 
 
 def package_names(**_: object) -> list[str]:
-    """The packages that Tab offers."""
+    """Complete package names."""
     return all_packages()

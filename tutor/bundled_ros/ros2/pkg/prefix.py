@@ -17,14 +17,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(arguments: argparse.Namespace) -> None:
-    """Print where the package is. Raises CommandError where there is none."""
+    """Print the package's folder. Raises CommandError if there is no such package."""
     all_packages()
     try:
         share = packages.find_share(arguments.package_name)
     except packages.PackageNotFound as error:
         raise CommandError("Package not found") from error
     source = (share / "package.xml").resolve().parent
-    if source != share.resolve():  # of a package that is not built, only links are there, for as long as we run
+    if source != share.resolve():  # an unbuilt package: its prefix is temporary and made of links
         print(source)
     else:
         print(share if arguments.share else share.parent.parent)

@@ -18,7 +18,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(arguments: argparse.Namespace) -> None:
-    """Print package.xml, or the text of a tag in it. Raises CommandError where there is none."""
+    """Print package.xml or the text of one of its tags. Raises CommandError if that does not exist."""
     all_packages()
     try:
         file = packages.find_share(arguments.package_name) / "package.xml"

@@ -8,7 +8,7 @@ import time
 
 from tutor.bundled_ros.ros2.calling import wait_for_answer, wait_until
 from tutor.bundled_ros.ros2.domain import Domain, join_domain
-from tutor.bundled_ros.ros2.interfaces import OfAnotherKind, UnknownInterface, find_interface
+from tutor.bundled_ros.ros2.interfaces import UnknownInterface, WrongInterfaceKind, find_interface
 from tutor.bundled_ros.ros2.message_values import message_from_yaml
 from tutor.bundled_ros.ros2.parsing import complete_with
 from tutor.bundled_ros.ros2.service.names import service_names, service_types, services
@@ -26,12 +26,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(arguments: argparse.Namespace) -> None:
-    """Call the service, and print request and answer. Raises CommandError where something is wrong with them."""
+    """Call the service and print the request and the response. Raises CommandError for a wrong type or value."""
     if arguments.rate is not None and arguments.rate <= 0:
         raise CommandError("rate must be greater than zero")
     try:
         service_class = find_interface(arguments.service_type, "srv")
-    except OfAnotherKind as error:
+    except WrongInterfaceKind as error:
         raise CommandError("The passed type is not a service") from error
     except UnknownInterface as error:
         raise CommandError("The passed service type is invalid") from error
@@ -40,24 +40,24 @@ def main(arguments: argparse.Namespace) -> None:
     with join_domain(arguments) as domain:
         client = domain.node.create_client(service_class, arguments.service_name)
         print("waiting for service to become available...")
-        wait_until(client.service_is_ready, remark=lambda: _what_is_there(domain, arguments))
+        wait_until(client.service_is_ready, notice=lambda: _explain_unavailable(domain, arguments))
         while True:
-            called = time.monotonic()
+            called_at = time.monotonic()
             print(f"requester: making request: {request!r}\n")
             answer = wait_for_answer(
-                domain, client.call_async(request), remark=lambda: f"no answer from {arguments.service_name} yet"
+                domain, client.call_async(request), notice=lambda: f"no answer from {arguments.service_name} yet"
             )
             print(f"response:\n{answer!r}\n")
             if arguments.rate is None:
                 return
-            time.sleep(max(0.0, called + 1 / arguments.rate - time.monotonic()))
+            time.sleep(max(0.0, called_at + 1 / arguments.rate - time.monotonic()))
 
 
-def _what_is_there(domain: Domain, arguments: argparse.Namespace) -> str:
-    """Why the service is not there, as far as the graph tells."""
+def _explain_unavailable(domain: Domain, arguments: argparse.Namespace) -> str:
+    """Explain, from the graph, why the service is not available."""
     name = arguments.service_name if arguments.service_name.startswith("/") else f"/{arguments.service_name}"
     package, *_, last = arguments.service_type.split("/")
-    others = [kind for kind in dict(services(domain, hidden=True)).get(name, ()) if kind != f"{package}/srv/{last}"]
-    if others and domain.node.count_services(name):  # a client is enough for a service to be listed: ours is one
+    others = [other for other in dict(services(domain, hidden=True)).get(name, ()) if other != f"{package}/srv/{last}"]
+    if others and domain.node.count_services(name):  # our own client alone already lists the service
         return f"{name} is there, but its type is {', '.join(others)}"
     return f"no node offers {name} yet; Ctrl+C ends the wait"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from tutor.bundled_ros.ros2.calling import SLICE_S
+from tutor.bundled_ros.ros2.calling import SPIN_TIMEOUT_S
 from tutor.bundled_ros.ros2.domain import join_domain
 from tutor.bundled_ros.ros2.interfaces import UnknownInterface, find_interface
 from tutor.bundled_ros.ros2.message_format import MessageFormat, add_format_arguments
@@ -17,7 +17,7 @@ EVENTS = ("REQUEST_SENT", "REQUEST_RECEIVED", "RESPONSE_SENT", "RESPONSE_RECEIVE
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """SERVICE [TYPE], and what is shown of each event."""
+    """SERVICE [TYPE] and the format options."""
     complete_with(parser.add_argument("service_name", help="the service, such as /add"), service_names)
     complete_with(parser.add_argument("service_type", nargs="?", help="its type, if nobody offers it"), service_types)
     parser.add_argument("--csv", action="store_true", help="all values, separated by commas")
@@ -25,11 +25,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(arguments: argparse.Namespace) -> None:
-    """Print each event of the service. Raises CommandError where its type is not known."""
+    """Print each event of the service. Raises CommandError if its type is unknown."""
     from rclpy.executors import SingleThreadedExecutor
     from rclpy.qos import QoSPresetProfiles
 
-    name, form = arguments.service_name, MessageFormat.of(arguments)
+    name, message_format = arguments.service_name, MessageFormat.of(arguments)
     with join_domain(arguments) as domain:
         type_name = arguments.service_type
         if type_name is None:
@@ -46,10 +46,10 @@ def main(arguments: argparse.Namespace) -> None:
 
         def on_event(event: object) -> None:
             if arguments.csv:
-                print(form.csv(event), flush=True)
+                print(message_format.csv(event), flush=True)
                 return
             number = event.info.event_type  # type: ignore[attr-defined]
-            text = form.yaml(event).replace(f"event_type: {number}", f"event_type: {EVENTS[number]}", 1)
+            text = message_format.yaml(event).replace(f"event_type: {number}", f"event_type: {EVENTS[number]}", 1)
             print(f"{text.rstrip()}\n---", flush=True)
 
         topic = f"{name}/_service_event"
@@ -61,4 +61,4 @@ def main(arguments: argparse.Namespace) -> None:
         executor = SingleThreadedExecutor(context=domain.node.context)
         executor.add_node(domain.node)
         while True:
-            executor.spin_once(timeout_sec=SLICE_S)
+            executor.spin_once(timeout_sec=SPIN_TIMEOUT_S)

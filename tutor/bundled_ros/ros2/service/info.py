@@ -17,10 +17,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(arguments: argparse.Namespace) -> None:
-    """Print what is known about the service. Raises CommandError where there is none of this very name."""
+    """Print the type and the number of clients and servers. Raises CommandError if no service has exactly this name."""
     name = arguments.service_name
     with join_domain(arguments) as domain:
-        domain.complete()
+        domain.wait_for_discovery()
         types = dict(services(domain, hidden=arguments.include_hidden_services)).get(name)
         if types is None:
             raise CommandError(f"Unknown service '{name}'")

@@ -1,4 +1,4 @@
-"""Services by name, and what Tab offers for them."""
+"""Service names and types, and their tab completion."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from tutor.bundled_ros.ros2.interfaces import types_by_package
 
 
 def services(domain: Domain, *, hidden: bool) -> list[tuple[str, Sequence[str]]]:
-    """All services that are seen, with their types; `hidden`: also those with a part that starts with `_`."""
+    """Return all discovered services with their types; hidden ones (a name part starts with `_`) only if `hidden`."""
     from rclpy.topic_or_service_is_hidden import topic_or_service_is_hidden
 
     found = domain.node.get_service_names_and_types()
@@ -18,14 +18,14 @@ def services(domain: Domain, *, hidden: bool) -> list[tuple[str, Sequence[str]]]
 
 
 def service_names(parsed_args: argparse.Namespace, **_: object) -> list[str]:
-    """The services that Tab offers."""
+    """Complete service names."""
     with join_domain(parsed_args) as domain:
-        domain.complete()
+        domain.wait_for_discovery()
         return [name for name, _ in services(domain, hidden=getattr(parsed_args, "include_hidden_services", False))]
 
 
 def service_types(parsed_args: argparse.Namespace, **_: object) -> list[str]:
-    """The types that Tab offers: those of the service that was named, else all."""
+    """Complete types: those of the service that was typed, else all."""
     if name := getattr(parsed_args, "service_name", None):
         with join_domain(parsed_args) as domain:
             if types := domain.find(lambda: dict(services(domain, hidden=True)).get(name)):
@@ -38,8 +38,8 @@ def service_types(parsed_args: argparse.Namespace, **_: object) -> list[str]:
     ]
 
 
-def add_hidden(parser: argparse.ArgumentParser) -> None:
-    """The option that `ros2 service` itself has, too."""
+def add_hidden_option(parser: argparse.ArgumentParser) -> None:
+    """Add --include-hidden-services, which `ros2 service` itself has as well."""
     parser.add_argument(
         "--include-hidden-services", action="store_true", default=argparse.SUPPRESS, help="hidden services as well"
     )

@@ -15,10 +15,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(arguments: argparse.Namespace) -> int:
-    """Print the service's types; 1 where there is no such service."""
+    """Print the service's types. Return 1 if there is no such service."""
     hidden = arguments.include_hidden_services
     with join_domain(arguments) as domain:
         types = domain.find(lambda: dict(services(domain, hidden=hidden)).get(arguments.service_name))
-    for each in types or ():
-        print(each)
+    for type_name in types or ():
+        print(type_name)
     return 0 if types else 1

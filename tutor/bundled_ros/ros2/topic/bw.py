@@ -7,11 +7,11 @@ import time
 from collections import deque
 
 from tutor.bundled_ros.ros2.domain import add_direct_arguments, join_domain
-from tutor.bundled_ros.ros2.topic.measuring import add_topic, add_window, arrival, receive_measured
+from tutor.bundled_ros.ros2.topic.measuring import add_topic, add_window, arrival_clock, receive_measured
 from tutor.bundled_ros.ros2.topic.names import wait_for_class
 from tutor.bundled_ros.ros2.topic.statistics import size
 
-_PRINT_EVERY_S = 1.0
+_PRINT_PERIOD_S = 1.0
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -22,25 +22,27 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(arguments: argparse.Namespace) -> None:
-    """Print the bytes per second once a second until Ctrl+C. Raises CommandError."""
+    """Print the bandwidth once a second until Ctrl+C. Raises CommandError."""
     with join_domain(arguments) as domain:
         message_type = wait_for_class(domain, arguments.topic)
-        time_of = arrival(domain, simulated=arguments.use_sim_time)
+        time_of = arrival_clock(domain, simulated=arguments.use_sim_time)
         clock = domain.node.get_clock()
-        arrived: deque[tuple[int, int]] = deque(maxlen=arguments.window)
+        arrivals: deque[tuple[int, int]] = deque(maxlen=arguments.window)
         print(f"Subscribed to [{arguments.topic}]")
-        print_at = time.monotonic() + _PRINT_EVERY_S
+        print_at = time.monotonic() + _PRINT_PERIOD_S
         for batch in receive_measured(domain, arguments.topic, message_type, raw=True):
-            arrived.extend((time_of(one), len(one[0])) for one in batch)
+            arrivals.extend((time_of(one), len(one[0])) for one in batch)
             if time.monotonic() >= print_at:
-                print_at += _PRINT_EVERY_S
-                _print(arrived, clock.now().nanoseconds)
+                print_at += _PRINT_PERIOD_S
+                _print(arrivals, clock.now().nanoseconds)
 
 
-def _print(arrived: deque[tuple[int, int]], now_ns: int) -> None:
-    if len(arrived) < 2 or now_ns <= arrived[0][0]:
+def _print(arrivals: deque[tuple[int, int]], now_ns: int) -> None:
+    if len(arrivals) < 2 or now_ns <= arrivals[0][0]:
         return
-    sizes = [each for _, each in arrived]
-    per_s = sum(sizes) / ((now_ns - arrived[0][0]) * 1e-9)
-    mean, least, most = (size(each, per_s) for each in (sum(sizes) / len(sizes), min(sizes), max(sizes)))
-    print(f"{size(per_s, per_s)}/s from {len(sizes)} messages\n\tMessage size mean: {mean} min: {least} max: {most}")
+    sizes = [each for _, each in arrivals]
+    rate = sum(sizes) / ((now_ns - arrivals[0][0]) * 1e-9)
+    mean, smallest, largest = (size(each, rate) for each in (sum(sizes) / len(sizes), min(sizes), max(sizes)))
+    print(
+        f"{size(rate, rate)}/s from {len(sizes)} messages\n\tMessage size mean: {mean} min: {smallest} max: {largest}"
+    )

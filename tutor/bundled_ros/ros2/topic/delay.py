@@ -8,12 +8,12 @@ from collections import deque
 from typing import Any
 
 from tutor.bundled_ros.ros2.domain import add_direct_arguments, join_domain
-from tutor.bundled_ros.ros2.topic.measuring import add_topic, add_window, arrival, receive_measured
+from tutor.bundled_ros.ros2.topic.measuring import add_topic, add_window, arrival_clock, receive_measured
 from tutor.bundled_ros.ros2.topic.names import wait_for_class
 from tutor.bundled_ros.ros2.topic.statistics import spread
 from tutor.errors import CommandError
 
-_PRINT_EVERY_S = 1.0
+_PRINT_PERIOD_S = 1.0
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -24,29 +24,29 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(arguments: argparse.Namespace) -> None:
-    """Print once a second how old the messages are. Raises CommandError where they do not say when they were made."""
+    """Print the messages' age on arrival once a second. Raises CommandError if the type has no header."""
     with join_domain(arguments) as domain:
         message_type = wait_for_class(domain, arguments.topic)
         if "header" not in message_type.get_fields_and_field_types():
             raise CommandError("msg does not have header")
-        time_of = arrival(domain, simulated=arguments.use_sim_time)
+        time_of = arrival_clock(domain, simulated=arguments.use_sim_time)
         delays: deque[int] = deque(maxlen=arguments.window)
-        seen = printed = 0
-        print_at = time.monotonic() + _PRINT_EVERY_S
+        received = printed_up_to = 0
+        print_at = time.monotonic() + _PRINT_PERIOD_S
         for batch in receive_measured(domain, arguments.topic, message_type, raw=False):
             ages = [now - _stamp_ns(one[0]) for one in batch if (now := time_of(one))]
-            delays.extend(ages if seen else ages[1:])  # the first one only starts the measurement
-            seen += len(ages)
+            delays.extend(ages if received else ages[1:])  # the first message only starts the measurement
+            received += len(ages)
             if time.monotonic() >= print_at:
-                print_at += _PRINT_EVERY_S
+                print_at += _PRINT_PERIOD_S
                 if delays:
-                    print("no new messages" if seen == printed else _text(delays))
-                    printed = seen
+                    print("no new messages" if received == printed_up_to else _format_delays(delays))
+                    printed_up_to = received
 
 
 def _stamp_ns(message: Any) -> int:
     return int(message.header.stamp.sec * 1_000_000_000 + message.header.stamp.nanosec)
 
 
-def _text(delays_ns: deque[int]) -> str:
+def _format_delays(delays_ns: deque[int]) -> str:
     return f"average delay: {sum(delays_ns) / len(delays_ns) * 1e-9:.3f}\n\t{spread(delays_ns)}"

@@ -1,4 +1,4 @@
-"""The Python expressions of `--filter`."""
+"""The Python expression of `--filter`."""
 
 from __future__ import annotations
 
@@ -8,10 +8,11 @@ from typing import Any
 from tutor.errors import CommandError
 
 
-def expression(text: str | None) -> Callable[[Any], bool] | None:
-    """The expression as a function of a message `m`; None where there is none. It raises CommandError.
+def compile_filter(text: str | None) -> Callable[[Any], bool] | None:
+    """Compile an expression into a predicate on a message `m`; None if there is no expression.
 
-    It is code of the user's own, run with their rights, as any Python that they type.
+    The compilation and the predicate raise CommandError. The expression is the user's own code, run with their own
+    privileges, like any Python that they type.
     """
     if text is None:
         return None
@@ -20,10 +21,10 @@ def expression(text: str | None) -> Callable[[Any], bool] | None:
     except (SyntaxError, ValueError) as error:
         raise CommandError(f"--filter {text}: {error}") from error
 
-    def holds(message: Any) -> bool:
+    def matches(message: Any) -> bool:
         try:
             return bool(eval(code, {"m": message}))
         except Exception as error:  # whatever the user's code may raise
             raise CommandError(f"--filter {text}: {type(error).__name__}: {error}") from error
 
-    return holds
+    return matches

@@ -21,9 +21,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(arguments: argparse.Namespace) -> None:
-    """Print the topics of this very type."""
+    """Print the topics of exactly this type."""
     with join_domain(arguments) as domain:
-        domain.complete()
+        domain.wait_for_discovery()
         found = topics(domain, hidden=arguments.include_hidden_topics)
     names = [name for name, types in found if arguments.topic_type in types]
     print(len(names)) if arguments.count_topics else print(*names, sep="\n", end="\n" if names else "")

@@ -5,8 +5,8 @@ from __future__ import annotations
 import argparse
 
 from tutor.bundled_ros.ros2.domain import add_direct_arguments, join_domain
-from tutor.bundled_ros.ros2.topic.expressions import expression
-from tutor.bundled_ros.ros2.topic.measuring import add_topic, add_window, arrival, receive_measured
+from tutor.bundled_ros.ros2.topic.expressions import compile_filter
+from tutor.bundled_ros.ros2.topic.measuring import add_topic, add_window, arrival_clock, receive_measured
 from tutor.bundled_ros.ros2.topic.names import wait_for_class
 from tutor.bundled_ros.ros2.topic.statistics import Rate
 
@@ -26,12 +26,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def main(arguments: argparse.Namespace) -> None:
     """Print the rate once a second until Ctrl+C. Raises CommandError."""
-    holds = expression(arguments.filter_expr)
+    matches = compile_filter(arguments.filter_expr)
     with join_domain(arguments) as domain:
         message_type = wait_for_class(domain, arguments.topic_name)
         rate = Rate(arguments.window_size)
-        time_of = arrival(domain, simulated=arguments.use_sim_time and not arguments.use_wtime)
-        for batch in receive_measured(domain, arguments.topic_name, message_type, raw=holds is None):
+        time_of = arrival_clock(domain, simulated=arguments.use_sim_time and not arguments.use_wtime)
+        for batch in receive_measured(domain, arguments.topic_name, message_type, raw=matches is None):
             for one in batch:
-                if (holds is None or holds(one[0])) and (text := rate.add(time_of(one))) is not None:
+                if (matches is None or matches(one[0])) and (text := rate.add(time_of(one))) is not None:
                     print(text)

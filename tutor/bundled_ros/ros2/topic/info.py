@@ -18,12 +18,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(arguments: argparse.Namespace) -> None:
-    """Print what is known about the topic. Raises CommandError where there is none of this very name."""
+    """Print the topic's type and endpoints. Raises CommandError if no topic has exactly this name."""
     with join_domain(arguments) as domain:
         types = domain.find(lambda: dict(topics(domain, hidden=True)).get(arguments.topic_name))
         if types is None:
             raise CommandError(f"Unknown topic '{arguments.topic_name}'")
-        domain.complete()
+        domain.wait_for_discovery()
         _print(domain, arguments.topic_name, types[0] if len(types) == 1 else types, arguments.verbose)
 
 

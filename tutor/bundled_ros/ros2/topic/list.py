@@ -23,7 +23,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def main(arguments: argparse.Namespace) -> None:
     """Print the topics."""
     with join_domain(arguments) as domain:
-        domain.complete()
+        domain.wait_for_discovery()
         found = topics(domain, hidden=arguments.include_hidden_topics)
         publishers = {name: domain.node.count_publishers(name) for name, _ in found}
         subscribers = {name: domain.node.count_subscribers(name) for name, _ in found}

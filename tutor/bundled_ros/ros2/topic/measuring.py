@@ -1,4 +1,4 @@
-"""What `hz`, `bw` and `delay` have in common: a topic, its messages as they arrive, and a window of them."""
+"""What `hz`, `bw` and `delay` share: the topic, its arriving messages and the window size."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ from tutor.bundled_ros.ros2.topic.names import topic_names
 if TYPE_CHECKING:
     from rclpy.qos import QoSProfile
 
-GATHER_S = 0.05
+_BATCH_PERIOD_S = 0.05
 
 
 def add_topic(parser: argparse.ArgumentParser, name: str) -> None:
-    """The topic, as argument `name`."""
+    """Add the topic, as the argument `name`."""
     complete_with(parser.add_argument(name, help="the topic, such as /chatter"), topic_names)
 
 
 def add_window(parser: argparse.ArgumentParser, default: int, dest: str = "window") -> None:
-    """--window."""
+    """Add --window, the number of messages in the statistics."""
     parser.add_argument(
         "--window",
         "-w",
@@ -36,12 +36,12 @@ def add_window(parser: argparse.ArgumentParser, default: int, dest: str = "windo
 
 
 def receive_measured(domain: Domain, topic: str, message_type: Any, *, raw: bool) -> Iterator[list[Received]]:
-    """The messages as they arrive, batch by batch, with the QoS of ros2cli's measurements and a longer queue."""
-    return receive(domain, topic, message_type, _qos(), raw=raw, gather_s=GATHER_S)
+    """Yield messages in batches, with the QoS of ros2cli's measurements and a longer queue."""
+    return receive(domain, topic, message_type, _qos(), raw=raw, gather_s=_BATCH_PERIOD_S)
 
 
-def arrival(domain: Domain, *, simulated: bool) -> Callable[[Received], int]:
-    """Gives a message's time of arrival in ns; 0 as long as no message of a simulation's clock has come."""
+def arrival_clock(domain: Domain, *, simulated: bool) -> Callable[[Received], int]:
+    """Return a function from a message to its arrival time in ns; 0 until simulated time has started."""
     clock = domain.node.get_clock()
     if simulated:
         return lambda _: int(clock.now().nanoseconds)

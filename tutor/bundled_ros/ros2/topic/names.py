@@ -1,4 +1,4 @@
-"""Topics by name, and what Tab offers for them."""
+"""Topic names and types, and their tab completion."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from tutor.bundled_ros.ros2.domain import Domain, join_domain
 from tutor.bundled_ros.ros2.interfaces import UnknownInterface, find_interface
 from tutor.errors import CommandError
 
-_LOOK_AGAIN_S = 0.05
+_GRAPH_POLL_S = 0.05
 
 
 def topics(domain: Domain, *, hidden: bool) -> list[tuple[str, Sequence[str]]]:
-    """All topics that are seen, with their types; `hidden`: also those with a part that starts with `_`."""
+    """Return all discovered topics with their types; hidden ones (a name part starts with `_`) only if `hidden`."""
     from rclpy.topic_or_service_is_hidden import topic_or_service_is_hidden
 
     found = domain.node.get_topic_names_and_types()
@@ -23,14 +23,14 @@ def topics(domain: Domain, *, hidden: bool) -> list[tuple[str, Sequence[str]]]:
 
 
 def topic_names(prefix: str, parsed_args: argparse.Namespace, **_: object) -> list[str]:
-    """The topics that Tab offers."""
+    """Complete topic names."""
     with join_domain(parsed_args) as domain:
-        domain.complete()
+        domain.wait_for_discovery()
         return [name for name, _ in topics(domain, hidden=getattr(parsed_args, "include_hidden_topics", False))]
 
 
 def full_name(domain: Domain, topic: str) -> str:
-    """A topic's name with its namespace. Raises CommandError for a name that no topic can have."""
+    """Return a topic's fully qualified name. Raises CommandError for an invalid name."""
     from rclpy.exceptions import InvalidTopicNameException
     from rclpy.expand_topic_name import expand_topic_name
     from rclpy.validate_full_topic_name import validate_full_topic_name
@@ -44,27 +44,27 @@ def full_name(domain: Domain, topic: str) -> str:
 
 
 def message_class(domain: Domain, topic: str) -> Any:
-    """The class of the messages on a topic; None where all that is there has been seen, and no such topic is.
+    """Return the message class of a topic; None once discovery is complete without such a topic.
 
-    Raises CommandError for a name that no topic can have, a topic of several types, and a type that is not here.
+    Raises CommandError for an invalid name, a topic with several types, or a type that is not installed.
     """
     full = full_name(domain, topic)
     types = domain.find(lambda: dict(topics(domain, hidden=True)).get(full))
-    return None if types is None else _class_of(topic, types)
+    return None if types is None else _single_class(topic, types)
 
 
 def wait_for_class(domain: Domain, topic: str) -> Any:
-    """As `message_class`, but waits for the topic, and says so once."""
+    """Like `message_class`, but warn once and wait if the topic does not exist yet."""
     if (found := message_class(domain, topic)) is not None:
         return found
-    warn_of_no_publisher(topic)
+    warn_not_published(topic)
     full = full_name(domain, topic)
     while (types := dict(topics(domain, hidden=True)).get(full)) is None:
-        time.sleep(_LOOK_AGAIN_S)
-    return _class_of(topic, types)
+        time.sleep(_GRAPH_POLL_S)
+    return _single_class(topic, types)
 
 
-def _class_of(topic: str, types: Sequence[str]) -> Any:
+def _single_class(topic: str, types: Sequence[str]) -> Any:
     if len(types) > 1:
         raise CommandError(f"Cannot echo topic '{topic}', as it contains more than one type: [{', '.join(types)}]")
     try:
@@ -73,6 +73,14 @@ def _class_of(topic: str, types: Sequence[str]) -> Any:
         raise CommandError(f"The message type '{types[0]}' is invalid") from None
 
 
-def warn_of_no_publisher(topic: str) -> None:
-    """Say that there is no such topic as yet."""
+def class_of_type(name: str) -> Any:
+    """Return the class of a message type that the user named. Raises CommandError."""
+    try:
+        return find_interface(name, "msg")
+    except UnknownInterface:
+        raise CommandError("The passed message type is invalid") from None
+
+
+def warn_not_published(topic: str) -> None:
+    """Warn that there is no such topic yet."""
     print(f"WARNING: topic [{topic}] does not appear to be published yet")

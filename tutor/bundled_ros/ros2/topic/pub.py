@@ -11,31 +11,33 @@ from typing import TYPE_CHECKING, Any
 import yaml
 
 from tutor.bundled_ros.ros2.domain import Domain, add_direct_arguments, join_domain
-from tutor.bundled_ros.ros2.interfaces import UnknownInterface, find_interface, message_names
+from tutor.bundled_ros.ros2.interfaces import find_interface, message_names
 from tutor.bundled_ros.ros2.message_values import set_fields
 from tutor.bundled_ros.ros2.parsing import complete_with, nonnegative_int, positive_float
-from tutor.bundled_ros.ros2.qos import add_qos_arguments, qos_of
-from tutor.bundled_ros.ros2.topic.names import full_name, topic_names, topics
+from tutor.bundled_ros.ros2.qos import add_qos_arguments, qos_from_arguments
+from tutor.bundled_ros.ros2.topic.names import class_of_type, full_name, topic_names, topics
 from tutor.errors import CommandError
 from tutor.ros.yaml_format import to_yaml
 
 if TYPE_CHECKING:
     from rclpy.publisher import Publisher
 
-_LOOK_S = 0.02
-_MATCHING_S = 0.5
-_ACKNOWLEDGED_S = 1.0
+_POLL_S = 0.02
+_MATCHING_GRACE_S = 0.5
+"""How long matching takes at most between endpoints that exist; no message about the wait is printed before."""
+
+_ACK_TIMEOUT_S = 1.0
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """TOPIC TYPE [VALUES], and how often."""
+    """TOPIC TYPE [VALUES] and how often to publish."""
     complete_with(parser.add_argument("topic_name", help="the topic, such as /chatter"), topic_names)
-    complete_with(parser.add_argument("message_type", help="its type, such as std_msgs/msg/String"), _types)
+    complete_with(parser.add_argument("message_type", help="its type, such as std_msgs/msg/String"), _complete_types)
     source = parser.add_mutually_exclusive_group()
     values = source.add_argument(
         "values", nargs="?", default="{}", help="the message in YAML, such as 'data: hello' (else its defaults)"
     )
-    complete_with(values, _prototype)
+    complete_with(values, _complete_values)
     source.add_argument("--stdin", action="store_true", help="read the message from stdin")
     add = parser.add_argument
     add("-r", "--rate", metavar="N", type=positive_float, default=1.0, help="messages per second (default: 1)")
@@ -63,27 +65,27 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(arguments: argparse.Namespace) -> None:
-    """Publish. Raises CommandError."""
+    """Publish the message. Raises CommandError."""
     times = 1 if arguments.once else arguments.times
-    least = arguments.wait_matching_subscriptions
-    least = int(times != 0) if least is None else least
+    required = arguments.wait_matching_subscriptions
+    required = int(times != 0) if required is None else required
     text = sys.stdin.read() if arguments.stdin else arguments.values
-    message_type = _named(arguments.message_type)
-    values = _read(text)
-    if least == 0 and arguments.max_wait_time_secs is not None:
+    message_type = class_of_type(arguments.message_type)
+    values = _parse_values(text)
+    if required == 0 and arguments.max_wait_time_secs is not None:
         raise CommandError(
             "--max-wait-time-secs option is only effective with --wait-matching-subscriptions, --once or --times"
         )
     with join_domain(arguments, name=arguments.node_name) as domain:
-        full_name(domain, arguments.topic_name)  # reports a name that no topic can have
-        if least:
-            domain.complete()
-        publisher = domain.node.create_publisher(message_type, arguments.topic_name, qos_of(arguments))
-        _await_subscriptions(domain, publisher, least, arguments.max_wait_time_secs)
+        full_name(domain, arguments.topic_name)  # raises for an invalid topic name
+        if required:
+            domain.wait_for_discovery()
+        publisher = domain.node.create_publisher(message_type, arguments.topic_name, qos_from_arguments(arguments))
+        _wait_for_subscriptions(domain, publisher, required, arguments.max_wait_time_secs)
         message = message_type()
         try:
             stamps = set_fields(message, values, stamps=True)
-        except Exception as error:  # whatever a field's type makes of the user's value
+        except Exception as error:  # whatever the field's type raises for the user's value
             raise CommandError(f"Failed to populate field: {error}") from error
         print("publisher: beginning loop")
 
@@ -95,19 +97,12 @@ def main(arguments: argparse.Namespace) -> None:
 
         _publish_all(publish, message, times, 1.0 / arguments.rate, arguments.print)
         time.sleep(arguments.keep_alive)
-        _await_acknowledgement(publisher)
+        _wait_for_acknowledgement(publisher)
 
 
-def _named(name: str) -> Any:
+def _parse_values(text: str) -> dict[str, Any]:
     try:
-        return find_interface(name, "msg")
-    except UnknownInterface:
-        raise CommandError("The passed message type is invalid") from None
-
-
-def _read(text: str) -> dict[str, Any]:
-    try:
-        # bash puts ^J where a completed message has a line's end
+        # bash shows the newlines of a completed message as ^J
         values = yaml.safe_load(text.replace("^J", "\n"))
     except yaml.YAMLError:
         raise CommandError("The passed value needs to be in YAML string or a dictionary") from None
@@ -116,21 +111,21 @@ def _read(text: str) -> dict[str, Any]:
     return values
 
 
-def _await_subscriptions(domain: Domain, publisher: Publisher, least: int, limit_s: float | None) -> None:
-    start = say_at = time.monotonic()
-    if domain.node.count_subscribers(publisher.topic_name) >= least:
-        say_at += _MATCHING_S  # they are there, and it takes them a moment to know each other
-    while (there := publisher.get_subscription_count()) < least:
+def _wait_for_subscriptions(domain: Domain, publisher: Publisher, required: int, limit_s: float | None) -> None:
+    started = print_at = time.monotonic()
+    if domain.node.count_subscribers(publisher.topic_name) >= required:
+        print_at += _MATCHING_GRACE_S  # the subscriptions exist, and matching takes a moment
+    while (matched := publisher.get_subscription_count()) < required:
         now = time.monotonic()
-        if now >= say_at:
-            say_at += 1.0
-            print(f"Waiting for at least {least} matching subscription(s)...")
-        if limit_s is not None and now - start >= limit_s:
-            # The word that is misspelt is what scripts look for.
+        if now >= print_at:
+            print_at += 1.0
+            print(f"Waiting for at least {required} matching subscription(s)...")
+        if limit_s is not None and now - started >= limit_s:
+            # "subcribers" is ros2cli's own spelling, which scripts may match.
             raise CommandError(
-                f"Timed out waiting for subscribers: Expected {least} subcribers but only got {there} subscribers"
+                f"Timed out waiting for subscribers: Expected {required} subcribers but only got {matched} subscribers"
             )
-        time.sleep(_LOOK_S)
+        time.sleep(_POLL_S)
 
 
 def _publish_all(publish: Callable[[], None], message: Any, times: int, period_s: float, print_every: int) -> None:
@@ -139,26 +134,26 @@ def _publish_all(publish: Callable[[], None], message: Any, times: int, period_s
         count += 1
         publish()
         if print_every and count % print_every == 0:
-            sys.stdout.write(f"publishing #{count}: {message!r}\n\n")  # in one go: Ctrl+C leaves no half of it
+            sys.stdout.write(f"publishing #{count}: {message!r}\n\n")  # one write: Ctrl+C cannot cut it in half
         if count == times:
             return
-        due = max(due + period_s, time.monotonic() - period_s)  # a late one is followed at once, many are not made up
+        due = max(due + period_s, time.monotonic() - period_s)  # catch up on one late message, not on many
         time.sleep(max(0.0, due - time.monotonic()))
 
 
-def _await_acknowledgement(publisher: Publisher) -> None:
+def _wait_for_acknowledgement(publisher: Publisher) -> None:
     from rclpy.duration import Duration
 
-    publisher.wait_for_all_acked(Duration(seconds=_ACKNOWLEDGED_S))
+    publisher.wait_for_all_acked(Duration(seconds=_ACK_TIMEOUT_S))
 
 
-def _types(prefix: str, parsed_args: argparse.Namespace, **_: object) -> list[str]:
-    """For Tab: the topic's type where it is there, else all."""
+def _complete_types(prefix: str, parsed_args: argparse.Namespace, **_: object) -> list[str]:
+    """Complete the topic's type if the topic exists, else all message types."""
     with join_domain(parsed_args) as domain:
         found = domain.find(lambda: dict(topics(domain, hidden=True)).get(parsed_args.topic_name))
     return list(found) if found else message_names()
 
 
-def _prototype(prefix: str, parsed_args: argparse.Namespace, **_: object) -> list[str]:
-    """For Tab: the message with its defaults."""
+def _complete_values(prefix: str, parsed_args: argparse.Namespace, **_: object) -> list[str]:
+    """Complete the message with its default values."""
     return [to_yaml(find_interface(parsed_args.message_type, "msg")())]

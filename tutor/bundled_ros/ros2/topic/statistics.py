@@ -1,4 +1,4 @@
-"""The figures of `hz` and `delay`."""
+"""The statistics of `hz`, `bw` and `delay`."""
 
 from __future__ import annotations
 
@@ -6,53 +6,53 @@ import math
 from collections import deque
 from dataclasses import dataclass, field
 
-_PRINT_EVERY_NS = 1_000_000_000
-_FIRST_AFTER_NS = 250_000_000  # anyone who watches would wait a whole second for nothing
+_PRINT_PERIOD_NS = 1_000_000_000
+_FIRST_AFTER_NS = 250_000_000  # the first output comes early: nobody likes to watch an empty screen for a second
 _NS = 1e-9
 
 
 @dataclass(slots=True)
 class Rate:
-    """The time between messages of a topic, over a window of them."""
+    """The message rate of a topic over a window of messages."""
 
     window: int
     between_ns: deque[int] = field(init=False)
-    _last: int | None = None
-    _printed: int | None = None
+    _last_ns: int | None = None
+    _printed_ns: int | None = None
 
     def __post_init__(self) -> None:
         self.between_ns = deque(maxlen=self.window)
 
     def add(self, now_ns: int) -> str | None:
-        """Count a message that arrived at this time; what to print, once a second."""
-        if now_ns == 0:  # a simulation that has not begun, or has begun again
+        """Count a message that arrived at `now_ns`. Return the text to print once a second, else None."""
+        if now_ns == 0:  # simulated time has not started yet or was reset
             return self._reset()
-        if self._last is None or now_ns < self._last:
-            self._last, self._printed = now_ns, None
+        if self._last_ns is None or now_ns < self._last_ns:
+            self._last_ns, self._printed_ns = now_ns, None
             self.between_ns.clear()
             return None
-        self.between_ns.append(now_ns - self._last)
-        self._last = now_ns
-        if self._printed is None:
-            self._printed = now_ns - _PRINT_EVERY_NS + _FIRST_AFTER_NS
-        elif now_ns >= self._printed + _PRINT_EVERY_NS:
-            self._printed = now_ns
-            return self._text()
+        self.between_ns.append(now_ns - self._last_ns)
+        self._last_ns = now_ns
+        if self._printed_ns is None:
+            self._printed_ns = now_ns - _PRINT_PERIOD_NS + _FIRST_AFTER_NS
+        elif now_ns >= self._printed_ns + _PRINT_PERIOD_NS:
+            self._printed_ns = now_ns
+            return self._format()
         return None
 
     def _reset(self) -> str | None:
-        had = bool(self.between_ns)
+        had_samples = bool(self.between_ns)
         self.between_ns.clear()
-        return "time has reset, resetting counters" if had else None
+        return "time has reset, resetting counters" if had_samples else None
 
-    def _text(self) -> str:
+    def _format(self) -> str:
         total = sum(self.between_ns)
         rate = len(self.between_ns) / (total * _NS) if total else 0.0
         return f"average rate: {rate:.3f}\n\t{spread(self.between_ns)}"
 
 
 def spread(values_ns: deque[int]) -> str:
-    """Least, greatest, standard deviation and count, in seconds."""
+    """Format the minimum, maximum and standard deviation, in seconds, and the count."""
     count, mean = len(values_ns), sum(values_ns) / len(values_ns)
     deviation = math.sqrt(sum((value - mean) ** 2 for value in values_ns) / count)
     return (
@@ -62,7 +62,7 @@ def spread(values_ns: deque[int]) -> str:
 
 
 def size(count: float, unit_of: float) -> str:
-    """A number of bytes in the unit that suits `unit_of` bytes."""
+    """Format a number of bytes in the unit that suits `unit_of` bytes."""
     if unit_of < 1000:
         return f"{count:.0f} B"
     if unit_of < 1_000_000:

@@ -16,11 +16,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(arguments: argparse.Namespace) -> int:
-    """Print the topic's types; 1 where there is no such topic."""
+    """Print the topic's types. Return 1 if there is no such topic."""
     with join_domain(arguments) as domain:
         types = domain.find(
             lambda: dict(topics(domain, hidden=arguments.include_hidden_topics)).get(arguments.topic_name)
         )
-    for each in types or ():
-        print(each)
+    for type_name in types or ():
+        print(type_name)
     return 0 if types else 1

@@ -1,4 +1,4 @@
-"""The part of ROS 2's `launch` that launch files for the exercises use, where no real one is installed."""
+"""The subset of ROS 2's `launch` that the exercises' launch files use, for machines without the real one."""
 
 import sys
 
@@ -6,7 +6,7 @@ from . import _real_names
 
 _real_names.install()
 
-# The order is that of their dependence on each other.
+# In order of dependency.
 from . import (  # noqa: E402
     actions,
     conditions,

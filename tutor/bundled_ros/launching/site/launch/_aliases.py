@@ -1,4 +1,4 @@
-"""Where the modules of the real packages are that have no file of their own here."""
+"""Which of our modules stands in for each module of the real packages that has no file of its own here."""
 
 MODULES = {
     "launch._entities": {
@@ -113,4 +113,4 @@ MODULES = {
         ),
     },
 }
-"""For each of our modules, by package, the modules of the real packages whose names it defines."""
+"""Maps each of our modules to the real packages' modules whose names it defines, grouped by package."""

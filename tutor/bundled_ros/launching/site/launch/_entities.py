@@ -1,4 +1,4 @@
-"""What launch files are made of: entities, actions, conditions, substitutions, events and their handlers."""
+"""The building blocks of launch files: entities, actions, conditions, substitutions, events and event handlers."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ if TYPE_CHECKING:
 
 
 class Substitution:
-    """A text that is known only while the launch file runs."""
+    """A text that is not known until the launch file runs."""
 
     def describe(self) -> str:
         return repr(self)
 
     def perform(self, context: LaunchContext) -> str:
-        """The text, in this context."""
+        """Return the text in this context."""
         raise NotImplementedError(f"{type(self).__name__} has no perform()")
 
 
 SomeSubstitutionsType = str | Path | Substitution | Iterable[str | Path | Substitution]
-"""A text, a path, a substitution, or several of them to be joined."""
+"""A text, a path or a substitution, or several of these, which are concatenated."""
 
 SomeSubstitutionsType_types_tuple = (str, Path, Substitution, collections.abc.Iterable)
 
@@ -38,19 +38,19 @@ class LaunchDescriptionEntity:
         raise NotImplementedError
 
     def describe_sub_entities(self) -> Sequence[LaunchDescriptionEntity]:
-        """The entities that a visit of this one always brings."""
+        """Return the entities that visiting this one always yields."""
         return []
 
     def describe_conditional_sub_entities(self) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
-        """The entities that it may bring, each group with the condition in words."""
+        """Return the entities that it may yield, grouped by a description of their condition."""
         return []
 
     def visit(self, context: LaunchContext) -> Sequence[LaunchDescriptionEntity] | None:
-        """Do what the entity does; the entities returned are visited next, before any other."""
+        """Perform the entity's effect. The returned entities are visited next, before any others."""
         return None
 
     def get_asyncio_future(self) -> asyncio.Future[None] | None:
-        """Done when nothing of this entity is going on any more; None where nothing ever was."""
+        """Return a future that is done once the entity has finished; None if it has nothing to wait for."""
         return None
 
 
@@ -69,11 +69,11 @@ def normalize_to_list_of_entities(entities: Iterable[SomeEntitiesType]) -> list[
 
 
 class SubstitutionFailure(RuntimeError):  # noqa: N818, RUF100 - the original's name
-    """Raised by perform()."""
+    """A substitution cannot be performed."""
 
 
 class TextSubstitution(Substitution):
-    """A text as it stands; TypeError for anything else."""
+    """A literal text. Raises TypeError for anything else."""
 
     def __init__(self, *, text: str) -> None:
         if not isinstance(text, str):
@@ -102,21 +102,21 @@ class Condition:
         return repr(self)
 
     def evaluate(self, context: LaunchContext) -> bool:
-        """Whether the action is executed; raises where that cannot be known."""
+        """Return whether the action is executed. Raises if the condition cannot be evaluated."""
         self._last_result = self._predicate(context) if self._predicate is not None else False
         return self._last_result
 
     def last_evaluation_result(self) -> bool | None:
-        """What `evaluate` said last, None before the first time."""
+        """Return the last result of `evaluate`; None before its first call."""
         return self._last_result
 
 
 class Action(LaunchDescriptionEntity):
-    """An intention to do something, which a condition may prevent."""
+    """An intention to do something, optionally under a condition."""
 
     def __init__(self, *, condition: Condition | None = None) -> None:
         self._condition = condition
-        self._place = _tracebacks.place_of_caller()
+        self._created_at = _tracebacks.learner_location()
 
     @property
     def condition(self) -> Condition | None:
@@ -126,7 +126,7 @@ class Action(LaunchDescriptionEntity):
         return repr(self)
 
     def get_sub_entities(self) -> Sequence[LaunchDescriptionEntity]:
-        """The entities inside this action."""
+        """Return the entities nested in this action."""
         return []
 
     def describe_sub_entities(self) -> Sequence[LaunchDescriptionEntity]:
@@ -146,15 +146,15 @@ class Action(LaunchDescriptionEntity):
             finally:
                 self._report_completion(context)
         except Exception as error:
-            _tracebacks.note_place(error, self._place)
+            _tracebacks.note_location(error, self._created_at)
             raise
 
     def execute(self, context: LaunchContext) -> Sequence[LaunchDescriptionEntity] | None:
-        """Do it; the entities returned are visited next."""
+        """Carry out the action. The returned entities are visited next."""
         return None
 
     def _report_completion(self, context: LaunchContext) -> None:
-        """Emit ExecutionComplete, once nothing of this action is going on, if anybody listens."""
+        """Emit ExecutionComplete once the action has finished, if a handler wants it."""
         event = ExecutionComplete(action=self)
         if not context.would_handle_event(event):
             return
@@ -166,13 +166,13 @@ class Action(LaunchDescriptionEntity):
 
 
 class Event:
-    """Something that has happened, or is asked for, while a launch file runs."""
+    """Something that has happened or is requested while a launch file runs."""
 
     name = "launch.Event"
 
 
 class ExecutionComplete(Event):
-    """Nothing of the action is going on any more."""
+    """The action has finished."""
 
     name = "launch.events.ExecutionComplete"
 
@@ -185,7 +185,7 @@ class ExecutionComplete(Event):
 
 
 class BaseEventHandler:
-    """Picks events with a matcher. The event is in `context.locals.event` of what it leads to."""
+    """Handles the events that a matcher accepts. The resulting entities see the event as `context.locals.event`."""
 
     def __init__(self, *, matcher: Callable[[Event], bool], handle_once: bool = False) -> None:
         self._matcher = matcher
@@ -207,15 +207,15 @@ class BaseEventHandler:
         return self._matcher(event)
 
     def describe(self) -> tuple[str, list[LaunchDescriptionEntity]]:
-        """In words, and the entities that the handler may bring."""
-        words = (
+        """Return a description and the entities that the handler may yield."""
+        description = (
             f"{type(self).__name__}(matcher='{self.matcher_description}', "
             f"handler='{self.handler_description}', handle_once={self._handle_once})"
         )
-        return words, []
+        return description, []
 
     def handle(self, event: Event, context: LaunchContext) -> SomeEntitiesType | None:
-        """What the event leads to; to be extended by those that derive from it."""
+        """Handle the event and return the resulting entities. Subclasses extend this method."""
         context.extend_locals({"event": event})
         if self._handle_once:
             context.unregister_event_handler(self)
@@ -223,7 +223,7 @@ class BaseEventHandler:
 
 
 class EventHandler(BaseEventHandler):
-    """Leads to the same entities whenever an event matches."""
+    """Yields the same entities whenever an event matches."""
 
     def __init__(
         self,
@@ -240,10 +240,10 @@ class EventHandler(BaseEventHandler):
         return self._entities
 
     def describe(self) -> tuple[str, list[LaunchDescriptionEntity]]:
-        words, entities = super().describe()
+        description, entities = super().describe()
         if self._entities is not None:
             entities.extend(normalize_to_list_of_entities([self._entities]))
-        return words, entities
+        return description, entities
 
     def handle(self, event: Event, context: LaunchContext) -> SomeEntitiesType | None:
         super().handle(event, context)
@@ -251,7 +251,7 @@ class EventHandler(BaseEventHandler):
 
 
 class InvalidLaunchFileError(Exception):
-    """No way of reading the file worked; `likely_errors` says why, way by way."""
+    """The file could not be read in any format; `likely_errors` holds one error per attempt."""
 
     def __init__(self, extension: str = "", *, likely_errors: Sequence[Exception] = ()) -> None:
         super().__init__(extension)

@@ -1,9 +1,9 @@
-"""Lets every public name of the real packages be imported from every module that has it there.
+"""Make every public name of the real packages importable from every module that has it there.
 
-`names.txt` lists them. Our modules are fewer: `_aliases.py` says which one defines the names of a module that has no
-file here, and that module is made beside it, as an alias. What a module does not define, its `__getattr__` gives: the
-thing itself where another module has it, else a stand-in that refuses when it is used. Modules that only the real
-packages have are made on the spot.
+`names.txt` lists these names. We have fewer modules: `_aliases.py` says which of them defines the names of a module
+that has no file here, and an alias module is created along with it. A name that a module does not define is resolved
+by its `__getattr__`: to the object itself if another module has it, else to a stand-in that raises when used. Modules
+that only the real packages have are created on import.
 """
 
 from __future__ import annotations
@@ -21,8 +21,8 @@ from typing import Any
 from . import _unsupported
 from ._aliases import MODULES
 
-_LIST = Path(__file__).with_name("names.txt")
-_SITE = str(_LIST.parents[1])
+_NAMES_FILE = Path(__file__).with_name("names.txt")
+_SITE = str(_NAMES_FILE.parents[1])
 PACKAGES = frozenset(
     {"launch", "launch_ros", "launch_xml", "launch_yaml", "launch_testing", "launch_testing_ros", "launch_pytest"}
 )
@@ -30,26 +30,26 @@ _ALIASES = {
     home: [f"{package}.{name}".lstrip(".") for package, names in packages.items() for name in names.split()]
     for home, packages in MODULES.items()
 }
-_HOMES = {alias: home for home, aliases in _ALIASES.items() for alias in aliases}
+_HOME_OF_ALIAS = {alias: home for home, aliases in _ALIASES.items() for alias in aliases}
 _STAND_INS: dict[str, type] = {}
 
 
 def install() -> None:
-    """From here on, modules of the real packages are found, and have all names that they have there."""
+    """Install the import hook that finds the real packages' modules and completes their names."""
     if not any(isinstance(finder, _Finder) for finder in sys.meta_path):
         sys.meta_path.insert(0, _Finder())
 
 
 def complete(module: ModuleType) -> None:
-    """Give one of our modules the other names that the real one has, and make its aliases."""
+    """Add the real module's remaining names to one of our modules, and create its aliases."""
     if module.__name__ in _modules():
-        _prepare(module)
+        _install_getattr(module)
     for alias in _ALIASES.get(module.__name__, ()):
         _make_alias(alias, module)
 
 
 class _Finder:
-    """Finds our modules, to complete them, their aliases, and the modules that only the real packages have."""
+    """Finds our own modules (to complete them), their aliases and the modules that only the real packages have."""
 
     def find_spec(
         self, fullname: str, path: Sequence[str] | None = None, target: ModuleType | None = None
@@ -57,51 +57,51 @@ class _Finder:
         package = fullname.partition(".")[0]
         if package not in PACKAGES:
             return None
-        if fullname in _HOMES:
-            importlib.import_module(_HOMES[fullname])
+        if fullname in _HOME_OF_ALIAS:
+            importlib.import_module(_HOME_OF_ALIAS[fullname])
             return _spec(fullname)
         spec = PathFinder.find_spec(fullname, path)
         if spec is not None and spec.origin is not None:
             if spec.origin.startswith(_SITE):
-                spec.loader = _Completing(fullname, spec.origin)
+                spec.loader = _CompletingLoader(fullname, spec.origin)
             return spec
         return _spec(fullname) if fullname in _modules() else None
 
 
-class _Completing(SourceFileLoader):
-    """Loads one of our modules."""
+class _CompletingLoader(SourceFileLoader):
+    """Loads one of our own modules and completes it."""
 
     def exec_module(self, module: ModuleType) -> None:
         super().exec_module(module)
-        complete(module)  # not before: of modules that import each other, one is asked for what it has not yet
+        complete(module)  # only now: with circular imports, a module is asked for names that it will define later
 
 
-class _Making(Loader):
-    """Makes a module that has no file here; an alias is there already."""
+class _VirtualLoader(Loader):
+    """Creates a module that has no file here. Aliases already exist."""
 
     def create_module(self, spec: ModuleSpec) -> ModuleType | None:
         return sys.modules.get(spec.name)
 
     def exec_module(self, module: ModuleType) -> None:
-        if module.__name__ in _HOMES:
+        if module.__name__ in _HOME_OF_ALIAS:
             return
         module.__doc__ = "Not here; each of its names refuses when it is used."
         module.__dict__["__all__"] = sorted(_modules()[module.__name__][1])
-        _prepare(module)
+        _install_getattr(module)
 
 
 def _spec(module: str) -> ModuleSpec:
-    return ModuleSpec(module, _Making(), is_package=_modules()[module][0])
+    return ModuleSpec(module, _VirtualLoader(), is_package=_modules()[module][0])
 
 
-def _prepare(module: ModuleType) -> None:
-    module.__getattr__ = partial(_get, module.__name__)  # type: ignore[method-assign]
+def _install_getattr(module: ModuleType) -> None:
+    module.__getattr__ = partial(_resolve, module.__name__)  # type: ignore[method-assign]
     if _modules()[module.__name__][0] and not hasattr(module, "__path__"):
-        module.__path__ = []  # our file where the real one is a package: what is below it is an alias
+        module.__path__ = []  # a plain file here but a package there: its submodules are aliases
 
 
 def _make_alias(name: str, home: ModuleType) -> None:
-    """Put the module into `sys.modules`; what it defines tells it as its module, in tracebacks and for pickle."""
+    """Register an alias module. What it defines gets it as `__module__`, for tracebacks and pickle."""
     names = _modules()[name][1]
     alias = ModuleType(name, home.__doc__)
     alias.__spec__ = _spec(name)
@@ -109,7 +109,7 @@ def _make_alias(name: str, home: ModuleType) -> None:
     alias.__package__ = alias.__spec__.parent
     alias.__file__ = home.__file__
     alias.__dict__["__all__"] = sorted(each for each, origin in names.items() if not origin or each in vars(home))
-    _prepare(alias)
+    _install_getattr(alias)
     for each, origin in names.items():
         defined = vars(home).get(each)
         if not origin and isinstance(defined, type | FunctionType) and defined.__module__ == home.__name__:
@@ -117,13 +117,13 @@ def _make_alias(name: str, home: ModuleType) -> None:
     sys.modules[name] = alias
 
 
-def _get(module: str, name: str) -> Any:
+def _resolve(module: str, name: str) -> Any:
     origin = _modules().get(module, (False, {}))[1].get(name)
-    if module in _HOMES and not name.startswith("__"):
-        home = vars(sys.modules[_HOMES[module]])
+    if module in _HOME_OF_ALIAS and not name.startswith("__"):
+        home = vars(sys.modules[_HOME_OF_ALIAS[module]])
         if name in home:
             return home[name]
-    if f"{module}.{name}" in _HOMES:
+    if f"{module}.{name}" in _HOME_OF_ALIAS:
         return importlib.import_module(f"{module}.{name}")
     if origin is None or name.startswith("_"):
         raise AttributeError(f"module {module!r} has no attribute {name!r}")
@@ -131,19 +131,19 @@ def _get(module: str, name: str) -> Any:
         return _stand_in(f"{module}.{name}")
     source, _, attribute = origin.partition(":")
     if not attribute or f"{source}.{attribute}" in _modules():
-        return _or_stand_in(f"{source}.{attribute}".rstrip("."))
+        return _import_or_stand_in(f"{source}.{attribute}".rstrip("."))
     if source == module:
         return _stand_in(f"{module}.{name}")
-    found = _or_stand_in(source)
+    found = _import_or_stand_in(source)
     if isinstance(found, ModuleType):
         found = getattr(found, attribute, None)
     return found if found is not None else _stand_in(f"{source}.{attribute}")
 
 
-def _or_stand_in(module: str) -> Any:
+def _import_or_stand_in(module: str) -> Any:
     try:
         return importlib.import_module(module)
-    except ImportError:  # of something beside launch that is not installed
+    except ImportError:  # something outside launch that is not installed
         return _stand_in(module)
 
 
@@ -155,10 +155,10 @@ def _stand_in(what: str) -> type:
 
 @cache
 def _modules() -> dict[str, tuple[bool, dict[str, str]]]:
-    """For each module whether it is a package, and its names with their origins."""
+    """Map each module to whether it is a package, and to its names with their origins."""
     modules: dict[str, tuple[bool, dict[str, str]]] = {}
     names: dict[str, str] = {}
-    for line in _LIST.read_text(encoding="utf-8").splitlines():
+    for line in _NAMES_FILE.read_text(encoding="utf-8").splitlines():
         if line.startswith("#"):
             continue
         name, _, rest = line.strip().partition(" ")

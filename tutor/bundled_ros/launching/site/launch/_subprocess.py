@@ -1,4 +1,4 @@
-"""One process and its output, on asyncio."""
+"""A child process and its output, on asyncio."""
 
 from __future__ import annotations
 
@@ -13,30 +13,30 @@ from typing import Any, cast
 
 
 class Lines:
-    """Cuts what comes into lines, without their ends; undecodable bytes are shown as such."""
+    """Splits output into lines, without line ends. Undecodable bytes become replacement characters."""
 
     def __init__(self, show: Callable[[str], None]) -> None:
         self._show = show
         self._decoder = codecs.getincrementaldecoder("utf-8")("replace")
         self._rest = ""
-        self._all: list[str] = []
+        self._kept: list[str] = []
 
     @property
     def text(self) -> str:
-        """All that has come."""
-        return "".join(self._all)
+        """All output that was kept."""
+        return "".join(self._kept)
 
     def feed(self, data: bytes, *, keep: bool = False) -> None:
-        """Take some bytes; with `keep` they stay in `text`."""
+        """Process some bytes; with `keep`, add them to `text`."""
         text = self._decoder.decode(data)
         if keep:
-            self._all.append(text)
+            self._kept.append(text)
         *lines, self._rest = (self._rest + text).split("\n")
         for line in lines:
             self._show(line.removesuffix("\r"))
 
     def flush(self) -> None:
-        """Show what has come behind the last line's end."""
+        """Show an unfinished last line."""
         rest = self._rest + self._decoder.decode(b"", final=True)
         self._rest = ""
         self._decoder.reset()
@@ -46,11 +46,11 @@ class Lines:
 
 Listener = Callable[[bytes], None]
 OUTPUT_AFTER_EXIT_S = 0.2
-"""How long output is read on after a process has ended while something, a child of it, keeps its pipes open."""
+"""How long to keep reading after a process has exited but one of its children holds its pipes open."""
 
 
 class _Pipes(asyncio.SubprocessProtocol):
-    """Passes on what comes through the pipes, after the process itself."""
+    """Passes on the process once it has started, then its output from the pipes."""
 
     def __init__(self, on_start: Callable[[Process], None], on_stdout: Listener, on_stderr: Listener) -> None:
         loop = asyncio.get_running_loop()
@@ -71,14 +71,14 @@ class _Pipes(asyncio.SubprocessProtocol):
         self._listeners[fd](cast(bytes, data))
 
     def pipe_connection_lost(self, fd: int, exc: Exception | None) -> None:
-        _set(self._closed_by_fd.get(fd))
+        _set_done(self._closed_by_fd.get(fd))
 
     def process_exited(self) -> None:
-        _set(self.exited)
+        _set_done(self.exited)
 
 
 class _Terminal(asyncio.Protocol):
-    """Passes on what comes from the other side of a pseudo terminal."""
+    """Passes on the output that arrives through a pseudo terminal."""
 
     def __init__(self, listener: Listener) -> None:
         self._listener = listener
@@ -88,11 +88,11 @@ class _Terminal(asyncio.Protocol):
         self._listener(data)
 
     def connection_lost(self, exc: Exception | None) -> None:
-        _set(self.closed)
+        _set_done(self.closed)
 
 
 class Process:
-    """A running process. It shares our process group, so that Ctrl+C in the terminal reaches it, too."""
+    """A running process. It shares our process group, so Ctrl+C in the terminal reaches it as well."""
 
     def __init__(self, transport: asyncio.SubprocessTransport, pipes: _Pipes) -> None:
         self._transport = transport
@@ -102,7 +102,7 @@ class Process:
         self.pid = transport.get_pid()
 
     async def read_terminal(self, fd: int, listener: Listener) -> None:
-        """Read a pseudo terminal's master, too; it is closed with the process."""
+        """Also read from a pseudo terminal's master, and close it with the process."""
         transport, terminal = await asyncio.get_running_loop().connect_read_pipe(
             lambda: _Terminal(listener), os.fdopen(fd, "rb", 0)
         )
@@ -114,11 +114,11 @@ class Process:
         return self._transport.get_returncode()
 
     def send(self, number: signal.Signals) -> None:
-        """Send a signal; ProcessLookupError where the process has ended."""
+        """Send a signal. Raises ProcessLookupError if the process has ended."""
         self._transport.send_signal(number)
 
     async def wait(self) -> int:
-        """The return code, when the process has ended and its output is read; -N: ended by signal N."""
+        """Wait until the process has ended and its output is read. Return its return code (-N: killed by signal N)."""
         await self._pipes.exited
         if self._outputs:
             await asyncio.wait(self._outputs, timeout=OUTPUT_AFTER_EXIT_S)
@@ -127,7 +127,7 @@ class Process:
         return returncode
 
     def close(self) -> None:
-        """Read nothing more of it."""
+        """Stop reading its output."""
         for transport in (self._transport, *self._terminals):
             transport.close()
 
@@ -143,9 +143,9 @@ async def start(
     on_stdout: Listener,
     on_stderr: Listener,
 ) -> Process:
-    """Start a process; OSError where that fails. `on_start` is called before any output comes.
+    """Start a process. `on_start` is called before any output arrives. Raises OSError.
 
-    With `emulate_tty` the output goes to pseudo terminals.
+    With `emulate_tty`, the output goes through pseudo terminals.
     """
     listeners = (on_stdout, on_stderr)
     with contextlib.ExitStack() as masters, contextlib.ExitStack() as slaves:
@@ -166,12 +166,12 @@ async def start(
             _, protocol = await loop.subprocess_shell(pipes, " ".join(cmd), **options)
         else:
             _, protocol = await loop.subprocess_exec(pipes, *cmd, **options)
-        masters.pop_all()  # from here on they belong to the process
+        masters.pop_all()  # from here on, the process owns them
     for fd, listener in zip(terminals, listeners, strict=False):
         await protocol.process.read_terminal(fd, listener)
     return protocol.process
 
 
-def _set(future: asyncio.Future[None] | None) -> None:
+def _set_done(future: asyncio.Future[None] | None) -> None:
     if future is not None and not future.done():
         future.set_result(None)

@@ -1,4 +1,4 @@
-"""The part of a traceback that lies in the learner's own files, and the lines there that actions are written on."""
+"""The part of a traceback in the learner's own files, and the lines on which their actions are created."""
 
 from __future__ import annotations
 
@@ -8,36 +8,35 @@ import sysconfig
 import traceback
 from types import FrameType
 
-_OURS = os.path.abspath(os.path.join(__file__, *[os.pardir] * 4))  # with those who run us and find packages for us
+_OURS = os.path.abspath(os.path.join(__file__, *[os.pardir] * 4))  # with the code that runs us and finds packages
 _FOREIGN = tuple(
     folder + os.sep for folder in (_OURS, *(sysconfig.get_path(key) for key in ("stdlib", "purelib", "platlib")))
 )
 
-Place = traceback.FrameSummary
+Location = traceback.FrameSummary
 
 
 def of_learner(error: BaseException) -> str | None:
-    """The traceback of what first went wrong, without the frames of others.
+    """Return the original error's traceback, reduced to the learner's own frames.
 
-    Where no line of the learner's is in it, the place of the action that went wrong stands for it. None where that is
-    not known either.
+    If it has none, the line that created the failing action takes their place. None if that is unknown, too.
     """
     for candidate in reversed(_chain(error)):
         shown = traceback.TracebackException.from_exception(candidate, compact=True)
         shown.__cause__ = shown.__context__ = None
         frames = [frame for frame in shown.stack if not _is_foreign(frame.filename)]
         in_file = isinstance(candidate, SyntaxError) and not _is_foreign(str(candidate.filename))
-        place: Place | None = getattr(candidate, "_place_of_action", None)
-        if not frames and not in_file and place is not None:
-            frames = [place]
+        location: Location | None = getattr(candidate, "_place_of_action", None)
+        if not frames and not in_file and location is not None:
+            frames = [location]
         if frames or in_file:
             shown.stack = traceback.StackSummary.from_list(frames)
             return "".join(shown.format(chain=False)).rstrip()
     return None
 
 
-def place_of_caller() -> Place | None:
-    """The line of the learner's that we were called from."""
+def learner_location() -> Location | None:
+    """Return the learner's line from which we were called; None if there is none."""
     frame: FrameType | None = sys._getframe(1)
     while frame is not None and _is_foreign(frame.f_code.co_filename):
         frame = frame.f_back
@@ -46,10 +45,10 @@ def place_of_caller() -> Place | None:
     return traceback.FrameSummary(frame.f_code.co_filename, frame.f_lineno, frame.f_code.co_name)
 
 
-def note_place(error: Exception, place: Place | None) -> None:
-    """Keep where the action is written that an error comes from."""
-    if place is not None and not hasattr(error, "_place_of_action"):
-        error._place_of_action = place  # type: ignore[attr-defined]
+def note_location(error: Exception, location: Location | None) -> None:
+    """Remember on an error which line created the action that raised it."""
+    if location is not None and not hasattr(error, "_place_of_action"):
+        error._place_of_action = location  # type: ignore[attr-defined]
 
 
 def _is_foreign(filename: str) -> bool:
@@ -57,7 +56,7 @@ def _is_foreign(filename: str) -> bool:
 
 
 def _chain(error: BaseException) -> list[BaseException]:
-    """The error, what it came from, what that came from."""
+    """Return the error followed by its causes, the original one last."""
     chain: list[BaseException] = []
     current: BaseException | None = error
     while current is not None and current not in chain:

@@ -1,4 +1,4 @@
-"""What the real `launch` and `launch_ros` have and this subset has not: a stand-in, which refuses when it is used."""
+"""Stand-ins, which raise when used, for the parts of `launch` and `launch_ros` that this subset lacks."""
 
 from __future__ import annotations
 
@@ -6,11 +6,11 @@ from typing import Any, NoReturn
 
 
 class NotSupportedError(NotImplementedError):
-    """Something of the real launch that this subset does not have was used."""
+    """The launch file uses a part of the real launch that this subset lacks."""
 
 
 def refuse(what: str) -> NoReturn:
-    """Raise the one error for a thing that only the real launch has; `what` is its full name, or says what it is."""
+    """Raise NotSupportedError for something that only the real launch has; `what` is its full name or a description."""
     raise NotSupportedError(
         f"{what} is not supported by the launch files that run without an installed ROS 2; "
         "it works where ROS 2 is installed and sourced"
@@ -18,7 +18,7 @@ def refuse(what: str) -> NoReturn:
 
 
 class _Refusing(type):
-    """The type of the stand-ins. They can be named in annotations and as a base; all else refuses."""
+    """The metaclass of the stand-ins. They may appear in annotations and as base classes; any other use raises."""
 
     _what: str
 
@@ -26,7 +26,7 @@ class _Refusing(type):
         refuse(cls._what)
 
     def __getattr__(cls, name: str) -> NoReturn:
-        if name.startswith("__"):  # asked by Python itself, for what it can do without
+        if name.startswith("__"):  # Python itself probes for optional dunder attributes
             raise AttributeError(name)
         refuse(f"{cls._what}.{name}")
 
@@ -38,6 +38,6 @@ class _Refusing(type):
 
 
 def stand_in(what: str) -> type:
-    """A class in place of the class, function or value of this full name."""
+    """Return a class that stands in for the class, function or value of this full name."""
     module, _, name = what.rpartition(".")
     return _Refusing(name, (), {"__module__": module, "__doc__": "Not supported here.", "_what": what})

@@ -1,4 +1,4 @@
-"""The conditions."""
+"""Conditions on actions."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ __all__ = [
 
 
 class InvalidConditionExpressionError(ValueError):
-    """Says what was expected, what came, and what it came from."""
+    """A condition's text is neither true nor false."""
 
     def __init__(
         self, expression: str, unexpanded_expression: Sequence[Substitution], valid_expressions: Sequence[str]
@@ -37,7 +37,7 @@ FALSE = ["false", "0"]
 
 
 def evaluate_condition_expression(context: LaunchContext, expression: Sequence[Substitution]) -> bool:
-    """True or false; InvalidConditionExpressionError for any word but those above, in any case."""
+    """Evaluate a condition, ignoring case. Raises InvalidConditionExpressionError for any word not listed above."""
     word = perform_substitutions(context, expression).strip().lower()
     if word in TRUE:
         return True
@@ -47,7 +47,7 @@ def evaluate_condition_expression(context: LaunchContext, expression: Sequence[S
 
 
 class IfCondition(Condition):
-    """Lets an action happen where the expression is true."""
+    """Executes an action if the expression is true."""
 
     def __init__(self, predicate_expression: SomeSubstitutionsType) -> None:
         self._expression = normalize_to_list_of_substitutions(predicate_expression)
@@ -58,14 +58,14 @@ class IfCondition(Condition):
 
 
 class UnlessCondition(IfCondition):
-    """Lets an action happen where the expression is false."""
+    """Executes an action if the expression is false."""
 
     def _is_met(self, context: LaunchContext) -> bool:
         return not super()._is_met(context)
 
 
 class LaunchConfigurationEquals(Condition):
-    """True where the launch configuration has this value; None: where it is not set."""
+    """True if the launch configuration has this value (None: if it is not set)."""
 
     def __init__(self, launch_configuration_name: str, expected_value: SomeSubstitutionsType | None) -> None:
         warnings.warn(
@@ -84,7 +84,7 @@ class LaunchConfigurationEquals(Condition):
 
 
 class LaunchConfigurationNotEquals(LaunchConfigurationEquals):
-    """True where the launch configuration has another value."""
+    """True if the launch configuration has any other value."""
 
     def _is_met(self, context: LaunchContext) -> bool:
         return not super()._is_met(context)

@@ -1,4 +1,4 @@
-"""What a process is made of: its command, folder, environment and name."""
+"""The description of a process: its command, working directory, environment and name."""
 
 from __future__ import annotations
 
@@ -18,22 +18,22 @@ __all__ = ["Executable"]
 
 
 Environment = Mapping[SomeSubstitutionsType, SomeSubstitutionsType]
-_numbers = itertools.count(1)
+_process_numbers = itertools.count(1)
 
 
 @runtime_checkable
 class Words(Protocol):
-    """A substitution that may stand for several words of a command, and has a short name."""
+    """A substitution that may expand to several words of a command and has a short name."""
 
     def perform_words(self, context: LaunchContext) -> list[str]:
-        """The words."""
+        """Return the words."""
 
     def perform_name(self, context: LaunchContext) -> str:
-        """The name of a process whose command they start."""
+        """Return the name of a process whose command starts with these words."""
 
 
 class Executable:
-    """The parts as they are given; `prepare` makes of them what is started."""
+    """The parts of a process as given; `prepare` expands them into what is started (`final_...`)."""
 
     def __init__(
         self,
@@ -107,30 +107,30 @@ class Executable:
         return self._final_name
 
     def prepare(self, context: LaunchContext, action: Action) -> None:
-        """Find all that the process needs, and number it: the numbers of one launch go on and on."""
-        words = [word for item in self._cmd for word in _words(context, item)]
-        own_name = self._own_name(context, words)
-        if re.match(perform_substitutions(context, self._prefix_filter), own_name):
+        """Expand all parts and number the process; the numbers keep counting up through the whole launch."""
+        words = [word for item in self._cmd for word in _expand_words(context, item)]
+        default_name = self._default_name(context, words)
+        if re.match(perform_substitutions(context, self._prefix_filter), default_name):
             prefix = shlex.split(perform_substitutions(context, self._prefix))
             words = [*prefix, *words]
-            own_name = os.path.basename(prefix[0]) if prefix else own_name
-        name = own_name if self._name is None else perform_substitutions(context, self._name)
+            default_name = os.path.basename(prefix[0]) if prefix else default_name
+        name = default_name if self._name is None else perform_substitutions(context, self._name)
         self._final_cmd = words
-        self._final_name = f"{name}-{next(_numbers)}"
+        self._final_name = f"{name}-{next(_process_numbers)}"
         self._final_cwd = None if self._cwd is None else perform_substitutions(context, self._cwd)
         environment = dict(context.environment) if self._env is None else _perform(context, self._env)
         if self._additional_env is not None:
             environment.update(_perform(context, self._additional_env))
         self._final_env = environment
 
-    def _own_name(self, context: LaunchContext, words: list[str]) -> str:
+    def _default_name(self, context: LaunchContext, words: list[str]) -> str:
         first = self._cmd[0]
         if len(first) == 1 and isinstance(first[0], Words):
             return first[0].perform_name(context)
         return os.path.basename(words[0])
 
 
-def _words(context: LaunchContext, item: list[Substitution]) -> list[str]:
+def _expand_words(context: LaunchContext, item: list[Substitution]) -> list[str]:
     if len(item) == 1 and isinstance(item[0], Words):
         return item[0].perform_words(context)
     return [perform_substitutions(context, item)]

@@ -1,4 +1,4 @@
-"""The event handlers."""
+"""Event handlers."""
 
 from __future__ import annotations
 
@@ -29,14 +29,14 @@ __all__ = [
 
 
 def event_named(name: str) -> Callable[[Event], bool]:
-    """True for events of this name."""
+    """Return a matcher for events of this name."""
     return lambda event: event.name == name
 
 
 class OnActionEventBase(BaseEventHandler):
-    """Picks the events of one class that come from one action, from those a matcher picks, or (None) from any.
+    """Handles events of one class that come from one action, from actions that a matcher accepts, or (None) from any.
 
-    What the event leads to are entities, or what a callable returns that is given event and context.
+    `on_event` is the resulting entities, or a callable that returns them for the event and the context.
     """
 
     def __init__(
@@ -62,7 +62,7 @@ class OnActionEventBase(BaseEventHandler):
 
         super().__init__(matcher=matches, **kwargs)
         from_action = "" if action_matcher is None else f" and {target_action_cls.__name__}(event.action)"
-        self._matcher_words = f"event == {target_event_cls.__name__}{from_action}"
+        self._matcher_description = f"event == {target_event_cls.__name__}{from_action}"
         self._callable: Callable[[Any, LaunchContext], SomeEntitiesType | None] | None = None
         self._entities: list[LaunchDescriptionEntity] = []
         if callable(on_event):
@@ -82,15 +82,15 @@ class OnActionEventBase(BaseEventHandler):
 
     @property
     def matcher_description(self) -> str:
-        return self._matcher_words
+        return self._matcher_description
 
     @property
     def handler_description(self) -> str:
         return "<actions>" if self._entities else str(self._callable)
 
     def describe(self) -> tuple[str, list[LaunchDescriptionEntity]]:
-        words, entities = super().describe()
-        return words, [*entities, *self._entities]
+        description, entities = super().describe()
+        return description, [*entities, *self._entities]
 
     def handle(self, event: Event, context: LaunchContext) -> SomeEntitiesType | None:
         super().handle(event, context)
@@ -98,7 +98,7 @@ class OnActionEventBase(BaseEventHandler):
 
 
 class OnExecutionComplete(OnActionEventBase):
-    """Nothing of the target action is going on any more; with no target, of any action."""
+    """The target action (None: any action) has finished."""
 
     def __init__(
         self,
@@ -117,7 +117,7 @@ class OnExecutionComplete(OnActionEventBase):
 
 
 class OnProcessStart(OnActionEventBase):
-    """The target action's process runs; with no target, any process."""
+    """The target action's process (None: any process) has started."""
 
     def __init__(
         self,
@@ -138,7 +138,7 @@ class OnProcessStart(OnActionEventBase):
 
 
 class OnProcessIO(OnActionEventBase):
-    """The target action's process has printed something; with no target, any process."""
+    """The target action's process (None: any process) has printed something."""
 
     def __init__(
         self,
@@ -165,7 +165,7 @@ class OnProcessIO(OnActionEventBase):
 
 
 class OnProcessExit(OnActionEventBase):
-    """The target action's process has ended; with no target, any process."""
+    """The target action's process (None: any process) has ended."""
 
     def __init__(
         self,
@@ -186,7 +186,7 @@ class OnProcessExit(OnActionEventBase):
 
 
 class OnIncludeLaunchDescription(BaseEventHandler):
-    """Has the launch description of the event visited."""
+    """Visits the event's launch description."""
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(matcher=lambda event: isinstance(event, IncludeLaunchDescription), **kwargs)
@@ -198,7 +198,7 @@ class OnIncludeLaunchDescription(BaseEventHandler):
 
 
 class OnShutdown(BaseEventHandler):
-    """The launch is ending: by Ctrl+C, by a Shutdown, by an error, or because nothing is going on."""
+    """The launch is shutting down: after Ctrl+C, a Shutdown action or an error, or because nothing is left to do."""
 
     def __init__(
         self,

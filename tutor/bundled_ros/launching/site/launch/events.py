@@ -1,4 +1,4 @@
-"""The events, those of processes among them."""
+"""Events, including those of processes."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ __all__ = [
 
 
 class IncludeLaunchDescription(Event):
-    """Asks for the visit of a launch description."""
+    """Requests a visit of a launch description."""
 
     name = "launch.events.IncludeLaunchDescription"
 
@@ -39,7 +39,7 @@ class IncludeLaunchDescription(Event):
 
 
 class Shutdown(Event):
-    """The launch ends; `due_to_sigint` where Ctrl+C is the reason, and the terminal has told the processes, too."""
+    """The launch shuts down. `due_to_sigint`: because of Ctrl+C, which the terminal has sent to the processes, too."""
 
     name = "launch.events.Shutdown"
 
@@ -57,7 +57,7 @@ class Shutdown(Event):
 
 
 class TimerEvent(Event):
-    """The period of a TimerAction is over."""
+    """The period of a TimerAction has elapsed."""
 
     name = "launch.events.TimerEvent"
 
@@ -70,12 +70,12 @@ class TimerEvent(Event):
 
 
 def matches_action(target_action: Action) -> Callable[[Action], bool]:
-    """True for this action and no other."""
+    """Return a matcher for exactly this action."""
     return lambda action: action is target_action
 
 
 class RunningProcessEvent(Event):
-    """Something about a process that was started."""
+    """An event of a process that was started."""
 
     name = "launch.events.process.RunningProcessEvent"
 
@@ -132,7 +132,7 @@ class ProcessStarted(RunningProcessEvent):
 
 
 class ProcessExited(RunningProcessEvent):
-    """The process has ended; a negative return code is the signal that ended it."""
+    """The process has ended. Return code -N: it was killed by signal N."""
 
     name = "launch.events.process.ProcessExited"
 
@@ -146,7 +146,7 @@ class ProcessExited(RunningProcessEvent):
 
 
 class ProcessIO(RunningProcessEvent):
-    """Some bytes, as they came, from one of the three streams (`fd` 0, 1 or 2)."""
+    """Raw bytes of one of the standard streams (`fd` 0, 1 or 2)."""
 
     name = "launch.events.process.ProcessIO"
 
@@ -173,7 +173,7 @@ class ProcessIO(RunningProcessEvent):
 
 
 class ProcessStdin(ProcessIO):
-    """Bytes for the process."""
+    """Bytes for the process's stdin."""
 
     name = "launch.events.process.ProcessStdin"
 
@@ -182,7 +182,7 @@ class ProcessStdin(ProcessIO):
 
 
 class ProcessStdout(ProcessIO):
-    """Bytes on the process's stdout."""
+    """Bytes from the process's stdout."""
 
     name = "launch.events.process.ProcessStdout"
 
@@ -191,7 +191,7 @@ class ProcessStdout(ProcessIO):
 
 
 class ProcessStderr(ProcessIO):
-    """Bytes on the process's stderr."""
+    """Bytes from the process's stderr."""
 
     name = "launch.events.process.ProcessStderr"
 
@@ -200,7 +200,7 @@ class ProcessStderr(ProcessIO):
 
 
 class ProcessTargetedEvent(Event):
-    """Meant for the processes that the matcher picks."""
+    """An event for the processes that the matcher accepts."""
 
     name = "launch.events.process.ProcessTargetedEvent"
 
@@ -213,7 +213,7 @@ class ProcessTargetedEvent(Event):
 
 
 class SignalProcess(ProcessTargetedEvent):
-    """The process is to get a signal, given by number or by name."""
+    """Requests that the process is sent a signal, given by number or by name."""
 
     name = "launch.events.process.SignalProcess"
 
@@ -232,23 +232,23 @@ class SignalProcess(ProcessTargetedEvent):
 
 
 class ShutdownProcess(ProcessTargetedEvent):
-    """The process is to end: SIGINT, and more if that does not help."""
+    """Requests that the process ends: SIGINT, then SIGTERM and SIGKILL if it does not."""
 
     name = "launch.events.process.ShutdownProcess"
 
 
 def matches_pid(pid: int) -> Callable[[ExecuteLocal], bool]:
-    """True for the process with this id."""
+    """Return a matcher for the process with this id."""
     return lambda action: action.process_details is not None and action.process_details.get("pid") == pid
 
 
 def matches_name(name: str) -> Callable[[ExecuteLocal], bool]:
-    """True for the process of this name, `talker-1` for instance."""
+    """Return a matcher for the process with this name, such as `talker-1`."""
     return lambda action: action.process_details is not None and action.process_details["name"] == name
 
 
 def matches_executable(executable: str) -> Callable[[ExecuteLocal], bool]:
-    """True for processes whose executable's path ends like this."""
+    """Return a matcher for processes whose executable's path ends with this text."""
 
     def matches(action: ExecuteLocal) -> bool:
         return action.process_details is not None and str(action.process_details["cmd"][0]).endswith(executable)

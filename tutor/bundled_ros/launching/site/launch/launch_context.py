@@ -1,4 +1,4 @@
-"""All that a running launch file knows."""
+"""The state of a running launch file."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 class Locals:
-    """A read-only view of the context's locals, one attribute for each."""
+    """A read-only view of the context's locals as attributes."""
 
     def __init__(self, members: Mapping[str, Any]) -> None:
         object.__setattr__(self, "_members", members)
@@ -36,9 +36,9 @@ class Locals:
 
 
 class LaunchContext:
-    """Launch configurations, environment, locals, event handlers and events waiting to be handled.
+    """Launch configurations, environment, locals, event handlers and queued events.
 
-    The environment is that of this process: what is set in it is seen by whatever is started later.
+    The environment is that of this process: processes that are started later inherit changes to it.
     """
 
     def __init__(self, *, argv: Iterable[str] | None = None, noninteractive: bool = False) -> None:
@@ -57,7 +57,7 @@ class LaunchContext:
         self._is_shutdown = False
         self._loop: asyncio.AbstractEventLoop | None = None
         self._processes: set[Process] = set()
-        self._not_yet_started: list[Callable[[], None]] = []
+        self._start_cancellers: list[Callable[[], None]] = []
 
     @property
     def argv(self) -> list[str]:
@@ -65,7 +65,7 @@ class LaunchContext:
 
     @property
     def noninteractive(self) -> bool:
-        """Without a terminal: nobody but us passes Ctrl+C on to the processes."""
+        """Whether there is no terminal, so that only we can pass Ctrl+C on to the processes."""
         return self._noninteractive
 
     @property
@@ -77,7 +77,7 @@ class LaunchContext:
 
     @property
     def asyncio_loop(self) -> asyncio.AbstractEventLoop:
-        """The loop that runs the launch file; RuntimeError before it runs."""
+        """The event loop that runs the launch file. Raises RuntimeError unless it is running."""
         if self._loop is None:
             raise RuntimeError("the launch file is not running")
         return self._loop
@@ -86,10 +86,10 @@ class LaunchContext:
         self._loop = loop
 
     def add_completion_future(self, completion_future: asyncio.Future[None]) -> None:
-        """The launch does not end before this future is done."""
+        """Keep the launch running until this future is done."""
         self._completion_futures.append(completion_future)
 
-    # --- locals: known to what an event or a file leads to, and to nothing else
+    # --- locals: visible only to the entities that result from one event or file
 
     @property
     def locals(self) -> Locals:
@@ -99,11 +99,11 @@ class LaunchContext:
         return {**self._globals, **self._locals}
 
     def extend_globals(self, extensions: Mapping[str, Any]) -> None:
-        """Add locals that stay for ever."""
+        """Add locals for the rest of the launch."""
         self._globals.update(extensions)
 
     def extend_locals(self, extensions: Mapping[str, Any]) -> None:
-        """Add locals that go with the event that is being handled."""
+        """Add locals for the event that is being handled."""
         self._locals.update(extensions)
 
     def _push_locals(self) -> None:
@@ -142,7 +142,7 @@ class LaunchContext:
 
     @staticmethod
     def _restore_environment(environment: Mapping[str, str]) -> None:
-        # os.environ is not replaced: it is what the C library, and so each child, is told.
+        # Changed in place: os.environ updates the C library's environment, which child processes inherit.
         os.environ.clear()
         os.environ.update(environment)
 
@@ -158,14 +158,14 @@ class LaunchContext:
         return any(handler.matches(event) for handler in self._event_handlers)
 
     def register_event_handler(self, event_handler: BaseEventHandler, append: bool = False) -> None:
-        """Add a handler: before all others, or with `append` behind them."""
+        """Add a handler before all others, or with `append` after them."""
         if append:
             self._event_handlers.append(event_handler)
         else:
             self._event_handlers.appendleft(event_handler)
 
     def unregister_event_handler(self, event_handler: BaseEventHandler) -> None:
-        """Remove a handler; ValueError where it is not registered."""
+        """Remove a handler. Raises ValueError if it is not registered."""
         self._event_handlers.remove(event_handler)
 
     def emit_event_sync(self, event: Event) -> None:

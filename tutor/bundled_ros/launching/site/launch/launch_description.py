@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 class LaunchDescription(LaunchDescriptionEntity):
-    """Entities, visited in their order."""
+    """A list of entities, which are visited in order."""
 
     def __init__(
         self,
@@ -57,14 +57,14 @@ class LaunchDescription(LaunchDescriptionEntity):
         return self._entities
 
     def get_launch_arguments(self, conditional_inclusion: bool = False) -> list[DeclareLaunchArgument]:
-        """The arguments declared in here, and in whatever is included and can be read without running it."""
+        """Return the arguments declared here and in included files that can be read without running the launch."""
         found = self.get_launch_arguments_with_include_launch_description_actions(conditional_inclusion)
         return [argument for argument, _ in found]
 
     def get_launch_arguments_with_include_launch_description_actions(
         self, conditional_inclusion: bool = False
     ) -> list[ArgumentAndIncludes]:
-        """Each argument, the first of each name, with the includes passed on the way (None: declared at the top)."""
+        """Return each argument (the first of its name) and the includes that lead to it (None: declared at the top)."""
         from .actions._composition import IncludeLaunchDescription
         from .actions._scope import DeclareLaunchArgument, ResetLaunchConfigurations
 
@@ -82,15 +82,15 @@ class LaunchDescription(LaunchDescriptionEntity):
                     entity._conditionally_included = conditional or entity.condition is not None
                     found[entity.name] = (entity, includes)
                 if isinstance(entity, ResetLaunchConfigurations):
-                    return  # what comes behind it cannot be set from outside
+                    return  # later arguments cannot be set from outside
                 inner = includes
                 if isinstance(entity, IncludeLaunchDescription):
-                    # One list is shared along the way, as in the original.
+                    # The list is shared along the path, as in the original.
                     inner = inner if inner is not None else []
                     inner.append(entity)
                 search(entity.describe_sub_entities(), False, inner)
-                for _, some in entity.describe_conditional_sub_entities():
-                    search(some, True, inner)
+                for _, sub_entities in entity.describe_conditional_sub_entities():
+                    search(sub_entities, True, inner)
 
         search(self._entities, conditional_inclusion, None)
         return list(found.values())

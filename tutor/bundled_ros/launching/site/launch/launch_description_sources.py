@@ -1,4 +1,4 @@
-"""The kinds of launch files that can be read."""
+"""Sources of launch descriptions: the kinds of launch files that can be read."""
 
 from __future__ import annotations
 
@@ -28,11 +28,11 @@ __all__ = [
 
 
 unreadable: dict[str, Exception] = {}
-"""What went wrong with the files that could not be looked at before they run."""
+"""The errors of files that could not be read ahead of the run, by path."""
 
 
 class LaunchDescriptionSource:
-    """A launch description, read from `location` at the first need where it is not given."""
+    """A launch description, given directly or read from `location` on first use."""
 
     def __init__(
         self,
@@ -56,7 +56,7 @@ class LaunchDescriptionSource:
         return self._method
 
     def try_get_launch_description_without_context(self) -> LaunchDescription | None:
-        """For a look at it before it runs: None where that takes more than is known then, or it cannot be read."""
+        """Return the description ahead of the run; None if its path is not known yet or the file cannot be read."""
         if self._description is not None:
             return self._description
         try:
@@ -81,11 +81,11 @@ class LaunchDescriptionSource:
 
 
 class InvalidPythonLaunchFileError(Exception):
-    """A Python file that is no launch file."""
+    """The Python file is not a launch file."""
 
 
 def load_python_launch_file_as_module(python_launch_file_path: str) -> ModuleType:
-    """Run the file as a module; raises what it raises."""
+    """Run the file as a module. Raises whatever the file raises."""
     loader = SourceFileLoader("python_launch_file", python_launch_file_path)
     spec = spec_from_loader(loader.name, loader)
     if spec is None:
@@ -96,7 +96,7 @@ def load_python_launch_file_as_module(python_launch_file_path: str) -> ModuleTyp
 
 
 def get_launch_description_from_python_launch_file(python_launch_file_path: str) -> LaunchDescription:
-    """What the file's generate_launch_description() returns."""
+    """Return the result of the file's generate_launch_description()."""
     module = load_python_launch_file_as_module(python_launch_file_path)
     if not hasattr(module, "generate_launch_description"):
         raise InvalidPythonLaunchFileError(
@@ -108,7 +108,7 @@ def get_launch_description_from_python_launch_file(python_launch_file_path: str)
 
 
 class PythonLaunchDescriptionSource(LaunchDescriptionSource):
-    """The launch description of a Python file."""
+    """The launch description in a Python file."""
 
     def __init__(self, launch_file_path: SomeSubstitutionsType) -> None:
         super().__init__(None, launch_file_path, "interpreted python launch file")
@@ -118,16 +118,16 @@ class PythonLaunchDescriptionSource(LaunchDescriptionSource):
 
 
 class InvalidFrontendLaunchFileError(InvalidLaunchFileError):
-    """A file in no format of launch files."""
+    """The file is not in a known launch file format."""
 
 
 def get_launch_description_from_frontend_launch_file(frontend_launch_file_path: str) -> LaunchDescription:
-    """The launch description in an XML or YAML file; raises what is wrong with it."""
+    """Return the launch description in an XML or YAML file. Raises if it is invalid."""
     return load_launch_description(frontend_launch_file_path)
 
 
 class FrontendLaunchDescriptionSource(LaunchDescriptionSource):
-    """The launch description of a file in XML or YAML."""
+    """The launch description in an XML or YAML file."""
 
     def __init__(
         self, launch_file_path: SomeSubstitutionsType, *, method: str = "interpreted frontend launch file"
@@ -139,7 +139,7 @@ class FrontendLaunchDescriptionSource(LaunchDescriptionSource):
 
 
 def get_launch_description_from_any_launch_file(launch_file_path: str) -> LaunchDescription:
-    """The launch description in a file; InvalidLaunchFileError where it cannot be read."""
+    """Return the launch description in a file. Raises InvalidLaunchFileError if it cannot be read."""
     suffix = os.path.splitext(launch_file_path)[1].removeprefix(".")
     if suffix == "py":
         return _from_python(launch_file_path)
@@ -164,13 +164,13 @@ def _from_python(path: str) -> LaunchDescription:
     except NotSupportedError:
         raise
     except Exception as error:
-        # The original goes on to try its other formats, and reports each.
+        # The original also tries its other formats and reports each error.
         other = InvalidFrontendLaunchFileError()
         raise InvalidLaunchFileError("py", likely_errors=[error, other]) from error
 
 
 class AnyLaunchDescriptionSource(LaunchDescriptionSource):
-    """The launch description of a file whose kind its name tells."""
+    """The launch description in a file of any format, which the file's name determines."""
 
     def __init__(self, launch_file_path: SomeSubstitutionsType) -> None:
         super().__init__(None, launch_file_path, "interpreted launch file")
@@ -180,14 +180,14 @@ class AnyLaunchDescriptionSource(LaunchDescriptionSource):
 
 
 class XMLLaunchDescriptionSource(FrontendLaunchDescriptionSource):
-    """The launch description of a file in XML, read when it is included."""
+    """The launch description in an XML file, read when it is included."""
 
     def __init__(self, launch_file_path: SomeSubstitutionsType) -> None:
         super().__init__(launch_file_path, method="interpreted XML launch file")
 
 
 class YAMLLaunchDescriptionSource(FrontendLaunchDescriptionSource):
-    """The launch description of a file in YAML, read when it is included."""
+    """The launch description in a YAML file, read when it is included."""
 
     def __init__(self, launch_file_path: SomeSubstitutionsType) -> None:
         super().__init__(launch_file_path, method="interpreted YAML launch file")

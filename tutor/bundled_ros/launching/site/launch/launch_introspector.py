@@ -1,4 +1,4 @@
-"""A launch description as a tree of lines, as `ros2 launch --print` shows it."""
+"""A launch description as a text tree, as `ros2 launch --print` shows it."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from .launch_description import LaunchDescription
 from .utilities import normalize_to_list_of_substitutions
 
 Tree = tuple[str, list[Any]]
-"""A line, and the trees below it."""
+"""A line and the trees below it."""
 
 
 class LaunchIntrospector:
     """Describes launch descriptions without running them."""
 
     def format_launch_description(self, launch_description: LaunchDescription) -> str:
-        """One line for each entity, those below a handler beneath it."""
+        """Format one line per entity, with a handler's entities below it."""
         return "\n".join([str(launch_description), *_lines(_trees(launch_description.entities), "")])
 
 
@@ -37,8 +37,8 @@ def _tree(entity: LaunchDescriptionEntity) -> Tree:
         case ExecuteProcess():
             return _process(entity), []
         case RegisterEventHandler():
-            words, below = entity.event_handler.describe()
-            return f"RegisterEventHandler('{entity.event_handler}'):", [(words, _trees(below))]
+            description, below = entity.event_handler.describe()
+            return f"RegisterEventHandler('{entity.event_handler}'):", [(description, _trees(below))]
         case _:
             return f"Action('{entity}')", []
 
@@ -56,8 +56,8 @@ def _substitutions(given: SomeSubstitutionsType) -> str:
     return " + ".join(part.describe() for part in normalize_to_list_of_substitutions(given))
 
 
-def _lines(trees: list[Tree], before: str) -> Iterable[str]:
-    for at, (line, below) in enumerate(trees):
-        is_last = at == len(trees) - 1
-        yield f"{before}{'└── ' if is_last else '├── '}{line}"
-        yield from _lines(below, before + ("    " if is_last else "│   "))
+def _lines(trees: list[Tree], indent: str) -> Iterable[str]:
+    for index, (line, below) in enumerate(trees):
+        is_last = index == len(trees) - 1
+        yield f"{indent}{'└── ' if is_last else '├── '}{line}"
+        yield from _lines(below, indent + ("    " if is_last else "│   "))

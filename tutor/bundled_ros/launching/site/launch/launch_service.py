@@ -1,4 +1,4 @@
-"""Runs launch descriptions."""
+"""The event loop that runs launch descriptions."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ from .utilities import is_a_subclass, visit_all_entities_and_collect_futures
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGQUIT)
 KILL_AFTER_S = 2.0
-"""How long processes have to end after SIGTERM, when the launch itself was told to terminate."""
+"""How long processes get to end after SIGTERM before SIGKILL, when the launch itself was terminated."""
 
 
 class LaunchService:
-    """Handles one event after the other, until nothing is going on any more."""
+    """Handles one event after another until nothing is left to wait for."""
 
     def __init__(self, *, argv: Iterable[str] | None = None, noninteractive: bool = False, debug: bool = False) -> None:
         launch_config.level = logging.DEBUG if debug else logging.INFO
@@ -36,10 +36,10 @@ class LaunchService:
         self._interrupted = False
         self._terminated = False
         self._handling = False
-        self._unanswered = False
+        self._signal_pending = False
         self._return_code = 0
         self._task: asyncio.Task[int] | None = None
-        self._going_on: list[asyncio.Future[Any]] = []
+        self._pending: list[asyncio.Future[Any]] = []
 
     @property
     def context(self) -> LaunchContext:
@@ -58,25 +58,25 @@ class LaunchService:
         self._context.emit_event_sync(event)
 
     def include_launch_description(self, launch_description: LaunchDescription) -> None:
-        """Have a launch description visited as soon as the service runs."""
+        """Visit a launch description as soon as the service runs."""
         self.emit_event(IncludeLaunchDescription(launch_description))
 
     def shutdown(self, force_sync: bool = False) -> None:
-        """End all, if it is running."""
+        """Shut down, if the service is running."""
         if self._task is not None:
             self._shut_down("LaunchService.shutdown() called")
 
     def run(self, *, shutdown_when_idle: bool = True) -> int:
-        """Run until the end. Returns 0, or 1 after an error of the launch; however its processes end."""
+        """Run until everything has ended. Returns 0, or 1 after an error of the launch itself, not of its processes."""
         return asyncio.run(self.run_async(shutdown_when_idle=shutdown_when_idle))
 
     async def run_async(self, *, shutdown_when_idle: bool = True) -> int:
-        """Like `run`, in a loop that runs already."""
+        """Like `run`, in an event loop that is already running."""
         loop = asyncio.get_running_loop()
         self._task = asyncio.current_task()
         self._context._set_asyncio_loop(loop)
         loop.set_exception_handler(self._on_stray_error)
-        before = {number: signal.signal(number, self._on_signal) for number in SIGNALS}
+        previous_handlers = {number: signal.signal(number, self._on_signal) for number in SIGNALS}
         log_launch_config(logger=self._logger)
         try:
             await self._handle_events(shutdown_when_idle)
@@ -85,7 +85,7 @@ class LaunchService:
             self._return_code = 1
         finally:
             await self._end_processes()
-            for number, handler in before.items():
+            for number, handler in previous_handlers.items():
                 signal.signal(number, handler)
             self._context._set_asyncio_loop(None)
             self._task = None
@@ -97,9 +97,9 @@ class LaunchService:
             try:
                 if not queue.empty():
                     self._handle(queue.get_nowait())
-                    await asyncio.sleep(0)  # let processes and timers have their turn
-                elif going_on := self._prune():
-                    await self._wait(queue, going_on)
+                    await asyncio.sleep(0)  # let processes and timers run
+                elif pending := self._prune_pending():
+                    await self._wait(queue, pending)
                 elif self._shutting_down:
                     return
                 elif shutdown_when_idle:
@@ -107,22 +107,22 @@ class LaunchService:
                 else:
                     await self._wait(queue, [])
             except KeyboardInterrupt:
-                continue  # what the launch file did was broken off; the signal itself is dealt with next
+                continue  # this only interrupted the launch file's code; the signal itself is handled next
             except Exception as error:
                 self._report(error)
 
-    def _prune(self) -> list[asyncio.Future[Any]]:
-        """What is still going on."""
+    def _prune_pending(self) -> list[asyncio.Future[Any]]:
+        """Return the futures that are not done yet, and forget the others."""
         context = self._context
-        self._going_on = [future for future in self._going_on if not future.done()]
+        self._pending = [future for future in self._pending if not future.done()]
         context._completion_futures = [future for future in context._completion_futures if not future.done()]
-        return [*self._going_on, *context._completion_futures]
+        return [*self._pending, *context._completion_futures]
 
-    async def _wait(self, queue: asyncio.Queue[Event], going_on: list[asyncio.Future[Any]]) -> None:
-        """Until there is an event, or something has ended; raises what that ended with."""
+    async def _wait(self, queue: asyncio.Queue[Event], pending: list[asyncio.Future[Any]]) -> None:
+        """Wait for an event, which is handled, or for a pending future, whose exception is raised."""
         event = asyncio.ensure_future(queue.get())
         try:
-            done, _ = await asyncio.wait([event, *going_on], return_when=asyncio.FIRST_COMPLETED)
+            done, _ = await asyncio.wait([event, *pending], return_when=asyncio.FIRST_COMPLETED)
         except asyncio.CancelledError:
             event.cancel()
             raise
@@ -134,19 +134,19 @@ class LaunchService:
             future.result()
 
     def _handle(self, event: Event) -> None:
-        """Have each handler that matches handle it, those registered last first, and visit what that leads to."""
+        """Pass the event to all matching handlers, the latest first, and visit the resulting entities."""
         self._handling = True
         try:
-            self._have_handled(event)
+            self._dispatch(event)
         except Exception:
-            for give_up in self._context._not_yet_started:
-                give_up()  # of the entities that were visited together, nothing is started if one is wrong
+            for cancel in self._context._start_cancellers:
+                cancel()  # entities that are visited together are started all or none
             raise
         finally:
-            self._context._not_yet_started.clear()
+            self._context._start_cancellers.clear()
             self._handling = False
 
-    def _have_handled(self, event: Event) -> None:
+    def _dispatch(self, event: Event) -> None:
         context = self._context
         self._logger.debug(f"processing event: '{event}'")
         for handler in tuple(context._event_handlers):
@@ -156,26 +156,26 @@ class LaunchService:
             context._push_locals()
             try:
                 entities = handler.handle(event, context)
-                several = [entities] if entities is None or not isinstance(entities, Iterable) else entities
-                for entity in several:
+                results = [entities] if entities is None or not isinstance(entities, Iterable) else entities
+                for entity in results:
                     if entity is None:
                         continue
                     if not is_a_subclass(entity, LaunchDescriptionEntity):
                         raise RuntimeError(f"expected a LaunchDescriptionEntity from event_handler, got '{entity}'")
                     pairs = visit_all_entities_and_collect_futures(entity, context)
-                    self._going_on += [future for _, future in pairs]
-                    context._not_yet_started.clear()
+                    self._pending += [future for _, future in pairs]
+                    context._start_cancellers.clear()
             finally:
                 context._pop_locals()
 
-    # --- the end
+    # --- shutdown
 
     def _report(self, error: Exception) -> None:
         message = f"Caught exception in launch (see debug for traceback): {error}"
         self._logger.error(message)
-        of_learner = _tracebacks.of_learner(error)
-        if of_learner is not None:
-            print(of_learner, file=sys.stderr, flush=True)
+        learner_part = _tracebacks.of_learner(error)
+        if learner_part is not None:
+            print(learner_part, file=sys.stderr, flush=True)
         self._return_code = 1
         self._shut_down(message)
 
@@ -190,17 +190,17 @@ class LaunchService:
         context._set_is_shutdown(True)
 
     def _on_signal(self, number: int, frame: object) -> None:
-        """Deal with a signal between two events. Code of the launch file that does not come to an end is broken off."""
+        """Handle a signal between two events. A second one interrupts code of the launch file that does not return."""
         received = signal.Signals(number)
-        is_first = received == signal.SIGINT and not self._unanswered
-        self._unanswered = True
+        is_first = received == signal.SIGINT and not self._signal_pending
+        self._signal_pending = True
         react = self._on_sigint if received == signal.SIGINT else self._on_sigterm
         self._context.asyncio_loop.call_soon_threadsafe(react, received)
         if self._handling and not is_first:
             raise KeyboardInterrupt
 
     def _on_sigint(self, number: signal.Signals) -> None:
-        self._unanswered = False
+        self._signal_pending = False
         message = "user interrupted with ctrl-c (SIGINT)"
         if self._interrupted:
             self._logger.warning(f"{message} again, ignoring...")
@@ -212,7 +212,7 @@ class LaunchService:
     def _on_sigterm(self, number: signal.Signals) -> None:
         self._logger.error(f"user interrupted with ctrl-\\ ({number.name}), terminating...")
         if self._terminated:
-            self._send_all(signal.SIGKILL)
+            self._signal_processes(signal.SIGKILL)
         elif self._task is not None:
             self._terminated = True
             self._task.cancel()
@@ -222,14 +222,14 @@ class LaunchService:
         loop.default_exception_handler(context)
 
     async def _end_processes(self) -> None:
-        """End whatever still runs: the original leaves it behind when it is told to terminate."""
+        """End all remaining processes, which the original leaves behind when it is terminated."""
         for number in (signal.SIGTERM, signal.SIGKILL):
-            running = self._send_all(number)
+            running = self._signal_processes(number)
             if running:
                 ends = [asyncio.ensure_future(process.wait()) for process in running]
                 await asyncio.wait(ends, timeout=KILL_AFTER_S)
 
-    def _send_all(self, number: signal.Signals) -> list[_subprocess.Process]:
+    def _signal_processes(self, number: signal.Signals) -> list[_subprocess.Process]:
         running = [process for process in self._context._processes if process.returncode is None]
         for process in running:
             try:

@@ -1,6 +1,6 @@
-"""What a launch says, and what its processes say: on the screen and in the log files.
+"""Output of a launch and its processes, on the screen and in log files.
 
-The log files of one launch are in a folder of its own below ROS_LOG_DIR, ROS_HOME/log or ~/.ros/log.
+Each launch has its own log folder below ROS_LOG_DIR, ROS_HOME/log or ~/.ros/log.
 """
 
 from __future__ import annotations
@@ -16,22 +16,25 @@ from pathlib import Path
 __all__ = ["get_logger", "get_output_loggers", "launch_config", "log_launch_config"]
 
 
-NAMED: dict[str, tuple[set[str], set[str]]] = {
+_OUTPUT_CONFIGS: dict[str, tuple[set[str], set[str]]] = {
     "screen": ({"screen"}, {"screen"}),
     "log": ({"log"}, {"log", "screen"}),
     "both": ({"log", "screen"}, {"log", "screen"}),
     "own_log": ({"own_log", "common_log"}, {"own_log", "common_log"}),
     "full": ({"screen", "log", "own_log", "common_log"}, {"screen", "log", "own_log", "common_log"}),
 }
-"""For each word the destinations of stdout, and of stderr. `own_log`: a file for each; `common_log`: one for both."""
+"""The destinations of stdout and stderr for each output setting.
+
+`own_log` means one file per stream, `common_log` one file for both.
+"""
 
 
 def destinations(output_config: object) -> dict[str, set[str]]:
-    """The destinations of `stdout` and of `stderr`; ValueError where the configuration means nothing."""
+    """Return the destinations of `stdout` and `stderr`. Raises ValueError for an invalid configuration."""
     if isinstance(output_config, str):
-        if output_config not in NAMED:
+        if output_config not in _OUTPUT_CONFIGS:
             raise ValueError(f'{output_config} is not a valid standard output config i.e. "screen", "log" or "both"')
-        stdout, stderr = NAMED[output_config]
+        stdout, stderr = _OUTPUT_CONFIGS[output_config]
         return {"stdout": set(stdout), "stderr": set(stderr)}
     if isinstance(output_config, Mapping):
         return _from_mapping(output_config)
@@ -40,28 +43,28 @@ def destinations(output_config: object) -> dict[str, set[str]]:
 
 def _from_mapping(config: Mapping[object, str | Iterable[str]]) -> dict[str, set[str]]:
     chosen: dict[str, set[str]] = {"stdout": set(), "stderr": set()}
-    for source, words in config.items():
+    for source, target_names in config.items():
         if source not in ("stdout", "stderr", "both"):
             raise ValueError(f'{source} is not a valid output source i.e. "stdout", "stderr" or "both"')
-        where = {words} if isinstance(words, str) else set(words)
-        for word in where - {"screen", "log", "own_log"}:
+        targets = {target_names} if isinstance(target_names, str) else set(target_names)
+        for word in targets - {"screen", "log", "own_log"}:
             raise ValueError(f'{word} is not a valid output destination i.e. "screen", "log" or "own_log"')
         if source == "both":
-            both = {"common_log" if word == "own_log" else word for word in where}
+            both = {"common_log" if word == "own_log" else word for word in targets}
             chosen["stdout"] |= both
             chosen["stderr"] |= both
         else:
-            chosen[str(source)] |= where
+            chosen[str(source)] |= targets
     return chosen
 
 
 class LogFiles:
-    """Opened at the first need. Where no folder can be made, there are none: the screen still shows everything."""
+    """The log files, opened on first use. If the folder cannot be created, there are none, and output is only shown."""
 
     def __init__(self) -> None:
         self._folder: Path | None = None
         self._handlers: dict[str, logging.Handler] = {}
-        self._impossible = False
+        self._unavailable = False
 
     @property
     def any_open(self) -> bool:
@@ -69,37 +72,37 @@ class LogFiles:
 
     @property
     def folder(self) -> Path:
-        """The folder, made now if need be; OSError where that fails."""
+        """The folder, created on first use. Raises OSError."""
         if self._folder is None:
             now = datetime.datetime.now().strftime("%Y-%m-%d-%H-%M-%S-%f")
-            folder = _base() / f"{now}-{socket.gethostname()}-{os.getpid()}"
+            folder = _log_root() / f"{now}-{socket.gethostname()}-{os.getpid()}"
             folder.mkdir(parents=True)
             self._folder = folder
             _point_latest_to(folder)
         return self._folder
 
-    def handler(self, file_name: str, form: str) -> logging.Handler | None:
-        """The handler that writes to this file in this form ({-style); None where there are no files."""
-        key = f"{file_name} {form}"
-        if key not in self._handlers and not self._impossible:
+    def handler(self, file_name: str, line_format: str) -> logging.Handler | None:
+        """Return the handler that writes to this file in this `{`-style format; None if there are no log files."""
+        key = f"{file_name} {line_format}"
+        if key not in self._handlers and not self._unavailable:
             try:
                 handler = logging.FileHandler(self.folder / file_name, encoding="utf-8", errors="replace")
             except OSError:
-                self._impossible = True
+                self._unavailable = True
             else:
-                handler.setFormatter(logging.Formatter(form, style="{"))
+                handler.setFormatter(logging.Formatter(line_format, style="{"))
                 self._handlers[key] = handler
         return self._handlers.get(key)
 
 
-def _base() -> Path:
+def _log_root() -> Path:
     if chosen := os.environ.get("ROS_LOG_DIR"):
         return Path(chosen).expanduser()
     return Path(os.environ.get("ROS_HOME") or "~/.ros").expanduser() / "log"
 
 
 def _point_latest_to(folder: Path) -> None:
-    """Keep the link that ROS users know; a folder of that name is left alone."""
+    """Update the `latest` link that ROS users know; never replace a real folder of that name."""
     latest = folder.parent / "latest"
     try:
         if latest.is_symlink():
@@ -114,7 +117,7 @@ FILE_FORMAT = "{created:.7f} [{levelname}] [{name}]: {message}"
 
 
 class _Screen(logging.Handler):
-    """Writes to what sys.stdout is at the time; a line of a process comes as it is."""
+    """Writes to the current sys.stdout; lines of processes are not formatted again."""
 
     def emit(self, record: logging.LogRecord) -> None:
         try:
@@ -127,7 +130,7 @@ class _Screen(logging.Handler):
 
 
 class LaunchConfig:
-    """The level, and where the log files are."""
+    """The log level and the log files."""
 
     def __init__(self) -> None:
         self.files = LogFiles()
@@ -145,7 +148,7 @@ class LaunchConfig:
 
     @property
     def log_dir(self) -> str:
-        """The folder of the log files, made at the first need."""
+        """The folder of the log files, created on first use."""
         return str(self.files.folder)
 
 
@@ -154,7 +157,7 @@ launch_config = LaunchConfig()
 
 
 def get_logger(name: str | None = None) -> logging.Logger:
-    """A logger that writes to the screen and to launch.log, and nowhere else."""
+    """Return a logger that writes to the screen and launch.log only."""
     logger = logging.getLogger(name)
     if launch_config.screen not in logger.handlers:
         logger.propagate = False
@@ -166,22 +169,22 @@ def get_logger(name: str | None = None) -> logging.Logger:
 
 
 def get_output_loggers(process_name: str, output_config: object) -> tuple[logging.Logger, logging.Logger]:
-    """The loggers for what a process prints to stdout and to stderr; ValueError for an unknown configuration."""
+    """Return the loggers for a process's stdout and stderr. Raises ValueError for an invalid configuration."""
     loggers = []
-    for source, where in destinations(output_config).items():
+    for source, targets in destinations(output_config).items():
         logger = logging.getLogger(f"{process_name}-{source}")
         logger.setLevel(logging.INFO)
         logger.propagate = False
         _process_outputs.add(logger.name)
-        if "screen" in where:
+        if "screen" in targets:
             logger.addHandler(launch_config.screen)
         files = {
             "log": ("launch.log", "{created:.7f} {message}"),
             "own_log": (f"{process_name}-{source}.log", "{message}"),
             "common_log": (f"{process_name}.log", "{message}"),
         }
-        for key, (file_name, form) in files.items():
-            handler = launch_config.files.handler(file_name, form) if key in where else None
+        for key, (file_name, line_format) in files.items():
+            handler = launch_config.files.handler(file_name, line_format) if key in targets else None
             if handler is not None:
                 logger.addHandler(handler)
         if not logger.handlers:
@@ -191,7 +194,7 @@ def get_output_loggers(process_name: str, output_config: object) -> tuple[loggin
 
 
 def log_launch_config(*, logger: logging.Logger) -> None:
-    """Say where the log files are, and how much is said."""
+    """Log the location of the log files and the verbosity."""
     if launch_config.files.any_open:
         logger.info(f"All log files can be found below {launch_config.log_dir}")
     logger.info(f"Default logging verbosity is set to {logging.getLevelName(launch_config.level)}")

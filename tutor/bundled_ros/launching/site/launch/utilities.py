@@ -1,4 +1,4 @@
-"""Small helpers, which launch files import, too."""
+"""Small helpers, some of which launch files import as well."""
 
 from __future__ import annotations
 
@@ -28,19 +28,19 @@ __all__ = [
 
 
 def is_a(obj: object, entity_type: type) -> bool:
-    """Whether `obj` is an instance."""
+    """Return whether `obj` is an instance of the type."""
     return isinstance(obj, entity_type)
 
 
 def is_a_subclass(obj: object, entity_type: type) -> bool:
-    """Whether `obj` is an instance, or itself a class derived from it."""
+    """Return whether `obj` is an instance or a subclass of the type."""
     return isinstance(obj, entity_type) or (isinstance(obj, type) and issubclass(obj, entity_type))
 
 
 def ensure_argument_type(
     argument: object, types: type | Iterable[type], argument_name: str, caller: str | None = None
 ) -> None:
-    """TypeError where the argument is of none of the types."""
+    """Raise TypeError unless the argument is of one of the types."""
     allowed = (types,) if isinstance(types, type) else tuple(types)
     if isinstance(argument, allowed):
         return
@@ -52,13 +52,13 @@ def ensure_argument_type(
 
 
 def normalize_to_list_of_substitutions(subs: Any) -> list[Substitution]:
-    """A text, a path, a substitution, or an iterable of them, as a list; TypeError for anything else."""
+    """Convert a text, a path, a substitution or an iterable of them to a list. Raises TypeError for anything else."""
     if isinstance(subs, str | Path | Substitution):
-        return [_substitution(subs)]
-    return [_substitution(item) for item in subs]
+        return [_to_substitution(subs)]
+    return [_to_substitution(item) for item in subs]
 
 
-def _substitution(item: object) -> Substitution:
+def _to_substitution(item: object) -> Substitution:
     if isinstance(item, Substitution):
         return item
     if isinstance(item, str | Path):
@@ -70,7 +70,7 @@ def _substitution(item: object) -> Substitution:
 
 
 def perform_substitutions(context: LaunchContext, subs: Iterable[Substitution]) -> str:
-    """Their texts, joined."""
+    """Return the substitutions' texts, concatenated."""
     return "".join([context.perform_substitution(item) for item in subs])
 
 
@@ -78,7 +78,7 @@ SCALARS = (int, float, bool, str)
 
 
 def extract_type(data_type: Any) -> tuple[Any, bool]:
-    """The scalar type, and whether a list of it is meant; ValueError for any other type."""
+    """Return the scalar type and whether a list of it is meant. Raises ValueError for any other type."""
     is_list = get_origin(data_type) is list
     scalar = get_args(data_type)[0] if is_list else data_type
     if scalar not in SCALARS:
@@ -87,7 +87,7 @@ def extract_type(data_type: Any) -> tuple[Any, bool]:
 
 
 def is_substitution(value: Any) -> bool:
-    """A substitution, or several texts with at least one substitution among them."""
+    """Return whether the value is a substitution, or a sequence of texts and at least one substitution."""
     if isinstance(value, Substitution):
         return True
     return (
@@ -99,12 +99,15 @@ def is_substitution(value: Any) -> bool:
 
 
 def is_normalized_substitution(value: Any) -> bool:
-    """A list of substitutions and of nothing else."""
+    """Return whether the value is a non-empty list of substitutions only."""
     return isinstance(value, list) and bool(value) and all(isinstance(item, Substitution) for item in value)
 
 
 def normalize_typed_substitution(value: Any, data_type: Any) -> Any:
-    """A scalar as it is, substitutions as a list of them, a list with each item like that; TypeError for a misfit."""
+    """Normalize a typed value: scalars stay, substitutions become lists, and lists are normalized item by item.
+
+    Raises TypeError if the value does not match the type.
+    """
     if isinstance(value, SCALARS):
         _require_instance(value, data_type)
         return value
@@ -130,7 +133,7 @@ def normalize_typed_substitution(value: Any, data_type: Any) -> Any:
 
 
 def perform_typed_substitution(context: LaunchContext, value: Any, data_type: Any) -> Any:
-    """The value, of that type (None: of the type that it has as YAML); ValueError where it cannot be."""
+    """Return the value converted to a type (None: the type that YAML gives it). Raises ValueError or TypeError."""
     if isinstance(value, SCALARS):
         _require_instance(value, data_type)
         return value
@@ -149,7 +152,7 @@ def perform_typed_substitution(context: LaunchContext, value: Any, data_type: An
 
 
 def coerce_to_type(value: str, data_type: Any = None) -> Any:
-    """A text as a value of a type; without a type, as what YAML takes it for. ValueError where it is none."""
+    """Convert a text to a type (None: the type that YAML gives it). Raises ValueError if that is impossible."""
     if data_type is None:
         loaded = _load_yaml(value, f"Failed to convert '{value}' using yaml rules")
         kinds = {type(item) for item in loaded} if isinstance(loaded, list) else {type(loaded)}
@@ -195,10 +198,10 @@ def _require_instance(value: object, data_type: Any) -> None:
 def visit_all_entities_and_collect_futures(
     entity: LaunchDescriptionEntity, context: LaunchContext
 ) -> list[tuple[LaunchDescriptionEntity, asyncio.Future[None]]]:
-    """Visit depth first, in order; returns what is still going on, with the entity that it belongs to."""
-    below = entity.visit(context)
+    """Visit entities depth-first, in order. Return each unfinished entity with its future."""
+    sub_entities = entity.visit(context)
     future = entity.get_asyncio_future()
-    going_on = [(entity, future)] if future is not None else []
-    for item in below or ():
-        going_on += visit_all_entities_and_collect_futures(item, context)
-    return going_on
+    pending = [(entity, future)] if future is not None else []
+    for item in sub_entities or ():
+        pending += visit_all_entities_and_collect_futures(item, context)
+    return pending

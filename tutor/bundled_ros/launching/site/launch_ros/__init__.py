@@ -1,4 +1,4 @@
-"""The part of ROS 2's `launch_ros` that launch files for the exercises use, where no real one is installed."""
+"""The subset of ROS 2's `launch_ros` that the exercises' launch files use, for machines without the real one."""
 
 import sys
 
@@ -8,4 +8,5 @@ from . import actions, descriptions, parameter_descriptions, substitutions
 
 __all__ = ["actions", "descriptions", "parameter_descriptions", "substitutions"]
 
-_real_names.complete(sys.modules[__name__])  # the finder has done so, unless this was imported before `launch`
+# The import hook has done this already, unless this package was imported before `launch`.
+_real_names.complete(sys.modules[__name__])

@@ -1,4 +1,4 @@
-"""The actions and substitutions that know ROS, by the names that they have in XML and YAML."""
+"""The ROS-specific actions and substitutions by their XML and YAML names."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from typing import Any
 
 from launch._entities import Action
 from launch._frontend import actions as launch_actions
-from launch._frontend.actions import children, condition, pairs, process, text, texts, value
+from launch._frontend.actions import children, condition, pairs, process_arguments, text, texts, value
 from launch._frontend.entities import Entity
-from launch._frontend.text import TABLE, parse_substitution, parse_words
+from launch._frontend.text import SUBSTITUTIONS, parse_substitution, parse_words
 
 from . import actions
 from .descriptions import ComposableNode
@@ -30,8 +30,8 @@ TYPES: dict[str, Any] = {
 
 
 def node_arguments(entity: Entity) -> dict[str, Any]:
-    """What a node takes."""
-    given = process(entity)
+    """Return the arguments of a Node."""
+    given = process_arguments(entity)
     given |= texts(entity, package="pkg", name="name", namespace="namespace", exec_name="exec_name")
     for argument, attribute in (("arguments", "args"), ("ros_arguments", "ros_args")):
         if (words := entity.find(attribute)) is not None:
@@ -42,23 +42,23 @@ def node_arguments(entity: Entity) -> dict[str, Any]:
 
 
 def parameters_and_remappings(entity: Entity) -> dict[str, Any]:
-    """The <param> and <remap> entities below."""
+    """Return the arguments from the <param> and <remap> child entities."""
     given: dict[str, Any] = {}
     if remappings := pairs(entity, "remap", "from", "to"):
         given["remappings"] = remappings
-    if params := entity.below("param"):
+    if params := entity.children_named("param"):
         given["parameters"] = [_parameters(param) for param in params]
     return given
 
 
 def _parameters(entity: Entity) -> Any:
-    """A file of parameters, or a dict with one."""
+    """Return a parameter file, or a dict with one parameter."""
     name, file = entity.find("name"), entity.find("from")
     allow_substs = entity.find("allow_substs", bool)
     if name is not None and file is not None:
         raise RuntimeError("name and from attributes are mutually exclusive")
     if file is not None:
-        entity.require_all_known()
+        entity.reject_unknown()
         given = parse_substitution(allow_substs) if isinstance(allow_substs, str) else bool(allow_substs)
         return ParameterFile(parse_substitution(file), allow_substs=given)
     if name is None:
@@ -77,8 +77,8 @@ def _values(entities: Sequence[Entity]) -> dict[Any, Any]:
             raise ValueError(f"Got invalid type identifier '{type_name}'")
         data_type = TYPES[type_name or "yaml"]
         given = entity.find("value", data_type)
-        nested = entity.below("param")
-        entity.require_all_known()
+        nested = entity.children_named("param")
+        entity.reject_unknown()
         if nested and (given is not None or type_name is not None):
             raise RuntimeError("nested parameters and value or type attributes are mutually exclusive")
         if nested:
@@ -95,12 +95,12 @@ def _set_parameter(entity: Entity) -> Action:
 
 
 def _node_container(entity: Entity) -> Action:
-    nodes = [_composable_node(node) for node in entity.below("composable_node")]
+    nodes = [_composable_node(node) for node in entity.children_named("composable_node")]
     return actions.ComposableNodeContainer(composable_node_descriptions=nodes, **node_arguments(entity))
 
 
 def _load_composable_node(entity: Entity) -> Action:
-    nodes = [_composable_node(node) for node in entity.below("composable_node")]
+    nodes = [_composable_node(node) for node in entity.children_named("composable_node")]
     target = text(entity, "target")
     return actions.LoadComposableNodes(composable_node_descriptions=nodes, target_container=target, **condition(entity))
 
@@ -112,7 +112,7 @@ def _composable_node(entity: Entity) -> ComposableNode:
     node = ComposableNode(
         package=text(entity, "pkg"), plugin=text(entity, "plugin"), name=text(entity, "name"), **given
     )
-    entity.require_all_known()
+    entity.reject_unknown()
     return node
 
 
@@ -138,7 +138,7 @@ launch_actions.MAKERS |= {
     "set_use_sim_time": lambda entity: actions.SetUseSimTime(value(entity.get("value", bool)), **condition(entity)),
 }
 
-TABLE |= {
+SUBSTITUTIONS |= {
     "exec-in-pkg": (2, 2, lambda executable, package: ExecutableInPackage(executable=executable, package=package)),
     "find-pkg-prefix": (1, 1, FindPackagePrefix),
     "find-pkg-share": (1, 1, FindPackageShare),

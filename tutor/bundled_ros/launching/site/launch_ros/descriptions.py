@@ -1,4 +1,4 @@
-"""The description of a node that is loaded into a container."""
+"""The description of a composable node, which is loaded into a container."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ __all__ = ["ComposableNode", "Parameter", "ParameterFile", "ParameterValue"]
 
 
 class ComposableNode:
-    """The library's package, the class in it, and what the node is given."""
+    """The package of the library, the plugin class in it, and the node's settings."""
 
     def __init__(
         self,
@@ -68,13 +68,13 @@ class ComposableNode:
         return self._extra_arguments
 
     def condition(self) -> Condition | None:
-        """When it is to be loaded; None: always."""
+        """Return the condition for loading the node; None: always."""
         return self._condition
 
     def is_wanted(self, context: LaunchContext) -> bool:
-        """Whether it is to be loaded, as things are."""
+        """Return whether the node's condition holds, so that it is to be loaded."""
         return self._condition is None or self._condition.evaluate(context)
 
-    def shown(self, context: LaunchContext) -> str:
-        """Its class, for messages."""
+    def plugin_name(self, context: LaunchContext) -> str:
+        """Return the plugin class's name, for messages."""
         return perform_substitutions(context, self._plugin)

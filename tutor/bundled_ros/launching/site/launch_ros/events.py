@@ -1,4 +1,4 @@
-"""The events of lifecycle nodes."""
+"""Events of lifecycle nodes."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ __all__ = ["lifecycle", "matches_node_name"]  # noqa: F822 - an alias
 
 
 def matches_node_name(node_name: str) -> Callable[[Any], bool]:
-    """True for the action whose node has this name; without a slash it is one in the root namespace."""
+    """Return a matcher for the node with this name, which is in the root namespace unless it starts with a slash."""
     full = node_name if node_name.startswith("/") else f"/{node_name}"
     return lambda action: bool(action.node_name == full)
 
@@ -48,9 +48,9 @@ STATES = {
 
 
 class ChangeState(Event):
-    """Asks the lifecycle nodes that the matcher picks for a transition, one of lifecycle_msgs/msg/Transition.
+    """Requests a transition of lifecycle_msgs/msg/Transition from the lifecycle nodes that the matcher accepts.
 
-    ValueError for a number that is none.
+    Raises ValueError for an unknown transition id.
     """
 
     name = "launch_ros.events.lifecycle.ChangeState"
@@ -75,7 +75,7 @@ class ChangeState(Event):
 
 
 class StateTransition(Event):
-    """A lifecycle node goes from one state into another: `msg` is a lifecycle_msgs/msg/TransitionEvent."""
+    """A lifecycle node changes its state. `msg` is a lifecycle_msgs/msg/TransitionEvent."""
 
     name = "launch_ros.events.lifecycle.StateTransition"
 

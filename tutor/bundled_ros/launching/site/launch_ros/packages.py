@@ -1,4 +1,4 @@
-"""Where packages and their executables are: where the one who runs us says, else in the ament index."""
+"""Look up packages and their executables with a resolver, if one is set, else in the ament index."""
 
 from __future__ import annotations
 
@@ -11,34 +11,34 @@ from launch._entities import SubstitutionFailure
 
 
 class Resolver(Protocol):
-    """Knows all packages there are. What it does not know it answers with a LookupError that says so."""
+    """Finds packages. Raises LookupError, with a message for the user, if it does not."""
 
     def find_executable(self, package: str, executable: str) -> list[str]:
-        """The words of the command that runs it."""
+        """Return the command words that run the executable."""
 
     def find_share(self, package: str) -> Path:
-        """The package's share folder."""
+        """Return the package's share folder."""
 
 
 class PackageNotFoundError(KeyError):
-    """Nobody knows a package of this name."""
+    """There is no package of this name."""
 
     def __str__(self) -> str:
         return str(self.args[0])
 
 
 resolver: Resolver | None = None
-"""Asked instead of the ament index; set by the one who runs the launch file."""
+"""Replaces the ament index; set by the code that runs the launch file."""
 
 
 def find_executable(package: str, executable: str) -> list[str]:
-    """The command of a package's executable; SubstitutionFailure or PackageNotFoundError where there is none."""
+    """Return the command words of a package's executable. Raises SubstitutionFailure or PackageNotFoundError."""
     if resolver is not None:
         try:
             return resolver.find_executable(package, executable)
         except LookupError as error:
-            raise _as_failure(error) from error
-    prefix = _prefix_in_index(package)
+            raise _to_substitution_failure(error) from error
+    prefix = _find_prefix_in_index(package)
     folder = prefix / "lib" / package
     if not folder.is_dir():
         raise SubstitutionFailure(
@@ -51,28 +51,28 @@ def find_executable(package: str, executable: str) -> list[str]:
 
 
 def find_share(package: str) -> str:
-    """The share folder of a package; PackageNotFoundError where nobody knows it."""
+    """Return a package's share folder. Raises SubstitutionFailure or PackageNotFoundError."""
     if resolver is None:
-        return str(_prefix_in_index(package) / "share" / package)
+        return str(_find_prefix_in_index(package) / "share" / package)
     try:
         return str(resolver.find_share(package))
     except LookupError as error:
-        raise _as_failure(error) from error
+        raise _to_substitution_failure(error) from error
 
 
 def find_prefix(package: str) -> str:
-    """The folder that a package is installed in; PackageNotFoundError where nobody knows it."""
+    """Return the prefix that a package is installed in. Raises SubstitutionFailure or PackageNotFoundError."""
     return str(Path(find_share(package)).parent.parent)
 
 
-def _prefix_in_index(package: str) -> Path:
-    searched = [part for part in os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep) if part]
+def _find_prefix_in_index(package: str) -> Path:
+    searched = [entry for entry in os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep) if entry]
     for prefix in searched:
         if (Path(prefix) / "share/ament_index/resource_index/packages" / package).is_file():
             return Path(prefix)
     raise PackageNotFoundError(f"\"package '{package}' not found, searching: {searched}\"")
 
 
-def _as_failure(error: LookupError) -> SubstitutionFailure:
-    # A KeyError's text is the repr of its message.
+def _to_substitution_failure(error: LookupError) -> SubstitutionFailure:
+    # str() of a KeyError is the repr of its message.
     return SubstitutionFailure(str(error.args[0]) if error.args else str(error))

@@ -1,8 +1,8 @@
-"""Parameters as they are written, in the few forms in which they are evaluated, and as the node gets them.
+"""Parameters as written in launch files, in a normalized form, and evaluated for the node.
 
-In those forms a name is a tuple of substitutions; nested dicts are names with dots. A value stays what it is, or is a
-tuple: of values of one type, of substitutions (one text, read as YAML), or of lists of substitutions (one for each
-item).
+In the normalized form, a name is a tuple of substitutions, and nested dicts become dotted names. A value is a scalar or
+a tuple: of scalars of one type, of substitutions (one text, parsed as YAML), or of lists of substitutions (one list per
+array item).
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from launch.utilities import (
 
 
 class ParameterValue:
-    """A value of a given type; without a type, of the type that its text has as YAML."""
+    """A value of a given type (None: the type that YAML gives its text)."""
 
     def __init__(self, value: Any, *, value_type: Any = None) -> None:
         self._value = normalize_typed_substitution(value, value_type)
@@ -44,12 +44,12 @@ class ParameterValue:
         return self._value_type
 
     def evaluate(self, context: LaunchContext) -> Any:
-        """The value; ValueError where it is none of that type."""
+        """Return the value. Raises ValueError if it cannot be converted to its type."""
         return perform_typed_substitution(context, self._value, self._value_type)
 
 
 class Parameter:
-    """A name with a value, given to the node with `-p`."""
+    """A named value, passed to the node with `-p`."""
 
     def __init__(self, name: SomeSubstitutionsType, value: Any, *, value_type: Any = None) -> None:
         self._name = normalize_to_list_of_substitutions(name)
@@ -68,12 +68,12 @@ class Parameter:
         return self._value.value_type
 
     def evaluate(self, context: LaunchContext) -> tuple[str, Any]:
-        """The name and the value."""
+        """Return the name and the value."""
         return perform_substitutions(context, self._name), self._value.evaluate(context)
 
 
 class ParameterFile:
-    """A YAML file of parameters; with `allow_substs` those of launch, such as $(var x), are performed in it."""
+    """A YAML parameter file. With `allow_substs`, launch substitutions in it, such as $(var x), are performed."""
 
     def __init__(
         self,
@@ -98,7 +98,7 @@ class ParameterFile:
         return self._file
 
     def evaluate(self, context: LaunchContext) -> Path:
-        """The file's path, or that of a copy with the substitutions performed, which goes when the launch ends."""
+        """Return the file's path, or that of a temporary copy with the substitutions performed."""
         path = Path(self._file if isinstance(self._file, str) else perform_substitutions(context, self._file))
         if not perform_typed_substitution(context, self._allow_substs, bool):
             return path
@@ -111,15 +111,15 @@ class ParameterFile:
 
 
 def temporary_file(text: str) -> Path:
-    """A file of parameters with this text, which is there as long as the launch runs."""
-    with tempfile.NamedTemporaryFile(mode="w", prefix="launch_params_", delete=False, dir=_folder()) as file:
+    """Write a parameter file with this text, which is removed when the launch ends."""
+    with tempfile.NamedTemporaryFile(mode="w", prefix="launch_params_", delete=False, dir=_temporary_folder()) as file:
         file.write(text)
     atexit.register(_remove, file.name)
     return Path(file.name)
 
 
-def _folder() -> str | None:
-    """That of the `ros2` around us, which goes with it however it ends."""
+def _temporary_folder() -> str | None:
+    """Return the temporary folder of the `ros2` that runs us, which is removed however it ends; None without one."""
     overlay = os.environ.get("ROS_TUTOR_OVERLAY", "")
     return os.path.dirname(overlay) if os.path.isdir(overlay) else None
 
@@ -133,7 +133,7 @@ Name = tuple[Substitution, ...]
 
 
 def normalize_parameters(parameters: Any) -> tuple[ParameterFile | Parameter | dict[Name, Any], ...]:
-    """Dicts, files and parameters; TypeError for anything else than a list of them."""
+    """Normalize a list of dicts, parameter files and parameters. Raises TypeError for anything else."""
     if isinstance(parameters, str) or not isinstance(parameters, Sequence):
         raise TypeError(f"Expecting list of parameters, got {parameters}")
     return tuple(_normalize(item) for item in parameters)
@@ -148,7 +148,7 @@ def _normalize(item: Any) -> ParameterFile | Parameter | dict[Name, Any]:
 
 
 def normalize_parameter_dict(parameters: Mapping[Any, Any], *, _prefix: Sequence[Substitution] = ()) -> dict[Name, Any]:
-    """One dict of parameters; TypeError where a value is none that a parameter can have."""
+    """Normalize a dict of parameters. Raises TypeError for a value that no parameter can have."""
     if not isinstance(parameters, Mapping):
         raise TypeError("expected dict")
     normalized: dict[Name, Any] = {}
@@ -157,24 +157,24 @@ def normalize_parameter_dict(parameters: Mapping[Any, Any], *, _prefix: Sequence
         if isinstance(value, Mapping):
             normalized.update(normalize_parameter_dict(value, _prefix=(*name, TextSubstitution(text="."))))
         else:
-            normalized[name] = _value(value)
+            normalized[name] = _normalize_value(value)
     return normalized
 
 
-def _value(value: Any) -> Any:
+def _normalize_value(value: Any) -> Any:
     if isinstance(value, ParameterValue | float | bool | int | bytes):
         return value
     if isinstance(value, str):
-        # As YAML it comes back as the text that it is: "1" stays a text.
+        # Dumped as YAML, it is parsed as a text again: "1" stays a text.
         return tuple(normalize_to_list_of_substitutions(yaml.dump(value)))
     if isinstance(value, Substitution):
         return (value,)
     if isinstance(value, Sequence):
-        return _array(value)
+        return _normalize_array(value)
     raise TypeError(f"Unexpected type for parameter value {value!r}")
 
 
-def _array(value: Sequence[Any]) -> Any:
+def _normalize_array(value: Sequence[Any]) -> Any:
     for item in value:
         ensure_argument_type(item, (float, int, str, bool, Substitution, Sequence), "subvalue")
     kinds: set[type] = {
@@ -189,7 +189,7 @@ def _array(value: Sequence[Any]) -> Any:
     if kinds in ({float}, {int, float}):
         return tuple(float(item) for item in value)
     if Substitution in kinds and kinds <= {str, Substitution}:
-        return tuple(normalize_to_list_of_substitutions(value))  # one text in several parts
+        return tuple(normalize_to_list_of_substitutions(value))  # one text made of several parts
     items = [yaml.dump(item) if isinstance(item, float | int | bool | str) else item for item in value]
     return tuple(normalize_to_list_of_substitutions(item) for item in items)
 
@@ -203,7 +203,7 @@ Evaluated = Path | Parameter | dict[str, Any]
 
 
 def evaluate_parameters(context: LaunchContext, parameters: Iterable[Any]) -> tuple[Evaluated, ...]:
-    """What normalize_parameters gave: files as paths, dicts with names and values; a Parameter stays what it is."""
+    """Evaluate normalized parameters: files to paths, dicts to names and values. A Parameter stays as it is."""
     evaluated: list[Evaluated] = []
     for item in parameters:
         if isinstance(item, ParameterFile):
@@ -216,7 +216,7 @@ def evaluate_parameters(context: LaunchContext, parameters: Iterable[Any]) -> tu
 
 
 def evaluate_parameter_dict(context: LaunchContext, parameters: Mapping[Any, Any]) -> dict[str, Any]:
-    """Names and values; TypeError where a value is none that a parameter can have. Arrays become tuples."""
+    """Evaluate a normalized dict; arrays become tuples. Raises TypeError for a value that no parameter can have."""
     evaluated: dict[str, Any] = {}
     for parts, value in parameters.items():
         name = perform_substitutions(context, parts)
@@ -231,16 +231,16 @@ def _evaluate(context: LaunchContext, name: str, value: Any) -> Any:
         ensure_argument_type(value, (float, int, str, bool, bytes), "value")
         return value
     if value and isinstance(value[0], Substitution):
-        return _from_text(name, perform_substitutions(context, value))
+        return _parse_text(name, perform_substitutions(context, value))
     if value and isinstance(value[0], Sequence) and not isinstance(value[0], str):
         items = [yaml.safe_load(perform_substitutions(context, item)) for item in value]
-        return _uniform(name, items)
+        return _require_uniform(name, items)
     if not value:
         raise TypeError(f'Expected a non-empty sequence for "{name}"')
     return value
 
 
-def _from_text(name: str, text: str) -> Any:
+def _parse_text(name: str, text: str) -> Any:
     advice = (
         "If the parameter is meant to be a string, try wrapping it in "
         "launch_ros.parameter_descriptions.ParameterValue(value, value_type=str)"
@@ -252,14 +252,14 @@ def _from_text(name: str, text: str) -> Any:
     if type(loaded) in (*SCALARS, bytes):
         return loaded
     if isinstance(loaded, Sequence):
-        return _uniform(name, loaded)
+        return _require_uniform(name, loaded)
     raise TypeError(
         "Allowed value types are bytes, bool, int, float, str, Sequence[bool], Sequence[int], Sequence[float], "
         f'Sequence[str]. Got {type(loaded).__name__} for "{name}". {advice}'
     )
 
 
-def _uniform(name: str, items: Sequence[Any]) -> tuple[Any, ...]:
+def _require_uniform(name: str, items: Sequence[Any]) -> tuple[Any, ...]:
     kinds = {type(item) for item in items}
     if len(kinds) != 1 or not kinds <= set(SCALARS):
         raise TypeError(

@@ -1,4 +1,4 @@
-"""The launch's own ROS node, made when an action first needs one."""
+"""The launch's own ROS node, created when an action first needs it."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from launch.launch_context import LaunchContext
 
 
 class ROSAdapter:
-    """A node in a context of its own, spun in a thread."""
+    """A node in its own context, spun in a background thread."""
 
     def __init__(self, *, argv: Sequence[str] | None = None, autostart: bool = True) -> None:
         self._argv = list(argv or ())
@@ -42,7 +42,7 @@ class ROSAdapter:
         return self._ros_executor
 
     def start(self) -> None:
-        """Make the node and spin it; RuntimeError where that is done already."""
+        """Create the node and spin it. Raises RuntimeError if it is already running."""
         if self._is_running:
             raise RuntimeError("Cannot start a ROS adapter that is already running")
         try:
@@ -56,18 +56,18 @@ class ROSAdapter:
         self._ros_executor = executors.SingleThreadedExecutor(context=self._ros_context)
         self._ros_executor.add_node(self._ros_node)
         self._is_running = True
-        self._stopped = executors.ExternalShutdownException
+        self._shutdown_exception = executors.ExternalShutdownException
         self._thread = threading.Thread(target=self._spin, daemon=True)
         self._thread.start()
 
     def _spin(self) -> None:
         try:
             self._ros_executor.spin()
-        except self._stopped:
+        except self._shutdown_exception:
             return
 
     def shutdown(self) -> None:
-        """End the node; RuntimeError where it does not run."""
+        """Destroy the node. Raises RuntimeError if it is not running."""
         if not self._is_running:
             raise RuntimeError("Cannot shutdown a ROS adapter that is not running")
         self._is_running = False
@@ -78,7 +78,7 @@ class ROSAdapter:
 
 
 def get_ros_adapter(context: LaunchContext) -> ROSAdapter:
-    """The launch's adapter, made at the first call; it ends with the launch."""
+    """Return the launch's adapter, created on the first call and shut down with the launch."""
     adapter: ROSAdapter | None = context.get_locals_as_dict().get("ros_adapter")
     if adapter is None:
         made = adapter = ROSAdapter()
@@ -88,5 +88,5 @@ def get_ros_adapter(context: LaunchContext) -> ROSAdapter:
 
 
 def get_ros_node(context: LaunchContext) -> Any:
-    """The launch's own node."""
+    """Return the launch's own node."""
     return get_ros_adapter(context).ros_node

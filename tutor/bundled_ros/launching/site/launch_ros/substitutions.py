@@ -1,4 +1,4 @@
-"""The substitutions that know ROS."""
+"""ROS-specific substitutions."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ __all__ = ["ExecutableInPackage", "FindPackage", "FindPackagePrefix", "FindPacka
 
 
 class FindPackage(FoundPath):
-    """A folder of a package."""
+    """Base class of substitutions that find a package's folder."""
 
     def __init__(self, package: SomeSubstitutionsType) -> None:
         super().__init__()
@@ -28,7 +28,7 @@ class FindPackage(FoundPath):
         return self._package
 
     def find(self, package_name: str) -> str:
-        """The folder of the package of this name."""
+        """Return the folder of the package with this name."""
         raise NotImplementedError
 
     def describe(self) -> str:
@@ -39,21 +39,21 @@ class FindPackage(FoundPath):
 
 
 class FindPackagePrefix(FindPackage):
-    """The folder that it is installed in."""
+    """The prefix that a package is installed in."""
 
     def find(self, package_name: str) -> str:
         return packages.find_prefix(package_name)
 
 
 class FindPackageShare(FindPackage):
-    """Its share folder: launch files, parameter files."""
+    """A package's share folder, which holds its launch files and parameter files."""
 
     def find(self, package_name: str) -> str:
         return packages.find_share(package_name)
 
 
 class ExecutableInPackage(Substitution):
-    """Its path; where it takes several words to run it, as the first item of a command it stands for all of them."""
+    """An executable's path. As the first item of a command, it expands to all words needed to run the executable."""
 
     def __init__(self, executable: SomeSubstitutionsType, package: SomeSubstitutionsType) -> None:
         self._executable = normalize_to_list_of_substitutions(executable)
@@ -77,17 +77,17 @@ class ExecutableInPackage(Substitution):
         return words[0] if len(words) == 1 else shlex.join(words)
 
     def perform_words(self, context: LaunchContext) -> list[str]:
-        """The command, word by word."""
+        """Return the words of the command."""
         executable = perform_substitutions(context, self._executable)
         return packages.find_executable(perform_substitutions(context, self._package), executable)
 
     def perform_name(self, context: LaunchContext) -> str:
-        """The executable's name."""
+        """Return the executable's name."""
         return perform_substitutions(context, self._executable)
 
 
 class Parameter(Substitution):
-    """The value as a text; the default, or SubstitutionFailure, where the parameter is not set in this scope."""
+    """A parameter's value as a text. Without one set in this scope, the default; if there is none, it fails."""
 
     def __init__(self, name: SomeSubstitutionsType, *, default: Any = None) -> None:
         self._name = normalize_to_list_of_substitutions(name)

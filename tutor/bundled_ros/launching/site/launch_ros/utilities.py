@@ -1,4 +1,4 @@
-"""Small helpers for the actions: names that ROS takes, namespaces, remappings, parameters."""
+"""Small helpers for the actions: validation of names, namespaces, remappings and parameters."""
 
 from __future__ import annotations
 
@@ -32,28 +32,28 @@ __all__ = [
 
 
 class InvalidNodeNameException(Exception):  # noqa: N818, RUF100 - rclpy's name
-    """A name that no node can have."""
+    """The name is not a valid node name."""
 
 
 class InvalidNamespaceException(Exception):  # noqa: N818, RUF100 - rclpy's name
-    """A name that no namespace can have."""
+    """The name is not a valid namespace."""
 
 
 def validate_node_name(name: str) -> None:
-    """InvalidNodeNameException where ROS would not take it."""
-    fault = "node name must not be empty" if not name else _fault(name, "node name", r"[A-Za-z0-9_]")
+    """Raise InvalidNodeNameException if ROS would reject the name."""
+    fault = "node name must not be empty" if not name else _find_fault(name, "node name", r"[A-Za-z0-9_]")
     if fault is not None:
         raise InvalidNodeNameException(f"Invalid node name: {fault}")
 
 
 def validate_namespace(namespace: str) -> None:
-    """InvalidNamespaceException where ROS would not take it."""
-    fault = _fault_of_namespace(namespace)
+    """Raise InvalidNamespaceException if ROS would reject the namespace."""
+    fault = _find_namespace_fault(namespace)
     if fault is not None:
         raise InvalidNamespaceException(f"Invalid namespace: {fault}")
 
 
-def _fault_of_namespace(namespace: str) -> str | None:
+def _find_namespace_fault(namespace: str) -> str | None:
     if not namespace:
         return "namespace must not be empty"
     if not namespace.startswith("/"):
@@ -65,13 +65,13 @@ def _fault_of_namespace(namespace: str) -> str | None:
     if "//" in namespace:
         return f"namespace must not contain repeated '/': '{namespace}'"
     for token in namespace.split("/")[1:]:
-        fault = _fault(token, "namespace", r"[A-Za-z0-9_]", whole=namespace)
+        fault = _find_fault(token, "namespace", r"[A-Za-z0-9_]", whole=namespace)
         if fault is not None:
             return fault
     return None
 
 
-def _fault(token: str, kind: str, allowed: str, whole: str | None = None) -> str | None:
+def _find_fault(token: str, kind: str, allowed: str, whole: str | None = None) -> str | None:
     shown = token if whole is None else whole
     if not re.fullmatch(f"{allowed}*", token):
         slash = " or '/'" if kind == "namespace" else ""
@@ -87,28 +87,28 @@ def _fault(token: str, kind: str, allowed: str, whole: str | None = None) -> str
 
 
 def is_root_namespace(ns: str) -> bool:
-    """Whether it is the outermost one."""
+    """Return whether a namespace is the root namespace."""
     return ns == "/"
 
 
 def is_namespace_absolute(ns: str) -> bool:
-    """Whether it does not care what it is in."""
+    """Return whether a namespace starts with a slash, so that no outer namespace is prepended."""
     return ns.startswith("/")
 
 
 def prefix_namespace(base_ns: str | None, ns: str | None) -> str | None:
-    """`ns` inside `base_ns`; None where there is neither."""
+    """Return `ns` inside `base_ns`; None if neither is given."""
     if ns is None:
-        inner = base_ns
+        joined = base_ns
     elif not base_ns or is_namespace_absolute(ns):
-        inner = ns
+        joined = ns
     else:
-        inner = f"{'' if is_root_namespace(base_ns) else base_ns}/{ns}"
-    return inner if inner is None or is_root_namespace(inner) else inner.rstrip("/")
+        joined = f"{'' if is_root_namespace(base_ns) else base_ns}/{ns}"
+    return joined if joined is None or is_root_namespace(joined) else joined.rstrip("/")
 
 
 def make_namespace_absolute(ns: str | None) -> str | None:
-    """With the slash in front; None stays None."""
+    """Add a leading slash if it is missing; None stays None."""
     return ns if ns is None or is_namespace_absolute(ns) else f"/{ns}"
 
 
@@ -117,7 +117,7 @@ RemapRule = tuple[tuple[Substitution, ...], tuple[Substitution, ...]]
 
 
 def normalize_remap_rule(remap_rule: SomeRemapRule) -> RemapRule:
-    """One remapping: the name in the node, the name instead; TypeError for anything else than a pair."""
+    """Normalize a remapping, a pair of the original and the new name. Raises TypeError for anything else."""
     ensure_argument_type(remap_rule, tuple, "remap_rule")
     if len(remap_rule) != 2:
         raise TypeError(f"remap_rule must be a tuple of length 2, got length {len(remap_rule)}")
@@ -126,5 +126,5 @@ def normalize_remap_rule(remap_rule: SomeRemapRule) -> RemapRule:
 
 
 def normalize_remap_rules(remap_rules: Iterable[SomeRemapRule]) -> Iterator[RemapRule]:
-    """Several remappings."""
+    """Normalize several remappings."""
     return map(normalize_remap_rule, remap_rules)

@@ -1,4 +1,4 @@
-"""Launch files in XML and YAML: read as entities, which are turned into the same actions that Python files make."""
+"""XML and YAML launch files: they are read as entities and turned into the same actions as in Python files."""
 
 from __future__ import annotations
 
@@ -20,41 +20,41 @@ YAML = ("launch.yaml", "launch.yml", "yaml", "yml", "launch")
 
 
 def suffixes(path: str) -> list[str]:
-    """The kinds of launch file that the name says it may be: "xml", "yaml"."""
+    """Return the formats, "xml" or "yaml", that a file may have according to its name."""
     kinds = {"xml": XML, "yaml": YAML}
     return [kind for kind, ends in kinds.items() if any(path.endswith(f".{end}") for end in ends)]
 
 
 def load_launch_description(path: str) -> LaunchDescription:
-    """The launch description; raises what is wrong with the file, of the kinds that its name allows the first."""
+    """Load a launch description. If no format fits, raises the error of the first one that the file's name allows."""
     errors: list[Exception] = []
     for kind in suffixes(path) or ["xml", "yaml"]:
         try:
-            root = _ROOTS[kind](path)
+            root = _READERS[kind](path)
         except (ElementTree.ParseError, yaml.YAMLError, ValueError) as error:
             errors.append(error)
         else:
-            return _describe(root)
+            return _to_description(root)
     raise errors[0]
 
 
-def _describe(root: Entity) -> LaunchDescription:
+def _to_description(root: Entity) -> LaunchDescription:
     if root.type_name != "launch":
         raise RuntimeError("Expected 'launch' as root tag")
-    importlib.import_module("launch_ros._frontend")  # the tags that know ROS
+    importlib.import_module("launch_ros._frontend")  # registers the ROS tags
     deprecated = root.find("deprecated")
     return LaunchDescription([make_action(child) for child in root.children], deprecated_reason=deprecated)
 
 
-def _xml(path: str) -> Entity:
+def _read_xml(path: str) -> Entity:
     return XmlEntity(ElementTree.parse(path).getroot())
 
 
-def _yaml(path: str) -> Entity:
+def _read_yaml(path: str) -> Entity:
     tree = yaml.safe_load(Path(path).read_text(encoding="utf-8"))
     if not isinstance(tree, dict) or len(tree) != 1:
         raise ValueError("Expected only one root")
     return YamlEntity(*next(iter(tree.items())))
 
 
-_ROOTS: dict[str, Callable[[str], Entity]] = {"xml": _xml, "yaml": _yaml}
+_READERS: dict[str, Callable[[str], Entity]] = {"xml": _read_xml, "yaml": _read_yaml}

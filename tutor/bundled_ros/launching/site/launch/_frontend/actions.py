@@ -1,4 +1,4 @@
-"""The actions by the names that they have in XML and YAML."""
+"""Actions by their XML and YAML names."""
 
 from __future__ import annotations
 
@@ -14,21 +14,21 @@ from .text import parse_substitution, parse_words
 
 Arguments = dict[str, Any]
 MAKERS: dict[str, Callable[[Entity], Action]] = {}
-"""What makes an action of an entity, by its name; launch_ros adds its own."""
+"""The function that turns an entity into an action, by the entity's name; launch_ros adds its own."""
 
 
 def make_action(entity: Entity) -> Action:
-    """The action of an entity; raises what is wrong with it."""
+    """Turn an entity into an action. Raises if the entity is invalid."""
     name = entity.type_name
     if name not in MAKERS:
         raise RuntimeError(f"Unrecognized entity of the type: {name}")
     made = MAKERS[name](entity)
-    entity.require_all_known()
+    entity.reject_unknown()
     return made
 
 
 def condition(entity: Entity) -> Arguments:
-    """The condition of an action, in its `if` or `unless`."""
+    """Return the `condition` argument from an entity's `if` or `unless`."""
     predicate, negated = entity.find("if"), entity.find("unless")
     if predicate is not None and negated is not None:
         raise RuntimeError("if and unless conditions can't be used simultaneously")
@@ -38,18 +38,18 @@ def condition(entity: Entity) -> Arguments:
 
 
 def texts(entity: Entity, **names: str) -> Arguments:
-    """Optional attributes that hold texts with substitutions: the argument for each, and its attribute."""
+    """Return arguments from optional attributes with substitutions; `names` maps each argument to its attribute."""
     found = {argument: entity.find(attribute) for argument, attribute in names.items()}
     return {argument: parse_substitution(text) for argument, text in found.items() if text is not None}
 
 
 def text(entity: Entity, attribute: str) -> list[Substitution]:
-    """An attribute that holds a text with substitutions."""
+    """Return a required attribute with substitutions."""
     return parse_substitution(entity.get(attribute))
 
 
 def value(given: Any) -> Any:
-    """A value of any type: a text with substitutions as its parts, a plain text as it is, a list item by item."""
+    """Convert a value: a text with substitutions into its parts, a list item by item; anything else stays as it is."""
     if isinstance(given, list):
         return [value(item) for item in given]
     if not isinstance(given, str):
@@ -61,21 +61,21 @@ def value(given: Any) -> Any:
 
 
 def pairs(entity: Entity, name: str, first: str, second: str) -> list[tuple[Any, Any]]:
-    """The entities of a name below, as pairs of two of their attributes."""
+    """Return two attributes of each child entity with this name, as pairs."""
     found = []
-    for item in entity.below(name):
+    for item in entity.children_named(name):
         found.append((tuple(text(item, first)), text(item, second)))
-        item.require_all_known()
+        item.reject_unknown()
     return found
 
 
-def plain(given: str) -> str:
-    """A text without its backslashes."""
+def unescape(given: str) -> str:
+    """Remove the escaping backslashes of a text."""
     return re.sub(r"\\(.)", r"\1", given)
 
 
-def process(entity: Entity) -> Arguments:
-    """What a process takes, whatever its command is."""
+def process_arguments(entity: Entity) -> Arguments:
+    """Return the arguments that all processes take."""
     given = condition(entity)
     given |= texts(entity, cwd="cwd", prefix="launch-prefix", output="output", respawn="respawn")
     on_exit = entity.find("on_exit")
@@ -99,17 +99,17 @@ def process(entity: Entity) -> Arguments:
 
 
 def _executable(entity: Entity) -> Action:
-    given = process(entity) | texts(entity, name="name")
+    given = process_arguments(entity) | texts(entity, name="name")
     return actions.ExecuteProcess(cmd=parse_words(entity.get("cmd")), **given)
 
 
 def _arg(entity: Entity) -> Action:
     given = condition(entity) | texts(entity, default_value="default")
     if (description := entity.find("description")) is not None:
-        given["description"] = plain(description)
-    if choices := entity.below("choice"):
-        given["choices"] = [plain(choice.get("value")) for choice in choices]
-    return actions.DeclareLaunchArgument(plain(entity.get("name")), **given)
+        given["description"] = unescape(description)
+    if choices := entity.children_named("choice"):
+        given["choices"] = [unescape(choice.get("value")) for choice in choices]
+    return actions.DeclareLaunchArgument(unescape(entity.get("name")), **given)
 
 
 def _include(entity: Entity) -> Action:
@@ -136,7 +136,7 @@ def _timer(entity: Entity) -> Action:
 
 
 def children(entity: Entity) -> Sequence[Action]:
-    """The actions of all entities below."""
+    """Return the actions of all child entities."""
     return [make_action(child) for child in entity.children]
 
 

@@ -1,4 +1,4 @@
-"""The elements of an XML file and the keys of a YAML file, as entities with attributes."""
+"""XML elements and YAML keys as entities with attributes."""
 
 from __future__ import annotations
 
@@ -10,42 +10,42 @@ from ..utilities import SCALARS, coerce_to_type, extract_type
 
 
 class Entity:
-    """One entity. What of it has been asked for is kept, so that what is not known can be reported."""
+    """One entity. It records which attributes and children were queried, so that unknown ones can be reported."""
 
     def __init__(self, type_name: str) -> None:
         self.type_name = type_name
-        self._asked: set[str] = set()
+        self._queried: set[str] = set()
 
     @property
     def children(self) -> Sequence[Entity]:
-        """All entities below it."""
+        """All child entities."""
         raise NotImplementedError
 
     def find(self, name: str, data_type: Any = str) -> Any:
-        """An attribute of a type (None: whatever YAML takes it for), or the text that it is; None without it.
+        """Return an attribute converted to a type (None: the type that YAML gives it), or as its text; None if missing.
 
-        TypeError where it is neither.
+        Raises TypeError for a value of another type.
         """
         raise NotImplementedError
 
     def get(self, name: str, data_type: Any = str) -> Any:
-        """An attribute; AttributeError without it."""
+        """Return a required attribute. Raises AttributeError if it is missing."""
         value = self.find(name, data_type)
         if value is None:
             raise AttributeError(f"Attribute '{name}' of type '{data_type}' not found in Entity '{self.type_name}'")
         return value
 
-    def below(self, name: str) -> Sequence[Entity]:
-        """The entities of this name below it."""
+    def children_named(self, name: str) -> Sequence[Entity]:
+        """Return the child entities with this name."""
         raise NotImplementedError
 
-    def require_all_known(self) -> None:
-        """ValueError where it has what nobody has asked for."""
+    def reject_unknown(self) -> None:
+        """Raise ValueError if the entity has attributes or children that were never queried."""
         raise NotImplementedError
 
 
 class XmlEntity(Entity):
-    """An element."""
+    """An XML element."""
 
     def __init__(self, element: ElementTree.Element) -> None:
         super().__init__(element.tag)
@@ -53,12 +53,12 @@ class XmlEntity(Entity):
 
     @property
     def children(self) -> Sequence[Entity]:
-        self._asked.update(f"<{item.tag}>" for item in self._element)
+        self._queried.update(f"<{item.tag}>" for item in self._element)
         return [XmlEntity(item) for item in self._element]
 
     def find(self, name: str, data_type: Any = str) -> Any:
         text = self._element.attrib.get(name)
-        self._asked.update((name, f"{name}-sep"))
+        self._queried.update((name, f"{name}-sep"))
         if text is None:
             return None
         separator = self._element.attrib.get(f"{name}-sep")
@@ -67,21 +67,21 @@ class XmlEntity(Entity):
         item_type = None if data_type is None else extract_type(data_type)[0]
         return [_coerce(item, item_type) for item in text.split(separator)]
 
-    def below(self, name: str) -> Sequence[Entity]:
-        self._asked.add(f"<{name}>")
+    def children_named(self, name: str) -> Sequence[Entity]:
+        self._queried.add(f"<{name}>")
         return [XmlEntity(item) for item in self._element if item.tag == name]
 
-    def require_all_known(self) -> None:
-        tags = {item.tag for item in self._element if f"<{item.tag}>" not in self._asked}
+    def reject_unknown(self) -> None:
+        tags = {item.tag for item in self._element if f"<{item.tag}>" not in self._queried}
         if tags:
             raise ValueError(f"Unexpected nested tag(s) found in `{self.type_name}`: {tags}")
-        attributes = set(self._element.attrib) - self._asked
+        attributes = set(self._element.attrib) - self._queried
         if attributes:
             raise ValueError(f"Unexpected attribute(s) found in `{self.type_name}`: {attributes}")
 
 
 class YamlEntity(Entity):
-    """The value of a key: a mapping, or a list of entities."""
+    """The value of a YAML key: a mapping or a list of entities."""
 
     def __init__(self, type_name: str, value: Any) -> None:
         super().__init__(type_name)
@@ -89,7 +89,7 @@ class YamlEntity(Entity):
 
     @property
     def children(self) -> Sequence[Entity]:
-        self._asked.add("children")
+        self._queried.add("children")
         items = self._value
         if isinstance(items, dict):
             if "children" not in items:
@@ -103,17 +103,17 @@ class YamlEntity(Entity):
         return [YamlEntity(*next(iter(item.items()))) for item in items]
 
     def find(self, name: str, data_type: Any = str) -> Any:
-        self._asked.add(name)
+        self._queried.add(name)
         value = self._mapping.get(name)
-        if value is not None and not _is_of(value, data_type):
+        if value is not None and not _has_type(value, data_type):
             raise TypeError(
                 f"Attribute '{name}' of Entity '{self.type_name}' expected to be of type '{data_type}', "
                 f"got '{type(value)}'"
             )
         return value
 
-    def below(self, name: str) -> Sequence[Entity]:
-        self._asked.add(name)
+    def children_named(self, name: str) -> Sequence[Entity]:
+        self._queried.add(name)
         items = self._mapping.get(name)
         if items is None:
             return []
@@ -125,23 +125,23 @@ class YamlEntity(Entity):
     def _mapping(self) -> dict[str, Any]:
         return self._value if isinstance(self._value, dict) else {}
 
-    def require_all_known(self) -> None:
-        if isinstance(self._value, list) and "children" not in self._asked:
+    def reject_unknown(self) -> None:
+        if isinstance(self._value, list) and "children" not in self._queried:
             raise ValueError(f"Unexpected nested entity(ies) found in `{self.type_name}`: {self._value}")
-        unknown = set(self._mapping) - self._asked
+        unknown = set(self._mapping) - self._queried
         if unknown:
             raise ValueError(f"Unexpected key(s) found in `{self.type_name}`: {unknown}")
 
 
 def _coerce(text: str, data_type: Any) -> Any:
-    """The text as a value of this type; the text itself where it is none, for it may hold substitutions."""
+    """Convert a text to a type; keep the text if that fails, since it may contain substitutions."""
     try:
         return coerce_to_type(text, data_type) if text else text
     except ValueError:
         return text
 
 
-def _is_of(value: Any, data_type: Any) -> bool:
+def _has_type(value: Any, data_type: Any) -> bool:
     if data_type is None:
         items = value if isinstance(value, list) else [value]
         return all(isinstance(item, SCALARS) for item in items)

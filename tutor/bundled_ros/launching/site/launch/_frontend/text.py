@@ -1,7 +1,7 @@
-r"""Texts with substitutions in them: `$(var topic)/raw`, `$(eval '$(var a) + 1')`.
+r"""Parser of texts with substitutions, such as `$(var topic)/raw` or `$(eval '$(var a) + 1')`.
 
-An argument is a word, which may hold substitutions itself, or stands in single or double quotes. A backslash takes the
-meaning off the character behind it.
+An argument is a word or a text in single or double quotes, and may contain substitutions itself. A backslash escapes
+the character that follows it.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ def _command(command: Argument, on_stderr: Argument | None = None) -> Substituti
     return subs.Command(command) if on_stderr is None else subs.Command(command, on_stderr=on_stderr)
 
 
-TABLE: dict[str, tuple[int, int, Callable[..., Any]]] = {
+SUBSTITUTIONS: dict[str, tuple[int, int, Callable[..., Any]]] = {
     "all": (0, 99, subs.AllSubstitution),
     "and": (2, 2, subs.AndSubstitution),
     "anon": (1, 1, subs.AnonName),
@@ -57,14 +57,17 @@ TABLE: dict[str, tuple[int, int, Callable[..., Any]]] = {
     "or": (2, 2, subs.OrSubstitution),
     "var": (1, 2, _var),
 }
-"""For each name the fewest and the most arguments, and what makes the substitution of them."""
+"""For each name, the minimum and maximum number of arguments and the factory of the substitution."""
 
 
-def make(name: str, arguments: Sequence[Argument]) -> Substitution:
-    """The substitution `$(name arguments...)`; RuntimeError, TypeError where there is none such."""
-    if name not in TABLE:
+def make_substitution(name: str, arguments: Sequence[Argument]) -> Substitution:
+    """Build the substitution `$(name arguments...)`.
+
+    Raises RuntimeError for an unknown name, TypeError for a wrong number of arguments.
+    """
+    if name not in SUBSTITUTIONS:
         raise RuntimeError(f"Unknown substitution: {name}")
-    fewest, most, substitution = TABLE[name]
+    fewest, most, substitution = SUBSTITUTIONS[name]
     if not fewest <= len(arguments) <= most:
         expected = f"{fewest}" if fewest == most else f"{fewest} or {most}"
         what = "1 argument" if expected == "1" else f"{expected} arguments" if most else "no arguments"
@@ -77,14 +80,17 @@ _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
 
 
 def parse_substitution(text: str) -> list[Substitution]:
-    """The parts of a text; ValueError, with the place, where it cannot be read, RuntimeError for an unknown name."""
+    """Split a text into its parts.
+
+    Raises ValueError, with the position, for a syntax error, and RuntimeError for an unknown substitution.
+    """
     reader = _Reader(text)
-    parts = reader.until("")
+    parts = reader.read_until("")
     return parts or [TextSubstitution(text="")]
 
 
 def parse_words(text: str) -> list[list[Substitution]]:
-    """The words of a command line, each as its parts. What a substitution gives is not split."""
+    """Split a command line into words, each as its parts. The result of a substitution is not split."""
     words: list[list[Substitution]] = []
     word: list[Substitution] = []
     for part in parse_substitution(text):
@@ -105,88 +111,88 @@ def parse_words(text: str) -> list[list[Substitution]]:
 
 
 class _Reader:
-    """Reads a text from the left."""
+    """Reads a text from left to right."""
 
     def __init__(self, text: str) -> None:
         self._text = text
-        self._at = 0
+        self._position = 0
 
-    def until(self, end: str) -> list[Substitution]:
-        """The parts up to the quote `end`, which is left behind, or up to the end of the text."""
+    def read_until(self, end: str) -> list[Substitution]:
+        """Read the parts up to and including the quote `end`, or up to the end of the text if `end` is empty."""
         parts: list[Substitution] = []
         plain = ""
-        while self._rest() and not (end and self._is_at(end)):
-            if self._is_at("$("):
-                parts += _text(plain)
+        while self._has_more() and not (end and self._is_next(end)):
+            if self._is_next("$("):
+                parts += _as_parts(plain)
                 plain = ""
-                parts.append(self._substitution(end))
+                parts.append(self._read_substitution(end))
             else:
-                plain += self._character()
+                plain += self._read_character()
         if end:
             self._expect(end)
-        return parts + _text(plain)
+        return parts + _as_parts(plain)
 
-    def _substitution(self, quote: str) -> Substitution:
-        start = self._at
+    def _read_substitution(self, quote: str) -> Substitution:
+        start = self._position
         self._expect("$(")
-        name = _NAME.match(self._text, self._at)
+        name = _NAME.match(self._text, self._position)
         if name is None:
             self._fail()
-        self._at = name.end()
+        self._position = name.end()
         arguments = []
-        while self._is_at(" "):
-            self._at += 1
-            arguments.append(self._argument(quote))
-        if not self._is_at(")"):
-            self._at = start if not self._rest() else self._at
+        while self._is_next(" "):
+            self._position += 1
+            arguments.append(self._read_argument(quote))
+        if not self._is_next(")"):
+            self._position = start if not self._has_more() else self._position
             self._fail()
-        self._at += 1
-        return make(name[0], arguments)
+        self._position += 1
+        return make_substitution(name[0], arguments)
 
-    def _argument(self, quote: str) -> list[Substitution]:
-        """`quote`: the one in which the substitution stands; it cannot be used within."""
-        if not quote and self._text[self._at : self._at + 1] in ("'", '"'):
-            opened = self._text[self._at]
-            self._at += 1
-            return self.until(opened)
+    def _read_argument(self, quote: str) -> list[Substitution]:
+        """Read an argument; `quote`, in which the whole substitution is quoted, cannot be used inside it."""
+        if not quote and self._text[self._position : self._position + 1] in ("'", '"'):
+            opened = self._text[self._position]
+            self._position += 1
+            return self.read_until(opened)
         parts: list[Substitution] = []
         plain = ""
         forbidden = quote or "'\""
-        while self._rest() and self._text[self._at] not in " ()":
-            if self._is_at("$("):
-                parts += _text(plain)
+        while self._has_more() and self._text[self._position] not in " ()":
+            if self._is_next("$("):
+                parts += _as_parts(plain)
                 plain = ""
-                parts.append(self._substitution(quote))
-            elif self._text[self._at] in forbidden:
+                parts.append(self._read_substitution(quote))
+            elif self._text[self._position] in forbidden:
                 break
             else:
-                plain += self._character()
-        parts += _text(plain)
+                plain += self._read_character()
+        parts += _as_parts(plain)
         if not parts:
             self._fail()
         return parts
 
-    def _character(self) -> str:
-        if self._is_at("\\") and self._at + 1 < len(self._text):
-            self._at += 1
-        self._at += 1
-        return self._text[self._at - 1]
+    def _read_character(self) -> str:
+        if self._is_next("\\") and self._position + 1 < len(self._text):
+            self._position += 1
+        self._position += 1
+        return self._text[self._position - 1]
 
-    def _rest(self) -> bool:
-        return self._at < len(self._text)
+    def _has_more(self) -> bool:
+        return self._position < len(self._text)
 
-    def _is_at(self, text: str) -> bool:
-        return self._text.startswith(text, self._at)
+    def _is_next(self, text: str) -> bool:
+        return self._text.startswith(text, self._position)
 
     def _expect(self, text: str) -> None:
-        if not self._is_at(text):
+        if not self._is_next(text):
             self._fail()
-        self._at += len(text)
+        self._position += len(text)
 
     def _fail(self) -> NoReturn:
-        found = f"unexpected {self._text[self._at]!r}" if self._rest() else "it ends too early"
-        raise ValueError(f"the substitution in '{self._text}' cannot be read: {found} at column {self._at + 1}")
+        found = f"unexpected {self._text[self._position]!r}" if self._has_more() else "it ends too early"
+        raise ValueError(f"the substitution in '{self._text}' cannot be read: {found} at column {self._position + 1}")
 
 
-def _text(plain: str) -> list[Substitution]:
+def _as_parts(plain: str) -> list[Substitution]:
     return [TextSubstitution(text=plain)] if plain else []

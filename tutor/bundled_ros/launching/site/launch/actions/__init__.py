@@ -1,4 +1,4 @@
-"""The actions."""
+"""Actions."""
 
 from ._composition import GroupAction, IncludeLaunchDescription, LogInfo, OpaqueFunction, Shutdown
 from ._events import EmitEvent, RegisterEventHandler, TimerAction, UnregisterEventHandler

@@ -1,4 +1,4 @@
-"""Actions that bring others, LogInfo, and Shutdown."""
+"""Actions that yield other actions, LogInfo and Shutdown."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from ._scope import (
 
 
 class LogInfo(Action):
-    """Says something, as `[INFO] [launch.user]`."""
+    """Logs a message as `[INFO] [launch.user]`."""
 
     def __init__(self, *, msg: SomeSubstitutionsType, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -41,7 +41,7 @@ class LogInfo(Action):
 
 
 class OpaqueFunction(Action):
-    """Calls the function with the context and the arguments; the entities that it returns are visited next."""
+    """Calls a function with the context and the arguments; the entities that it returns are visited next."""
 
     def __init__(
         self,
@@ -65,11 +65,11 @@ class OpaqueFunction(Action):
 
 
 class GroupAction(Action):
-    """Visits the actions, after setting the launch configurations given.
+    """Visits actions after setting the given launch configurations.
 
-    Scoped, what they set ends with the group; without forwarding, they start with the launch configurations given
-    and no others, and with the environment that the launch was started with. Not scoped, it is as if there were no
-    group.
+    If scoped, changes to launch configurations and environment end with the group. Without forwarding, the actions
+    start with the given launch configurations only, and with the launch's initial environment. If not scoped, the
+    actions behave as if there were no group.
     """
 
     def __init__(
@@ -90,21 +90,21 @@ class GroupAction(Action):
 
     def get_sub_entities(self) -> Sequence[LaunchDescriptionEntity]:
         if self._entities is None:
-            self._entities = self._in_scope()
+            self._entities = self._scoped_entities()
         return self._entities
 
     def execute(self, context: LaunchContext) -> Sequence[LaunchDescriptionEntity]:
         return self.get_sub_entities()
 
-    def _in_scope(self) -> list[LaunchDescriptionEntity]:
+    def _scoped_entities(self) -> list[LaunchDescriptionEntity]:
         settings = [SetLaunchConfiguration(name, value) for name, value in self._configurations.items()]
         if not self._scoped:
             return [*settings, *self._actions]
-        clean = [ResetEnvironment(), ResetLaunchConfigurations(self._configurations)]
+        reset = [ResetEnvironment(), ResetLaunchConfigurations(self._configurations)]
         return [
             PushLaunchConfigurations(),
             PushEnvironment(),
-            *(settings if self._forwarding else clean),
+            *(settings if self._forwarding else reset),
             *self._actions,
             PopEnvironment(),
             PopLaunchConfigurations(),
@@ -114,7 +114,7 @@ class GroupAction(Action):
 class IncludeLaunchDescription(Action):
     """Visits another launch description in place, after setting the launch arguments.
 
-    It is no scope: the arguments, and whatever the other file sets, stay set afterwards.
+    This is not a scope: the arguments, and whatever the other file sets, stay set afterwards.
     """
 
     def __init__(
@@ -169,11 +169,11 @@ class IncludeLaunchDescription(Action):
         try:
             return self._argument_names(LaunchContext())
         except Exception:
-            return []  # a name that is known only when the file runs
+            return []  # a name that is not known until the file runs
 
 
 class Shutdown(EmitEvent):
-    """Ends the launch: every process is asked to end."""
+    """Shuts the launch down: all processes are asked to end."""
 
     def __init__(self, *, reason: str = "reason not given", **kwargs: Any) -> None:
         super().__init__(event=ShutdownEvent(reason=reason), **kwargs)

@@ -1,4 +1,4 @@
-"""How a process is brought to its end."""
+"""Terminating a process."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 class OnTargeted(BaseEventHandler):
-    """An event of one class that asks something of one action's process."""
+    """Handles events of one class that target one action's process."""
 
     def __init__(
         self,
@@ -37,7 +37,7 @@ class OnTargeted(BaseEventHandler):
 
 
 class Escalation:
-    """SIGTERM some time after SIGINT, and SIGKILL some time after that, for a process that does not end."""
+    """Escalates from SIGINT to SIGTERM to SIGKILL, after timeouts, for a process that does not end."""
 
     def __init__(
         self,
@@ -48,18 +48,18 @@ class Escalation:
     ) -> None:
         self._action = action
         self._logger = logger
-        both = PythonExpression(["float(", *sigterm_timeout, ") + float(", *sigkill_timeout, ")"])
+        both_timeouts = PythonExpression(["float(", *sigterm_timeout, ") + float(", *sigkill_timeout, ")"])
         self._timers = [
             self._timer(sigterm_timeout, signal.SIGINT, signal.SIGTERM),
-            self._timer([both], signal.SIGTERM, signal.SIGKILL),
+            self._timer([both_timeouts], signal.SIGTERM, signal.SIGKILL),
         ]
 
     def actions(self, *, send_sigint: bool) -> list[Action]:
-        """What starts it."""
+        """Return the actions that start the escalation."""
         return [*self._timers, *([self._send(signal.SIGINT)] if send_sigint else [])]
 
     def cancel(self) -> None:
-        """The process has ended."""
+        """Stop the escalation, as the process has ended."""
         for timer in self._timers:
             timer.cancel()
 
@@ -67,20 +67,20 @@ class Escalation:
         event = SignalProcess(signal_number=number, process_matcher=matches_action(self._action))
         return EmitEvent(event=event)
 
-    def _timer(self, period: list[Substitution], failed: signal.Signals, next_one: signal.Signals) -> TimerAction:
+    def _timer(self, period: list[Substitution], ignored: signal.Signals, next_signal: signal.Signals) -> TimerAction:
         def report(context: LaunchContext) -> None:
             details = self._action.process_details or {}
             seconds = perform_substitutions(context, period)
             self._logger.error(
                 f"process[{details.get('name')}] failed to terminate '{seconds}' seconds after receiving "
-                f"'{failed.name}', escalating to '{next_one.name}'"
+                f"'{ignored.name}', escalating to '{next_signal.name}'"
             )
 
-        actions = [OpaqueFunction(function=report), self._send(next_one)]
+        actions = [OpaqueFunction(function=report), self._send(next_signal)]
         return TimerAction(period=period, actions=actions, cancel_on_shutdown=False)
 
 
 def signal_of(event: SignalProcess) -> signal.Signals:
-    """The signal that an event asks for, by number or by name."""
-    asked = event.signal
-    return signal.Signals[asked] if isinstance(asked, str) else asked
+    """Return the signal that an event requests by number or by name."""
+    requested = event.signal
+    return signal.Signals[requested] if isinstance(requested, str) else requested

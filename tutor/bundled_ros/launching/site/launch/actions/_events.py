@@ -1,4 +1,4 @@
-"""Actions on events and their handlers, and timers."""
+"""Actions that emit events or (un)register handlers, and timers."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from ._scope import PopLaunchConfigurations
 
 
 class EmitEvent(Action):
-    """Emits the event."""
+    """Emits an event."""
 
     def __init__(self, *, event: Event, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -40,7 +40,7 @@ class EmitEvent(Action):
 
 
 class RegisterEventHandler(Action):
-    """From here on the handler gets the events that match."""
+    """Registers an event handler."""
 
     def __init__(self, event_handler: BaseEventHandler, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -51,15 +51,15 @@ class RegisterEventHandler(Action):
         return self._event_handler
 
     def describe_conditional_sub_entities(self) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
-        words, entities = self._event_handler.describe()
-        return [(words, entities)] if entities else []
+        description, entities = self._event_handler.describe()
+        return [(description, entities)] if entities else []
 
     def execute(self, context: LaunchContext) -> None:
         context.register_event_handler(self._event_handler)
 
 
 class UnregisterEventHandler(Action):
-    """From here on the handler gets no events."""
+    """Removes an event handler."""
 
     def __init__(self, event_handler: BaseEventHandler, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -74,7 +74,7 @@ class UnregisterEventHandler(Action):
 
 
 class _OnTimer(BaseEventHandler):
-    """Has the actions visited of whichever timer has fired, with what was known when they were set."""
+    """Visits the actions of the timer that has fired, with the locals and launch configurations of its start."""
 
     def __init__(self) -> None:
         super().__init__(matcher=lambda event: isinstance(event, TimerEvent))
@@ -86,9 +86,9 @@ class _OnTimer(BaseEventHandler):
 
 
 class TimerAction(Action):
-    """Visits the actions when `period` seconds are over, unless it is cancelled, or the launch ends, before.
+    """Visits actions after `period` seconds, unless the timer is cancelled or the launch shuts down first.
 
-    They see the launch configurations as they were when the timer was set, and are a scope of them.
+    The actions see the launch configurations as they were when the timer started, in a scope of their own.
     """
 
     def __init__(
@@ -126,7 +126,7 @@ class TimerAction(Action):
         return [(f"{self._period} seconds pass without being canceled", self._actions)]
 
     def cancel(self) -> None:
-        """Never visit the actions, if that has not been done yet."""
+        """Cancel the timer, unless it has already fired."""
         self._is_cancelled = True
         if self._cancelled is not None and not self._cancelled.done():
             self._cancelled.set_result(None)
@@ -150,8 +150,8 @@ class TimerAction(Action):
         self._locals = context.get_locals_as_dict()
         self._configurations = dict(context.launch_configurations)
         period = perform_typed_substitution(context, self._period, float)
-        waiting = loop.create_task(self._wait(context, period, self._cancelled, self._completed))
-        self._completed.add_done_callback(lambda _: waiting.done())  # the task lives as long as the future
+        task = loop.create_task(self._wait(context, period, self._cancelled, self._completed))
+        self._completed.add_done_callback(lambda _: task.done())  # keeps the task alive as long as the future
         if perform_typed_substitution(context, self._cancel_on_shutdown, bool):
             on_shutdown: Callable[..., None] = lambda event, context: self.cancel()  # noqa: E731
             context.register_event_handler(OnShutdown(on_shutdown=on_shutdown))

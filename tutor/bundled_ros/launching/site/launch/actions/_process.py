@@ -1,4 +1,4 @@
-"""Processes and commands."""
+"""Actions that start processes."""
 
 from __future__ import annotations
 
@@ -42,10 +42,10 @@ Output = SomeSubstitutionsType | Mapping[str, Any]
 
 
 class ExecuteLocal(Action):
-    """Starts a process, shows its output, reports its end; ends it when the launch ends.
+    """Starts a process, shows its output, reports its end, and terminates it when the launch shuts down.
 
     Timeouts and delays are in seconds. `output` says where stdout and stderr go: "log" (the default: both to the log
-    file, stderr to the screen as well), "screen", "both", "own_log", "full", or a dict of these for each.
+    file, stderr to the screen as well), "screen", "both", "own_log" or "full", or a dict with one setting per stream.
     """
 
     def __init__(
@@ -69,8 +69,8 @@ class ExecuteLocal(Action):
         super().__init__(**kwargs)
         self._description = process_description
         self._shell = shell
-        self._sigterm_timeout = _timeout("sigterm_timeout", sigterm_timeout)
-        self._sigkill_timeout = _timeout("sigkill_timeout", sigkill_timeout)
+        self._sigterm_timeout = _normalize_timeout("sigterm_timeout", sigterm_timeout)
+        self._sigkill_timeout = _normalize_timeout("sigkill_timeout", sigkill_timeout)
         self._emulate_tty = emulate_tty
         output = os.environ.get("OVERRIDE_LAUNCH_PROCESS_OUTPUT", output)
         self._output = output if isinstance(output, Mapping) else normalize_to_list_of_substitutions(output)
@@ -88,7 +88,7 @@ class ExecuteLocal(Action):
         self._process: _subprocess.Process | None = None
         self._last_returncode: int | None = None
         self._completed: asyncio.Future[None] | None = None
-        self._asked_to_end: asyncio.Future[None] | None = None
+        self._end_requested: asyncio.Future[None] | None = None
         self._escalation: _ending.Escalation | None = None
         self._task: asyncio.Task[None] | None = None
 
@@ -118,20 +118,20 @@ class ExecuteLocal(Action):
 
     @property
     def process_details(self) -> dict[str, Any] | None:
-        """action, name, cmd, cwd, env, and pid once it runs; None before it is executed."""
+        """The action, name, cmd, cwd and env, and the pid once it runs; None before the action is executed."""
         return self._details
 
     @property
     def return_code(self) -> int | None:
-        """Of the process, when it has ended; -N: ended by signal N."""
+        """The return code of the process once it has ended (-N: killed by signal N)."""
         return self._last_returncode
 
     def get_stdout(self) -> str:
-        """All that it has printed; RuntimeError without `cached_output`."""
+        """Return everything the process has printed to stdout. Raises RuntimeError without `cached_output`."""
         return self._cached(self._stdout)
 
     def get_stderr(self) -> str:
-        """All that it has printed to stderr; RuntimeError without `cached_output`."""
+        """Return everything the process has printed to stderr. Raises RuntimeError without `cached_output`."""
         return self._cached(self._stderr)
 
     def _cached(self, lines: Lines) -> str:
@@ -146,7 +146,7 @@ class ExecuteLocal(Action):
         return self._completed
 
     def prepare(self, context: LaunchContext) -> None:
-        """Find what is to be started, and how."""
+        """Expand the description into the command, the environment and the rest of what is started."""
         description = self._description
         description.prepare(context, self)
         self._details = {
@@ -165,15 +165,15 @@ class ExecuteLocal(Action):
             raise RuntimeError(f"ExecuteLocal action '{name}': executed more than once: {self.describe()}")
         self._executed = True
         if context.is_shutdown:
-            return None  # nothing is started any more
+            return None  # start nothing during the shutdown
         output = self._output if isinstance(self._output, Mapping) else perform_substitutions(context, self._output)
         to_stdout, to_stderr = get_output_loggers(name, output)
         self._logger = get_logger(name)
         self._stdout = Lines(lambda line: to_stdout.info(self._output_format.format(line=line, this=self)))
         self._stderr = Lines(lambda line: to_stderr.info(self._output_format.format(line=line, this=self)))
         for handler in (
-            _ending.OnTargeted(ShutdownProcess, self, lambda _, context: self._end(context, send_sigint=True)),
-            _ending.OnTargeted(SignalProcess, self, lambda event, _: self._signal(event)),
+            _ending.OnTargeted(ShutdownProcess, self, lambda _, context: self._terminate(context, send_sigint=True)),
+            _ending.OnTargeted(SignalProcess, self, lambda event, _: self._send_signal(event)),
             OnProcessIO(target_action=self, on_stdout=self._on_stdout, on_stderr=self._on_stderr),
             OnShutdown(on_shutdown=self._on_shutdown),
             OnProcessExit(target_action=self, on_exit=self._on_exit),
@@ -181,16 +181,16 @@ class ExecuteLocal(Action):
         ):
             context.register_event_handler(handler)
         self._completed = context.asyncio_loop.create_future()
-        self._asked_to_end = context.asyncio_loop.create_future()
-        # An error in what is visited next must not make the launch forget this process.
+        self._end_requested = context.asyncio_loop.create_future()
+        # An error in an entity that is visited next must not make the launch forget this process.
         context.add_completion_future(self._completed)
         self._starting = True
-        self._task = context.asyncio_loop.create_task(self._run(context, self._asked_to_end))
-        context._not_yet_started.append(self._give_up)
+        self._task = context.asyncio_loop.create_task(self._run(context, self._end_requested))
+        context._start_cancellers.append(self._cancel_start)
         return None
 
-    def _give_up(self) -> None:
-        """Do not start it: what was visited with it is wrong."""
+    def _cancel_start(self) -> None:
+        """Cancel the start, because another entity of the same visit failed."""
         self._starting = False
         if self._task is not None:
             self._task.cancel()
@@ -199,13 +199,13 @@ class ExecuteLocal(Action):
 
     # --- the life of the process
 
-    async def _run(self, context: LaunchContext, asked_to_end: asyncio.Future[None]) -> None:
+    async def _run(self, context: LaunchContext, end_requested: asyncio.Future[None]) -> None:
         try:
-            while await self._run_once(context) and self._is_respawned(context, asked_to_end):
+            while await self._run_once(context) and self._should_respawn(context, end_requested):
                 self._respawns += 1
                 if self._respawn_delay is not None and self._respawn_delay > 0.0:
-                    await asyncio.wait([asked_to_end], timeout=self._respawn_delay)
-                if asked_to_end.done():
+                    await asyncio.wait([end_requested], timeout=self._respawn_delay)
+                if end_requested.done():
                     break
                 self._starting = True
         finally:
@@ -214,13 +214,13 @@ class ExecuteLocal(Action):
             if self._completed is not None and not self._completed.done():
                 self._completed.set_result(None)
 
-    def _is_respawned(self, context: LaunchContext, asked_to_end: asyncio.Future[None]) -> bool:
-        if context.is_shutdown or asked_to_end.done() or not self._respawn:
+    def _should_respawn(self, context: LaunchContext, end_requested: asyncio.Future[None]) -> bool:
+        if context.is_shutdown or end_requested.done() or not self._respawn:
             return False
         return self._respawn_max_retries < 0 or self._respawns < self._respawn_max_retries
 
     async def _run_once(self, context: LaunchContext) -> bool:
-        """Start the process and await its end; False where it could not be started."""
+        """Start the process and wait for its end. Return False if it could not be started."""
         details = self._details
         assert details is not None
         shown = " ".join(word for word in details["cmd"] if word.strip())
@@ -232,15 +232,15 @@ class ExecuteLocal(Action):
                 cwd=details["cwd"],
                 env=details["env"],
                 shell=self._shell,
-                emulate_tty=self._wants_tty(context),
+                emulate_tty=self._emulates_tty(context),
                 on_start=lambda process: self._on_start(context, process),
                 on_stdout=lambda data: context.emit_event_sync(ProcessStdout(text=data, **details)),
                 on_stderr=lambda data: context.emit_event_sync(ProcessStderr(text=data, **details)),
             )
         except (OSError, ValueError) as error:
             self._starting = False
-            why = "".join(traceback.format_exception_only(error)).rstrip()
-            self._logger.error(f"exception occurred while executing process:\n{why}")
+            reason = "".join(traceback.format_exception_only(error)).rstrip()
+            self._logger.error(f"exception occurred while executing process:\n{reason}")
             return False
         returncode = self._last_returncode = await process.wait()
         self._process = None
@@ -262,13 +262,13 @@ class ExecuteLocal(Action):
         self._details["pid"] = process.pid
         context._queue(ProcessStarted(**self._details), "emitting event")
 
-    def _wants_tty(self, context: LaunchContext) -> bool:
-        word = context.launch_configurations.get("emulate_tty")
-        if word is None:
+    def _emulates_tty(self, context: LaunchContext) -> bool:
+        configured = context.launch_configurations.get("emulate_tty")
+        if configured is None:
             return self._emulate_tty
-        return evaluate_condition_expression(context, normalize_to_list_of_substitutions(word))
+        return evaluate_condition_expression(context, normalize_to_list_of_substitutions(configured))
 
-    # --- what events lead to
+    # --- event handlers
 
     def _on_stdout(self, event: ProcessIO) -> None:
         self._stdout.feed(event.text, keep=self._cached_output)
@@ -281,48 +281,48 @@ class ExecuteLocal(Action):
         self._stderr.flush()
 
     def _on_shutdown(self, event: ShutdownEvent, context: LaunchContext) -> SomeEntitiesType | None:
-        # After Ctrl+C in a terminal the process has had its SIGINT from there.
-        return self._end(context, send_sigint=not event.due_to_sigint or context.noninteractive)
+        # After Ctrl+C, the terminal has already sent SIGINT to the process.
+        return self._terminate(context, send_sigint=not event.due_to_sigint or context.noninteractive)
 
-    def _end(self, context: LaunchContext, *, send_sigint: bool) -> SomeEntitiesType | None:
-        """Ask the process to end: SIGINT, then SIGTERM, then SIGKILL."""
-        if self._asked_to_end is None or self._asked_to_end.done():
+    def _terminate(self, context: LaunchContext, *, send_sigint: bool) -> SomeEntitiesType | None:
+        """Terminate the process: SIGINT, then SIGTERM, then SIGKILL."""
+        if self._end_requested is None or self._end_requested.done():
             return None
         if self._starting:
-            # It does not run yet, and did not get what the terminal sent.
+            # It is not running yet, so it did not get the terminal's SIGINT.
             context.register_event_handler(
                 OnProcessStart(
                     target_action=lambda action: action is self,
-                    on_start=lambda _, context: self._end(context, send_sigint=True),
+                    on_start=lambda _, context: self._terminate(context, send_sigint=True),
                     handle_once=True,
                 )
             )
             return None
-        self._asked_to_end.set_result(None)
+        self._end_requested.set_result(None)
         if self._process is None:
             return None
         self._escalation = _ending.Escalation(self, self._logger, self._sigterm_timeout, self._sigkill_timeout)
         return self._escalation.actions(send_sigint=send_sigint)
 
-    def _signal(self, event: SignalProcess) -> None:
+    def _send_signal(self, event: SignalProcess) -> None:
         if self._details is None:
             raise RuntimeError("Signal event received before execution.")
         if self._process is None:
-            return  # it has ended, or has not started
+            return  # not running: ended or not started yet
         self._logger.info(f"sending signal '{event.signal_name}' to process[{self._details['name']}]")
-        with contextlib.suppress(ProcessLookupError):  # it has ended meanwhile; nobody minds
+        with contextlib.suppress(ProcessLookupError):  # it has just ended, which is fine
             self._process.send(_ending.signal_of(event))
 
 
-def _timeout(name: str, given: SomeSubstitutionsType | None) -> Any:
+def _normalize_timeout(name: str, given: SomeSubstitutionsType | None) -> Any:
     return normalize_to_list_of_substitutions(LaunchConfiguration(name, default=5) if given is None else given)
 
 
 class ExecuteProcess(ExecuteLocal):
-    """Starts a command: a list of words, each a text, a substitution or several of them joined.
+    """Starts a command: a list of words, each a text, a substitution or several of these, which are concatenated.
 
-    `env` is the whole environment, `additional_env` is added to it, or to that of the launch. `name` is what the
-    process is called in messages; a number is added.
+    `env` is the whole environment; `additional_env` is added to it, or to the launch's own environment. `name` is the
+    name of the process in messages, where a number is appended.
     """
 
     def __init__(
@@ -341,12 +341,12 @@ class ExecuteProcess(ExecuteLocal):
 
     @property
     def name(self) -> Any:
-        """The name with its number, once it is executed; what was given, before."""
+        """The numbered name once the action is executed; before that, the name as given."""
         return self._description.final_name or self._description.name
 
     @property
     def cmd(self) -> Any:
-        """The words, once it is executed; what was given, before."""
+        """The expanded words once the action is executed; before that, the command as given."""
         return self._description.final_cmd or self._description.cmd
 
     @property

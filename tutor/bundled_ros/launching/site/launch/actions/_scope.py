@@ -1,4 +1,4 @@
-"""Actions on what holds for the actions behind them: arguments, launch configurations, environment."""
+"""Actions that change the state later actions see: arguments, launch configurations and the environment."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from ..utilities import (
 
 
 class DeclareLaunchArgument(Action):
-    """A launch configuration that `name:=value` on the command line sets, or else the default."""
+    """Declares a launch configuration that is set by `name:=value` on the command line, or else by its default."""
 
     def __init__(
         self,
@@ -86,7 +86,7 @@ def _describe(description: str | None, choices: Sequence[str] | None) -> str:
 
 
 class SetLaunchConfiguration(Action):
-    """Whatever is visited from here on, in this scope, sees the launch configuration with this value."""
+    """Sets a launch configuration for the rest of the current scope."""
 
     def __init__(self, name: SomeSubstitutionsType, value: SomeSubstitutionsType, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -107,7 +107,7 @@ class SetLaunchConfiguration(Action):
 
 
 class UnsetLaunchConfiguration(Action):
-    """The launch configuration is not set from here on."""
+    """Removes a launch configuration."""
 
     def __init__(self, name: SomeSubstitutionsType, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -122,21 +122,21 @@ class UnsetLaunchConfiguration(Action):
 
 
 class PushLaunchConfigurations(Action):
-    """What is set from here on is forgotten at the next PopLaunchConfigurations."""
+    """Saves the launch configurations, to be restored by PopLaunchConfigurations."""
 
     def execute(self, context: LaunchContext) -> None:
         context._push_launch_configurations()
 
 
 class PopLaunchConfigurations(Action):
-    """Brings back the launch configurations of the last PushLaunchConfigurations."""
+    """Restores the launch configurations saved by the last PushLaunchConfigurations."""
 
     def execute(self, context: LaunchContext) -> None:
         context._pop_launch_configurations()
 
 
 class ResetLaunchConfigurations(Action):
-    """Forgets all launch configurations but those given, whose values may still use the old ones."""
+    """Removes all launch configurations but the given ones, whose values may still refer to the old ones."""
 
     def __init__(
         self,
@@ -148,22 +148,22 @@ class ResetLaunchConfigurations(Action):
 
     def execute(self, context: LaunchContext) -> None:
         kept = {
-            perform_substitutions(context, normalize_to_list_of_substitutions(name)): _value(context, value)
+            perform_substitutions(context, normalize_to_list_of_substitutions(name)): _expand(context, value)
             for name, value in self._kept.items()
         }
         context.launch_configurations.clear()
         context.launch_configurations.update(kept)
 
 
-def _value(context: LaunchContext, value: Any) -> Any:
-    """A text or a substitution as its text. Anything else, a list among it, stays what it is, as in the original."""
+def _expand(context: LaunchContext, value: Any) -> Any:
+    """Expand a text or a substitution. Anything else, such as a list, stays unchanged, as in the original."""
     if not isinstance(value, str | Substitution):
         return value
     return perform_substitutions(context, normalize_to_list_of_substitutions(value))
 
 
 class SetEnvironmentVariable(Action):
-    """Processes started from here on, in this scope, have the variable."""
+    """Sets an environment variable for processes started later in the current scope."""
 
     def __init__(self, name: SomeSubstitutionsType, value: SomeSubstitutionsType, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -184,7 +184,7 @@ class SetEnvironmentVariable(Action):
 
 
 class AppendEnvironmentVariable(Action):
-    """Puts a value behind (with `prepend`: before) what a variable holds; sets it where it holds nothing."""
+    """Appends (with `prepend`: prepends) a value to an environment variable, or sets the variable if it is unset."""
 
     def __init__(
         self,
@@ -218,7 +218,7 @@ class AppendEnvironmentVariable(Action):
 
 
 class UnsetEnvironmentVariable(Action):
-    """Processes started from here on do not have the variable."""
+    """Removes an environment variable for processes started later."""
 
     def __init__(self, name: SomeSubstitutionsType, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -233,21 +233,21 @@ class UnsetEnvironmentVariable(Action):
 
 
 class PushEnvironment(Action):
-    """What is set from here on is forgotten at the next PopEnvironment."""
+    """Saves the environment, to be restored by PopEnvironment."""
 
     def execute(self, context: LaunchContext) -> None:
         context._push_environment()
 
 
 class PopEnvironment(Action):
-    """Brings back the environment of the last PushEnvironment."""
+    """Restores the environment saved by the last PushEnvironment."""
 
     def execute(self, context: LaunchContext) -> None:
         context._pop_environment()
 
 
 class ResetEnvironment(Action):
-    """Brings back the environment that the launch was started with."""
+    """Restores the environment that the launch was started with."""
 
     def execute(self, context: LaunchContext) -> None:
         context._reset_environment()

@@ -1,4 +1,4 @@
-"""The substitutions."""
+"""Substitutions."""
 
 from .._entities import SubstitutionFailure, TextSubstitution
 from ._logic import (

@@ -19,7 +19,7 @@ from ..utilities import (
 
 
 class _Boolean(Substitution):
-    """Combines truth values into `true` or `false`; each is evaluated."""
+    """Combines truth values into `true` or `false`, without short-circuiting."""
 
     _combine: Callable[[Iterable[bool]], bool]
 
@@ -54,7 +54,7 @@ class AllSubstitution(_Boolean):
 
 
 class NotSubstitution(_Boolean):
-    """Whether it is false."""
+    """Whether the value is false."""
 
     _combine = staticmethod(lambda values: not any(values))
 
@@ -97,7 +97,7 @@ TRUE, FALSE = ("true", "1"), ("false", "0")
 
 
 class EqualsSubstitution(Substitution):
-    """`true` where both are the same truth value, the same number, or the same text."""
+    """`true` if both are the same truth value, the same number or the same text."""
 
     def __init__(self, left: Any, right: Any) -> None:
         self._left = normalize_to_list_of_substitutions(_text(left))
@@ -119,7 +119,7 @@ class EqualsSubstitution(Substitution):
 
     def _equal(self, context: LaunchContext) -> bool:
         left, right = perform_substitutions(context, self._left), perform_substitutions(context, self._right)
-        truths = [_truth(left), _truth(right)]
+        truths = [_parse_bool(left), _parse_bool(right)]
         if None not in truths:
             return truths[0] == truths[1]
         try:
@@ -136,19 +136,19 @@ def _text(value: Any) -> Any:
     return str(value).lower() if isinstance(value, bool) else str(value)
 
 
-def _truth(text: str) -> bool | None:
+def _parse_bool(text: str) -> bool | None:
     return True if text.lower() in TRUE else False if text.lower() in FALSE else None
 
 
 class NotEqualsSubstitution(EqualsSubstitution):
-    """`true` where the two do not mean the same."""
+    """`true` if the two are not equal in the sense of EqualsSubstitution."""
 
     def perform(self, context: LaunchContext) -> str:
         return str(not self._equal(context)).lower()
 
 
 class IfElseSubstitution(Substitution):
-    """The first text where the condition is true, else the second."""
+    """The first text if the condition is true, else the second."""
 
     def __init__(
         self,
@@ -186,7 +186,7 @@ class IfElseSubstitution(Substitution):
 
 
 class PythonExpression(Substitution):
-    """The text of what the expression evaluates to; it knows the modules named, and what `math` holds."""
+    """The result of a Python expression as a text. It can use the given modules, and the names in `math` directly."""
 
     def __init__(self, expression: SomeSubstitutionsType, python_modules: SomeSubstitutionsType = ("math",)) -> None:
         ensure_argument_type(expression, (str, Substitution, Iterable), "expression", "PythonExpression")
@@ -213,5 +213,5 @@ class PythonExpression(Substitution):
             if module.__name__ == "math":
                 names.update(vars(module))
             names[module.__name__] = module
-        # The launch file is the learner's own code: its expressions may do what it may do.
+        # The launch file is the learner's own code, so its expressions may do whatever it may do.
         return str(eval(perform_substitutions(context, self._expression), {}, names))

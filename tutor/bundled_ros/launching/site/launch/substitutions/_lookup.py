@@ -21,7 +21,7 @@ from ..utilities import ensure_argument_type, normalize_to_list_of_substitutions
 
 
 class LaunchConfiguration(Substitution):
-    """An argument's value, or that of SetLaunchConfiguration; `default` where there is none."""
+    """The value of a launch argument or of SetLaunchConfiguration; `default` if it is not set."""
 
     def __init__(self, variable_name: SomeSubstitutionsType, *, default: Any = None) -> None:
         self._name = normalize_to_list_of_substitutions(variable_name)
@@ -44,13 +44,13 @@ class LaunchConfiguration(Substitution):
 
 
 def _texts(default: Any) -> list[str | Substitution]:
-    """A default may be anything that has a text, or several."""
+    """Convert a default, which may be any value or several, to texts and substitutions."""
     items = [default] if isinstance(default, str) or not isinstance(default, Iterable) else list(default)
     return [item if isinstance(item, str | Substitution) else str(item) for item in items]
 
 
 class EnvironmentVariable(Substitution):
-    """A variable of the launch's environment, or the default where it is not set."""
+    """A variable of the launch's environment, or the default if it is not set."""
 
     def __init__(self, name: SomeSubstitutionsType, *, default_value: SomeSubstitutionsType | None = None) -> None:
         self._name = normalize_to_list_of_substitutions(name)
@@ -77,7 +77,7 @@ class EnvironmentVariable(Substitution):
 
 
 class LocalSubstitution(Substitution):
-    """An expression on the locals, `event.reason` for instance."""
+    """An expression on the locals, such as `event.reason`."""
 
     def __init__(self, expression: str, description: str | None = None) -> None:
         ensure_argument_type(expression, str, "expression", "LocalSubstitution")
@@ -101,7 +101,7 @@ class LocalSubstitution(Substitution):
 
 
 class AnonName(Substitution):
-    """The name with a unique ending; the same one wherever a launch asks for the same name."""
+    """The name with a unique suffix, which is the same throughout a launch."""
 
     def __init__(self, name: SomeSubstitutionsType) -> None:
         self._name = normalize_to_list_of_substitutions(name)
@@ -121,9 +121,9 @@ class AnonName(Substitution):
 
 
 class PathJoinSubstitution(Substitution):
-    """The parts, each a text, a path, a substitution or several of them, joined as os.path.join does.
+    """Parts joined as by os.path.join, each a text, a path, a substitution or several of these.
 
-    `path / part` is the path with one more part.
+    `path / part` appends a part.
     """
 
     def __init__(self, substitutions: SomeSubstitutionsType | Iterable[SomeSubstitutionsType]) -> None:
@@ -145,14 +145,14 @@ class PathJoinSubstitution(Substitution):
 
 
 class PathSubstitution(PathJoinSubstitution):
-    """One path, to which parts can be added: `PathSubstitution(FindPackageShare('demo')) / 'config' / 'x.yaml'`."""
+    """A path to which parts can be appended: `PathSubstitution(FindPackageShare('demo')) / 'config' / 'x.yaml'`."""
 
     def __init__(self, path: SomeSubstitutionsType) -> None:
         super().__init__([path])
 
 
 class FoundPath(PathSubstitution):
-    """The base of substitutions that find a folder."""
+    """Base class of substitutions that find a folder."""
 
     def __init__(self) -> None:
         super().__init__(self)
@@ -185,7 +185,7 @@ class ThisLaunchFileDir(FoundPath):
 
 
 class LaunchLogDir(FoundPath):
-    """The folder in which this launch and what it starts log."""
+    """The log folder of this launch and its processes."""
 
     def describe(self) -> str:
         return "LaunchLogDir()"
@@ -195,7 +195,7 @@ class LaunchLogDir(FoundPath):
 
 
 class FindExecutable(Substitution):
-    """Where the command is on the PATH."""
+    """The path of a command on PATH."""
 
     def __init__(self, *, name: SomeSubstitutionsType) -> None:
         self._name = normalize_to_list_of_substitutions(name)
@@ -216,7 +216,7 @@ class FindExecutable(Substitution):
 
 
 class FileContent(Substitution):
-    """The text in a file."""
+    """The content of a text file."""
 
     def __init__(self, path: SomeSubstitutionsType) -> None:
         self._path = normalize_to_list_of_substitutions(path)
@@ -237,7 +237,7 @@ class FileContent(Substitution):
 
 
 class Command(Substitution):
-    """What the command prints; a failing command fails, and so does one that prints errors, unless told otherwise."""
+    """The output of a command. Fails if the command fails or, depending on `on_stderr`, if it prints to stderr."""
 
     def __init__(self, command: SomeSubstitutionsType, *, on_stderr: SomeSubstitutionsType = "fail") -> None:
         self._command = normalize_to_list_of_substitutions(command)

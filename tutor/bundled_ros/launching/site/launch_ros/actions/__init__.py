@@ -1,4 +1,4 @@
-"""The actions that know ROS."""
+"""ROS-specific actions."""
 
 from ._composable import ComposableNodeContainer, LoadComposableNodes
 from ._lifecycle import LifecycleNode, LifecycleTransition

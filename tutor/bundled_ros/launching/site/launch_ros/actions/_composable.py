@@ -14,12 +14,11 @@ from ..descriptions import ComposableNode
 from ._node import Node
 
 CONTAINERS = "rclcpp_components"
-
 """The package of the usual containers, which are C++."""
 
 
 class ComposableNodeContainer(Node):
-    """Starts a container as the node that it is. Loading nodes into it needs an installed ROS 2."""
+    """Starts a container as a plain node. Loading nodes into it needs an installed ROS 2."""
 
     def __init__(
         self,
@@ -35,7 +34,7 @@ class ComposableNodeContainer(Node):
     def execute(self, context: LaunchContext) -> Sequence[LaunchDescriptionEntity] | None:
         nodes = [node for node in self._descriptions if node.is_wanted(context)]
         if nodes:
-            refuse(f"loading the composable node {nodes[0].shown(context)} into a container")
+            refuse(f"loading the composable node {nodes[0].plugin_name(context)} into a container")
         package = (
             ""
             if self.node_package is None
@@ -47,7 +46,7 @@ class ComposableNodeContainer(Node):
 
 
 class LoadComposableNodes(Action):
-    """Refuses to load nodes: that needs an installed ROS 2. Where the conditions of all say no, there are none."""
+    """Raises NotSupportedError, since loading needs an installed ROS 2, unless no node's condition holds."""
 
     def __init__(
         self,
@@ -64,4 +63,4 @@ class LoadComposableNodes(Action):
     def execute(self, context: LaunchContext) -> None:
         for node in self._descriptions:
             if node.is_wanted(context):
-                refuse(f"loading the composable node {node.shown(context)} into a container")
+                refuse(f"loading the composable node {node.plugin_name(context)} into a container")

@@ -1,4 +1,4 @@
-"""ROS nodes with a lifecycle, their transitions, and the handler of those."""
+"""Lifecycle nodes, their transitions and the handler of transition events."""
 
 from __future__ import annotations
 
@@ -26,12 +26,12 @@ from ..events import STATES, TRANSITIONS, ChangeState, StateTransition, matches_
 from ..ros_adapters import get_ros_node
 from ._node import Node
 
-_LOOK_EVERY_S = 0.2
-"""How often a wait for the node is looked at, in case the launch ends meanwhile."""
+_SHUTDOWN_POLL_S = 0.2
+"""How often a wait for the node checks whether the launch is shutting down."""
 
 
 class LifecycleNode(Node):
-    """Starts a node, emits StateTransition when it changes its state, and has ChangeState events change it."""
+    """Starts a lifecycle node, emits StateTransition when its state changes, and applies ChangeState events to it."""
 
     def __init__(self, *, name: SomeSubstitutionsType, namespace: SomeSubstitutionsType, **kwargs: Any) -> None:
         super().__init__(name=name, namespace=namespace, **kwargs)
@@ -40,7 +40,7 @@ class LifecycleNode(Node):
         self._subscription: Any = None
 
     def execute(self, context: LaunchContext) -> Sequence[LaunchDescriptionEntity] | None:
-        self._find_names(context)
+        self._complete_command(context)
         if self.UNSPECIFIED_NODE_NAME in self.node_name:
             raise RuntimeError("node_name unexpectedly incomplete for lifecycle node")
         messages = importlib.import_module("lifecycle_msgs.msg")
@@ -59,31 +59,31 @@ class LifecycleNode(Node):
         return super().execute(context)
 
     def _on_change_state(self, request_type: Any) -> BaseEventHandler:
-        def ask(context: LaunchContext) -> None:
+        def request_transition(context: LaunchContext) -> None:
             event = context.locals.event
             if not event.lifecycle_node_matcher(self):
                 return
             request = request_type()
             request.transition.id = event.transition_id
-            asked = context.asyncio_loop.run_in_executor(None, self._change_state, request, context)
-            context.add_completion_future(asked)
+            call = context.asyncio_loop.run_in_executor(None, self._change_state, request, context)
+            context.add_completion_future(call)
 
         return EventHandler(
-            matcher=lambda event: isinstance(event, ChangeState), entities=[OpaqueFunction(function=ask)]
+            matcher=lambda event: isinstance(event, ChangeState), entities=[OpaqueFunction(function=request_transition)]
         )
 
     def _change_state(self, request: Any, context: LaunchContext) -> None:
-        """Call the node's service, in a thread of its own."""
+        """Call the node's change_state service; blocks, so it runs in an executor thread."""
         logger = get_logger("launch_ros.actions.lifecycle_node")
         service = self._client.srv_name
-        while not self._client.wait_for_service(timeout_sec=_LOOK_EVERY_S):
+        while not self._client.wait_for_service(timeout_sec=_SHUTDOWN_POLL_S):
             if context.is_shutdown:
                 logger.warning(f"Abandoning wait for the '{service}' service, due to shutdown.")
                 return
         answered = threading.Event()
         answer = self._client.call_async(request)
         answer.add_done_callback(lambda _: answered.set())
-        while not answered.wait(_LOOK_EVERY_S):
+        while not answered.wait(_SHUTDOWN_POLL_S):
             if context.is_shutdown:
                 logger.warning(f"Abandoning wait for the '{service}' service response, due to shutdown.")
                 answer.cancel()
@@ -94,7 +94,7 @@ class LifecycleNode(Node):
 
 
 class OnStateTransition(EventHandler):
-    """Picks transitions by all that is given: node, transition, start and goal; or by `matcher` alone."""
+    """Handles transitions that match all given criteria (node, transition, start and goal), or only `matcher`."""
 
     def __init__(
         self,
@@ -142,11 +142,11 @@ GOALS = {
     6: ("shuttingdown", "finalized"),
     7: ("shuttingdown", "finalized"),
 }
-"""For each transition the state that it passes through, and the one that it leads to."""
+"""For each transition id, the intermediate state and the final state."""
 
 
 class LifecycleTransition(Action):
-    """Has each node make the transitions: the next one when it has reached the goal of the one before."""
+    """Takes nodes through a sequence of transitions, each one after the goal of the previous is reached."""
 
     def __init__(
         self,
@@ -167,25 +167,25 @@ class LifecycleTransition(Action):
         ]
 
     def execute(self, context: LaunchContext) -> list[Action]:
-        numbers = [_number(perform_substitutions(context, number)) for number in self._ids]
+        numbers = [_parse_transition_id(perform_substitutions(context, number)) for number in self._ids]
         actions: list[Action] = []
         for parts in self._names:
-            actions += _of_node(perform_substitutions(context, parts), numbers)
+            actions += _transitions_of_node(perform_substitutions(context, parts), numbers)
         return actions
 
 
-def _number(text: str) -> int:
+def _parse_transition_id(text: str) -> int:
     try:
         return int(text)
     except ValueError:
         raise ValueError(f"expected integer for lifecycle transition, got {text}") from None
 
 
-def _of_node(name: str, numbers: Sequence[int]) -> list[Action]:
-    is_it = matches_node_name(name)
+def _transitions_of_node(name: str, numbers: Sequence[int]) -> list[Action]:
+    is_target = matches_node_name(name)
     handlers: list[BaseEventHandler] = []
 
-    def forget(context: LaunchContext, reason: str = "") -> None:
+    def stop_handling(context: LaunchContext, reason: str = "") -> None:
         if reason:
             get_logger("launch_ros.actions.lifecycle_transition").info(
                 f"Stopping transitions for {name} because '{reason}'"
@@ -195,21 +195,25 @@ def _of_node(name: str, numbers: Sequence[int]) -> list[Action]:
                 context.unregister_event_handler(handler)
 
     def has_failed(event: Event) -> bool:
-        return isinstance(event, StateTransition) and is_it(event.action) and event.goal_state == "errorprocessing"
+        return isinstance(event, StateTransition) and is_target(event.action) and event.goal_state == "errorprocessing"
 
-    changes = [EmitEvent(event=ChangeState(lifecycle_node_matcher=is_it, transition_id=number)) for number in numbers]
-    for number, then in zip(numbers, [*changes[1:], OpaqueFunction(function=forget)], strict=True):
-        handlers.append(OnStateTransition(matcher=_reaches(is_it, *GOALS[number]), entities=[then], handle_once=True))
-    failed = OpaqueFunction(function=forget, kwargs={"reason": "error occured during transitions"})
-    handlers.append(EventHandler(matcher=has_failed, entities=[failed], handle_once=True))
+    changes = [
+        EmitEvent(event=ChangeState(lifecycle_node_matcher=is_target, transition_id=number)) for number in numbers
+    ]
+    for number, next_action in zip(numbers, [*changes[1:], OpaqueFunction(function=stop_handling)], strict=True):
+        handlers.append(
+            OnStateTransition(matcher=_reaches(is_target, *GOALS[number]), entities=[next_action], handle_once=True)
+        )
+    on_failure = OpaqueFunction(function=stop_handling, kwargs={"reason": "error occured during transitions"})
+    handlers.append(EventHandler(matcher=has_failed, entities=[on_failure], handle_once=True))
     return [*map(RegisterEventHandler, handlers), changes[0]]
 
 
-def _reaches(is_it: Any, start: str, goal: str) -> Any:
+def _reaches(is_target: Any, start: str, goal: str) -> Any:
     def reaches(event: Event) -> bool:
         return (
             isinstance(event, StateTransition)
-            and is_it(event.action)
+            and is_target(event.action)
             and (event.start_state, event.goal_state) == (start, goal)
         )
 

@@ -1,4 +1,4 @@
-"""A ROS node."""
+"""The action that starts a ROS node."""
 
 from __future__ import annotations
 
@@ -33,11 +33,12 @@ from ..utilities import (
 
 
 class Node(ExecuteProcess):
-    """Starts a node's executable with `--ros-args` that say its name, namespace, parameters and remappings.
+    """Starts a node's executable, with its name, namespace, parameters and remappings as `--ros-args`.
 
-    `arguments` come before these, for the node itself. `namespace` is in the one of PushROSNamespace, unless it starts
-    with a slash. What SetParameter and SetRemap have set comes before the node's own. `exec_name` is the name of the
-    process in messages. All that ExecuteProcess takes is taken, too, but for `cmd` and its `name`.
+    `arguments` precede these and are for the node itself. Unless it starts with a slash, `namespace` is relative to the
+    one of PushROSNamespace. Parameters and remappings set by SetParameter and SetRemap come before the node's own.
+    `exec_name` is the name of the process in messages. All other arguments of ExecuteProcess are accepted as well,
+    except `cmd` and its `name`.
     """
 
     UNSPECIFIED_NODE_NAME = "<node_name_unspecified>"
@@ -84,7 +85,7 @@ class Node(ExecuteProcess):
 
     @property
     def node_name(self) -> str:
-        """With its namespace; RuntimeError before it is executed."""
+        """The node's fully qualified name. Raises RuntimeError before the action is executed."""
         if self._final_node_name is None:
             raise RuntimeError("cannot access 'node_name' before executing action")
         return self._final_node_name
@@ -98,26 +99,26 @@ class Node(ExecuteProcess):
         return self._final_remappings
 
     def is_node_name_fully_specified(self) -> bool:
-        """Whether both its name and its namespace are said here, not left to the executable."""
+        """Return whether the name and the namespace are both given here rather than left to the executable."""
         return (
             self.UNSPECIFIED_NODE_NAME not in self.node_name and self.UNSPECIFIED_NODE_NAMESPACE not in self.node_name
         )
 
     def execute(self, context: LaunchContext) -> Sequence[LaunchDescriptionEntity] | None:
-        self._find_names(context)
+        self._complete_command(context)
         entities = super().execute(context)
         if self.is_node_name_fully_specified():
-            self._warn_of_same_name(context)
+            self._warn_about_duplicate_name(context)
         return entities
 
-    def _find_names(self, context: LaunchContext) -> None:
-        """Complete the command; from here on the node's name and namespace are known."""
+    def _complete_command(self, context: LaunchContext) -> None:
+        """Append the ROS arguments to the command. From then on, the node's name and namespace are known."""
         if self._final_node_name is None:
             for word in self._ros_arguments(context):
                 self._description.cmd.append(normalize_to_list_of_substitutions(word))
 
     def _ros_arguments(self, context: LaunchContext) -> list[str]:
-        """What follows `--ros-args`, in the order of the original."""
+        """Return the words after `--ros-args`, in the order of the original."""
         words = []
         try:
             name = self._expand_name(context)
@@ -145,7 +146,7 @@ class Node(ExecuteProcess):
         return words
 
     def _expand_name(self, context: LaunchContext) -> str | None:
-        """Find the name, which is returned, and the namespace; raises where ROS would not take them."""
+        """Expand the namespace and the name, and return the name. Raises if ROS would reject them."""
         name = _perform(context, self._node_name)
         if name is not None:
             validate_node_name(name)
@@ -184,12 +185,12 @@ class Node(ExecuteProcess):
         return words
 
     def _write_parameters(self, parameters: dict[str, Any]) -> Path:
-        """Into a file that is there as long as the launch runs."""
+        """Write parameters to a file that exists as long as the launch runs."""
         plain = {name: list(value) if isinstance(value, tuple) else value for name, value in parameters.items()}
         node = self.node_name if self.is_node_name_fully_specified() else "/**"
         return temporary_file(yaml.dump({node: {"ros__parameters": plain}}, default_flow_style=False))
 
-    def _warn_of_same_name(self, context: LaunchContext) -> None:
+    def _warn_about_duplicate_name(self, context: LaunchContext) -> None:
         names: dict[str, int] = context.get_locals_as_dict().get("unique_ros_node_names", {})
         names[self.node_name] = names.get(self.node_name, 0) + 1
         context.extend_globals({"unique_ros_node_names": names})

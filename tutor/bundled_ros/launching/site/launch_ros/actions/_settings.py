@@ -1,4 +1,4 @@
-"""Actions that set something for all nodes behind them, and a timer."""
+"""Actions with settings for all later nodes, and a ROS timer."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from ..utilities import InvalidNamespaceException, make_namespace_absolute, pref
 
 
 class PushROSNamespace(Action):
-    """Nodes that follow in this scope are in the namespace, which is itself in the one pushed before."""
+    """Puts later nodes in this scope into a namespace, relative to the one pushed before."""
 
     def __init__(self, namespace: SomeSubstitutionsType, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -39,7 +39,7 @@ class PushROSNamespace(Action):
 
 
 class SetParameter(Action):
-    """Nodes that follow in this scope get this parameter; their own count more."""
+    """Sets a parameter of all later nodes in this scope; the nodes' own parameters take precedence."""
 
     def __init__(self, name: SomeSubstitutionsType, value: Any, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -59,7 +59,7 @@ class SetParameter(Action):
 
 
 class SetParametersFromFile(Action):
-    """Nodes that follow in this scope get the parameters in the file."""
+    """Passes a parameter file to all later nodes in this scope."""
 
     def __init__(self, filename: SomeSubstitutionsType, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -71,7 +71,7 @@ class SetParametersFromFile(Action):
 
 
 class SetUseSimTime(Action):
-    """Sets `use_sim_time` on the launch's own node, and on no other. Here it has none, so nothing is done."""
+    """Does nothing: the original sets `use_sim_time` only on the launch's own node, whose clock is not used here."""
 
     def __init__(self, value: bool, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -86,7 +86,7 @@ class SetUseSimTime(Action):
 
 
 class SetRemap(Action):
-    """Nodes that follow in this scope get this remapping, before their own."""
+    """Adds a remapping to all later nodes in this scope, before their own."""
 
     def __init__(self, src: SomeSubstitutionsType, dst: SomeSubstitutionsType, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -103,17 +103,17 @@ class SetRemap(Action):
 
     def execute(self, context: LaunchContext) -> None:
         rule = (perform_substitutions(context, self._src), perform_substitutions(context, self._dst))
-        # The list itself is shared, not copied, by an inner scope that finds it: so does the original.
+        # As in the original, an inner scope shares an existing list rather than copying it.
         context.launch_configurations.setdefault("ros_remaps", []).append(rule)
 
 
-def _current(context: LaunchContext) -> str:
+def _current_log_dir(context: LaunchContext) -> str:
     home = context.environment.get("ROS_HOME") or os.path.expanduser("~/.ros")
     return context.environment.get("ROS_LOG_DIR") or os.path.join(home, "log")
 
 
 class SetROSLogDir(Action):
-    """Processes started from here on, in this scope, have another ROS_LOG_DIR; a relative one is below the last."""
+    """Sets ROS_LOG_DIR for later processes in this scope; a relative path is below the current one."""
 
     def __init__(self, new_log_dir: SomeSubstitutionsType, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -125,8 +125,8 @@ class SetROSLogDir(Action):
 
     def execute(self, context: LaunchContext) -> None:
         folder = perform_substitutions(context, self._log_dir)
-        context.environment["ROS_LOG_DIR"] = os.path.join(_current(context), folder)
+        context.environment["ROS_LOG_DIR"] = os.path.join(_current_log_dir(context), folder)
 
 
 class ROSTimer(TimerAction):
-    """A timer on the clock of the launch's own node, which is the system's here: there is no simulated time."""
+    """A timer on the clock of the launch's own node. Here that is the system clock: simulated time is not supported."""
