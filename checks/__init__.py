@@ -1,1 +1,1 @@
-"""What is done to a learner's node, and what must be seen: one package for each exercise, named after it."""
+"""The checks, one package per exercise and named after it: scenarios run a learner's node, judges rule on the facts."""

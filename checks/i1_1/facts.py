@@ -1,4 +1,4 @@
-"""I1.1: what is asked of the node, and the facts that are gathered."""
+"""I1.1: the requirements, and the facts that the scenarios gather for the judges."""
 
 from __future__ import annotations
 
@@ -16,46 +16,48 @@ TOPIC = "/sensor/temperature"
 TYPE = "std_msgs/msg/Float64"
 LOWEST, HIGHEST = 20.0, 30.0
 
-LISTEN_S = 26.0
-"""Values are collected for at most this long after the first one, so that a doubtful node at 1 Hz shows plenty."""
+MAX_COLLECT_S = 26.0
+"""Longest value collection, counted from the first message: enough for a suspicious 1 Hz node to show plenty."""
 
-LEAST_S = 5.0
-"""Values are collected for this long in any case: the other starts take as long, and more values tell more."""
+MIN_COLLECT_S = 5.0
+"""Shortest value collection: the other runs take this long anyway, and more values mean better evidence."""
 
 FAST_HZ = 8.0
-"""The highest rate that is tried first: one of `VALUES`."""
+"""The highest rate among the first choices in `PROBE_VALUES`."""
 
-MORE_S = 4.0
-"""At `FAST_HZ`, plenty of values come in this time."""
+FAST_COLLECT_S = 4.0
+"""Extra collection time for suspicious values at `FAST_HZ`: long enough for plenty of them."""
 
-LEAST_VALUES = 3
-"""With fewer values of a plain start, neither a regularity nor a range can be told from it."""
+MIN_VALUES = 3
+"""Fewer values than this from a plain start show neither a pattern nor a range."""
 
-ECHO_S = 14.0
-"""The echo of a topic that has a message now and then shows one within this time."""
+ECHO_LIMIT_S = 14.0
+"""Time limit of the echo: enough even for a topic with only an occasional message."""
 
 SUGGESTED_RATE, SUGGESTED_NAME = "publish_rate", "sensor_name"
-"""The names that are tried where the node never answers a parameter call."""
+"""The skeleton's parameter names, tried when the node never answers a parameter call."""
 
 UNITS: dict[str, Callable[[float], float]] = {
     "Hz": lambda value: value,
     "s": lambda value: 1 / value,
     "ms": lambda value: 1000 / value,
 }
-"""How a numeric parameter may be read: from its value to the rate in Hz that it asks for."""
+"""The units a numeric parameter may be in; each function converts a value to the requested rate in Hz."""
 
-VALUES = {"Hz": (2.0, FAST_HZ, 0.7), "s": (0.5, 0.125, 1.5), "ms": (500.0, 125.0, 1500.0)}
-"""The slowest ones show a rate that is made a whole number: 0 and 1 Hz, or 1 and 2 s, are beyond the tolerance."""
+PROBE_VALUES = {"Hz": (2.0, FAST_HZ, 0.7), "s": (0.5, 0.125, 1.5), "ms": (500.0, 125.0, 1500.0)}
+"""Values to probe per unit. The slowest one exposes rounding: 0 and 1 Hz, or 1 and 2 s, are out of tolerance."""
 
-SPARE_VALUES = {"Hz": (5.0, 1.0, 3.0, 10.0), "s": (1.0, 2.0, 0.2, 0.4), "ms": (200.0, 1000.0, 400.0)}
-"""Tried instead where the parameter's type or range does not allow the first ones."""
+FALLBACK_VALUES = {"Hz": (5.0, 1.0, 3.0, 10.0), "s": (1.0, 2.0, 0.2, 0.4), "ms": (200.0, 1000.0, 400.0)}
+"""Fallbacks for values in `PROBE_VALUES` that the parameter's type or range does not allow."""
 
 
 @dataclass(frozen=True)
 class PlainStart:
-    """A plain start. `echo` is None where nothing came to echo; `ending` where the process had ended by itself.
+    """A start without parameters, interrupted with Ctrl+C at the end.
 
-    `stuck`: where the node was, innermost frame first, when it did not publish and answered nothing.
+    `parameters`: None if the node answered no parameter call. `echo`: None if there was no message to wait for.
+    `ending`: None if the process had already exited. `stuck`: the stack, innermost frame first, of a node that neither
+    published nor answered.
     """
 
     trace: Trace
@@ -67,9 +69,10 @@ class PlainStart:
 
 @dataclass(frozen=True)
 class CollectedValues:
-    """The values of each of several starts without parameters; `trace` is one of them, for the words of a cause.
+    """The values from several starts without parameters, one tuple per run.
 
-    `regular`: the values of a start at a higher rate, where these are plenty and clearly not random.
+    `trace`: one of these runs, for wording a cause. `regular`: the values of a run at a higher rate; filled only if
+    there are plenty and they are clearly not random.
     """
 
     runs: tuple[tuple[float, ...], ...]
@@ -83,7 +86,7 @@ class CollectedValues:
 
 @dataclass(frozen=True)
 class RateProbe:
-    """A start with one parameter set: the rate that its `value`, read in `unit`, asks for, and what was measured."""
+    """A start with parameter `name` set to `value`, in `unit`, and the rate that was measured."""
 
     name: str
     unit: str
@@ -108,7 +111,7 @@ class RateProbe:
 
 @dataclass(frozen=True)
 class RateProbes:
-    """All starts that tried a rate. `declared` is None where the node answered no parameter call."""
+    """All starts that probed a rate. `declared`: None if the node answered no parameter call."""
 
     declared: tuple[Parameter, ...] | None
     probes: tuple[RateProbe, ...]
@@ -116,9 +119,9 @@ class RateProbes:
 
 @dataclass(frozen=True)
 class NameProbe:
-    """A start with one string parameter set to `value`; `found` is the log message that bears it, or empty.
+    """A start with the string parameter `name` set to `value`.
 
-    `at_end`: where nothing was found, what the process wrote when it was ended.
+    `found`: the log message that contains the value, or "". `at_end`: if none does, the output during shutdown.
     """
 
     name: str
@@ -130,14 +133,14 @@ class NameProbe:
 
 @dataclass(frozen=True)
 class NameProbes:
-    """All starts that tried a name. `declared` is None where the node answered no parameter call."""
+    """All starts that probed a name. `declared`: None if the node answered no parameter call."""
 
     declared: tuple[Parameter, ...] | None
     probes: tuple[NameProbe, ...]
 
 
 def units(name: str) -> tuple[str, ...]:
-    """What a parameter's name says of its unit; all of them where it says nothing, or two things."""
+    """Return the units that a parameter's name suggests; all of them if it is neutral or ambiguous."""
     lower = name.casefold()
     as_rate = any(word in lower for word in ("rate", "hz", "freq"))
     as_period = any(word in lower for word in ("period", "interval"))
@@ -149,38 +152,38 @@ def units(name: str) -> tuple[str, ...]:
 
 
 def numeric_parameters(declared: Iterable[Parameter]) -> list[Parameter]:
-    """The numeric parameters that the learner declared; rclpy declares some of its own for QoS."""
+    """The learner's own numeric parameters, without the QoS overrides that rclpy declares."""
     return [p for p in declared if p.type in ("integer", "double") and not p.name.startswith("qos_overrides")]
 
 
-def out_of_range(values: Iterable[float]) -> list[float]:
-    """Those that are out of range, nan included."""
+def find_out_of_range(values: Iterable[float]) -> list[float]:
+    """The values outside the range, NaN included."""
     return [value for value in values if not LOWEST <= value <= HIGHEST]
 
 
 def parameter_and_unit(probe: RateProbe) -> tuple[str, str]:
-    """Which parameter this is about, and how it is read."""
+    """The parameter that was probed and the unit it was read in: the key that probes are grouped by."""
     return probe.name, probe.unit
 
 
 def group_probes(probes: Iterable[RateProbe]) -> list[list[RateProbe]]:
-    """The probes of each parameter and unit."""
+    """Group probes by parameter and unit."""
     groups: dict[tuple[str, str], list[RateProbe]] = {}
     for probe in probes:
         groups.setdefault(parameter_and_unit(probe), []).append(probe)
     return list(groups.values())
 
 
-def agreeing_groups(probes: Iterable[RateProbe]) -> list[list[RateProbe]]:
-    """The groups of which every probe agrees, two different rates at least: one may be right by chance."""
+def find_agreeing_groups(probes: Iterable[RateProbe]) -> list[list[RateProbe]]:
+    """The groups of two or more probes that all agree: a single rate may be right by chance."""
     return [group for group in group_probes(probes) if len(group) > 1 and all(probe.agrees for probe in group)]
 
 
 def count_agreeing(group: Iterable[RateProbe]) -> int:
-    """How many of the probes agree."""
+    """Count the probes whose measured rate agrees with the requested one."""
     return sum(probe.agrees for probe in group)
 
 
-def inverted_probes(group: Iterable[RateProbe]) -> list[RateProbe]:
-    """The probes that show the period where the rate was asked for, or the other way round."""
+def find_inverted_probes(group: Iterable[RateProbe]) -> list[RateProbe]:
+    """The probes whose rate is the reciprocal of the requested one: a rate taken for a period, or vice versa."""
     return [probe for probe in group if probe.rate is not None and probe.rate.agrees(1 / probe.asked_hz)]

@@ -1,4 +1,4 @@
-"""I1.1: what must have been seen."""
+"""I1.1: the verdicts, as pure functions of the facts."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from dataclasses import replace
 from checks.i1_1 import steps
 from checks.i1_1.facts import (
     HIGHEST,
-    LEAST_VALUES,
-    LISTEN_S,
     LOWEST,
+    MAX_COLLECT_S,
+    MIN_VALUES,
     SUGGESTED_NAME,
     SUGGESTED_RATE,
     TOPIC,
@@ -22,11 +22,11 @@ from checks.i1_1.facts import (
     PlainStart,
     RateProbe,
     RateProbes,
-    agreeing_groups,
     count_agreeing,
+    find_agreeing_groups,
+    find_inverted_probes,
+    find_out_of_range,
     group_probes,
-    inverted_probes,
-    out_of_range,
 )
 from tutor.judge import causes, ending, randomness, tracebacks
 from tutor.judge.rates import TOLERANCE
@@ -37,28 +37,29 @@ from tutor.ros_model import Parameter
 
 
 def _diagnose_exception(trace: Trace | None) -> Cause | None:
-    """The exception that ended the node, which tells more than what was missing then."""
+    """Diagnose the exception that ended the node: it says more than the messages that went missing because of it."""
     return (
         causes.diagnose_process(trace) if trace is not None and tracebacks.last_traceback(trace) is not None else None
     )
 
 
-def _stopping(trace: Trace | None) -> Cause:
+def _diagnose_stopped(trace: Trace | None) -> Cause:
     step = steps.add_publisher(trace) or "publish from a timer's callback"
-    return _diagnose_exception(trace) or Cause("no messages", "the node stops publishing, or hardly ever does", step)
+    text = "the node stops publishing, or publishes far too rarely"
+    return _diagnose_exception(trace) or Cause("no messages", text, step)
 
 
-def _runs(*facts: PlainStart | CollectedValues | RateProbes | NameProbes) -> list[Trace]:
-    """The runs that facts are of: of probes, the first one."""
-    found = [each.probes[:1] if isinstance(each, RateProbes | NameProbes) else (each,) for each in facts]
-    return [trace for each in found for one in each if (trace := one.trace) is not None]
+def _traces(*facts: PlainStart | CollectedValues | RateProbes | NameProbes) -> list[Trace]:
+    """The traces behind the facts; for probes, only that of the first one."""
+    runs = [each.probes[:1] if isinstance(each, RateProbes | NameProbes) else (each,) for each in facts]
+    return [trace for group in runs for run in group if (trace := run.trace) is not None]
 
 
-def _followable[**P](judge: Callable[P, Verdict]) -> Callable[P, Verdict]:
-    return with_applicable_steps(judge, _runs, steps.anything)
+def _with_steps[**P](judge: Callable[P, Verdict]) -> Callable[P, Verdict]:
+    return with_applicable_steps(judge, _traces, steps.anything)
 
 
-@_followable
+@_with_steps
 def judge_publishes(seen: PlainStart) -> Verdict:
     expected = f"{TYPE} messages on {TOPIC}"
     samples = seen.trace.samples_on(TOPIC)
@@ -76,13 +77,13 @@ def judge_publishes(seen: PlainStart) -> Verdict:
     return failed(expected, "no such message", cause, causes.output_tail(seen.trace))
 
 
-@_followable
+@_with_steps
 def judge_range(found: CollectedValues, more: CollectedValues) -> Verdict:
     expected = f"every value in [{LOWEST}, {HIGHEST}] °C"
     if not found.all:
-        return failed(expected, "no values at all", _stopping(found.trace))
+        return failed(expected, "no values at all", _diagnose_stopped(found.trace))
     values = (*found.all, *more.all)
-    wrong = out_of_range(values)
+    wrong = find_out_of_range(values)
     if not wrong:
         return passed(expected, f"{len(values)} values from {min(values):.2f} to {max(values):.2f} °C")
     return failed(
@@ -94,8 +95,8 @@ def judge_range(found: CollectedValues, more: CollectedValues) -> Verdict:
 
 
 def judge_range_so_far(found: CollectedValues) -> Verdict | None:
-    """Judge `range` by what has come by now; of few values, it cannot be told what all of them look like."""
-    if len(found.all) < LEAST_VALUES and all(map(_is_fahrenheit, found.all)):
+    """Judge `range` by the values so far; None while a few Fahrenheit-like ones do not yet show what all look like."""
+    if len(found.all) < MIN_VALUES and all(map(_is_fahrenheit, found.all)):
         return None
     return judge_range(found, CollectedValues(()))
 
@@ -116,54 +117,50 @@ def _diagnose_range(wrong: Sequence[float], values: Sequence[float], trace: Trac
     return Cause("out of range", "values leave the range", steps.draw_values(trace))
 
 
-@_followable
+@_with_steps
 def judge_random(found: CollectedValues) -> Verdict:
     expected = "values that vary at random: not constant, not a ramp, not a short cycle"
     runs = (*found.runs, found.regular)
-    told = [(run, pattern) for run in runs if (pattern := _pattern(run)) is not None]
-    telling = sum(len(run) >= randomness.MIN_SAMPLE_SIZE for run in found.runs)
-    if told and (any(pattern.significant for _, pattern in told) or len(told) >= telling):
-        run, pattern = max(told, key=lambda each: (each[1].significant, len(each[0])))
+    patterns = [(run, pattern) for run in runs if (pattern := _find_pattern(run)) is not None]
+    large_enough = sum(len(run) >= randomness.MIN_SAMPLE_SIZE for run in found.runs)
+    if patterns and (any(pattern.significant for _, pattern in patterns) or len(patterns) >= large_enough):
+        run, pattern = max(patterns, key=lambda each: (each[1].significant, len(each[0])))
         return failed(
             expected,
             f"{pattern.text} ({len(run)} values)",
-            Cause(
-                pattern.name,
-                pattern.text,
-                steps.draw_values(found.trace),
-            ),
+            Cause(pattern.name, pattern.text, steps.draw_values(found.trace)),
             [f"data: {value:g}" for value in run[:8]],
         )
     longest = max(found.runs, key=len)
     if len(longest) < 3:
-        return failed(expected, f"only {len(longest)} values in {LISTEN_S:g} s", _stopping(found.trace))
+        return failed(expected, f"only {len(longest)} values in {MAX_COLLECT_S:g} s", _diagnose_stopped(found.trace))
     return passed(expected, f"{len(longest)} values, no pattern", [f"data: {value:g}" for value in longest[:5]])
 
 
-def _pattern(run: Sequence[float]) -> randomness.Pattern | None:
-    """The regularity in these values; coming to rest goes before any other."""
-    found, stuck = randomness.find_pattern(run), _stuck(run)
+def _find_pattern(run: Sequence[float]) -> randomness.Pattern | None:
+    """Find a pattern in these values; getting stuck on one value takes precedence over any other."""
+    found, stuck = randomness.find_pattern(run), _find_stuck_value(run)
     return replace(stuck, significant=found is not None and found.significant) if stuck else found
 
 
-def _stuck(run: Sequence[float]) -> randomness.Pattern | None:
-    """Different values, and then a new one that stays, for half of `FULL_SAMPLE_SIZE` at least.
+def _find_stuck_value(run: Sequence[float]) -> randomness.Pattern | None:
+    """Find a run of distinct values followed by a new one that repeats for at least half of `FULL_SAMPLE_SIZE`.
 
-    Coarse values, of which one is by far the most frequent, have it among the others, too.
+    It must be new: in coarsely rounded values that are mostly one number, that number occurs earlier as well.
     """
-    same = next((i for i, value in enumerate(reversed(run)) if value != run[-1]), len(run))
-    before = run[: len(run) - same]
-    if same < randomness.FULL_SAMPLE_SIZE / 2 or len(before) < 2 or len({*before, run[-1]}) <= len(before):
+    repeats = next((i for i, value in enumerate(reversed(run)) if value != run[-1]), len(run))
+    before = run[: len(run) - repeats]
+    if repeats < randomness.FULL_SAMPLE_SIZE / 2 or len(before) < 2 or len({*before, run[-1]}) <= len(before):
         return None
-    return randomness.Pattern("constant value", f"the last {same} values are all {run[-1]:g}")
+    return randomness.Pattern("constant value", f"the last {repeats} values are all {run[-1]:g}")
 
 
-@_followable
+@_with_steps
 def judge_echo(seen: PlainStart) -> Verdict:
     expected = f"`ros2 topic echo {TOPIC}` shows the values"
     echo = seen.echo
-    if echo is None:  # the first message came when nobody waited for it any more
-        return failed(expected, "the first message came too late", _stopping(seen.trace))
+    if echo is None:  # the first message came after the wait for it had timed out
+        return failed(expected, "the first message came too late", _diagnose_stopped(seen.trace))
     if echo.samples and len(echo.types) == 1:
         return passed(
             expected,
@@ -190,20 +187,22 @@ def judge_echo(seen: PlainStart) -> Verdict:
     return failed(expected, f"nothing shown in {echo.limit_s:g} s", cause)
 
 
-@_followable
+@_with_steps
 def judge_rate(found: RateProbes) -> Verdict:
-    expected = f"some numeric parameter, set at start-up, changes the rate as it says (±{TOLERANCE:.0%})"
-    for agreed in agreeing_groups(found.probes):
-        return passed(expected, f"{agreed[0].name} is read in {agreed[0].unit}", [str(probe) for probe in agreed])
+    expected = f"some numeric parameter, set at start-up, sets the rate (±{TOLERANCE:.0%})"
+    for group in find_agreeing_groups(found.probes):
+        return passed(expected, f"{group[0].name} is read in {group[0].unit}", [str(probe) for probe in group])
     if not found.probes:
         return failed(expected, "no numeric parameter is declared", _diagnose_undeclared_rate(None))
-    nearest = max(group_probes(found.probes), key=lambda group: (count_agreeing(group), len(inverted_probes(group))))
+    nearest = max(
+        group_probes(found.probes), key=lambda group: (count_agreeing(group), len(find_inverted_probes(group)))
+    )
     wrong = next((probe for probe in nearest if not probe.agrees), None)
     if wrong is None:
         cause = Cause(
             "wrong rate",
-            f"{nearest[0].name} takes one rate only of those that were tried",
-            "let it take any rate from 0.5 to 10 Hz",
+            f"{nearest[0].name} accepts only one rate among those that were tried",
+            "let it accept any rate from 0.5 to 10 Hz",
         )
         return failed(expected, f"{nearest[0]}; no other value is allowed", cause)
     return failed(
@@ -212,16 +211,13 @@ def judge_rate(found: RateProbes) -> Verdict:
 
 
 def _diagnose_undeclared_rate(trace: Trace | None) -> Cause:
-    return Cause(
-        "parameter not declared",
-        "the rate cannot be set from outside",
-        steps.declare_rate(trace, SUGGESTED_RATE),
-    )
+    step = steps.declare_rate(trace, SUGGESTED_RATE)
+    return Cause("parameter not declared", "the rate cannot be set from outside", step)
 
 
 def _diagnose_rate(group: Sequence[RateProbe], wrong: RateProbe, declared: tuple[Parameter, ...] | None) -> Cause:
-    if (cut := steps.diagnose_whole_rate(wrong.trace, wrong.name)) is not None:
-        return cut
+    if (truncated := steps.diagnose_whole_rate(wrong.trace, wrong.name)) is not None:
+        return truncated
     broken = causes.diagnose_process(wrong.trace)
     if broken is not None:
         return broken
@@ -231,25 +227,21 @@ def _diagnose_rate(group: Sequence[RateProbe], wrong: RateProbe, declared: tuple
     if wrong.rate is not None and wrong.rate.in_bursts:
         return causes.diagnose_bursts(step)
     measured = [(probe, probe.rate) for probe in group if probe.rate is not None]
-    if measured and len(inverted_probes(group)) == len(measured):
+    if measured and len(find_inverted_probes(group)) == len(measured):
         if wrong.unit == "Hz":
             return causes.diagnose_rate_as_period(wrong.name, step)
         return causes.diagnose_period_as_rate(wrong.name, step)
-    rates_seen = [rate.hz for _, rate in measured]
+    rates_hz = [rate.hz for _, rate in measured]
     if (
-        seen := causes.diagnose_same_name(wrong.trace) or steps.diagnose_rate(wrong.trace, wrong.name, wrong.asked_hz)
+        cause := causes.diagnose_same_name(wrong.trace) or steps.diagnose_rate(wrong.trace, wrong.name, wrong.asked_hz)
     ) is not None:
-        return seen
-    if len(rates_seen) > 1 and max(rates_seen) <= min(rates_seen) * (1 + TOLERANCE):
-        return Cause(
-            "parameter ignored",
-            f"the rate stays at {rates_seen[0]:.1f} Hz, whatever {wrong.name} says",
-            step,
-        )
+        return cause
+    if len(rates_hz) > 1 and max(rates_hz) <= min(rates_hz) * (1 + TOLERANCE):
+        return Cause("parameter ignored", f"the rate stays at {rates_hz[0]:.1f} Hz, whatever {wrong.name} says", step)
     return Cause("wrong rate", f"{wrong}", step)
 
 
-@_followable
+@_with_steps
 def judge_name(found: NameProbes) -> Verdict:
     expected = "some string parameter, set at start-up, appears in the node's log messages"
     for probe in found.probes:
@@ -276,8 +268,8 @@ def _diagnose_name(found: NameProbes) -> Cause:
         broken = causes.diagnose_process(probe.trace) or causes.diagnose_lifecycle(probe.trace)
         if broken is not None:
             return broken
-        says = re.compile(re.escape(probe.value)).search
-        printed = causes.diagnose_printed(probe.trace, says, "the name", after=probe.at_end)
+        contains_value = re.compile(re.escape(probe.value)).search
+        printed = causes.diagnose_printed(probe.trace, contains_value, "the name", after=probe.at_end)
         if printed is not None:
             return printed
     if found.declared is None:
@@ -291,8 +283,8 @@ def _diagnose_name(found: NameProbes) -> Cause:
     )
     if silent is not None and any(each.topic == TOPIC for each in silent.graph.publishers):
         return causes.diagnose_no_messages(silent, TOPIC, TYPE, answers=True, step=steps.add_publisher(silent))
-    own = [probe for probe in found.probes if probe.name in {parameter.name for parameter in found.declared}]
-    return steps.diagnose_name(found.probes[0].trace, (own or found.probes)[0].name)
+    declared = [probe for probe in found.probes if probe.name in {parameter.name for parameter in found.declared}]
+    return steps.diagnose_name(found.probes[0].trace, (declared or found.probes)[0].name)
 
 
 def judge_shutdown(seen: PlainStart) -> Verdict:

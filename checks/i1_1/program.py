@@ -1,4 +1,4 @@
-"""I1.1: the whole program, in the learner's names: the step that is left where no smaller one helps."""
+"""I1.1: a rewrite of the whole program that keeps the learner's names: the step of last resort."""
 
 from __future__ import annotations
 
@@ -35,22 +35,27 @@ class {node_class}(Node):
 
 
 def whole_program(file: NodeFile) -> list[Edit]:
-    """The node, its callback and main(), as a whole."""
-    rate, _ = _parameter(file, ("rate", "freq", "hz"), float, SUGGESTED_RATE, 1.0)
-    name, default = _parameter(file, ("name", "sensor"), str, SUGGESTED_NAME, "sensor")
+    """Replace the node, its callback and main()."""
+    rate, _ = _find_parameter(file, ("rate", "freq", "hz"), float, SUGGESTED_RATE, 1.0)
+    name, default = _find_parameter(file, ("name", "sensor"), str, SUGGESTED_NAME, "sensor")
     asked = {"rate": rate, "name": name, "default": default, "lowest": LOWEST, "highest": HIGHEST, "topic": TOPIC}
     return rewrite_file(file, (_PROGRAM + MAIN).format(**vars(names_of(file, "temperature_publisher")), **asked))
 
 
-def _parameter(file: NodeFile, words: tuple[str, ...], kind: type, name: str, default: object) -> tuple[str, object]:
-    """The parameter that the file declares for this, by a word in its name, with its default; else the usual one."""
+def _find_parameter(
+    file: NodeFile, words: tuple[str, ...], kind: type, name: str, default: object
+) -> tuple[str, object]:
+    """Find a declared parameter whose name contains one of `words`; return its name and default.
+
+    Return `name` and `default` if there is none of this kind.
+    """
     for call in file.calls("declare_parameter"):
         match argument(call, 0, "name"), argument(call, 1, "value"):
-            case ast.Constant(value=str() as told), given if told.isidentifier() and any(
-                each in told for each in words
+            case ast.Constant(value=str() as declared), given if declared.isidentifier() and any(
+                word in declared for word in words
             ):
                 value = given.value if isinstance(given, ast.Constant) else default
                 is_number = isinstance(value, int | float) and not isinstance(value, bool)
                 if is_number if kind is float else isinstance(value, kind):
-                    return told, value
+                    return declared, value
     return name, default

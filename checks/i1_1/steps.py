@@ -1,7 +1,7 @@
-"""I1.1: next steps as edits of the learner's own file. The source only chooses the words.
+"""I1.1: next steps, worded as edits to the learner's own file. The source affects only the wording, never the verdict.
 
-Where an edit is in the file already, a larger one follows, down to the whole program; plain words are left for a file
-that Python cannot read.
+If the file already contains an edit, the next larger one is suggested, up to a rewrite of the whole program. A file
+that Python cannot parse gets plain advice.
 """
 
 from __future__ import annotations
@@ -22,12 +22,12 @@ _RANGE = f"({LOWEST}, {HIGHEST})"
 
 
 def file(trace: Trace | None) -> NodeFile:
-    """The learner's file that was started."""
+    """Parse the learner's file that was started."""
     return started_node(trace) if trace is not None else node_file("")
 
 
 def draw_values(trace: Trace | None) -> str:
-    """Every message has a new value, drawn at random from the range."""
+    """Step: draw a new random value from the range for every message."""
     read = file(trace)
     draw, imported = _draw(read)
     seeding = [
@@ -48,7 +48,7 @@ def draw_values(trace: Trace | None) -> str:
 
 
 def use_one_type(trace: Trace) -> str:
-    """Nothing but the right type on the topic."""
+    """Step: publish only the right type on the topic."""
     read = file(trace)
     return (
         read.step(publishing.use_one_type(read, TOPIC, TYPE), whole_program(read))
@@ -57,7 +57,7 @@ def use_one_type(trace: Trace) -> str:
 
 
 def add_publisher(trace: Trace | None) -> str:
-    """A publisher, a timer and its callback that sends the messages."""
+    """Step: add a publisher, a timer, and a callback that publishes."""
     read = file(trace)
     draw, imported = _draw(read)
     edits = publishing.whole_publishing(read, TOPIC, TYPE, draw, SUGGESTED_RATE, log=SUGGESTED_NAME)
@@ -65,7 +65,7 @@ def add_publisher(trace: Trace | None) -> str:
 
 
 def make_float(trace: Trace | None) -> str:
-    """What is put into the message is a float."""
+    """Step: convert the published value to float."""
     read = file(trace)
     data = publishing.published_data(read)
     edits = [replace_node(read.text, data, f"float({ast.unparse(data)})")] if data is not None else []
@@ -73,7 +73,7 @@ def make_float(trace: Trace | None) -> str:
 
 
 def set_timer_period(trace: Trace, name: str, unit: str = "Hz") -> str:
-    """The timer's period follows a parameter, which is a rate in Hz, or a period in s or ms."""
+    """Step: derive the timer's period from a parameter that is a rate in Hz or a period in s or ms."""
     read = file(trace)
     code = {"Hz": f"1.0 / {read.value(name)}", "s": read.value(name), "ms": f"{read.value(name)} / 1000.0"}[unit]
     return read.step([*publishing.set_period(read, code), *publishing.keep_one_timer(read)], whole_program(read)) or (
@@ -82,7 +82,7 @@ def set_timer_period(trace: Trace, name: str, unit: str = "Hz") -> str:
 
 
 def declare_rate(trace: Trace | None, name: str) -> str:
-    """There is a rate parameter, and the timer's period follows it."""
+    """Step: declare a rate parameter and derive the timer's period from it."""
     read = file(trace)
     return read.step(
         [*parameters.declare_parameter(read, name, 1.0), *publishing.set_period(read, f"1.0 / {read.value(name)}")],
@@ -91,7 +91,7 @@ def declare_rate(trace: Trace | None, name: str) -> str:
 
 
 def declare_name(trace: Trace, name: str) -> str:
-    """There is a parameter for the sensor's name, and it is logged with every message."""
+    """Step: declare a parameter for the sensor's name and log it with every message."""
     read = file(trace)
     return read.step(
         [*parameters.declare_parameter(read, name, "sensor"), *publishing.log_value(read, name)], whole_program(read)
@@ -99,21 +99,21 @@ def declare_name(trace: Trace, name: str) -> str:
 
 
 def diagnose_name(trace: Trace, name: str) -> Cause:
-    """What keeps the sensor's name from the log messages."""
+    """Diagnose why the sensor's name is missing from the log messages."""
     read = file(trace)
     if (cause := _diagnose_log_level(read) or _diagnose_missing_f(read)) is not None:
         return cause
     draw, imported = _draw(read)
-    ticking = [*publishing.whole_timer_callback(read, draw, log=name), *imported] if whole.is_usual(read) else []
-    step = read.step(publishing.log_value(read, name), ticking, whole_program(read))
-    words = f"log it with each message: {read.name}.get_logger().info({read.value(name)})"
-    return Cause("parameter ignored", f"{name} is declared, but its value is not logged", step or words)
+    callback = [*publishing.whole_timer_callback(read, draw, log=name), *imported] if whole.is_usual(read) else []
+    step = read.step(publishing.log_value(read, name), callback, whole_program(read))
+    advice = f"log it with each message: {read.name}.get_logger().info({read.value(name)})"
+    return Cause("parameter ignored", f"{name} is declared, but its value is not logged", step or advice)
 
 
 def anything(trace: Trace) -> str:
-    """What there is of another type on the topic goes, or else the program as a whole, whatever its fault is.
+    """Step for any fault: remove other types from the topic, or else rewrite the program.
 
-    Empty where Python cannot read the file.
+    Return "" if Python cannot parse the file.
     """
     read = file(trace)
     return read.step(publishing.use_one_type(read, TOPIC, TYPE), whole_program(read)) or ""
@@ -132,15 +132,15 @@ def _diagnose_log_level(read: NodeFile) -> Cause | None:
 def _diagnose_missing_f(read: NodeFile) -> Cause | None:
     for call in read.calls("info", "warning", "warn", "error"):
         match call.args:
-            case [ast.Constant(value=str() as said) as text, *_] if re.search(r"\{(?:self\.)?\w+", said):
-                if (step := read.step([replace_node(read.text, text, f"f{said!r}")])) is not None:
-                    words = f"line {call.lineno}: {ast.unparse(call)} logs these words as they are, not the value"
-                    return Cause("no f in front of the text", words, step)
+            case [ast.Constant(value=str() as literal) as text, *_] if re.search(r"\{(?:self\.)?\w+", literal):
+                if (step := read.step([replace_node(read.text, text, f"f{literal!r}")])) is not None:
+                    why = f"line {call.lineno}: {ast.unparse(call)} logs these words as they are, not the value"
+                    return Cause("no f in front of the text", why, step)
     return None
 
 
 def diagnose_rate(trace: Trace, name: str, asked_hz: float) -> Cause | None:
-    """What keeps the rate from being what a parameter, which is read in Hz, says, as far as one line tells it."""
+    """Diagnose why the rate does not follow a parameter in Hz, if a single line shows it."""
     read = file(trace)
     return (
         diagnose_whole_rate(trace, name)
@@ -151,7 +151,7 @@ def diagnose_rate(trace: Trace, name: str, asked_hz: float) -> Cause | None:
 
 
 def diagnose_whole_rate(trace: Trace, name: str) -> Cause | None:
-    """Whether a rate is cut to a whole number, so that a small one becomes 0."""
+    """Diagnose a rate that is cut to a whole number, so that a small one becomes 0."""
     read = file(trace)
     if (cause := period_slips.diagnose_integer_period(read)) is not None:
         return cause
@@ -166,8 +166,8 @@ def diagnose_whole_rate(trace: Trace, name: str) -> Cause | None:
 
 
 def _draw(read: NodeFile) -> tuple[str, list[Edit]]:
-    """The code that draws a value, and the import that it needs."""
-    taken = False
+    """Return an expression that draws a value, and the edits that import what it needs."""
+    taken = False  # the name `random` is bound to something else
     for node in ast.walk(read.tree):
         match node:
             case ast.Import(names=names):

@@ -1,4 +1,4 @@
-"""I1.2: what must have been seen when N jumps, and when the publisher goes away and a new one starts over."""
+"""I1.2: the verdicts on jumps of N, and on a publisher that is replaced by a new one that starts over."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ from tutor.judge.causes import printing
 from tutor.judge.trace import Level
 from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped
 
-SETTLED = 2
-"""What is said of a jump is said before this many more messages have come."""
+SETTLING_MESSAGES = 2
+"""An alarm about a jump is logged before this many more messages have been sent."""
 
 
 def judge_restart(restart: Trial, steady: Trial, jump: Trial) -> Verdict:
@@ -51,18 +51,18 @@ def judge_restart(restart: Trial, steady: Trial, jump: Trial) -> Verdict:
                 "stopped counting",
                 "the node is there, but sums up nothing that the new publisher sends",
                 steps.go_on_after_restart(restart.trace)
-                or "do nothing special when N falls: count on, or set everything back and say so",
+                or "do nothing special when N falls: keep counting, or reset everything and say so",
             ),
             evidence,
         )
     if not counts_truly(steady, jump):
         return skipped("not judged, because `count` did not pass")
-    told = [line.text for line in new_lines(restart, since=restart.first_publisher_left_at, usual=(steady, jump))]
+    reports = [line.text for line in new_lines(restart, since=restart.first_publisher_left_at, usual=(steady, jump))]
     for summary in after:
         if true_total(summary, restart):
             continue
         restarted = true_total(summary, restart, before=before)
-        if restarted and told:
+        if restarted and reports:
             continue
         cause = (
             Cause(
@@ -77,20 +77,20 @@ def judge_restart(restart: Trial, steady: Trial, jump: Trial) -> Verdict:
                 f"{summary.messages} messages in all, {summary.messages - before} of them from the new publisher: "
                 "it states neither",
                 steps.go_on_after_restart(restart.trace)
-                or "do not compute the total from N; go on counting, or set everything back and say so",
+                or "do not compute the total from N; keep counting, or reset everything and say so",
             )
         )
         return failed(expected, f"{observed}; {summary}", cause, evidence)
     if judge_slow_summary(steady, jump).passed and (changed := _diagnose_summaries(after, restart, steady)):
         return failed(expected, observed, changed, evidence)
-    return passed(expected, observed, [*evidence, *told[:2]])
+    return passed(expected, observed, [*evidence, *reports[:2]])
 
 
 def _diagnose_summaries(after: Sequence[Summary], restart: Trial, steady: Trial) -> Cause | None:
-    """What is wrong with the summaries since the restart, wherever the node has begun to count: no more is judged."""
+    """Find faults in the summaries since the restart that do not depend on where the node begins to count."""
     before = restart.breaks
     new = len(restart.sent) - before
-    times = max(len(after), _times(after, find_summaries(steady)))
+    times = max(len(after), _count_summaries(after, find_summaries(steady)))
     if times >= 0.7 * new:
         return Cause(
             "summary for every message",
@@ -98,8 +98,8 @@ def _diagnose_summaries(after: Sequence[Summary], restart: Trial, steady: Trial)
             steps.go_on_after_restart(restart.trace)
             or "once N has fallen, go on as before: a summary for every ten messages",
         )
-    own = [summary for summary in after if summary.messages > before + 1]  # not of what came before
-    if own and not any(_quotes_new(summary, restart) for summary in own):
+    own = [summary for summary in after if summary.messages > before + 1]  # may not quote only the old publisher
+    if own and not any(_quotes_new_publisher(summary, restart) for summary in own):
         return Cause(
             "last message missing",
             "no summary quotes what the new publisher has sent last",
@@ -108,17 +108,17 @@ def _diagnose_summaries(after: Sequence[Summary], restart: Trial, steady: Trial)
     return None
 
 
-def _times(found: Sequence[Summary], usual: Sequence[Summary]) -> int:
-    """How many summaries these are, by the lines that the usual ones have.
+def _count_summaries(found: Sequence[Summary], usual: Sequence[Summary]) -> int:
+    """The number of summaries, by the number of lines that a usual one has.
 
-    Those of several messages were logged together, and look like one, where the machine kept the node from running.
+    A node that waited for the CPU may log several summaries at once, so that they look like one.
     """
-    lines, usually = (Counter(line.kind for each in of for line in each.lines) for of in (found, usual))
-    return min((lines[kind] * len(usual) // usually[kind] for kind in usually if kind in lines), default=0)
+    lines, usual_values = (Counter(line.kind for each in of for line in each.lines) for of in (found, usual))
+    return min((lines[kind] * len(usual) // usual_values[kind] for kind in usual_values if kind in lines), default=0)
 
 
-def _quotes_new(summary: Summary, restart: Trial) -> bool:
-    """Whether it quotes a recent message of the new publisher, besides a first one."""
+def _quotes_new_publisher(summary: Summary, restart: Trial) -> bool:
+    """Whether the summary quotes a recent message of the new publisher, apart from a first message."""
     quoted = list(summary.quoted)
     for first in {restart.sent[0].number, restart.sent[restart.breaks].number}.intersection(quoted):
         quoted.remove(first)
@@ -136,10 +136,10 @@ def judge_gaps(jump: Trial, steady: Trial) -> Verdict:
         return failed(
             expected, f"the node ended after {len(jump.sent)} messages", _diagnose_end(jump, "a jump of N"), words
         )
-    told = new_lines(jump, since=jump.sent[jump.breaks].at, usual=(steady,))
+    reports = new_lines(jump, since=jump.sent[jump.breaks].at, usual=(steady,))
     jumped = [f"from {jump.sent[index - 1].number} to {jump.sent[index].number}" for index in jump.jumps]
     observed = f"N jumped {', and '.join(jumped)}"
-    if told and (again := _goes_on(told, jump)):
+    if reports and (again := _find_repeated_alarms(reports, jump)):
         texts = [line.text for line in again]
         cause = gap_steps.diagnose_alarm(jump.trace, texts) or Cause(
             "false alarm",
@@ -149,33 +149,33 @@ def judge_gaps(jump: Trial, steady: Trial) -> Verdict:
         return failed(expected, observed, cause, texts[:6])
     if (rising := _diagnose_rising_count(jump, steady)) is not None:
         return failed(expected, observed, *rising)
-    unused = list(told)
+    unused = list(reports)
     for index, how in zip(jump.jumps, jumped, strict=True):
-        own = next((line for line in unused if _soon(line, index, jump)), None)
+        own = next((line for line in unused if _is_about_jump(line, index, jump)), None)
         if own is not None:
             unused.remove(own)
-        elif not any(_soon(line, index, jump) and _is_of_all_jumps(line, jump) for line in told):
+        elif not any(_is_about_jump(line, index, jump) and _reports_all_jumps(line, jump) for line in reports):
             since = [line.text for line in jump.lines if line.messages > index]
             why = _diagnose_no_warning(index, jump, steady)
             return failed(expected, f"N jumped {how}; nothing new was logged", why, since[:6])
-    return passed(expected, observed, [line.text for line in told[:3]])
+    return passed(expected, observed, [line.text for line in reports[:3]])
 
 
-def _soon(line: Line, index: int, jump: Trial) -> bool:
-    """Whether it was logged after this jump and before the next one, or as late as this machine may have made it."""
+def _is_about_jump(line: Line, index: int, jump: Trial) -> bool:
+    """Whether the line was logged after this jump and before the next one, allowing for delays by the machine."""
     later = [jump.sent[after].at for after in jump.jumps if after > index]
     return line.at >= jump.sent[index].at and all(line.at < at + jump.allowance_s for at in later)
 
 
-def _is_of_all_jumps(line: Line, jump: Trial) -> bool:
-    """Whether one message reports every jump so far: how many there were, or how many numbers were left out."""
+def _reports_all_jumps(line: Line, jump: Trial) -> bool:
+    """Whether the line reports all jumps so far: their number, or the total of missed messages."""
     missed = jump.missed(line.messages)
     return len(missed) > 1 and any(each.value in (len(missed), sum(missed)) for each in line.numbers)
 
 
-def _goes_on(told: Sequence[Line], jump: Trial) -> list[Line]:
-    """The alarms that come with most of the messages after the jump: warnings, or of ever more missing messages."""
-    later = [line for line in told if line.messages > jump.breaks + SETTLED]
+def _find_repeated_alarms(reports: Sequence[Line], jump: Trial) -> list[Line]:
+    """The alarms that are repeated for most messages after the jump: warnings, or growing counts of missed messages."""
+    later = [line for line in reports if line.messages > jump.breaks + SETTLING_MESSAGES]
     expected = jump.sent[jump.breaks - 1].number + 1
     growing = [
         line
@@ -183,39 +183,44 @@ def _goes_on(told: Sequence[Line], jump: Trial) -> list[Line]:
         if any(number.value == jump.sent[line.messages - 1].number - expected for number in line.numbers)
     ]
     for alarms in (growing, [line for line in later if line.level >= Level.WARN]):
-        if len({line.messages for line in alarms}) > 0.7 * (len(jump.sent) - jump.breaks - SETTLED):
+        if len({line.messages for line in alarms}) > 0.7 * (len(jump.sent) - jump.breaks - SETTLING_MESSAGES):
             return alarms
     return []
 
 
 def _diagnose_rising_count(jump: Trial, steady: Trial) -> tuple[Cause, list[str]] | None:
-    """Whether a number that reports the first jump goes on rising with the messages after it, and the lines.
+    """Find a number that rises at the first jump and keeps rising afterwards; also return the lines that show it.
 
-    It had been constant, and it does not fall back with the second jump, as what is counted since the last one does.
-    What a timer logs may report a jump late: only a number that had risen before is looked at.
+    It must have been constant before, and not fall at the second jump, unlike a count of messages since the last jump.
+    A timer may report a jump late, so only a number that has already risen is considered.
     """
-    calm = range(jump.breaks + SETTLED, jump.again + 1)
+    calm = range(jump.breaks + SETTLING_MESSAGES, jump.again + 1)
     for kind in {line.kind for line in jump.lines if line.messages in calm}:
         lines = [line for line in jump.lines if line.kind == kind]
         starts = [
-            [line for line in trial.lines if line.kind == kind and _calm(line, trial)] for trial in (jump, steady)
+            [line for line in trial.lines if line.kind == kind and _is_before_jump(line, trial)]
+            for trial in (jump, steady)
         ]
         usual = [line for lines in starts for line in lines]
         amount = {len(line.numbers) for line in (*lines, *usual)}
-        if max(map(len, starts)) < 2 or len(amount) > 1:  # of one line, nothing is known to be constant
+        if max(map(len, starts)) < 2 or len(amount) > 1:  # a single line does not show what is constant
             continue
         since = [line for line in lines if line.messages in calm]
         later = [line for line in lines if line.messages > jump.again]
         for place in range(*amount):
-            was = {line.numbers[place].value for line in usual}
+            values_before = {line.numbers[place].value for line in usual}
             rose = [line.numbers[place].value for line in since]
             ends = [line.numbers[place].value for line in later[-1:]]
             whole = all(value.is_integer() for value in rose)
-            if len(was) == 1 and whole and max(was) < rose[0] < rose[-1] <= min(ends, default=rose[-1]):
+            if (
+                len(values_before) == 1
+                and whole
+                and max(values_before) < rose[0] < rose[-1] <= min(ends, default=rose[-1])
+            ):
                 texts = [line.text for line in (since[0], since[-1], *later[-1:])]
                 return gap_steps.diagnose_alarm(jump.trace, texts) or Cause(
                     "false alarm",
-                    f"what it says is lost goes on rising while N rises by one again: {since[0].numbers[place].text} "
+                    f"the loss that it reports keeps rising while N rises by one again: {since[0].numbers[place].text} "
                     f"after {since[0].messages} messages, {since[-1].numbers[place].text} after {since[-1].messages}",
                     steps.compare_numbers(jump.trace, texts) or gap_steps.COMPARE,
                 ), texts
@@ -223,19 +228,19 @@ def _diagnose_rising_count(jump: Trial, steady: Trial) -> tuple[Cause, list[str]
 
 
 def _diagnose_end(trial: Trial, what: str) -> Cause:
-    ended = Cause("exit at once", f"the node does not survive {what}", "let it run")
+    ended = Cause("exit at once", f"the node does not survive {what}", "keep it running")
     return steps.keep_node_up(trial.trace, causes.diagnose_process(trial.trace) or ended)
 
 
 def _diagnose_no_warning(index: int, jump: Trial, steady: Trial) -> Cause:
-    """Why nothing is said of the jump to the message with this index.
+    """Why the jump to the message with this index is not reported.
 
-    A kind of message that came with the jump, but not with every message, was a false alarm elsewhere.
+    A kind of line that came with the jump, and also with some, but not all, other messages, was a false alarm there.
     """
     in_summaries = {line.kind for summary in (*find_summaries(steady), *find_summaries(jump)) for line in summary.lines}
     with_it = range(index + 1, index + 3)
     since = {line.kind for line in jump.lines if line.messages in with_it} - in_summaries
-    calm = [line for trial in (steady, jump) for line in trial.lines if _calm(line, trial)]
+    calm = [line for trial in (steady, jump) for line in trial.lines if _is_before_jump(line, trial)]
     false = [line for line in calm if line.kind in since]
     if 0 < len(false) < 0.7 * (len(steady.sent) + jump.breaks - 2):
         texts = [line.text for line in false]
@@ -255,113 +260,118 @@ def _diagnose_no_warning(index: int, jump: Trial, steady: Trial) -> Cause:
     missed = jump.missed(index)[-1]
     return gap_steps.diagnose_no_messages(jump.trace) or Cause(
         "gap not noticed",
-        f"{missed} number{'s are' if missed > 1 else ' is'} missing, and nothing tells this from any other message",
+        f"{missed} number{'s are' if missed > 1 else ' is'} missing, "
+        "and nothing distinguishes this from any other message",
         steps.compare_numbers(jump.trace)
         or "keep the last N; where the next one is not that + 1, self.get_logger().warning(...) how many are missing",
     )
 
 
 def new_lines(trial: Trial, *, since: float, usual: Sequence[Trial]) -> list[Line]:
-    """What the node says, from a time on, that it does not say while N rises by one.
+    """The lines from `since` on that the node does not log while N rises by one.
 
-    A message of another kind, or a number that had been constant. The `usual` are other starts, up to their own jump;
-    what comes with a first message is not an alarm, and none of the usual kinds.
+    These are lines of a new kind, or with a change in a number that was constant before. `usual`: other trials, used up
+    to their own jump. Lines logged with a first message are not alarms, and do not define usual kinds.
     """
-    before = [line for line in trial.lines if line.at < since and not _is_of_first_jump(line, trial)]
-    elsewhere = [[line for line in other.lines if _calm(line, other)] for other in usual]
+    before = [line for line in trial.lines if line.at < since and not _is_about_first_message(line, trial)]
+    elsewhere = [[line for line in other.lines if _is_before_jump(line, other)] for other in usual]
     known = {line.kind for lines in (before, *elsewhere) for line in lines}
     in_summaries = {line: summary for summary in find_summaries(trial) for line in summary.lines}
-    told = []
+    reports = []
     for line in trial.lines:
         if line.at < since:
             continue
-        mine = [other for other in before if other.kind == line.kind]
+        same_kind = [other for other in before if other.kind == line.kind]
         others = [[other for other in lines if other.kind == line.kind] for lines in elsewhere]
-        if line.kind not in known or _counts_up(line, in_summaries.get(line), mine, others, trial):
-            told.append(line)
-    return told
+        if line.kind not in known or _reports_jump(line, in_summaries.get(line), same_kind, others, trial):
+            reports.append(line)
+    return reports
 
 
-def _calm(line: Line, trial: Trial) -> bool:
-    return not _is_of_first_jump(line, trial) and not (trial.breaks and line.messages > trial.breaks)
+def _is_before_jump(line: Line, trial: Trial) -> bool:
+    return not _is_about_first_message(line, trial) and not (trial.breaks and line.messages > trial.breaks)
 
 
-def _is_of_first_jump(line: Line, trial: Trial) -> bool:
+def _is_about_first_message(line: Line, trial: Trial) -> bool:
     return line.at < trial.sent[0].at + SOON_S
 
 
-def _counts_up(
+def _reports_jump(
     line: Line, summary: Summary | None, before: Sequence[Line], elsewhere: Sequence[Sequence[Line]], trial: Trial
 ) -> bool:
-    """Whether a number in the line reports the jump: how many gaps, missed messages, or messages there should be.
+    """Whether a number in the line reports the jump: as a count of gaps, of missed or of expected messages.
 
-    `summary`: the summary that the line is of, if any.
+    `summary`: the summary that contains the line, if any.
     """
     others = [other for lines in (before, *elsewhere) for other in lines]
     missed = trial.missed(line.messages)
     if not others or any(len(other.numbers) != len(line.numbers) for other in others):
         return False
     for place, number in enumerate(line.numbers):
-        was = {other.numbers[place].value for other in before or others}
-        usually = [{other.numbers[place].value for other in lines} for lines in elsewhere]
-        if summary is not None and _should_be(place, line, summary, others, missed):
+        values_before = {other.numbers[place].value for other in before or others}
+        usual_values = [{other.numbers[place].value for other in lines} for lines in elsewhere]
+        if summary is not None and _includes_missed(place, line, summary, others, missed):
             return True
-        if len(was) > 1 or any(len(each) > 1 for each in usually):
+        if len(values_before) > 1 or any(len(each) > 1 for each in usual_values):
             continue
-        base = was.pop()
-        grown = number.value - base
-        from_zero = any(each == {0.0} for each in usually)
+        base = values_before.pop()
+        increase = number.value - base
+        from_zero = any(each == {0.0} for each in usual_values)
         if summary is None:
-            # In what is logged with every message, a number speaks for itself if it was 0 until then, and no warning.
-            told = base == 0 and from_zero and line.level < Level.WARN and _counts(grown, missed)
+            # In a line that is logged with every message, a number is a report if it was 0 before, and no warning.
+            is_report = base == 0 and from_zero and line.level < Level.WARN and _is_count_of_jump(increase, missed)
         else:
-            told = from_zero and (_counts(grown, missed) or _is_share(grown, missed, trial))
-            told = told or (all(each == {base} for each in usually) and _tells_of(grown, base, missed, trial))
-        if told:
+            is_report = from_zero and (_is_count_of_jump(increase, missed) or _is_loss_share(increase, missed, trial))
+            is_report = is_report or (
+                all(each == {base} for each in usual_values) and _reflects_jump(increase, base, missed, trial)
+            )
+        if is_report:
             return True
     return False
 
 
-def _should_be(place: int, line: Line, summary: Summary, calm: Iterable[Line], missed: Sequence[int]) -> bool:
-    """Whether a number that was the count until then is greater by what was missed, while the count itself is there."""
+def _includes_missed(place: int, line: Line, summary: Summary, calm: Iterable[Line], missed: Sequence[int]) -> bool:
+    """Whether a number that equalled the count now also includes missed messages, beside the count itself."""
     due = milestone(line.messages)
     followed = all(other.numbers[place].value == milestone(other.messages) > 0 for other in calm)
-    greater = line.numbers[place].value - due in [each for each in _amounts(missed) if each > 0]
+    greater = line.numbers[place].value - due in [each for each in _missed_totals(missed) if each > 0]
     return followed and greater and summary.states(due)
 
 
-def _amounts(missed: Sequence[int]) -> set[int]:
-    """What each jump left out, and all of them together."""
+def _missed_totals(missed: Sequence[int]) -> set[int]:
+    """The messages missed by each single jump, and the running totals."""
     return {*missed, *accumulate(missed)}
 
 
-def _counts(grown: float, missed: Sequence[int]) -> bool:
-    """Whether it is how many jumps there were, or how many messages they left out."""
-    return grown in range(1, len(missed) + 1) or _counts_missed(grown, missed)
+def _is_count_of_jump(increase: float, missed: Sequence[int]) -> bool:
+    """Whether the increase is the number of jumps, or of missed messages."""
+    return increase in range(1, len(missed) + 1) or _is_count_of_missed(increase, missed)
 
 
-def _counts_missed(grown: float, missed: Sequence[int]) -> bool:
-    """Whether it is how many messages were left out, or by how much N rose instead."""
-    return any(grown in (abs(amount), abs(amount) + 1, abs(amount) + len(missed)) for amount in _amounts(missed))
+def _is_count_of_missed(increase: float, missed: Sequence[int]) -> bool:
+    """Whether the increase is the number of missed messages, or the step of N."""
+    return any(
+        increase in (abs(amount), abs(amount) + 1, abs(amount) + len(missed)) for amount in _missed_totals(missed)
+    )
 
 
-def _tells_of(grown: float, base: float, missed: Sequence[int], trial: Trial) -> bool:
-    """Whether what was not 0 has changed as it should: the number of a run, what was missed, or the share that came."""
-    if grown == 1 and any(each < 0 for each in missed):
+def _reflects_jump(increase: float, base: float, missed: Sequence[int], trial: Trial) -> bool:
+    """Whether a number that was `base` reflects the jump: as a run number, missed messages or the share received."""
+    if increase == 1 and any(each < 0 for each in missed):
         return True
-    delivered = base in (1, 100) and _is_share(-grown, missed, trial, scales=(base,))
-    return _counts_missed(grown, missed) or delivered
+    delivered = base in (1, 100) and _is_loss_share(-increase, missed, trial, scales=(base,))
+    return _is_count_of_missed(increase, missed) or delivered
 
 
-def _is_share(grown: float, missed: Sequence[int], trial: Trial, *, scales: Sequence[float] = (1, 100)) -> bool:
-    """Whether it is a share of lost messages, or of jumps, of 1 or in percent, to two digits at least."""
-    if any(each < 0 for each in missed) or grown <= 0:
+def _is_loss_share(increase: float, missed: Sequence[int], trial: Trial, *, scales: Sequence[float] = (1, 100)) -> bool:
+    """Whether the increase is the share of lost messages or of jumps, as a fraction or in percent, to two digits."""
+    if any(each < 0 for each in missed) or increase <= 0:
         return False
     jumps = range(1, len(missed) + 1)
     shares = {
         lost / (whole + more)
-        for lost in (*jumps, *_amounts(missed))
+        for lost in (*jumps, *_missed_totals(missed))
         for whole in range(trial.breaks + 1, len(trial.sent) + 1)
-        for more in (0, *_amounts(missed), *(-each for each in jumps))
+        for more in (0, *_missed_totals(missed), *(-each for each in jumps))
     }
-    return any(abs(grown - scale * share) <= 0.0051 * scale for share in shares for scale in scales)
+    return any(abs(increase - scale * share) <= 0.0051 * scale for share in shares for scale in scales)

@@ -1,4 +1,4 @@
-"""I1.2: one cause behind several failures, which the failures themselves do not tell."""
+"""I1.2: root causes of several failures, which a single failure does not reveal."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from tutor.judge.verdict import Cause, Status, Verdict
 
 
 def with_deeper_cause[V: Verdict | None](judge: Callable[..., V]) -> Callable[..., V]:
-    """The judge, with another cause for its failures where what was fed shows one that lies deeper."""
+    """Decorate a judge: its failures get another cause if the trials reveal a deeper one."""
 
     @wraps(judge)
     def judged(*trials: Trial) -> V:
@@ -31,10 +31,10 @@ def with_deeper_cause[V: Verdict | None](judge: Callable[..., V]) -> Callable[..
 
 
 def _diagnose_waiting(trials: Sequence[Trial]) -> Cause | None:
-    """Whether it takes in messages late, or not at all, and its source says what it waits for meanwhile."""
+    """Find what the node waits for, if it handles messages late or not at all and its source shows why."""
     for trial in trials:
         if behind := backlog.messages_behind(trial):
-            text = f"it takes in a message when {behind} newer ones have come, or never"
+            text = f"it handles a message when {behind} newer ones have come, or never"
         elif any(backlog.find_lost(trial, each) for each in trials):
             text = "some messages never reach its callback"
         elif trial.sent and trial.spins and not trial.lines:
@@ -47,27 +47,27 @@ def _diagnose_waiting(trials: Sequence[Trial]) -> Cause | None:
 
 
 def _diagnose_double_count(trials: Sequence[Trial]) -> Cause | None:
-    """Whether two subscriptions count each message twice."""
+    """Find two subscriptions that count each message twice."""
     for trial in trials:
-        here = [each for each in trial.trace.graph.subscriptions if (each.topic, each.type) == (TOPIC, TYPE)]
-        if len(here) < 2 or not _doubled(trial):
+        ours = [each for each in trial.trace.graph.subscriptions if (each.topic, each.type) == (TOPIC, TYPE)]
+        if len(ours) < 2 or not _has_doubled_count(trial):
             continue
         calls = source.calls(trial.trace, "create_subscription")
-        made = [call.lineno for call in calls]
-        where = f": lines {' and '.join(map(str, made))}" if len(made) > 1 else ""
+        line_numbers = [call.lineno for call in calls]
+        where = f": lines {' and '.join(map(str, line_numbers))}" if len(line_numbers) > 1 else ""
         return Cause(
             "two subscriptions",
-            f"{len(here)} subscriptions on {TOPIC} each call the callback, so that every message counts twice{where}",
+            f"{len(ours)} subscriptions on {TOPIC} each call the callback, so that every message counts twice{where}",
             next(filter(None, (slowness.remove_call(trial.trace, call) for call in reversed(calls))), "")
-            or f"keep one of them, and take the one in line {made[-1]} out"
-            if len(made) > 1
+            or f"keep one of them, and take the one in line {line_numbers[-1]} out"
+            if len(line_numbers) > 1
             else "make one node, and one subscription in it",
         )
     return None
 
 
-def _doubled(trial: Trial) -> bool:
-    """Whether a number in its log is twice what was sent, each time."""
+def _has_doubled_count(trial: Trial) -> bool:
+    """Whether a number in the log is always twice the number of messages sent."""
     for kind in {line.kind for line in trial.lines}:
         lines = [line for line in trial.lines if line.kind == kind and line.numbers]
         for place in range(min((len(line.numbers) for line in lines), default=0)):

@@ -1,4 +1,4 @@
-"""I1.2: the function that a learner's subscription calls, and the names by which it keeps what it keeps."""
+"""I1.2: the callback of a learner's subscription, and the variables in which it keeps its state."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ _LEVELS = ("info", "warn", "warning", "error", "fatal")
 
 @dataclass(frozen=True)
 class Listener:
-    """The callback of a subscription. `owner`: the class that it is a method of; `outer`: the function that it is in.
+    """The callback of a subscription. `owner`: its class, if it is a method; `outer`: the enclosing function, if any.
 
-    `reached`: it, and the functions that it calls. `names`: for COUNT, FIRST, ... as far as the file has one, the
-    variable that is kept from one message to the next, as written in the callback.
+    `reached`: the callback and the functions that it calls. `names`: the variable for each role COUNT, FIRST, ..., as
+    written in the callback, if the file has one. These variables persist from one message to the next.
     """
 
     file: SourceFile
@@ -34,18 +34,18 @@ class Listener:
 
     @property
     def text(self) -> str:
-        """The text of its file."""
+        """The source text of the file."""
         return self.file.text
 
     @property
     def message(self) -> str:
-        """What it calls the message; empty where it takes none."""
+        """The parameter for the message; "" if the callback takes none."""
         given = [each.arg for each in self.function.args.args if each.arg not in ("self", "cls")]
         return given[0] if given else ""
 
     @property
     def content(self) -> str:
-        """What the message's text is in it: `msg.data`, or an argument that a lambda gives it."""
+        """The expression for the message's text: `msg.data`, or the parameter itself if a lambda passes the text."""
         given = [each for each in ast.walk(self.created) if isinstance(each, ast.Lambda)]
         taken = any(
             isinstance(node, ast.Attribute) and node.attr == "data" for each in given for node in ast.walk(each)
@@ -54,12 +54,12 @@ class Listener:
 
     @property
     def within(self) -> list[Function]:
-        """The functions that are done with a message and have the callback's names."""
+        """The functions that run for a message and share the callback's variables."""
         return [each for each in self.reached if each is self.function or (self.owner and each in self.owner.body)]
 
     @property
     def logger(self) -> str:
-        """The logger, as written in the callback; empty where it has none within reach."""
+        """The expression for the logger in the callback; "" if none is in scope."""
         node = ast.unparse(self.created.func.value) if isinstance(self.created.func, ast.Attribute) else "node"
         if self.owner is not None and self.created in ast.walk(self.owner):
             return f"{node}.get_logger()"
@@ -70,64 +70,66 @@ class Listener:
         return "" if self.owner else f"{node}.get_logger()"
 
     def name(self, role: str) -> str:
-        """The variable of this role, as written in the callback: one of the file's own, or a new one."""
+        """The variable for this role, as written in the callback: the file's own, or else a new one."""
         return self.names.get(role) or (f"self.{role}" if self.owner else role)
 
-    def new(self, *names: str) -> str:
-        """The first of these names, as written in the callback, that the file does not have; else the last one."""
+    def new_name(self, *names: str) -> str:
+        """The first of these names that the file does not use yet, else the last one; as written in the callback."""
         free = [each for each in names if not re.search(rf"\b{each}\b", self.text)]
         return f"{'self.' if self.owner else ''}{(free or names[-1:])[0]}"
 
 
 def find_listener(trace: Trace) -> Listener | None:
-    """The callback of the node's subscription; None where there is none, or the file cannot be read."""
+    """Find the callback of the node's subscription; None if there is none, or the file cannot be parsed."""
     for file in source.files(trace):
         for call in file.calls("create_subscription"):
-            for function in _given(call, file):
+            for function in _passed_functions(call, file):
                 parent = next(file.ancestors(function), None)
                 owner = parent if isinstance(parent, ast.ClassDef) else None
                 outer = file.function_around(function) if owner is None else None
-                led = tuple(file.reached(function))
-                return Listener(file, call, function, led, owner, outer, dict(_names(function, led, owner, file)))
+                reached = tuple(file.reached(function))
+                return Listener(
+                    file, call, function, reached, owner, outer, dict(_find_roles(function, reached, owner, file))
+                )
     return None
 
 
-def _given(call: ast.Call, file: SourceFile) -> Iterator[Function]:
-    """The functions of the file that are given to a call, or called by a lambda that is."""
-    mine = file.class_of(call)
-    functions = sorted(file.functions, key=lambda each: mine is None or each not in mine.body)
+def _passed_functions(call: ast.Call, file: SourceFile) -> Iterator[Function]:
+    """The functions of the file that are passed to a call, or called by a lambda that is passed to it."""
+    own = file.class_of(call)
+    functions = sorted(file.functions, key=lambda each: own is None or each not in own.body)
     for value in (*call.args, *(each.value for each in call.keywords)):
         parts = ast.walk(value) if isinstance(value, ast.Lambda | ast.Call) else [value]
         named = [name for each in parts if (name := last_name(each))]
         yield from (each for name in named for each in functions if each.name == name)
 
 
-def _names(
+def _find_roles(
     function: Function, reached: Sequence[Function], owner: ast.ClassDef | None, file: SourceFile
 ) -> Iterator[tuple[str, str]]:
-    """The role of each variable that lasts, with the variable; of two in one role, the one that comes first counts.
+    """The persistent variables, as (role, variable). Of two with the same role, the first one counts.
 
-    What another class keeps is out of the callback's reach; what is also set elsewhere may be for something else.
+    Variables of another class are out of scope; a variable that is also set elsewhere may have another purpose.
     """
     called = [node.value for node in function.body if isinstance(node, ast.Expr)]
     always = {source.called_name(each) for each in called if isinstance(each, ast.Call)} if owner else set()
-    mine = [each for each in reached if each is function or (each.name in always and owner and each in owner.body)]
-    outside = [each for each in file.functions if each not in mine and each.name != "__init__"]
-    others = {name for each in outside for name, _, _ in _kept(each)}
+    own = [each for each in reached if each is function or (each.name in always and owner and each in owner.body)]
+    outside = [each for each in file.functions if each not in own and each.name != "__init__"]
+    others = {name for each in outside for name, _, _ in _persistent_assignments(each)}
     found: dict[str, str] = {}
-    for each in mine:
-        for target, value, with_each in _kept(each):
+    for each in own:
+        for target, value, with_each in _persistent_assignments(each):
             role = _role(value, each, with_each)
             if role and target not in others and (role != START or not with_each):
                 found.setdefault(role, target)
     yield from found.items()
 
 
-def _kept(function: Function) -> Iterator[tuple[str, ast.expr, bool]]:
-    """What the function sets and keeps: variable, value, and whether it does so with each call."""
-    whole = [node for node in ast.walk(function) if isinstance(node, ast.Global | ast.Nonlocal)]
-    lasting = {name for node in whole for name in node.names}
-    short = {
+def _persistent_assignments(function: Function) -> Iterator[tuple[str, ast.expr, bool]]:
+    """The persistent variables that the function sets: (variable, value, whether each call sets it)."""
+    declarations = [node for node in ast.walk(function) if isinstance(node, ast.Global | ast.Nonlocal)]
+    persistent = {name for node in declarations for name in node.names}
+    aliases = {
         target.id: ast.unparse(node.value)
         for node in function.body
         if isinstance(node, ast.Assign) and isinstance(node.value, ast.Attribute)
@@ -144,8 +146,8 @@ def _kept(function: Function) -> Iterator[tuple[str, ast.expr, bool]]:
             continue
         for target, value in pairs:
             root, _, rest = ast.unparse(target).partition(".")
-            name = f"{short.get(root, root)}.{rest}" if rest else root
-            if name.startswith("self.") or root in lasting:
+            name = f"{aliases.get(root, root)}.{rest}" if rest else root
+            if name.startswith("self.") or root in persistent:
                 yield name, value, always
 
 
@@ -156,7 +158,7 @@ def _pairs(target: ast.expr, value: ast.expr) -> list[tuple[ast.expr, ast.expr]]
 
 
 def _role(value: ast.expr, function: Function, always: bool) -> str:
-    """What a variable is for that is set to this value."""
+    """The role of a variable that is set to this value, or ""."""
     given = {each.arg for each in function.args.args}
     match value:
         case ast.BinOp(left=ast.Name() | ast.Attribute(), op=ast.Add(), right=ast.Constant(value=1)):
@@ -171,7 +173,7 @@ def _role(value: ast.expr, function: Function, always: bool) -> str:
 
 
 def value_of(value: ast.expr, function: Function) -> ast.expr:
-    """What a local variable was set to, if it is one and was set once; else the expression itself."""
+    """The value of a local variable that is set only once; else the expression itself."""
     if not isinstance(value, ast.Name):
         return value
     given = values_of(value.id, function)

@@ -1,4 +1,4 @@
-"""I1.2: what a learner's expression makes of a message's text, worked out here without running any of their code."""
+"""I1.2: evaluate a learner's expression for a message's text without running any of their code."""
 
 from __future__ import annotations
 
@@ -13,23 +13,23 @@ EXAMPLES = ("Hello World: 107", "Hello World: 38", "Hello World: 4")
 _METHODS = frozenset(
     {"split", "rsplit", "partition", "rpartition", "strip", "lstrip", "rstrip", "replace", "removeprefix", "lower"}
 )
-_DEEPEST = 12
+_MAX_DEPTH = 12
 
 
 class _Unknown(Exception):
-    """The expression cannot be worked out."""
+    """The expression cannot be evaluated."""
 
 
 @dataclass(frozen=True, slots=True)
-class _Reader:
-    """Works out expressions of one function, in which what holds the message's text stands for `text`."""
+class _Evaluator:
+    """Evaluates expressions of one function, with `text` as the message's text."""
 
     function: Function
     text: str
 
     def value(self, node: ast.expr, depth: int = 0) -> object:
-        """What the expression comes to. Raises _Unknown, or what Python would raise."""
-        if depth > _DEEPEST:
+        """Evaluate an expression. Raises _Unknown, or the exception that Python would raise."""
+        if depth > _MAX_DEPTH:
             raise _Unknown
         match node:
             case ast.Constant(value=str() | int() as plain):
@@ -39,11 +39,11 @@ class _Reader:
             case ast.Attribute(attr="data"):
                 return self.text
             case ast.Name(id=name):
-                return self._named(name, depth)
+                return self._variable(name, depth)
             case ast.Subscript(value=inner, slice=ast.Slice(lower=lower, upper=upper, step=None)):
                 whole = self.value(inner, depth + 1)
                 if isinstance(whole, str | list | tuple):
-                    return whole[self._end(lower, depth) : self._end(upper, depth)]
+                    return whole[self._bound(lower, depth) : self._bound(upper, depth)]
             case ast.Subscript(value=inner, slice=index):
                 whole, at = self.value(inner, depth + 1), self.value(index, depth + 1)
                 if isinstance(whole, str | list | tuple) and isinstance(at, int):
@@ -58,14 +58,14 @@ class _Reader:
                     return int(read)
         raise _Unknown
 
-    def _end(self, node: ast.expr | None, depth: int) -> int | None:
-        """One end of a slice."""
+    def _bound(self, node: ast.expr | None, depth: int) -> int | None:
+        """Evaluate one bound of a slice."""
         at = None if node is None else self.value(node, depth + 1)
         if at is None or isinstance(at, int):
             return at
         raise _Unknown
 
-    def _named(self, name: str, depth: int) -> object:
+    def _variable(self, name: str, depth: int) -> object:
         given = values_of(name, self.function)
         if len(given) == 1:
             return self.value(given[0], depth + 1)
@@ -76,7 +76,7 @@ class _Reader:
 
 @dataclass(frozen=True, slots=True)
 class Misread:
-    """Where a number is taken from the wrong place of the text: what it reads there, and the `right` code."""
+    """An expression that takes the number from the wrong place. `text`: what it reads; `right`: correct code."""
 
     node: ast.Call
     text: str
@@ -84,23 +84,23 @@ class Misread:
 
 
 def find_misread(functions: Sequence[Function]) -> Misread | None:
-    """Whether the number is taken from the wrong place of the text."""
+    """Find an expression that takes the number from the wrong place of the text."""
     for function in functions:
         for node in ast.walk(function):
             if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "int" and node.args:
                 for text in EXAMPLES:
-                    if (found := _of_one(function, node, text)) is not None:
+                    if (found := _check_example(function, node, text)) is not None:
                         return found
     return None
 
 
-def _of_one(function: Function, node: ast.Call, text: str) -> Misread | None:
-    base = _text_of(function, node)
+def _check_example(function: Function, node: ast.Call, text: str) -> Misread | None:
+    base = _find_text_expression(function, node)
     if base is None:
         return None
-    reader, right = _Reader(function, text), int(text.rpartition(":")[2])
+    evaluator, right = _Evaluator(function, text), int(text.rpartition(":")[2])
     try:
-        read = reader.value(node)
+        read = evaluator.value(node)
     except (ValueError, IndexError, TypeError):
         reads = "no number out of"
     except _Unknown:
@@ -109,23 +109,23 @@ def _of_one(function: Function, node: ast.Call, text: str) -> Misread | None:
         if read == right:
             return None
         reads = f"{read!r} out of"
-    says = f"line {node.lineno}: {ast.unparse(node)} reads {reads} “{text}”"
-    return Misread(node, says, f"int({base}.rpartition(':')[2])")
+    description = f"line {node.lineno}: {ast.unparse(node)} reads {reads} “{text}”"
+    return Misread(node, description, f"int({base}.rpartition(':')[2])")
 
 
-def _text_of(function: Function, node: ast.expr, depth: int = 0) -> str | None:
-    """What holds the message's text in this expression, as written: msg.data, or an argument that is taken apart."""
+def _find_text_expression(function: Function, node: ast.expr, depth: int = 0) -> str | None:
+    """The part of the expression with the message's text: msg.data, or a parameter that is subscripted or split."""
     for each in ast.walk(node):
         if isinstance(each, ast.Attribute) and each.attr == "data":
             return ast.unparse(each)
     arguments = {each.arg for each in function.args.args} - {"self"}
     for each in ast.walk(node):
-        if not isinstance(each, ast.Name) or each is node or depth > _DEEPEST:
+        if not isinstance(each, ast.Name) or each is node or depth > _MAX_DEPTH:
             continue
         given = values_of(each.id, function)
-        if len(given) == 1 and (found := _text_of(function, given[0], depth + 1)) is not None:
+        if len(given) == 1 and (found := _find_text_expression(function, given[0], depth + 1)) is not None:
             return found
-        apart = any(isinstance(other, ast.Subscript | ast.Attribute) for other in ast.walk(node))
-        if not given and each.id in arguments and apart:
+        is_taken_apart = any(isinstance(other, ast.Subscript | ast.Attribute) for other in ast.walk(node))
+        if not given and each.id in arguments and is_taken_apart:
             return each.id
     return None

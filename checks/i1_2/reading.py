@@ -1,6 +1,6 @@
-"""Log messages read as a human reads them: what is quoted, what is a number, and what is only wording.
+"""I1.2: parse log messages into quoted messages, numbers and wording.
 
-In any language and any format: nothing is known of the words.
+This works in any language and format, since no particular words are assumed.
 """
 
 from __future__ import annotations
@@ -32,22 +32,23 @@ _REPEATED = re.compile(r"(.)\1+")
 
 @dataclass(frozen=True, slots=True)
 class Number:
-    """A number as it is written, and all values that it may be meant as: "4,93" is 4.93, or 4 and 93."""
+    """A number as written, and all values that it may stand for: "4,93" is 4.93, or 4 and 93."""
 
     text: str
     values: tuple[float, ...]
 
     @property
     def value(self) -> float:
-        """The likeliest of its values."""
+        """The likeliest value."""
         return self.values[0]
 
 
 @dataclass(frozen=True, slots=True)
 class Line:
-    """One log message. `messages`: how many had been sent to the node when it was logged.
+    """One log message. `messages`: how many messages had been sent to the node when it was logged.
 
-    `shape` is its wording, without quotations and numbers; `quoted` holds each N of the contents that it quotes.
+    `shape`: its wording, without quotations and numbers; `quoted`: the N of each “Hello World: N” that it quotes; `at`:
+    when it was logged, in seconds since the epoch.
     """
 
     level: int
@@ -60,28 +61,28 @@ class Line:
 
     @property
     def kind(self) -> tuple[int, str]:
-        """Two messages of one kind come from the same line of code, as like as not."""
+        """Level and shape: log messages of one kind probably come from the same line of code."""
         return self.level, self.shape
 
     @property
     def tells(self) -> bool:
-        """Whether there is more in it than wording."""
+        """Whether the line contains more than wording."""
         return bool(self.quoted or self.numbers)
 
 
 def read(log: LogRecord, messages: int) -> Line:
-    """Read one log message, logged after this many `messages` had been sent."""
+    """Parse one log message, logged after `messages` messages had been sent."""
     text = unicodedata.normalize("NFKC", _COLOUR.sub("", log.text))
     quoted = tuple(int(found[1]) for found in _CONTENT.finditer(text))
     plain = _CLOCK.sub("@", _CONTENT.sub("“”", text))
-    listed = (number for found in _NUMBER.finditer(plain) for number in _listed(found[0]))
-    numbers = tuple(number for number in listed if all(map(math.isfinite, number.values)))
+    found_numbers = (number for found in _NUMBER.finditer(plain) for number in _split_list(found[0]))
+    numbers = tuple(number for number in found_numbers if all(map(math.isfinite, number.values)))
     shape = _REPEATED.sub(r"\1", re.sub(r"\s+", " ", _DIGITS.sub("#", _NUMBER.sub("#", plain)))).strip()
     return Line(log.level, shape, text, log.stamp, messages, quoted, numbers)
 
 
 def labelled(text: str) -> Iterator[tuple[str, int]]:
-    """The quotations with "first" or "last" right before them, such as last message: "...": which, and the N."""
+    """The quotations right after "first" or "last", such as last message: "...", as (label, N)."""
     end = 0
     for found in _CONTENT.finditer(text):
         if label := _LABEL.search(text[end : found.start()]):
@@ -89,12 +90,12 @@ def labelled(text: str) -> Iterator[tuple[str, int]]:
         end = found.end()
 
 
-def _listed(written: str) -> Iterator[Number]:
-    """The numbers of a list without blanks, such as 10,4.95,0, each alone and with a decimal comma after it.
+def _split_list(written: str) -> Iterator[Number]:
+    """The numbers in a list without spaces, such as 10,4.95,0; each may also have the next one as its decimals.
 
-    What may be a single number is one.
+    Text that may be a single number is taken for one.
     """
-    parts = _plainly(written).split(",")
+    parts = _normalise(written).split(",")
     one = len(parts) < 3 and "." not in written
     if one or _IN_ENGLISH.fullmatch(written) or _IN_GERMAN.fullmatch(written):
         yield Number(written, tuple(values(written)))
@@ -104,14 +105,14 @@ def _listed(written: str) -> Iterator[Number]:
         yield Number(part, (*values(part), *more))
 
 
-def _plainly(written: str) -> str:
-    """With a hyphen for a minus sign, and nothing between the thousands."""
+def _normalise(written: str) -> str:
+    """Replace a typographic minus sign by a hyphen, and remove thousands separators."""
     return _THOUSANDS.sub("", written.replace("\u2212", "-"))
 
 
 def values(written: str) -> Iterator[float]:
-    """All values that a number may be meant as, the likeliest first. A comma may be a decimal point, or an end."""
-    text = _plainly(written)
+    """All values that a number may stand for, the likeliest first. A comma may be a decimal point or a separator."""
+    text = _normalise(written)
     if _IN_ENGLISH.fullmatch(text):
         yield float(text.replace(",", ""))
     if _IN_GERMAN.fullmatch(text):

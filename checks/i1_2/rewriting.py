@@ -1,4 +1,4 @@
-"""I1.2: the step that makes of a learner's callback one that does all that is asked for, in the file's own names."""
+"""I1.2: the step that rewrites a learner's callback to meet all requirements, with the file's own names."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from tutor.judge.rewriting.node import first_line
 from tutor.judge.source import last_name
 from tutor.judge.trace import Trace
 
-_AT_FIRST = {COUNT: "0", FIRST: "''", LAST: "''", START: "0.0", NUMBER: "None"}
+_INITIAL_VALUES = {COUNT: "0", FIRST: "''", LAST: "''", START: "0.0", NUMBER: "None"}
 _CODE = """\
 if {total_count} == 0:
     {first_message} = {content}
@@ -44,24 +44,24 @@ if {total_count} % {every} == 0:
 
 
 def rewrite_callback(trace: Trace) -> str | None:
-    """The step that rewrites the callback; None where it cannot be written so."""
+    """The step that rewrites the callback; None if that is not possible."""
     listener = find_listener(trace)
     if listener is not None and listener.message and listener.logger:
-        names = {role: listener.name(role) for role in _AT_FIRST}
+        names = {role: listener.name(role) for role in _INITIAL_VALUES}
         wanted, now = monotonic_clock(listener.text)
         code = _CODE.format(content=listener.content, clock=now, logger=listener.logger, every=EVERY, **names)
         written = replace_body(listener, declare_variables(listener, names.values(), code))
-        timers = list(_without_timers(listener))
+        timers = list(_remove_timers(listener))
         if apply(listener.text, [written, *timers]).split() == listener.text.split():
             return None
-        edits = [*add_import(listener.text, wanted), *initialise_variables(listener, _AT_FIRST), written, *timers]
+        edits = [*add_import(listener.text, wanted), *initialise_variables(listener, _INITIAL_VALUES), written, *timers]
         if found := describe_edits_of(listener.file, edits):
             return found
-    return _another(trace)
+    return _new_callback(trace)
 
 
-def _another(trace: Trace) -> str | None:
-    """The step that gives the subscription another callback, with all that lasts in the node."""
+def _new_callback(trace: Trace) -> str | None:
+    """The step that gives the subscription a new callback, with all state in attributes of the node."""
     for call in source.calls(trace, "create_subscription"):
         file = source.file_holding(trace, call)
         given = [*call.args[2:3], *(each.value for each in call.keywords if each.arg == "callback")]
@@ -69,11 +69,11 @@ def _another(trace: Trace) -> str | None:
         if not given or not isinstance(call.func, ast.Attribute) or function is None:
             continue
         node, name = ast.unparse(call.func.value), "on_message" if "on_message" not in text else "on_chatter"
-        names = {role: f"{node}.{role}" for role in _AT_FIRST}
+        names = {role: f"{node}.{role}" for role in _INITIAL_VALUES}
         wanted, now = monotonic_clock(text)
         code = _CODE.format(content="message.data", clock=now, logger=f"{node}.get_logger()", every=EVERY, **names)
         method = f"def {name}({'self, ' if node == 'self' else ''}message):\n{textwrap.indent(code, '    ')}"
-        starts = "\n".join(f"{names[role]} = {value}" for role, value in _AT_FIRST.items())
+        starts = "\n".join(f"{names[role]} = {value}" for role, value in _INITIAL_VALUES.items())
         if node == "self":
             edits = [insert_above(made.lineno, starts), insert_after(function, f"\n{method}")]
         else:
@@ -87,8 +87,8 @@ def _another(trace: Trace) -> str | None:
     return None
 
 
-def _without_timers(listener: Listener) -> Iterator[Edit]:
-    """Takes out the timers that log, with what they call: the callback does so."""
+def _remove_timers(listener: Listener) -> Iterator[Edit]:
+    """Remove timers that log, and their callbacks: the subscription's callback logs instead."""
     functions = {each.name: each for each in listener.file.functions}
     for call in listener.file.calls("create_timer"):
         names = [last_name(node) for each in call.args[1:2] for node in ast.walk(each)]
@@ -103,26 +103,26 @@ def _without_timers(listener: Listener) -> Iterator[Edit]:
 
 
 def monotonic_clock(text: str) -> tuple[str, str]:
-    """The import of a clock that never goes back, and its call, as they go with the imports that the file has."""
+    """The import and the call of a monotonic clock, in the style of the file's imports."""
     if re.search(r"^from time import", text, re.MULTILINE):
         return "from time import monotonic", "monotonic()"
     return "import time", "time.monotonic()"
 
 
 def declare_variables(listener: Listener, names: Iterable[str], code: str) -> str:
-    """The code, after a line that says of which function these variables are, where they are none of an object."""
+    """The code, with a `global` or `nonlocal` statement in front unless the variables are attributes."""
     if listener.owner is not None:
         return code
     return f"{'nonlocal' if listener.outer else 'global'} {', '.join(names)}\n{code}"
 
 
 def prepend_to_callback(listener: Listener, names: Iterable[str], code: str) -> Edit:
-    """What the callback does before all else with each message; `names`: the variables that last."""
+    """Insert code at the beginning of the callback. `names`: the persistent variables that it sets."""
     return prepend_to_function(listener.function, declare_variables(listener, names, code))
 
 
 def replace_body(listener: Listener, code: str) -> Edit:
-    """All that the callback does, but for what documents it, becomes this code."""
+    """Replace the body of the callback, except its docstring."""
     function = listener.function
     text = function.body[0]
     documented = isinstance(text, ast.Expr) and isinstance(text.value, ast.Constant)
@@ -133,11 +133,11 @@ def replace_body(listener: Listener, code: str) -> Edit:
 
 
 def initialise_variables(listener: Listener, roles: Mapping[str, str]) -> Iterator[Edit]:
-    """What these variables are before the first message, as far as the file does not say so already."""
+    """Initialise the variables of these roles, unless the file does so already."""
     missing = []
     for role, value in roles.items():
         name = listener.name(role)
-        places = [each for each in _settings(listener) if _sets(each, name)]
+        places = [each for each in _outside_assignments(listener) if _assigns_to(each, name)]
         if not places:
             missing.append(f"{name} = {value}")
         for each in places if role in (COUNT, NUMBER) else ():
@@ -148,7 +148,7 @@ def initialise_variables(listener: Listener, roles: Mapping[str, str]) -> Iterat
 
 
 def set_first_value(listener: Listener, lines: Sequence[str]) -> Edit:
-    """Where variables that last are given their first value."""
+    """Insert lines that initialise persistent variables."""
     if listener.owner is None:
         return insert_above(first_line(listener.function), "\n".join(lines))
     for node in listener.owner.body:
@@ -159,8 +159,8 @@ def set_first_value(listener: Listener, lines: Sequence[str]) -> Edit:
     return insert_above(first.lineno, "\n".join(line.removeprefix("self.") for line in lines))
 
 
-def _settings(listener: Listener) -> Iterator[ast.Assign | ast.AnnAssign]:
-    """The assignments that are no part of what is done with a message."""
+def _outside_assignments(listener: Listener) -> Iterator[ast.Assign | ast.AnnAssign]:
+    """The assignments outside the code that runs for a message."""
     inside = {each for function in listener.reached for each in ast.walk(function)}
     tree: Sequence[ast.AST] = listener.file.nodes
     if listener.owner is None:
@@ -171,8 +171,8 @@ def _settings(listener: Listener) -> Iterator[ast.Assign | ast.AnnAssign]:
             yield node
 
 
-def _sets(node: ast.Assign | ast.AnnAssign, name: str) -> bool:
-    """Whether it sets this variable: written so, or, of one that an object in self has, by its own name."""
+def _assigns_to(node: ast.Assign | ast.AnnAssign, name: str) -> bool:
+    """Whether the assignment sets this variable; that of an object in self may also be set by its bare name."""
     targets = node.targets if isinstance(node, ast.Assign) else [node.target]
     written = {ast.unparse(each) for target in targets for each in getattr(target, "elts", [target])}
     return name in written or (name.count(".") > 1 and name.rpartition(".")[2] in written)

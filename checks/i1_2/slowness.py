@@ -1,4 +1,4 @@
-"""I1.2: why a node does not keep up with its messages, in the words of its source."""
+"""I1.2: why a node does not keep up with its messages, with lines of its source."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ SPINS_ONCE = ("spin_once", "spin_some")
 
 
 def diagnose_lost(trace: Trace, lost: LostMessages) -> Cause:
-    """Why messages that come fast are lost."""
+    """Why messages are lost at a high rate."""
     text = f"up to the last message that it quotes there were {lost.counted}: the others never reached its callback"
     if (waits := diagnose_waits(trace, text)) is not None:
         return waits
-    if (short := _short_queue(trace)) is not None:
+    if (short := _find_short_queue(trace)) is not None:
         return Cause(
             "queue too short",
             f"{text}, since its queue (line {short.lineno}) holds one message only",
@@ -31,7 +31,7 @@ def diagnose_lost(trace: Trace, lost: LostMessages) -> Cause:
 
 
 def diagnose_waits(trace: Trace, text: str) -> Cause | None:
-    """Where its source makes it wait while messages come; `text` says what follows from it."""
+    """Find where the source waits while messages arrive. `text`: the observed consequence."""
     loops = [loop for loop in source.all_nodes(trace) if isinstance(loop, ast.While | ast.For)]
     for loop in loops:
         if source.calls_in(loop, *SPINS_ONCE):
@@ -40,13 +40,13 @@ def diagnose_waits(trace: Trace, text: str) -> Cause | None:
                     "nap between messages",
                     f"{text}, since the loop sleeps between one message and the next: line {nap.lineno}: "
                     f"{ast.unparse(nap)}",
-                    _spinning(trace, loop)
+                    _replace_by_spin(trace, loop)
                     or remove_call(trace, nap)
                     or f"take {ast.unparse(nap)} in line {nap.lineno} out: spin_once() waits by itself for the next "
                     "message. Or write rclpy.spin(node) instead of the loop",
                 )
     for function in source.callbacks(trace, "create_subscription"):
-        # In a loop that waits for something, it is not the nap that keeps it.
+        # A sleep inside a loop that waits for something is not the cause of the delay.
         waiting = {
             nap for loop in ast.walk(function) if isinstance(loop, ast.While) for nap in source.calls_in(loop, "sleep")
         }
@@ -61,15 +61,15 @@ def diagnose_waits(trace: Trace, text: str) -> Cause | None:
 
 
 def remove_call(trace: Trace, call: ast.Call) -> str | None:
-    """The step that takes out the statement of this call; None where it is part of more."""
+    """The step that removes this call's statement; None if the call is only a part of it."""
     file = source.file_holding(trace, call)
     made = file.statement(call)
     whole = isinstance(made, ast.Expr | ast.Assign) and made.value is call
     return edits.describe_edits_of(file, edits.remove_statement(file.text, made)) if whole else None
 
 
-def _spinning(trace: Trace, loop: ast.While | ast.For) -> str | None:
-    """The step that writes spin() in place of a loop that does nothing but spin_once() and sleep."""
+def _replace_by_spin(trace: Trace, loop: ast.While | ast.For) -> str | None:
+    """The step that replaces a loop of nothing but spin_once() and sleep by spin()."""
     spins = source.calls_in(loop, *SPINS_ONCE)
     plain = all(isinstance(each, ast.Expr) and isinstance(each.value, ast.Call) for each in loop.body)
     if not plain or len(loop.body) > 2 or len(spins) != 1 or not isinstance(spins[0].func, ast.Attribute):
@@ -78,7 +78,7 @@ def _spinning(trace: Trace, loop: ast.While | ast.For) -> str | None:
     return edits.describe_edits_of(source.file_holding(trace, loop), edits.replace_statement(loop, code))
 
 
-def _short_queue(trace: Trace) -> ast.Call | None:
+def _find_short_queue(trace: Trace) -> ast.Call | None:
     for call in source.calls(trace, "create_subscription"):
         given = [*call.args[3:4], *(each.value for each in call.keywords if each.arg == "qos_profile")]
         if any(isinstance(depth, ast.Constant) and depth.value == 1 for depth in given):

@@ -1,4 +1,4 @@
-"""I1.2: the next step of each criterion, as edits of the learner's own file; None where there is none to be sure of."""
+"""I1.2: the next step for each criterion, as edits of the learner's own file; None if there is no safe one."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from checks.i1_2 import rate_steps, rewriting, slowness
 from checks.i1_2.listener import find_listener
-from checks.i1_2.templates import logged
+from checks.i1_2.templates import find_log_call
 from tutor.judge import source
 from tutor.judge.causes import names
 from tutor.judge.edits import (
@@ -30,22 +30,22 @@ if {last} is not None and number > {last} + 1:
 
 
 def count_messages(trace: Trace) -> str | None:
-    """States the true total."""
+    """The step to state the true total."""
     return rewriting.rewrite_callback(trace)
 
 
 def measure_rate(trace: Trace, texts: Sequence[str] = (), numbers: Sequence[str] = ()) -> str | None:
-    """States messages per second; `texts` and `numbers` as in `rate_steps.step`."""
-    return rate_steps.step(trace, texts, numbers) or rewriting.rewrite_callback(trace)
+    """The step to state messages per second; `texts` and `numbers` as in `rate_steps.fix_rate`."""
+    return rate_steps.fix_rate(trace, texts, numbers) or rewriting.rewrite_callback(trace)
 
 
 def summarise_every_ten(trace: Trace) -> str | None:
-    """Sums up every ten messages, with the first and the last one."""
+    """The step to log a summary every ten messages, with the first and the last one."""
     return rewriting.rewrite_callback(trace)
 
 
 def remove_throttle(trace: Trace) -> str | None:
-    """Logs each time; None where nothing is throttled."""
+    """The step to log without throttling; None if nothing is throttled."""
     for call in (node for node in source.all_nodes(trace) if isinstance(node, ast.Call)):
         kept = [each for each in call.keywords if each.arg != "throttle_duration_sec"]
         if len(kept) < len(call.keywords):
@@ -55,7 +55,7 @@ def remove_throttle(trace: Trace) -> str | None:
 
 
 def keep_first_message(trace: Trace) -> str | None:
-    """Leaves the first message alone once it is there."""
+    """The step to keep the first message once it is set."""
     listener = find_listener(trace)
     for function in source.callbacks(trace, "create_subscription"):
         for node in ast.walk(function):
@@ -71,12 +71,12 @@ def keep_first_message(trace: Trace) -> str | None:
 
 
 def go_on_after_restart(trace: Trace) -> str | None:
-    """Goes on when the publisher was restarted."""
+    """The step to keep counting after a restart of the publisher."""
     return rewriting.rewrite_callback(trace)
 
 
 def announce_restart(trace: Trace) -> str | None:
-    """Says that the publisher was restarted, where the statistics are set back."""
+    """The step to log a restart of the publisher where the statistics are reset."""
     listener = find_listener(trace)
     for function in listener.within if listener else []:
         for node in ast.walk(function):
@@ -84,7 +84,7 @@ def announce_restart(trace: Trace) -> str | None:
                 listener
                 and isinstance(node, ast.If)
                 and isinstance(node.test, ast.BoolOp | ast.Compare)
-                and _falls(node.test)
+                and _tests_for_decrease(node.test)
             ):
                 code = f"{listener.logger}.warning('the publisher was restarted: counting from zero')"
                 if step := describe_edits_of(listener.file, [insert_into_block(node.lineno, code)]):
@@ -92,36 +92,38 @@ def announce_restart(trace: Trace) -> str | None:
     return rewriting.rewrite_callback(trace)
 
 
-def _falls(test: ast.expr) -> bool:
-    """Whether it asks for a number that is lower than the one before it."""
-    asked = [op for each in ast.walk(test) if isinstance(each, ast.Compare) for op in each.ops]
-    return any(isinstance(op, ast.Lt | ast.LtE) for op in asked)
+def _tests_for_decrease(test: ast.expr) -> bool:
+    """Whether the condition tests for a number lower than the previous one."""
+    operators = [op for each in ast.walk(test) if isinstance(each, ast.Compare) for op in each.ops]
+    return any(isinstance(op, ast.Lt | ast.LtE) for op in operators)
 
 
 def keep_node_up(trace: Trace, cause: Cause) -> Cause:
-    """The cause, with a step that keeps the node up and subscribed where it ends itself, or is not subscribed."""
-    ends: tuple[str, ...] = ()
+    """The cause, with a step that keeps the node up and subscribed if it exits or is not subscribed."""
+    exit_functions: tuple[str, ...] = ()
     if cause.name == "no subscription":
-        ends = ("destroy_subscription",)
+        exit_functions = ("destroy_subscription",)
     elif cause.name == names.EXIT_AT_ONCE:
-        ends = ("shutdown", "try_shutdown", "exit", "_exit", "quit")
+        exit_functions = ("shutdown", "try_shutdown", "exit", "_exit", "quit")
     inside_class = [
         node for each in source.all_nodes(trace) if isinstance(each, ast.ClassDef) for node in ast.walk(each)
     ]
-    for call in (each for each in source.calls(trace, *ends) if each in inside_class) if ends else ():
+    for call in (
+        (each for each in source.calls(trace, *exit_functions) if each in inside_class) if exit_functions else ()
+    ):
         if step := slowness.remove_call(trace, call):
             return replace(cause, hint=step)
-    for each in inside_class if "exit" in ends else ():
+    for each in inside_class if "exit" in exit_functions else ():
         if isinstance(each, ast.Raise) and each.exc is not None and ast.unparse(each.exc).startswith("SystemExit"):
             file = source.file_holding(trace, each)
             if step := describe_edits_of(file, remove_lines(file.text, each.lineno)):
                 return replace(cause, hint=step)
-    step = _subscribed(trace) if cause.name == "no subscription" else None
+    step = _add_subscription(trace) if cause.name == "no subscription" else None
     return replace(cause, hint=step) if step else cause
 
 
-def _subscribed(trace: Trace) -> str | None:
-    """Subscribes with a method that takes a message."""
+def _add_subscription(trace: Trace) -> str | None:
+    """The step to subscribe with a method that takes a message."""
     for file in source.files(trace):
         for owner in (each for each in file.nodes if isinstance(each, ast.ClassDef)):
             methods = [each for each in owner.body if isinstance(each, ast.FunctionDef)]
@@ -138,18 +140,22 @@ def _subscribed(trace: Trace) -> str | None:
 
 
 def compare_numbers(trace: Trace, false: Sequence[str] = ()) -> str | None:
-    """Compares each number with the one before; `false`: log messages of gaps that there were not, to be taken out."""
+    """The step to compare each number with the previous one. `false`: log messages of false alarms, to be removed."""
     listener = find_listener(trace)
     if listener is None or not (listener.message and listener.logger):
         return rewriting.rewrite_callback(trace)
-    last = listener.new("last_number", "number_before")
+    last = listener.new_name("last_number", "number_before")
     code = _GAPS.format(content=listener.content, logger=listener.logger, last=last)
-    told = [logged(trace, each) for each in false[-1:]]
-    if all(each is not None and each.text == listener.text for each in told):
+    log_calls = [find_log_call(trace, each) for each in false[-1:]]
+    if all(each is not None and each.text == listener.text for each in log_calls):
         edits = [
             rewriting.set_first_value(listener, [f"{last} = None"]),
             rewriting.prepend_to_callback(listener, [last], code),
-            *(remove_lines(each.text, each.statement.lineno, each.statement.end_lineno or 0) for each in told if each),
+            *(
+                remove_lines(each.text, each.statement.lineno, each.statement.end_lineno or 0)
+                for each in log_calls
+                if each
+            ),
         ]
         if step := describe_edits_of(listener.file, edits):
             return step

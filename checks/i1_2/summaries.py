@@ -1,4 +1,4 @@
-"""Which of the log messages are summaries: found by what they say and when, not by their wording."""
+"""I1.2: find the summaries among log messages by their content and timing, not by their wording."""
 
 from __future__ import annotations
 
@@ -11,18 +11,18 @@ from checks.i1_2.facts import EVERY, SOON_S, Trial
 from checks.i1_2.reading import Line, Number
 
 AT_ONCE_S = 0.05
-"""Lines that are logged within this time belong together."""
+"""Lines that are logged within this time of each other belong together."""
 
-ORDINARY = 0.5
-"""A kind of line that comes with this share of all messages is not a summary's, unless the summaries come as often."""
+FREQUENT_SHARE = 0.5
+"""A kind of line logged for at least this share of messages is no summary line, unless summaries are as frequent."""
 
-STALE = 4
-"""A summary's last message is at most this many messages old, or the one that it is due for."""
+MAX_AGE = 4
+"""A summary's last message is at most this many messages old, or the one at which the summary was due."""
 
 
 @dataclass(frozen=True)
 class Summary:
-    """A summary: lines that were logged together. `messages`: how many had been sent when the first was logged."""
+    """A summary: lines that were logged together. `messages`: how many had been sent when the first line was logged."""
 
     lines: tuple[Line, ...]
 
@@ -53,7 +53,7 @@ class Summary:
 
     @property
     def times(self) -> int:
-        """How often it is there: the same lines, with the same quotations, may have been logged again and again."""
+        """How often the summary was logged: the same lines, with the same quotations, may be repeated."""
         for length in range(1, len(self.lines) // 2 + 1):
             times, rest = divmod(len(self.lines), length)
             parts = [self.lines[start : start + length] for start in range(0, len(self.lines), length)]
@@ -64,7 +64,7 @@ class Summary:
         return 1
 
     def states(self, value: float) -> bool:
-        """Whether this number is in it, in whichever writing."""
+        """Whether the summary contains this number, in any notation."""
         return any(value in number.values for number in self.numbers)
 
     def __str__(self) -> str:
@@ -72,20 +72,20 @@ class Summary:
 
 
 def milestone(messages: int) -> int:
-    """After which message a summary was last due."""
+    """The number of messages after which a summary was last due."""
     return messages - messages % EVERY
 
 
 def in_time(summary: Summary, trial: Trial) -> bool:
-    """Whether the summary belongs to the tenth, twentieth, ... message: it comes with it, or soon after."""
+    """Whether the summary was logged at the tenth, twentieth, ... message, or soon after."""
     due = milestone(summary.messages)
     return due > 0 and summary.at - trial.sent[due - 1].at <= trial.summary_limit_s
 
 
 def totals(summary: Summary, trial: Trial, *, before: int = 0) -> range:
-    """The totals that are true in it, when the first `before` messages do not count.
+    """The totals that the summary may truthfully state, if the first `before` messages do not count.
 
-    It may have been made a moment before it was logged, and it may be logged in several parts.
+    It may have been composed a moment before it was logged, and be logged in several parts.
     """
     counted = summary.messages - before
     earliest = counted
@@ -99,29 +99,29 @@ def totals(summary: Summary, trial: Trial, *, before: int = 0) -> range:
 
 
 def find_summaries(trial: Trial) -> tuple[Summary, ...]:
-    """The summaries among what was logged, complete or not, oldest first."""
+    """Find the summaries in the log, complete or not, oldest first."""
     times = Counter(line.kind for line in trial.lines)
-    usual = {kind for kind, count in times.items() if count >= max(3, ORDINARY * len(trial.sent))}
+    usual = {kind for kind, count in times.items() if count >= max(3, FREQUENT_SHARE * len(trial.sent))}
     special = group_lines([line for line in trial.lines if line.kind not in usual], trial)
-    if complete := _but_of_the_break([summary for summary in special if _complete(summary, trial)], trial):
-        return _alone(_like(complete, special), special, trial)
+    if complete := _without_break_reports([summary for summary in special if _is_complete(summary, trial)], trial):
+        return _without_coincidences(_with_similar(complete, special), special, trial)
     everything = group_lines(trial.lines, trial)
-    complete = [summary for summary in everything if summary.messages > 1 and _complete(summary, trial)]
+    complete = [summary for summary in everything if summary.messages > 1 and _is_complete(summary, trial)]
     if len(complete) > len(trial.sent) / 4:
-        return _alone(_like(complete, everything), everything, trial)
-    return _alone(_likeliest(special, trial), special, trial)
+        return _without_coincidences(_with_similar(complete, everything), everything, trial)
+    return _without_coincidences(_find_best_family(special, trial), special, trial)
 
 
 def count_complete(trial: Trial) -> int:
-    """How many lines would each be a summary, where they are too many to be told from what is logged anyway."""
-    of = [each for each in group_lines(trial.lines, trial) if each.messages > 1 and _complete(each, trial)]
-    return sum(each.times for each in of)
+    """The number of summaries if they are too frequent to be distinguished from what is logged for every message."""
+    complete = [each for each in group_lines(trial.lines, trial) if each.messages > 1 and _is_complete(each, trial)]
+    return sum(each.times for each in complete)
 
 
-def _complete(summary: Summary, trial: Trial) -> bool:
-    """Whether it quotes a first message and a recent one."""
+def _is_complete(summary: Summary, trial: Trial) -> bool:
+    """Whether the summary quotes a first message and a recent one."""
     firsts = {trial.sent[index].number for index in (0, *trial.jumps)}
-    oldest = min(summary.messages - STALE, milestone(summary.messages)) - 1
+    oldest = min(summary.messages - MAX_AGE, milestone(summary.messages)) - 1
     recent = {each.number for each in trial.sent[max(oldest, 0) : summary.until]}
     quoted = list(summary.quoted)
     return any(
@@ -130,26 +130,26 @@ def _complete(summary: Summary, trial: Trial) -> bool:
     )
 
 
-def _but_of_the_break(complete: Sequence[Summary], trial: Trial) -> list[Summary]:
-    """Without what is said of a jump or a restart: that may quote a first and a recent message, too.
+def _without_break_reports(complete: Sequence[Summary], trial: Trial) -> list[Summary]:
+    """Leave out reports of a jump or restart, which may also quote a first and a recent message.
 
-    Its wording tells it apart from a summary, if there are summaries elsewhere.
+    Their wording differs from that of the summaries, if there are summaries elsewhere.
     """
     in_summaries = {
         kind
         for summary in complete
-        if in_time(summary, trial) and not _at_the_break(summary, trial)
+        if in_time(summary, trial) and not _is_at_break(summary, trial)
         for kind in summary.kinds
     }
     return [
         summary
         for summary in complete
-        if not in_summaries or summary.kinds & in_summaries or not _at_the_break(summary, trial)
+        if not in_summaries or summary.kinds & in_summaries or not _is_at_break(summary, trial)
     ]
 
 
-def _at_the_break(summary: Summary, trial: Trial) -> bool:
-    """Whether it came right after a break, and quotes nothing newer than the message after that."""
+def _is_at_break(summary: Summary, trial: Trial) -> bool:
+    """Whether the summary came right after a break, and quotes nothing newer than the message after the break."""
     quoted = [index for index, each in enumerate(trial.sent[: summary.until]) if each.number in summary.quoted]
     newest = max(quoted, default=0)
     return any(
@@ -158,8 +158,8 @@ def _at_the_break(summary: Summary, trial: Trial) -> bool:
     )
 
 
-def _like(complete: Sequence[Summary], candidates: Iterable[Summary]) -> tuple[Summary, ...]:
-    """The complete ones, and those that share most of their kinds of lines with one of them."""
+def _with_similar(complete: Sequence[Summary], candidates: Iterable[Summary]) -> tuple[Summary, ...]:
+    """The complete summaries, and the candidates with most kinds of lines of one of them."""
     return tuple(
         each
         for each in candidates
@@ -167,39 +167,42 @@ def _like(complete: Sequence[Summary], candidates: Iterable[Summary]) -> tuple[S
     )
 
 
-def _alone(summaries: Sequence[Summary], candidates: Iterable[Summary], trial: Trial) -> tuple[Summary, ...]:
-    """The summaries without what only happened to be logged together with one.
+def _without_coincidences(
+    summaries: Sequence[Summary], candidates: Iterable[Summary], trial: Trial
+) -> tuple[Summary, ...]:
+    """The summaries without lines that only happened to be logged together with them.
 
-    That is what comes by itself, too, and not when a summary is due: then it may be the rest of a torn one.
+    Such kinds of lines also come separately, at times when no summary is due; when one is due, they may be the rest of
+    a summary that was split.
     """
-    apart = [each for each in candidates if each not in summaries and each.messages % EVERY > STALE]
-    elsewhere = {line.kind for each in apart for line in each.lines}
+    separate = [each for each in candidates if each not in summaries and each.messages % EVERY > MAX_AGE]
+    elsewhere = {line.kind for each in separate for line in each.lines}
     return tuple(_without(summary, elsewhere, trial) for summary in summaries)
 
 
 def _without(summary: Summary, kinds: Container[tuple[int, str]], trial: Trial) -> Summary:
-    """The summary without lines of these kinds, where it says as much without them."""
+    """The summary without lines of these kinds, if it is just as complete without them."""
     rest = Summary(tuple(line for line in summary.lines if line.kind not in kinds))
-    return rest if rest.lines and _complete(rest, trial) >= _complete(summary, trial) else summary
+    return rest if rest.lines and _is_complete(rest, trial) >= _is_complete(summary, trial) else summary
 
 
-def _likeliest(candidates: Sequence[Summary], trial: Trial) -> tuple[Summary, ...]:
-    """No candidate is complete: those of a family that most often state a total, or quote a message, when it is due."""
+def _find_best_family(candidates: Sequence[Summary], trial: Trial) -> tuple[Summary, ...]:
+    """Choose among incomplete candidates the family that most often states a total or quotes a message when due."""
 
-    def worth(family: Sequence[Summary]) -> tuple[int, int]:
+    def score(family: Sequence[Summary]) -> tuple[int, int]:
         due = [each for each in family if in_time(each, trial)]
         telling = [each for each in due if each.quoted or any(map(each.states, totals(each, trial)))]
         return len({milestone(each.messages) for each in telling}), -len(family)
 
-    families = [_like([each], candidates) for each in candidates if each.kinds]
-    best = max(families, key=worth, default=())
-    return best if best and worth(best)[0] else ()
+    families = [_with_similar([each], candidates) for each in candidates if each.kinds]
+    best = max(families, key=score, default=())
+    return best if best and score(best)[0] else ()
 
 
 def group_lines(lines: Sequence[Line], trial: Trial) -> tuple[Summary, ...]:
-    """Lines that were logged at once, or between the same two messages; and groups that only together are complete.
+    """Group lines logged at once, or between the same two messages; join groups that are only complete together.
 
-    What was said just before a summary was due is none of it.
+    Lines logged just before a summary was due are not part of it.
     """
     groups: list[Summary] = []
     for line in lines:
@@ -211,23 +214,23 @@ def group_lines(lines: Sequence[Line], trial: Trial) -> tuple[Summary, ...]:
             groups.append(Summary((line,)))
     joined: list[Summary] = []
     for group in groups:
-        if joined and (whole := _joined(joined[-1], group, trial)):
+        if joined and (whole := _join(joined[-1], group, trial)):
             joined[-1] = whole
         else:
             joined.append(group)
     return tuple(joined)
 
 
-def _joined(one: Summary, other: Summary, trial: Trial) -> Summary | None:
-    """One summary that was interrupted by a message; None where these are none."""
+def _join(one: Summary, other: Summary, trial: Trial) -> Summary | None:
+    """Join two parts of a summary that was interrupted by a message; None if they do not belong together."""
     whole = Summary(one.lines + other.lines)
     soon = other.at - one.at <= SOON_S and milestone(other.messages) == milestone(one.messages) > 0
-    apart = not _complete(one, trial) and not _complete(other, trial) and not one.kinds & other.kinds
-    return whole if soon and apart and _complete(whole, trial) else None
+    separate = not _is_complete(one, trial) and not _is_complete(other, trial) and not one.kinds & other.kinds
+    return whole if soon and separate and _is_complete(whole, trial) else None
 
 
 def slots(summaries: Sequence[Summary]) -> list[tuple[Number, ...]] | None:
-    """The numbers of equally worded summaries, place by place; None where they are not worded equally."""
+    """The numbers of equally worded summaries, grouped by position; None if the wording differs."""
     if any(
         [line.kind for line in one.lines] != [line.kind for line in other.lines] for one, other in pairwise(summaries)
     ):

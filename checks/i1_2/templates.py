@@ -1,4 +1,4 @@
-"""I1.2: which line of a learner's file wrote a log message, and which expression each of its values came from."""
+"""I1.2: find the call in a learner's file that logged a message, and the expression behind each of its values."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ from tutor.judge import source
 from tutor.judge.trace import Trace
 
 _LEVELS = ("debug", "info", "warn", "warning", "error", "fatal")
-_PLACE = re.compile(r"%%|%\([^)]*\)[^a-zA-Z]*[a-zA-Z]|%[-+ #0-9.*]*[a-zA-Z]")
-_FIELD = re.compile(r"\{\{|\}\}|\{[^{}]*\}")
+_PERCENT_PLACEHOLDER = re.compile(r"%%|%\([^)]*\)[^a-zA-Z]*[a-zA-Z]|%[-+ #0-9.*]*[a-zA-Z]")
+_FORMAT_PLACEHOLDER = re.compile(r"\{\{|\}\}|\{[^{}]*\}")
 
 Part = str | ast.expr
 
 
 @dataclass(frozen=True, slots=True)
-class Logged:
-    """A call that logs. `values`: each expression in its text, with what it came to; `function`: what it is in."""
+class LogCall:
+    """A logging call. `values`: each expression in its text, with its value; `function`: the enclosing function."""
 
     text: str
     call: ast.Call
@@ -28,18 +28,18 @@ class Logged:
     values: tuple[tuple[ast.expr, str], ...]
 
 
-def logged(trace: Trace, message: str) -> Logged | None:
-    """The call that logged this message; None where this is not known."""
+def find_log_call(trace: Trace, message: str) -> LogCall | None:
+    """Find the call that logged this message; None if it is unknown."""
     for file in source.files(trace):
         for call in (each for each in file.nodes if isinstance(each, ast.Call) and source.called_name(each) in _LEVELS):
             function = file.function_around(call)
             if call.args and (values := read(call.args[0], message, function)) is not None:
-                return Logged(file.text, call, file.statement(call), function, tuple(values))
+                return LogCall(file.text, call, file.statement(call), function, tuple(values))
     return None
 
 
 def read(written: ast.expr, message: str, function: ast.AST | None = None) -> list[tuple[ast.expr, str]] | None:
-    """Each expression in a text that is put together, with what it came to in `message`; None where it does not fit."""
+    """Each expression in a composed string, with its value in `message`; None if the message does not match."""
     parts = list(_parts(written, function))
     if not any(isinstance(each, str) and each.strip() for each in parts):
         return None
@@ -55,7 +55,7 @@ def read(written: ast.expr, message: str, function: ast.AST | None = None) -> li
 
 
 def _filling(between: Sequence[str], message: str) -> list[str] | None:
-    """What a message has between these texts, each as short as can be; None where it is not made of them."""
+    """The shortest parts of a message between these texts; None if the message does not consist of them."""
     first, *others = between
     if not message.startswith(first):
         return None
@@ -71,7 +71,7 @@ def _filling(between: Sequence[str], message: str) -> list[str] | None:
 
 
 def _parts(node: ast.expr, function: ast.AST | None, depth: int = 0) -> Iterator[Part]:
-    """The parts of a text: what stands in it as it is, and the expressions between that."""
+    """The parts of a composed string: literal text, and expressions."""
     match node:
         case ast.Constant(value=str() as plain):
             yield plain
@@ -83,9 +83,11 @@ def _parts(node: ast.expr, function: ast.AST | None, depth: int = 0) -> Iterator
             yield from _parts(left, function, depth)
             yield from _parts(right, function, depth)
         case ast.BinOp(left=ast.Constant(value=str() as plain), op=ast.Mod(), right=given):
-            yield from _filled(_PLACE, plain, given.elts if isinstance(given, ast.Tuple) else [given])
+            yield from _format_parts(
+                _PERCENT_PLACEHOLDER, plain, given.elts if isinstance(given, ast.Tuple) else [given]
+            )
         case ast.Call(func=ast.Attribute(value=ast.Constant(value=str() as plain), attr="format"), args=given):
-            yield from _filled(_FIELD, plain, given)
+            yield from _format_parts(_FORMAT_PLACEHOLDER, plain, given)
         case ast.Call(func=ast.Name(id="str"), args=[inner]):
             yield inner
         case ast.Name(id=name) if function is not None and depth < 3:
@@ -95,14 +97,14 @@ def _parts(node: ast.expr, function: ast.AST | None, depth: int = 0) -> Iterator
             yield node
 
 
-def _filled(places: re.Pattern[str], plain: str, given: Sequence[ast.expr]) -> Iterator[Part]:
-    """The text between its places, and what is put into them."""
-    waiting, end = list(given), 0
-    for found in places.finditer(plain):
+def _format_parts(placeholders: re.Pattern[str], plain: str, given: Sequence[ast.expr]) -> Iterator[Part]:
+    """The parts of a format string: literal text, and the arguments for its placeholders."""
+    remaining, end = list(given), 0
+    for found in placeholders.finditer(plain):
         yield plain[end : found.start()]
         end = found.end()
         if found[0] in ("%%", "{{", "}}"):
             yield found[0][0]
         else:
-            yield waiting.pop(0) if waiting else ast.Constant(None)
+            yield remaining.pop(0) if remaining else ast.Constant(None)
     yield plain[end:]

@@ -1,4 +1,4 @@
-"""I1.3 Calculator Service: four services that calculate, say so when they cannot, and a client that uses them all."""
+"""I1.3 Calculator Service: four services that calculate and report a division by zero, and a client that calls all."""
 
 from __future__ import annotations
 
@@ -14,5 +14,5 @@ CHECK = Check(
         Criterion("client", client.judge_client, (scenarios.run_client,)),
         Criterion("shutdown", judges.judge_shutdown, (scenarios.call_each_service,), bonus=True),
     ),
-    expected_s=1.1,  # division: 0.6 s until the log has been quiet, 0.5 s for a node that gives up afterwards
+    expected_s=1.1,  # the division: 0.6 s until the log goes quiet, 0.5 s for a node that exits afterwards
 )

@@ -1,4 +1,4 @@
-"""I1.3: what must have been seen of the client."""
+"""I1.3: the verdict on the client, as a pure function of the facts."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from functools import partial
 
 from checks.i1_3 import client_names, client_requests, rewriting, service_steps, steps
 from checks.i1_3.code import Code, learner_files, with_applicable_step
-from checks.i1_3.facts import CLIENT, CLIENT_S, LATER_S, SERVER, SIGNS, ClientRun
+from checks.i1_3.facts import CLIENT, CLIENT_S, SERVER, SERVER_DELAY_S, SIGNS, ClientRun
 from tutor.judge import causes, edits, source, tracebacks
 from tutor.judge.rewriting.program import call_main, first_sound_step
 from tutor.judge.trace import Trace
 from tutor.judge.verdict import Cause, Verdict, failed, passed
 
 WAITS = ("wait_for_service", "service_is_ready", "server_is_ready", "get_service_names_and_types", "wait_for_services")
-"""Names by which a client asks whether a service is there."""
+"""Functions by which a client checks whether a service is available."""
 
 
 def judge_client(seen: ClientRun) -> Verdict:
@@ -35,55 +35,58 @@ def judge_client(seen: ClientRun) -> Verdict:
     called = {served.service for served in seen.served}
     missing = _missing(seen)
     calls_made = [f"{s.service} {s.request['a']} {s.request['b']} -> {s.response['sum']}" for s in seen.served[:12]]
-    words = (*calls_made, *causes.output_tail(seen.trace, 4))
+    evidence = (*calls_made, *causes.output_tail(seen.trace, 4))
     if seen.exit is None:
-        idle = seen.watched_s < CLIENT_S
-        doing = (
+        is_idle = seen.watched_s < CLIENT_S
+        state = (
             f"idle after {seen.watched_s:.1f} s, with nothing left to wait for"
-            if idle
+            if is_idle
             else f"still running after {CLIENT_S:g} s"
         )
-        observed = f"{doing}; called {_listed(called)}"
-        return failed(expected, observed, _with_step(_diagnose_hang(seen, missing), seen), words)
+        observed = f"{state}; called {_list_services(called)}"
+        return failed(expected, observed, _with_step(_diagnose_hang(seen, missing), seen), evidence)
     ended = f"ended after {seen.exit.after_s:.1f} s with {seen.exit}"
     if seen.exit.code != 0:
         cause = _with_step(_diagnose_exit_code(seen, missing, ended), seen)
-        return failed(expected, f"{ended}; called {_listed(called)}", cause, words)
+        return failed(expected, f"{ended}; called {_list_services(called)}", cause, evidence)
     if missing:
         cause = _with_step(_diagnose_not_called(seen, missing), seen)
-        return failed(expected, f"{ended}; {', '.join(missing)} not called", cause, words)
+        return failed(expected, f"{ended}; {', '.join(missing)} not called", cause, evidence)
     return passed(expected, f"{len(seen.served)} calls, {ended}", calls_made)
 
 
 _Step = Callable[[Code, Cause, ClientRun], str | None]
 
 
-def _without(code: Code, _cause: Cause, _seen: ClientRun, names: Sequence[str] = ("_exit",)) -> str | None:
+def _remove_calls(code: Code, _cause: Cause, _seen: ClientRun, names: Sequence[str] = ("_exit",)) -> str | None:
     return steps.remove_calls(code, *names)
 
 
 _STEPS: Mapping[str, Sequence[_Step]] = {
     "service not waited for": [lambda code, *_: client_requests.wait_for_services(code)],
-    "waits too short a time": [_without, lambda code, *_: client_requests.lengthen_waits(code)],
+    "waits too short a time": [_remove_calls, lambda code, *_: client_requests.lengthen_waits(code)],
     "non-zero exit": [lambda code, *_: steps.end_with_zero(code)],
     "coroutine not awaited": [
         lambda code, cause, _: client_requests.make_synchronous(code, cause.text.partition(" ")[0])
     ],
     "incompatible QoS": [lambda code, *_: service_steps.use_default_qos(code)],
     "thread still running": [lambda code, *_: steps.join_thread(code)],
-    "not called": [_without, lambda code, _, seen: steps.add_to_list(code, _missing(seen))],
+    "not called": [_remove_calls, lambda code, _, seen: steps.add_to_list(code, _missing(seen))],
 }
-"""The smallest steps for a cause."""
+"""The smallest steps for each cause, by the cause's name."""
 
 
 def _with_step(cause: Cause, seen: ClientRun) -> Cause:
-    """The cause with a step that can be followed word for word: one for it, or what waits for each answer, or all."""
+    """Give a cause a step that can be followed word for word.
+
+    In this order: one for the cause itself, one that waits for each answer, or a rewrite of the client.
+    """
     assert seen.trace is not None
     trace, own = seen.trace, tracebacks.own_frame(seen.stuck, seen.trace.folder)
     found = tracebacks.last_traceback(trace)
     raised = own_frame.code if found is not None and (own_frame := found.own(trace.folder)) is not None else ""
     if cause.name == "did not end" and own is not None and "sleep(" in own.code:
-        fixes: Sequence[_Step] = [partial(_without, names=("sleep",))]
+        fixes: Sequence[_Step] = [partial(_remove_calls, names=("sleep",))]
     elif cause.name == "did not end" and not _missing(seen) and source.calls(trace, "Thread"):
         fixes = [lambda code, *_: steps.shut_down_rclpy(code)]
     else:
@@ -91,22 +94,23 @@ def _with_step(cause: Cause, seen: ClientRun) -> Cause:
     if cause.name == "did not end" and own is not None and ".wait(" in own.code:
         line, file_name = own.line, own.name
         fixes = [lambda code, *_: client_requests.set_event(code, line) if code.file == file_name else None, *fixes]
-    first = bool(fixes) or _is_due_to_no_answer(found)
+    fix_first = bool(fixes) or _is_due_to_no_answer(found)  # before the hint that the cause has already
     if "input(" in raised or (own is not None and "input(" in own.code):
-        fixes, first = [lambda code, *_: steps.remove_input(code)], True
+        fixes, fix_first = [lambda code, *_: steps.remove_input(code)], True
     each_file = [partial(step, code, cause, seen) for step in fixes for code in learner_files(trace)]
-    unmet = cause.name in ("wrong service name", "wrong type", "not called")
-    unmet = unmet or cause.name == "waits too short a time"
-    waits = [] if unmet else [partial(client_requests.wait_for_answers, code, trace) for code in learner_files(trace)]
+    not_sent = cause.name in ("wrong service name", "wrong type", "not called", "waits too short a time")
+    waits = (
+        [] if not_sent else [partial(client_requests.wait_for_answers, code, trace) for code in learner_files(trace)]
+    )
     file = next(iter(learner_files(trace)), Code(""))
     last = [partial(rewriting.rewrite_client, file)] if file.file else []
-    if first and (told := next((told for step in (*each_file, *waits) if (told := step()) is not None), None)):
-        return replace(cause, hint=told)
+    if fix_first and (hint := next((hint for step in (*each_file, *waits) if (hint := step()) is not None), None)):
+        return replace(cause, hint=hint)
     return with_applicable_step(cause, trace, *each_file, *waits, *last)
 
 
 def _is_due_to_no_answer(found: tracebacks.Traceback | None) -> bool:
-    """Whether an exception comes from an answer that had not come yet."""
+    """Whether an exception comes from using an answer that had not arrived yet."""
     return found is not None and any(word in found.message for word in ("'NoneType'", "'Future'"))
 
 
@@ -117,10 +121,10 @@ def _missing(seen: ClientRun) -> list[str]:
 
 def _diagnose_exit_code(seen: ClientRun, missing: Sequence[str], ended: str) -> Cause:
     assert seen.trace is not None
-    if (strange := client_names.diagnose_client(seen, missing)) is not None and _follows_from_silence(seen.trace):
-        return strange
-    if (unmet := _diagnose_missing_calls(seen, missing)) is not None and _follows_from_silence(seen.trace):
-        return unmet
+    if (unknown := client_names.diagnose_client(seen, missing)) is not None and _follows_from_silence(seen.trace):
+        return unknown
+    if (not_met := _diagnose_missing_calls(seen, missing)) is not None and _follows_from_silence(seen.trace):
+        return not_met
     cause = causes.diagnose_process(seen.trace)
     if cause is None or cause.name == "exit at once":
         return Cause("non-zero exit", f"the client {ended}", "end with return or sys.exit(0) when all went well")
@@ -128,13 +132,13 @@ def _diagnose_exit_code(seen: ClientRun, missing: Sequence[str], ended: str) -> 
 
 
 def _follows_from_silence(trace: Trace) -> bool:
-    """Whether the program ended because there was no answer: by itself, or since it took None for one."""
+    """Whether the program ended for want of an answer: deliberately, or because it used None as one."""
     found = tracebacks.last_traceback(trace)
     if found is None:
         return True
     own = found.own(trace.folder)
-    raised = own is not None and own.code.startswith(("raise ", "assert "))
-    return raised or found.type.endswith("TimeoutError") or "'NoneType'" in found.message
+    deliberate = own is not None and own.code.startswith(("raise ", "assert "))
+    return deliberate or found.type.endswith("TimeoutError") or "'NoneType'" in found.message
 
 
 def _diagnose_not_called(seen: ClientRun, missing: Sequence[str]) -> Cause:
@@ -163,24 +167,24 @@ def _diagnose_hang(seen: ClientRun, missing: Sequence[str]) -> Cause:
     assert seen.trace is not None
     if (mismatched := causes.diagnose_incompatible_service(seen.clients)) is not None:
         return mismatched
-    if (strange := client_names.diagnose_client(seen, missing)) is not None:
-        return strange
+    if (unknown := client_names.diagnose_client(seen, missing)) is not None:
+        return unknown
     own = tracebacks.own_frame(seen.stuck, seen.trace.folder)
     where = f" at {own}" if own else ""
     spins = any(frame.function.startswith("spin") for frame in seen.stuck)
     if causes.is_in_blocking_call(seen.stuck) and not spins:
         return Cause(
             "deadlock by call()",
-            f"the client waits forever{where}: call() blocks the thread that would have to take in the answer",
+            f"the client waits forever{where}: call() blocks the thread that would have to receive the answer",
             "use call_async() and rclpy.spin_until_future_complete(node, future), outside of callbacks",
         )
-    if (unmet := _diagnose_missing_calls(seen, missing)) is not None:
-        return unmet
+    if (not_met := _diagnose_missing_calls(seen, missing)) is not None:
+        return not_met
     if own is not None and not missing and re.search(r"\bspin\(", own.code):
         return Cause(
             "did not end",
-            f"the client was still busy{where}: spin() goes on until someone presses Ctrl+C",
-            _instead_of_spinning(seen.trace, own),
+            f"the client was still busy{where}: spin() runs until someone presses Ctrl+C",
+            _replace_spin(seen.trace, own),
         )
     return Cause(
         "did not end",
@@ -189,18 +193,18 @@ def _diagnose_hang(seen: ClientRun, missing: Sequence[str]) -> Cause:
     )
 
 
-def _instead_of_spinning(trace: Trace, own: tracebacks.Frame) -> str:
-    """What stands in place of a spin() that never ends: the wait for each answer, where it is what brings them."""
+def _replace_spin(trace: Trace, own: tracebacks.Frame) -> str:
+    """Step that replaces a spin() that never returns: wait for each answer if it is spin() that receives them."""
     code = next((each for each in learner_files(trace) if each.file == own.name), None)
     if code is None:
         return "end the program when the last answer has come"
     if not source.calls(trace, "add_done_callback", "create_timer"):
         return code.as_step(edits.remove_lines(code.text, own.line)) or ""
-    asked = [made for made in source.assigned(trace, "call_async") if made[0].isidentifier()]
+    requests = [made for made in source.assigned(trace, "call_async") if made[0].isidentifier()]
     spins = re.fullmatch(r"(?P<rclpy>\w+)\.spin\((?P<node>\w+)\)", own.code)
-    if not asked or spins is None or source.calls(trace, "create_timer"):
+    if not requests or spins is None or source.calls(trace, "create_timer"):
         return "end the program in the callback that gets the last answer: raise SystemExit"
-    future, line = asked[0]
+    future, line = requests[0]
     lines = (
         f"for {future} in {spins['node']}.futures:",
         f"    {spins['rclpy']}.spin_until_future_complete({spins['node']}, {future})",
@@ -211,9 +215,9 @@ def _instead_of_spinning(trace: Trace, own: tracebacks.Frame) -> str:
 
 
 def _diagnose_unawaited(trace: Trace) -> Cause | None:
-    """Whether Python itself says that a coroutine was made, and nobody ran it."""
-    said = (re.search(r"coroutine '(?:[\w<>]+\.)*(\w+)' was never awaited", line.text) for line in trace.output)
-    name = next((found[1] for found in said if found), None)
+    """Diagnose a coroutine that was created but never run, from Python's own warning."""
+    warnings = (re.search(r"coroutine '(?:[\w<>]+\.)*(\w+)' was never awaited", line.text) for line in trace.output)
+    name = next((found[1] for found in warnings if found), None)
     if name is None:
         return None
     return Cause(
@@ -225,7 +229,7 @@ def _diagnose_unawaited(trace: Trace) -> Cause | None:
 
 
 def _diagnose_early_return(seen: ClientRun) -> Cause | None:
-    """Whether it made the first call only, and a return stands in the loop over its calls."""
+    """Diagnose a client that made only the first call because a return ends the loop over its calls."""
     assert seen.trace is not None
     if len(seen.served) != 1:
         return None
@@ -234,15 +238,15 @@ def _diagnose_early_return(seen: ClientRun) -> Cause | None:
             loop, returns, step = found
             return Cause(
                 "return in the loop",
-                f"line {returns.lineno}: {ast.unparse(returns)} ends the loop of line {loop.lineno} with its first "
-                f"turn, after {seen.served[0].service}",
+                f"line {returns.lineno}: {ast.unparse(returns)} ends the loop of line {loop.lineno} in its first "
+                f"iteration, after {seen.served[0].service}",
                 step,
             )
     return None
 
 
 def _diagnose_missing_calls(seen: ClientRun, missing: Sequence[str]) -> Cause | None:
-    """Whether it did not call the missing services since it never met them: why not."""
+    """Diagnose missing calls to services that the client never found: no wait for them, or too short a one."""
     assert seen.trace is not None
     if not missing or not source.calls(seen.trace, "call_async", "call"):
         return None
@@ -250,7 +254,7 @@ def _diagnose_missing_calls(seen: ClientRun, missing: Sequence[str]) -> Cause | 
         return Cause(
             "service not waited for",
             f"the request was sent before there was a server, and such a request is lost: {missing[0]} came up "
-            f"{LATER_S:g} s after the client",
+            f"{SERVER_DELAY_S:g} s after the client",
             "before the first request, call wait_for_service(timeout_sec=10.0) of each service client",
         )
     if gave_up_early(seen):
@@ -265,11 +269,11 @@ def _diagnose_missing_calls(seen: ClientRun, missing: Sequence[str]) -> Cause | 
 
 
 def gave_up_early(seen: ClientRun) -> bool:
-    """Whether it asks for our servers, and ended by itself before it had found one."""
+    """Whether the client waits for our servers, but exited by itself before it had found one."""
     if seen.trace is None or seen.exit is None or seen.served or not source.mentions(seen.trace, *WAITS):
         return False
     return bool(seen.clients) or not source.mentions(seen.trace, "argv", "ArgumentParser")
 
 
-def _listed(called: set[str]) -> str:
+def _list_services(called: set[str]) -> str:
     return ", ".join(name for name in SIGNS if name in called) or "nothing"

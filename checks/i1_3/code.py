@@ -1,4 +1,4 @@
-"""I1.3: the learner's code, as far as edits of it need to know their way around."""
+"""I1.3: navigation in the learner's code, for building edits."""
 
 from __future__ import annotations
 
@@ -21,66 +21,69 @@ _IMPORTS = {
 
 
 class Code(SourceFile):
-    """One file of the learner's."""
+    """One of the learner's files."""
 
     @property
     def top(self) -> list[ast.stmt]:
-        """The statements of the file itself."""
+        """The top-level statements of the file."""
         return self.tree.body
 
     @property
-    def first(self) -> ast.stmt:
+    def first_statement(self) -> ast.stmt:
         """The first statement below the imports."""
         return next(each for each in self.top if not isinstance(each, ast.Import | ast.ImportFrom | ast.Expr))
 
-    def loop(self, node: ast.AST, beside: ast.AST) -> bool:
-        """Whether a node is in a loop that the other one is not in."""
+    def is_in_inner_loop(self, node: ast.AST, other: ast.AST) -> bool:
+        """Whether a node is inside a loop that does not contain the other node."""
         loops = [each for each in self.ancestors(node) if isinstance(each, ast.While | ast.For)]
-        return any(each not in list(self.ancestors(beside)) for each in loops)
+        return any(each not in list(self.ancestors(other)) for each in loops)
 
-    def outermost(self, node: ast.AST) -> ast.stmt:
-        """The statement of the body of its function, or of the file, that a node is part of."""
-        inside = [node, *self.ancestors(node)]
-        ends = next((at for at, each in enumerate(inside) if at and isinstance(each, Function)), len(inside))
-        return [each for each in inside[:ends] if isinstance(each, ast.stmt)][-1]
+    def outermost_statement(self, node: ast.AST) -> ast.stmt:
+        """The statement directly in the body of the enclosing function (or of the file) that contains a node."""
+        chain = [node, *self.ancestors(node)]
+        end = next((i for i, each in enumerate(chain) if i and isinstance(each, Function)), len(chain))
+        return [each for each in chain[:end] if isinstance(each, ast.stmt)][-1]
 
     def self_name(self, node: ast.AST) -> str:
-        """`self` within the methods of a class, and what is defined in them; else empty."""
+        """The name of `self` inside a method, or inside a function nested in one; else ""."""
         for each in self.ancestors(node):
             if isinstance(each, Function) and isinstance(self._parents.get(each), ast.ClassDef) and each.args.args:
                 return each.args.args[0].arg
         return ""
 
-    def node(self, at: ast.AST) -> str:
-        """What the ROS node is called at this place."""
-        if me := self.self_name(at):
-            return me
-        made = [self._parents.get(each) for each in self.calls("create_node", "Node", *self.node_classes)]
-        targets = [each.targets[0] for each in made if isinstance(each, ast.Assign)]
+    def node_name(self, at: ast.AST) -> str:
+        """The variable that holds the ROS node at this place in the code."""
+        if self_name := self.self_name(at):
+            return self_name
+        parents = [self._parents.get(each) for each in self.calls("create_node", "Node", *self.node_classes)]
+        targets = [each.targets[0] for each in parents if isinstance(each, ast.Assign)]
         return next((each.id for each in targets if isinstance(each, ast.Name)), "node")
 
-    def imported(self, name: str) -> str:
-        """What something is called here: its own name, or the one that it was imported under."""
+    def local_name(self, name: str) -> str:
+        """The name in this file of something that may be imported `as` something else."""
         return next((alias.asname or name for _, alias in self.imports if alias.name == name), name)
 
-    def importing(self, *names: str) -> list[Edit]:
-        """The imports of these names that the file lacks."""
-        has = {alias.name for _, alias in self.imports}
-        return [edit for name in names if name not in has for edit in edits.add_import(self.text, _IMPORTS[name])]
+    def missing_imports(self, *names: str) -> list[Edit]:
+        """The edits that import those of these names that the file does not import yet."""
+        present = {alias.name for _, alias in self.imports}
+        return [edit for name in names if name not in present for edit in edits.add_import(self.text, _IMPORTS[name])]
 
     def as_step(self, *changes: Edit | Sequence[Edit]) -> str | None:
-        """The changes as a next step; None where they would break the file, or change nothing."""
+        """Describe the changes as a next step; None if they would break the file or change nothing."""
         return edits.describe_edits(self.text, *changes, file=self.file)
 
 
 def learner_files(trace: Trace) -> list[Code]:
-    """The learner's files: the one that was run first."""
+    """Parse the learner's files, beginning with the one that was run."""
     names = sorted(trace.sources, key=lambda name: name != trace.file)
     return [Code(trace.sources[name], name) for name in names]
 
 
 def with_applicable_step(cause: Cause, trace: Trace, *steps: Callable[[], str | None]) -> Cause:
-    """The cause with a step that can be followed word for word: its own, or else the first of these."""
+    """Give a cause a hint that can be followed word for word: its own, or else the first that `steps` provide.
+
+    Keep the hint as it is if none of them provides one.
+    """
     for own in (cause.hint, f"in {trace.file}, {cause.hint}"):
         if is_applicable(own, trace.sources) and (own != cause.hint or own.startswith("in ")):
             return replace(cause, hint=own)

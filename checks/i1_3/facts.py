@@ -1,4 +1,4 @@
-"""I1.3: what is asked of the node, and the facts that are gathered."""
+"""I1.3: the requirements, and the facts that the scenarios gather for the judges."""
 
 from __future__ import annotations
 
@@ -15,24 +15,26 @@ from tutor.ros_model import ServiceEndpoint
 SERVER, CLIENT = "calculator_server.py", "calculator_client.py"
 TYPE = "example_interfaces/srv/AddTwoInts"
 SIGNS = {"/add": "+", "/subtract": "-", "/multiply": "*", "/divide": "/"}
-EASY = (6, 3)
+EASY_OPERANDS = (6, 3)
 AFTER_ZERO = ((18, 3), (-9, 0), (0, 0), (35, 5))
-"""What is divided after a division by zero: well, by zero again, and well."""
+"""Divisions to request after the first one by zero: a good one, two more by zero, and a good one."""
 ANSWER_S = 5.0
+"""Time limit for the answer to a service call."""
 CLIENT_S = 15.0
-LATER_S = 0.7
-"""Our servers come up this long after its first service client, about a second after the program's start.
+"""Time limit for the whole run of the client."""
+SERVER_DELAY_S = 0.7
+"""Delay from the first service client to our servers coming up, about a second after the program's start.
 
-Anyone who does not wait for them has called by then; anyone who waits for a second at a time finds them.
+A client that does not wait has sent its request by then; one that waits in steps of a second still finds them.
 """
-NO_CLIENT_S = 1.0
-"""A node that makes no service client for this long may look for our servers before it does."""
-AFTERWARDS_S = 0.5
-"""A node that gives up after a division by zero does so within this time."""
-STUCK_S = 1.5
-"""A call that was not answered once is given this long, then the node is stuck in it."""
-LOG_S = 2.0
-"""What a node logs about a call may come this much later than its answer."""
+NO_CLIENT_GRACE_S = 1.0
+"""Grace period for a node without a service client: it may look for our servers before it creates one."""
+DELAYED_EXIT_S = 0.5
+"""Time within which a node that does not survive a division by zero exits."""
+STUCK_CALL_S = 1.5
+"""Time given to a repeated, previously unanswered call before the node counts as stuck in it."""
+LOG_DELAY_S = 2.0
+"""Longest delay between the answer to a call and the log messages about it."""
 
 _WORDS = r"""
 zero null cero zéro nul\b noll nolla sıfır zerem zera nula nulla нол нул 零 ゼロ 제로 0으로 μηδέν صفر אפס शून्य
@@ -67,14 +69,15 @@ SAYS_ERROR = re.compile(
     + "".join(f"|{form}" for form in _BY_ZERO.replace("\n    ", "").split("\n") if form),
     re.IGNORECASE,
 )
-"""Words by which a log message says that something is wrong, in the languages that learners log in."""
+"""Matches a log message that reports a problem, in any of the languages that learners write."""
 
 
 @dataclass(frozen=True)
 class ServiceCalls:
-    """What the server answered: one list of answers, in the order in which they were asked for.
+    """The server's answers, in the order of the calls.
 
-    `spins`: whether the node answered a parameter call before; `stuck`: where it was when a call was not answered.
+    `spins`: whether the node had answered a parameter call before. `stuck`: the node's stack, innermost frame first,
+    during a call that it did not answer.
     """
 
     trace: Trace
@@ -89,9 +92,10 @@ class ServiceCalls:
 
 @dataclass(frozen=True)
 class Division:
-    """A good division, one by zero, and what came after; `said` is what was logged about the division by zero.
+    """A good division, one by zero, and the calls after it.
 
-    `at_end`: where nothing was said of an error, what the process wrote when it was ended.
+    `ordinary`: the log up to and including the good division. `said`: the log about the division by zero.
+    `at_end`: if the log reports no error, the output during shutdown.
     """
 
     trace: Trace
@@ -103,19 +107,19 @@ class Division:
     at_end: tuple[OutputLine, ...] = ()
 
 
-ROUGH_S = 0.15
-"""Where the machine takes this much from a client, it is tried again before it is said to have given up too soon."""
-MUCH_S = 2.0
-"""The same for one that is still there when its time is over: it has had some 13 s, less this, to find our servers."""
+MIN_CPU_WAIT_S = 0.15
+"""CPU wait from which a client that exited is run again before it is reported to have given up too early."""
+MIN_CPU_WAIT_AT_LIMIT_S = 2.0
+"""The same for a client still running at the time limit: it has had some 13 s, less this, to find our servers."""
 
 
 @dataclass(frozen=True)
 class ClientRun:
-    """A run of the client against our servers. None of it where the submission has no client.
+    """A run of the client against our servers; `trace` is None if the submission has no client.
 
-    `up_s`: how long after its start our servers came up; None where it had ended by then. `stuck`: where it was when it
-    did not end, for which it was watched for `watched_s`; `clients`: the service clients that it had. `cpu_wait_s`: how
-    long the machine kept it, or us, from running until our servers were up.
+    `stuck`: the stack, innermost frame first, of a client that did not exit within `watched_s`. `clients`: its service
+    clients. `up_s`: the time from its start until our servers came up, None if it had exited by then. `cpu_wait_s`: how
+    long the client, or we, waited for a CPU until our servers were up.
     """
 
     trace: Trace | None
@@ -129,28 +133,28 @@ class ClientRun:
 
     @property
     def slowed(self) -> bool:
-        """Whether it looked for our servers later than it would have, or we brought them up later.
+        """Whether a busy machine may have kept the client from finding our servers.
 
-        One whose clients cannot be connected would have looked in vain at any time.
+        A client with incompatible QoS would not have found them on an idle machine either.
         """
         if self.served or causes.diagnose_incompatible_service(self.clients) is not None:
             return False
-        return self.cpu_wait_s >= (ROUGH_S if self.exit is not None else MUCH_S)
+        return self.cpu_wait_s >= (MIN_CPU_WAIT_S if self.exit is not None else MIN_CPU_WAIT_AT_LIMIT_S)
 
 
 def right_result(service: str, a: int, b: int) -> int:
-    """What the service must answer (0 for a division by zero, where any answer will do)."""
+    """Return the correct result (0 for a division by zero, where any answer is accepted)."""
     return {"/add": a + b, "/subtract": a - b, "/multiply": a * b, "/divide": a // b if b else 0}[service]
 
 
 def missing_services(services: Sequence[ServiceEndpoint]) -> list[str]:
-    """The required services that are not there with the required type."""
-    there = {service.name for service in services if service.type == TYPE}
-    return [name for name in SIGNS if name not in there]
+    """The required services that are not offered with the required type."""
+    offered = {service.name for service in services if service.type == TYPE}
+    return [name for name in SIGNS if name not in offered]
 
 
 def find_complaints(ordinary: Sequence[LogRecord], said: Sequence[LogRecord]) -> list[LogRecord]:
-    """The messages that say that something is wrong. One of a kind that a good call brings too does not."""
+    """Find the messages that report a problem, leaving out those that a good call logs as well."""
     usual = {(log.level, shape(log.text)) for log in ordinary}
     return [
         log

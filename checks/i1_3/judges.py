@@ -1,4 +1,4 @@
-"""I1.3: what must have been seen."""
+"""I1.3: the verdicts on the server, as pure functions of the facts."""
 
 from __future__ import annotations
 
@@ -42,11 +42,13 @@ def judge_services(seen: ServiceCalls) -> Verdict:
         )
         cause = _with_answer_step(cause, seen.trace, unanswered.service, seen.stuck)
         return failed(expected, observed, cause, causes.output_tail(seen.trace))
-    return passed(expected, "all four answer", [f"{name} = {result}" for name, result in _answered(seen.answers)])
+    return passed(
+        expected, "all four answer", [f"{name} = {result}" for name, result in _operands_and_results(seen.answers)]
+    )
 
 
 def _never_called(seen: ServiceCalls) -> list[str]:
-    """The services that were not there yet when it was their turn, though they may be in the graph by now."""
+    """The services that were not up yet when it was their turn, though they may be in the graph by now."""
     return [name for name in SIGNS if not seen.of(name)]
 
 
@@ -54,24 +56,26 @@ def _diagnose_missing(trace: Trace, missing: Sequence[str]) -> Cause:
     broken = causes.diagnose_process(trace)
     if broken is not None:
         asks = broken.name == names.UNHANDLED_EXCEPTION and "EOFError" in broken.text
-        return with_applicable_step(broken, trace, lambda: _first(trace, steps.remove_input) if asks else None)
+        return with_applicable_step(broken, trace, lambda: _first_step(trace, steps.remove_input) if asks else None)
     offered = [s for s in trace.graph.servers if not s.is_standard]
-    typed = [service for service in offered if service.name in missing and service.type != TYPE]
-    if typed:
+    mistyped = [service for service in offered if service.name in missing and service.type != TYPE]
+    if mistyped:
         cause = Cause(
             "wrong type",
-            f"{typed[0].name} has the type {typed[0].type}, not {TYPE}",
-            f"create it with AddTwoInts: self.create_service(AddTwoInts, '{typed[0].name[1:]}', ...)",
+            f"{mistyped[0].name} has the type {mistyped[0].type}, not {TYPE}",
+            f"create it with AddTwoInts: self.create_service(AddTwoInts, '{mistyped[0].name[1:]}', ...)",
         )
-        return with_applicable_step(cause, trace, lambda: service_steps.set_types(trace, [each.name for each in typed]))
-    strange = [(s.name, name) for name in missing for s in offered if s.name not in SIGNS and _like(s.name, name)]
-    if strange:
+        return with_applicable_step(cause, trace, lambda: service_steps.set_types(trace, [s.name for s in mistyped]))
+    misnamed = [
+        (s.name, name) for name in missing for s in offered if s.name not in SIGNS and _is_similar(s.name, name)
+    ]
+    if misnamed:
         cause = Cause(
             "wrong service name",
-            f"there is {strange[0][0]} instead of {strange[0][1]}",
-            f"name it {strange[0][1][1:]!r}, without a namespace or ~ in front",
+            f"there is {misnamed[0][0]} instead of {misnamed[0][1]}",
+            f"name it {misnamed[0][1][1:]!r}, without a namespace or ~ in front",
         )
-        return with_applicable_step(cause, trace, lambda: service_steps.rename_services(trace, strange))
+        return with_applicable_step(cause, trace, lambda: service_steps.rename_services(trace, misnamed))
     if (destroyed := service_steps.diagnose_destroyed(trace)) is not None:
         return destroyed
     cause = Cause(
@@ -82,28 +86,28 @@ def _diagnose_missing(trace: Trace, missing: Sequence[str]) -> Cause:
     return with_applicable_step(cause, trace, lambda: service_steps.add_services(trace, missing))
 
 
-def _like(offered: str, missing: str) -> bool:
+def _is_similar(offered: str, missing: str) -> bool:
     return offered.casefold().endswith(missing) or missing[1:4] in offered.casefold()
 
 
-def _first(trace: Trace, step: Callable[[Code], str | None]) -> str | None:
-    """The step for the first of the files that there is one for."""
-    return next((told for code in learner_files(trace) if (told := step(code)) is not None), None)
+def _first_step(trace: Trace, step: Callable[[Code], str | None]) -> str | None:
+    """Return the step for the first of the learner's files that has one."""
+    return next((found for code in learner_files(trace) if (found := step(code)) is not None), None)
 
 
 def _with_answer_step(cause: Cause, trace: Trace, service: str, stuck: Sequence[Frame] = ()) -> Cause:
-    """The cause with the step that lets a service answer."""
+    """Give a cause the step that lets a service answer."""
     found, at = tracebacks.last_traceback(trace), tracebacks.own_frame(stuck, trace.folder)
     if found is not None and found.frames[-1].function == "send_response":
         return replace(cause, hint=service_steps.return_response(trace, service) or cause.hint)
     if cause.name == names.NO_SPIN:
         return with_applicable_step(cause, trace)
     if at is not None and "sleep(" in at.code:
-        return replace(cause, hint=_first(trace, lambda code: steps.remove_calls(code, "sleep")) or cause.hint)
+        return replace(cause, hint=_first_step(trace, lambda code: steps.remove_calls(code, "sleep")) or cause.hint)
     if any("was never awaited" in line.text for line in trace.output):
         return replace(cause, hint=services.compute_results(trace, [service], whole=True) or cause.hint)
     if cause.name == names.INCOMPATIBLE_QOS:
-        return with_applicable_step(cause, trace, lambda: _first(trace, service_steps.use_default_qos))
+        return with_applicable_step(cause, trace, lambda: _first_step(trace, service_steps.use_default_qos))
     return with_applicable_step(cause, trace, lambda: services.compute_results(trace, [service], whole=True))
 
 
@@ -125,8 +129,8 @@ def judge_operations(seen: ServiceCalls) -> Verdict:
                     or Cause(
                         "no answer",
                         "the service does not answer this call",
-                        f"let the callback of {answer.service} finish, and return its response; `services` "
-                        "tells where it is held up, if it fails as well",
+                        f"let the callback of {answer.service} finish, and return its response; if `services` "
+                        "fails as well, it shows where the callback is stuck",
                     ),
                     seen.trace,
                     answer.service,
@@ -141,16 +145,18 @@ def judge_operations(seen: ServiceCalls) -> Verdict:
                 or _with_computing_step(
                     _diagnose_negatives(answer, seen.answers) or _diagnose_result(answer, right), seen
                 ),
-                [f"{name} answered {result}" for name, result in _answered(seen.of(answer.service))],
+                [f"{name} answered {result}" for name, result in _operands_and_results(seen.of(answer.service))],
             )
     if late := _never_called(seen):
         return failed(expected, f"missing: {', '.join(late)}", _diagnose_missing(seen.trace, late))
     return passed(
-        expected, f"{len(seen.answers)} calls", [f"{name} = {result}" for name, result in _answered(seen.answers)][:8]
+        expected,
+        f"{len(seen.answers)} calls",
+        [f"{name} = {result}" for name, result in _operands_and_results(seen.answers)][:8],
     )
 
 
-def _answered(answers: Sequence[CallAnswer]) -> list[tuple[str, Any]]:
+def _operands_and_results(answers: Sequence[CallAnswer]) -> list[tuple[str, Any]]:
     return [
         (f"{a.request['a']} {SIGNS[a.service]} {a.request['b']}", a.response["sum"])
         for a in answers
@@ -159,33 +165,33 @@ def _answered(answers: Sequence[CallAnswer]) -> list[tuple[str, Any]]:
 
 
 def _diagnose_negatives(answer: CallAnswer, answers: Sequence[CallAnswer]) -> Cause | None:
-    """Whether the service answers the same to whatever has a negative operand, and else rightly."""
+    """Diagnose a service that answers all calls with a negative operand alike, and all others correctly."""
     negative: list[tuple[int, int]] = []
     others: list[tuple[int, int]] = []
     for each in answers:
         if each.service == answer.service and each.response is not None:
-            of = negative if min(each.request["a"], each.request["b"]) < 0 else others
-            of.append((each.response["sum"], right_result(each.service, each.request["a"], each.request["b"])))
+            group = negative if min(each.request["a"], each.request["b"]) < 0 else others
+            group.append((each.response["sum"], right_result(each.service, each.request["a"], each.request["b"])))
     same = len({got for got, _ in negative}) == 1 and len({right for _, right in negative}) > 1
     wrong = sum(got != right for got, right in negative)
     if wrong < 2 or not others or not same or any(got != right for got, right in others):
         return None
     return Cause(
         "negative operands refused",
-        f"{answer.service} answers {negative[0][0]} whenever an operand is negative, and rightly where none is",
+        f"{answer.service} answers {negative[0][0]} whenever an operand is negative, and is right otherwise",
         "take the test for negative numbers out of the callback: it computes with them as with any others",
     )
 
 
 def _with_computing_step(cause: Cause, seen: ServiceCalls) -> Cause:
-    """The cause with the step that lets every service that has answered wrongly compute its own."""
+    """Give a cause the step that makes each service with a wrong answer compute its own result."""
     answers = [(each, right_result(each.service, each.request["a"], each.request["b"])) for each in seen.answers]
     wrong = list(dict.fromkeys(a.service for a, right in answers if a.response and a.response["sum"] != right))
     return replace(cause, hint=services.compute_results(seen.trace, wrong) or cause.hint)
 
 
 def _diagnose_result(answer: CallAnswer, right: int) -> Cause:
-    """What the wrong result looks like."""
+    """Guess the cause of a wrong result from its value."""
     assert answer.response is not None
     got, a, b = answer.response["sum"], answer.request["a"], answer.request["b"]
     name = answer.service
@@ -212,7 +218,7 @@ def _diagnose_result(answer: CallAnswer, right: int) -> Cause:
 
 
 def _with_guard_step(cause: Cause, trace: Trace) -> Cause:
-    """The cause with the step that lets /divide answer, and say that it is an error, where b is 0."""
+    """Give a cause the step that lets /divide answer and log an error if b is 0."""
     found = tracebacks.last_traceback(trace)
     if found is not None and found.frames[-1].function == "send_response":
         return replace(cause, hint=service_steps.return_response(trace, "/divide") or cause.hint)
@@ -221,7 +227,7 @@ def _with_guard_step(cause: Cause, trace: Trace) -> Cause:
 
 @with_applicable_steps
 def judge_division(seen: Division) -> Verdict:
-    expected = "dividing by zero gets an answer, the node says that it is an error, and the next calls go well"
+    expected = "a division by zero gets an answer, the node reports it as an error, and the next calls succeed"
     if seen.before is None or seen.before.response is None or seen.by_zero is None:
         return failed(
             expected,
@@ -246,13 +252,13 @@ def judge_division(seen: Division) -> Verdict:
             causes.output_tail(seen.trace),
         )
     complaints = find_complaints(seen.ordinary, seen.said)
-    # What a node logs as it ends may be lost on its way to us: then its end is what is reported.
-    gone = seen.trace.exit is not None and any(answer.response is None for answer in seen.after)
-    if not complaints and not gone:
+    # The last log messages of a node that exits may never reach us: in that case, report the exit instead.
+    has_exited = seen.trace.exit is not None and any(answer.response is None for answer in seen.after)
+    if not complaints and not has_exited:
         if seen.before.response["sum"] != right_result("/divide", **seen.before.request):
             cause = Cause(
                 "no error message",
-                "nothing is said of an error, since /divide does not divide: 84 ÷ 7 is answered "
+                "no error is reported, since /divide does not divide: 84 ÷ 7 is answered "
                 f"{seen.before.response['sum']}",
                 services.compute_results(seen.trace, ["/divide"]) or "let /divide divide first: see `operations`",
             )
@@ -261,7 +267,7 @@ def judge_division(seen: Division) -> Verdict:
         printed = causes.diagnose_printed(seen.trace, SAYS_ERROR.search, "the error", after=seen.at_end)
         cause = printed or Cause(
             "no error message",
-            "nothing that the node logs says that this is an error",
+            "nothing that the node logs reports an error",
             "in the callback of /divide, where b is 0, log an error before you return the response",
         )
         trace = seen.trace
@@ -288,7 +294,7 @@ def judge_division(seen: Division) -> Verdict:
         if b and divides and answer.response["sum"] != right_result("/divide", a, b):
             cause = Cause(
                 "wrong result",
-                "the node divides well until it is asked to divide by zero",
+                "the node divides correctly until it is asked to divide by zero",
                 "let a division by zero change nothing: only log, and answer",
             )
             cause = _with_guard_step(cause, seen.trace)

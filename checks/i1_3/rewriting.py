@@ -1,4 +1,4 @@
-"""I1.3: the last resort, where no smaller step is left: the file as a whole, in the learner's own names."""
+"""I1.3: a rewrite of the whole file that keeps the learner's names: the step of last resort."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from collections.abc import Callable
 from dataclasses import replace
 from functools import wraps
 
-from checks.i1_3.client_requests import LONG
+from checks.i1_3.client_requests import WAIT_FOR_SERVICE
 from checks.i1_3.code import Code, with_applicable_step
 from checks.i1_3.facts import SIGNS, Division, ServiceCalls
-from checks.i1_3.services import argument_names, find_callback, is_named_after, lines_for
+from checks.i1_3.services import argument_names, body_lines, find_callback, is_named_after
 from tutor.judge import edits
 from tutor.judge.rewriting.node import argument
 from tutor.judge.rewriting.whole import MAIN, rewrite_file
@@ -25,7 +25,7 @@ from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 
 
-class {own}(Node):
+class {node_class}(Node):
     def __init__(self):
         super().__init__({node!r})"""
 
@@ -52,64 +52,68 @@ if __name__ == '__main__':
 
 
 def with_applicable_steps[Seen: ServiceCalls | Division](judge: Callable[[Seen], Verdict]) -> Callable[[Seen], Verdict]:
-    """The judge of a server, whose steps can be followed word for word wherever there is a file to edit."""
+    """Decorate a judge of the server: its steps can be followed word for word wherever there is a file to edit."""
 
     @wraps(judge)
     def judged(seen: Seen) -> Verdict:
         verdict = judge(seen)
         if verdict.status is not Status.FAILED or verdict.hint.startswith("rename"):
             return verdict
-        told = with_applicable_step(
+        cause = with_applicable_step(
             Cause("", verdict.cause, verdict.hint), seen.trace, lambda: rewrite_server(seen.trace)
         )
-        return replace(verdict, hint=told.hint)
+        return replace(verdict, hint=cause.hint)
 
     return judged
 
 
 def rewrite_server(trace: Trace) -> str | None:
-    """The step that writes a server which offers all four services, and ends with Ctrl+C."""
+    """Step: rewrite the server so that it offers all four services and ends on Ctrl+C."""
     if trace.file not in trace.sources:
         return None
     file = Code(trace.sources[trace.file], trace.file)
-    named = {service: _callback(trace, service) for service in SIGNS}
-    own = next(iter(file.node_classes), "CalculatorServer")
+    callbacks = {service: _callback_names(trace, service) for service in SIGNS}
+    node_class = next(iter(file.node_classes), "CalculatorServer")
     code = "\n".join(
         [
-            _SERVER.format(own=own, node=_node_name(file, "calculator_server")),
-            *(f"        self.create_service(AddTwoInts, {each[1:]!r}, self.{named[each][0]})" for each in SIGNS),
-            *(_method(each, *named[each]) for each in SIGNS),
+            _SERVER.format(node_class=node_class, node=_node_name(file, "calculator_server")),
+            *(f"        self.create_service(AddTwoInts, {each[1:]!r}, self.{callbacks[each][0]})" for each in SIGNS),
+            *(_method_code(each, *callbacks[each]) for each in SIGNS),
         ]
     )
-    return _written(file, f"{code}\n{MAIN.format(main='main', node_class=own)}")
+    return _replace_code(file, f"{code}\n{MAIN.format(main='main', node_class=node_class)}")
 
 
-def _method(service: str, name: str, request: str, response: str) -> str:
-    body = "\n".join(lines_for(request, response, service, "self.get_logger()"))
+def _method_code(service: str, name: str, request: str, response: str) -> str:
+    body = "\n".join(body_lines(request, response, service, "self.get_logger()"))
     return f"\n    def {name}(self, {request}, {response}):\n{textwrap.indent(body, ' ' * 8)}"
 
 
 def rewrite_client(code: Code) -> str | None:
-    """The step that writes a client which waits for each service, calls it, and ends."""
-    return _written(code, _CLIENT.format(node=_node_name(code, "calculator_client"), wait=LONG))
+    """Step: rewrite the client so that it waits for each service, calls it, and ends."""
+    return _replace_code(code, _CLIENT.format(node=_node_name(code, "calculator_client"), wait=WAIT_FOR_SERVICE))
 
 
-def _written(file: Code, code: str) -> str | None:
-    """The code in place of the file's; what is said above it stays."""
+def _replace_code(file: Code, code: str) -> str | None:
+    """Step: replace the file's code, but keep the docstring and comments above it."""
     return file.as_step(rewrite_file(file, code) or edits.Edit(1, len(file.text.splitlines()), code))
 
 
-def _callback(trace: Trace, service: str) -> tuple[str, str, str]:
-    """What the callback of a service, its request and its response are called."""
+def _callback_names(trace: Trace, service: str) -> tuple[str, str, str]:
+    """The names of a service's callback and of its request and response arguments."""
     found = find_callback(trace, service)
     if found is None:
         return f"{service[1:]}_callback", "request", "response"
     code, function = found
     request, response = argument_names(code, function)[:2]
-    return function.name if is_named_after(function.name, service) else f"{service[1:]}_callback", request, response
+    return (
+        function.name if is_named_after(function.name, service) else f"{service[1:]}_callback",
+        request,
+        response,
+    )
 
 
-def _node_name(code: Code, usual: str) -> str:
-    given = [argument(call, 0, "node_name") for call in code.calls("__init__", "create_node", "Node")]
-    told = [each.value for each in given if isinstance(each, ast.Constant) and isinstance(each.value, str)]
-    return next((each for each in told if each.isidentifier()), usual)
+def _node_name(code: Code, default: str) -> str:
+    arguments = [argument(call, 0, "node_name") for call in code.calls("__init__", "create_node", "Node")]
+    names = [each.value for each in arguments if isinstance(each, ast.Constant) and isinstance(each.value, str)]
+    return next((each for each in names if each.isidentifier()), default)

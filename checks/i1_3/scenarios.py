@@ -1,4 +1,4 @@
-"""I1.3: what is done to the node."""
+"""I1.3: the scenarios, which start the nodes and gather the facts."""
 
 from __future__ import annotations
 
@@ -10,17 +10,17 @@ from typing import Any
 
 from checks.i1_3.facts import (
     AFTER_ZERO,
-    AFTERWARDS_S,
     ANSWER_S,
     CLIENT,
     CLIENT_S,
-    EASY,
-    LATER_S,
-    LOG_S,
-    NO_CLIENT_S,
+    DELAYED_EXIT_S,
+    EASY_OPERANDS,
+    LOG_DELAY_S,
+    NO_CLIENT_GRACE_S,
     SERVER,
+    SERVER_DELAY_S,
     SIGNS,
-    STUCK_S,
+    STUCK_CALL_S,
     TYPE,
     ClientRun,
     Division,
@@ -36,14 +36,14 @@ from tutor.judge.tracebacks import Frame
 from tutor.judge.waiting import SETTLE_S, patience_s, wait_until_log_quiet, wait_until_seen
 from tutor.ros_model import Graph, ServiceEndpoint
 
-DYING_S = 10.0
-"""A process whose node is going ends within this time."""
+EXIT_LIMIT_S = 10.0
+"""Time limit for a process to exit once its node has begun to disappear from the graph."""
 
-SAID_S = 0.3
-"""What a node has to say of a call is logged within this time, each line after the other."""
+LOG_QUIET_S = 0.3
+"""Silence after which a node counts as done logging about a call: longer than between two of its messages."""
 
-MOST_SAID_S = 2.0
-"""A node that goes on logging forever is not waited for longer than this."""
+MAX_LOG_WAIT_S = 2.0
+"""Longest wait for that silence, for a node that never stops logging."""
 
 
 @repeat_if_doubtful
@@ -51,75 +51,76 @@ async def call_each_service(bench: Bench) -> ServiceCalls:
     """Call every service once as `ros2 service call` does, then press Ctrl+C."""
     async with bench.start(SERVER, expected_s=0.5) as run:
         bench.report_progress(0.1, "waiting for the four services")
-        known = await _services(run)
+        had_node = await _wait_for_services(run)
         spins = await run.parameters(2.0) is not None
-        met = run.graph
-        there = [name for name in SIGNS if name not in missing_services(met.servers)]
+        graph_before = run.graph
+        offered = [name for name in SIGNS if name not in missing_services(graph_before.servers)]
         bench.report_progress(0.4, "calling each service")
-        answers = await _ask(run, [(name, *EASY) for name in there])
+        answers = await _make_calls(run, [(name, *EASY_OPERANDS) for name in offered])
         unanswered = next((answer for answer in answers if answer.response is None), None)
-        trace = await _as_met(run, met, known)
+        trace = await _trace_after_calls(run, graph_before, had_node)
         bench.report_progress(0.8, "pressing Ctrl+C")
         ended = await run.interrupt() if run.exit is None else None
-    stuck = await _stuck(bench, unanswered) if unanswered and trace.exit is None else ()
+    stuck = await _dump_stuck_node(bench, unanswered) if unanswered and trace.exit is None else ()
     return ServiceCalls(trace, answers, spins, stuck, ended)
 
 
-async def _services(run: Run) -> bool:
-    """Wait for the four services; whether a node was there, if only for a moment."""
-    known = False
+async def _wait_for_services(run: Run) -> bool:
+    """Wait for the four services. Return whether a node was up, if only for a moment."""
+    had_node = False
 
-    def all_there() -> bool:
-        nonlocal known
-        known = known or bool(run.graph.nodes)
+    def all_offered() -> bool:
+        nonlocal had_node
+        had_node = had_node or bool(run.graph.nodes)
         return not missing_services(run.graph.servers)
 
     def limit_s() -> float:
-        there = [(each.name, each.type) for each in run.graph.servers if each.name not in SIGNS or each.type != TYPE]
-        return min((patience_s(there, name, TYPE) for name in missing_services(run.graph.servers)), default=SETTLE_S)
+        others = [(each.name, each.type) for each in run.graph.servers if each.name not in SIGNS or each.type != TYPE]
+        return min((patience_s(others, name, TYPE) for name in missing_services(run.graph.servers)), default=SETTLE_S)
 
-    await wait_until_seen(run, all_there, settle_s=limit_s)
-    return known
+    await wait_until_seen(run, all_offered, settle_s=limit_s)
+    return had_node
 
 
-async def _as_met(run: Run, met: Graph, known: bool) -> Trace:
-    """The facts after the calls; where one has killed the node, with the graph as met before.
+async def _trace_after_calls(run: Run, graph_before: Graph, had_node: bool) -> Trace:
+    """Return the trace after the calls; if one of them killed the node, with the graph from before the calls.
 
-    A node that goes takes its services along, one by one. `known`: there was one, even if it was gone when we looked.
+    The services of a dying node disappear one by one, so a missing one counts as a sign of its end.
+    `had_node`: a node was up at some time, even if it is no longer in `graph_before`.
     """
     trace = run.trace()
-    gone = set(missing_services(trace.graph.servers)) - set(missing_services(met.servers))
-    if trace.exit is None and not gone and (trace.graph.nodes or not (known or met.nodes)):
+    lost = set(missing_services(trace.graph.servers)) - set(missing_services(graph_before.servers))
+    if trace.exit is None and not lost and (trace.graph.nodes or not (had_node or graph_before.nodes)):
         return trace
-    await run.wait_for_exit(DYING_S)
-    return replace(run.trace(), graph=met)
+    await run.wait_for_exit(EXIT_LIMIT_S)
+    return replace(run.trace(), graph=graph_before)
 
 
-async def _stuck(bench: Bench, unanswered: CallAnswer) -> tuple[Frame, ...]:
-    """Ask the same once more, only to see where the node is while it does not answer."""
+async def _dump_stuck_node(bench: Bench, unanswered: CallAnswer) -> tuple[Frame, ...]:
+    """Repeat the unanswered call on another start to get a stack dump of the node while it does not answer."""
     async with bench.start(SERVER) as run:
         bench.report_progress(0.9, "looking where the node is stuck")
         await wait_until_seen(run, lambda: any(service.name == unanswered.service for service in run.graph.servers))
-        await run.call(unanswered.service, TYPE, unanswered.request, limit_s=STUCK_S)
+        await run.call(unanswered.service, TYPE, unanswered.request, limit_s=STUCK_CALL_S)
         return await run.dump_stacks()
 
 
 async def call_with_random_operands(bench: Bench) -> ServiceCalls:
-    """Calculate with operands by chance."""
+    """Call every service with random operands."""
     async with bench.start(SERVER, expected_s=0.3) as run:
-        known = await _services(run)
-        met = run.graph
-        there = [name for name in SIGNS if name not in missing_services(met.servers)]
+        had_node = await _wait_for_services(run)
+        graph_before = run.graph
+        offered = [name for name in SIGNS if name not in missing_services(graph_before.servers)]
         bench.report_progress(0.3, "calculating with positive and negative numbers")
         chosen = operands()
-        a, b = chosen[0]  # in the other order, too, which makes no whole quotient
-        swapped = [(name, b, a) for name in there if name != "/divide"]
-        answers = await _ask(run, [*((name, a, b) for name in there for a, b in chosen), *swapped])
-        return ServiceCalls(await _as_met(run, met, known), answers)
+        a, b = chosen[0]  # swapped as well, but not to divide: the quotient would not be a whole number
+        swapped = [(name, b, a) for name in offered if name != "/divide"]
+        answers = await _make_calls(run, [*((name, a, b) for name in offered for a, b in chosen), *swapped])
+        return ServiceCalls(await _trace_after_calls(run, graph_before, had_node), answers)
 
 
-async def _ask(run: Run, questions: Sequence[tuple[str, int, int]]) -> tuple[CallAnswer, ...]:
-    """Call one after another; stop at one without an answer, since each further one would cost its limit."""
+async def _make_calls(run: Run, questions: Sequence[tuple[str, int, int]]) -> tuple[CallAnswer, ...]:
+    """Make the calls one after another; stop after an unanswered one, as each further one would time out too."""
     answers: list[CallAnswer] = []
     for name, a, b in questions:
         answers.append(await run.call(name, TYPE, {"a": a, "b": b}, limit_s=ANSWER_S))
@@ -129,7 +130,7 @@ async def _ask(run: Run, questions: Sequence[tuple[str, int, int]]) -> tuple[Cal
 
 
 async def divide_by_zero(bench: Bench) -> Division:
-    """Divide by zero, listen to what the node says, and go on calling."""
+    """Divide by zero, watch what the node logs, and go on calling."""
     async with bench.start(SERVER) as run:
         bench.report_progress(0.1, "waiting for /divide")
         if not await wait_until_seen(run, lambda: "/divide" not in missing_services(run.graph.servers)):
@@ -139,27 +140,27 @@ async def divide_by_zero(bench: Bench) -> Division:
             return await run.call("/divide", TYPE, {"a": a, "b": b}, limit_s=ANSWER_S)
 
         before = await divide(84, 7)
-        await wait_until_log_quiet(run, quiet_s=SAID_S, most_s=MOST_SAID_S)
+        await wait_until_log_quiet(run, quiet_s=LOG_QUIET_S, most_s=MAX_LOG_WAIT_S)
         ordinary = tuple(run.logs)
         bench.report_progress(0.4, "calling /divide: 10 ÷ 0")
         by_zero = await divide(10, 0)
-        await run.until(lambda: bool(find_complaints(ordinary, run.logs[len(ordinary) :])), LOG_S)
+        await run.until(lambda: bool(find_complaints(ordinary, run.logs[len(ordinary) :])), LOG_DELAY_S)
         said = tuple(run.logs[len(ordinary) :])
-        await run.until(lambda: run.exit is not None, AFTERWARDS_S)
+        await run.until(lambda: run.exit is not None, DELAYED_EXIT_S)
         bench.report_progress(0.8, "calling /divide again")
-        after = await _ask(run, [("/divide", a, b) for a, b in AFTER_ZERO])
+        after = await _make_calls(run, [("/divide", a, b) for a, b in AFTER_ZERO])
         trace, silent = run.trace(), run.exit is None and not find_complaints(ordinary, said)
         at_end = (await run.interrupt()).output if silent else ()
         return Division(trace, before, by_zero, after, ordinary, said, at_end)
 
 
 async def run_client(bench: Bench) -> ClientRun:
-    """Run the client, and bring up our four servers when it has been there for a while."""
+    """Run the client, and bring up our four servers a little later."""
     if not bench.has_file(CLIENT):
         return ClientRun(None)
     async with bench.start(CLIENT, expected_s=2.0) as run:
         bench.report_progress(0.2, "running the client, before there is a server")
-        clients: set[ServiceEndpoint] = set()  # what it had while it ran: afterwards, the graph no longer knows
+        clients: set[ServiceEndpoint] = set()  # gathered as it runs: the graph forgets them when it exits
         due_at = inf
         up_at: float | None = None
         lost_s = 0.0
@@ -172,13 +173,13 @@ async def run_client(bench: Bench) -> ClientRun:
             if up_at is None:
                 lost_s = run.node_cpu_wait_s() + run.our_cpu_wait_s() - our_wait_s
             if run.graph.nodes and due_at == inf:
-                due_at = run.now() + NO_CLIENT_S + LATER_S
+                due_at = run.now() + NO_CLIENT_GRACE_S + SERVER_DELAY_S
             if clients:
-                due_at = min(due_at, run.now() + LATER_S)
+                due_at = min(due_at, run.now() + SERVER_DELAY_S)
             if up_at is None and run.now() >= due_at:
                 bench.report_progress(0.4, "bringing up our servers")
-                # /add comes last, for it is asked for first: a client that waits for that one alone finds the others,
-                # too.
+                # /add comes up last, because clients ask for it first: one that waits for /add alone then finds the
+                # others as well.
                 for name in reversed(SIGNS):
                     run.serve(name, TYPE, _server(name))
                 up_at = run.now()
@@ -193,15 +194,15 @@ async def run_client(bench: Bench) -> ClientRun:
 
 
 def operands() -> list[tuple[int, int]]:
-    """Operands for each service, by chance, so that no answer can be known beforehand; a can be divided by b.
+    """Return random pairs (a, b), so that no answer can be hard-coded; a is a multiple of b.
 
-    With every combination of signs, with more than fits into 32 bits, and with 0. No result has more than 53 bits.
+    They cover every combination of signs, values beyond 32 bits, and a = 0. No result has more than 53 bits.
     """
     ordinary = [(sign * random.randint(20, 900), by) for by in (1, -1) for sign in (1, -1)]
     large = random.choice((1, -1)) * random.randint(2 * 10**9, 4 * 10**9)
     return [
-        (times * divisor, divisor)
-        for times, sign in (*ordinary, (large, 1), (0, 1))
+        (quotient * divisor, divisor)
+        for quotient, sign in (*ordinary, (large, 1), (0, 1))
         for divisor in [sign * random.randint(3, 19)]
     ]
 

@@ -1,4 +1,4 @@
-"""I1.3: edits of the server's code that bring a service about: its name, its type, its answer."""
+"""I1.3: steps that give the server a service: one that is there, with the right name and type, and that answers."""
 
 from __future__ import annotations
 
@@ -18,58 +18,60 @@ from tutor.judge.verdict import Cause
 
 
 def add_services(trace: Trace, missing: Sequence[str]) -> str | None:
-    """The step that offers the services that are missing, below the others, or where the node is made."""
+    """Step: offer the missing services, below the existing ones or where the node is created."""
     for code in learner_files(trace):
-        place = _place(code)
+        place = _find_place(code)
         if place is None:
             continue
         at, node = place
-        kind = next(
+        srv_type = next(
             (ast.unparse(each) for call in code.calls("create_service") if (each := argument(call, 0, "srv_type"))), ""
         )
-        kind = kind if kind.isidentifier() else code.imported("AddTwoInts")
-        lines, defined = [], []
+        srv_type = srv_type if srv_type.isidentifier() else code.local_name("AddTwoInts")
+        lines, new_functions = [], []
         for service in missing:
-            has = [each for each in code.functions if each.name in (service[1:], f"{service[1:]}_callback")]
-            if len(has) == 1 and len(argument_names(code, has[0])) == 2 and code.self_name(at):
-                name = f"{code.self_name(at)}.{has[0].name}"
+            present = [each for each in code.functions if each.name in (service[1:], f"{service[1:]}_callback")]
+            if len(present) == 1 and len(argument_names(code, present[0])) == 2 and code.self_name(at):
+                name = f"{code.self_name(at)}.{present[0].name}"
             else:
                 name, edit = new_callback(code, at, service)
-                defined.append(edit.code.rstrip() + "\n\n")
-            lines.append(f"{node}.create_service({kind}, '{service[1:]}', {name})")
-        above = [edits.insert_above(_top(code, at), "".join(defined))] if defined and code.self_name(at) else []
-        written = "".join([*([] if code.self_name(at) else defined), "\n".join(lines)])
-        below = edits.insert_after(at, written)
-        imports = code.importing("AddTwoInts") if kind == "AddTwoInts" else []
+                new_functions.append(edit.code.rstrip() + "\n\n")
+            lines.append(f"{node}.create_service({srv_type}, '{service[1:]}', {name})")
+        in_method = bool(code.self_name(at))
+        above = (
+            [edits.insert_above(_first_line(code, at), "".join(new_functions))] if new_functions and in_method else []
+        )
+        below = edits.insert_after(at, "".join([*([] if in_method else new_functions), "\n".join(lines)]))
+        imports = code.missing_imports("AddTwoInts") if srv_type == "AddTwoInts" else []
         if (step := code.as_step(imports, above, below)) is not None:
             return step
     return None
 
 
 def diagnose_destroyed(trace: Trace) -> Cause | None:
-    """Whether a service is destroyed with an object that holds it: as soon as nothing refers to that any more."""
+    """Diagnose a `__del__` that destroys a service as soon as nothing refers to the object that holds it."""
     for code in learner_files(trace):
         for call in code.calls("destroy_service"):
             function = code.function_around(call)
             if function is not None and function.name == "__del__":
                 step = code.as_step([edits.remove_statement(code.text, function)])
                 text = (
-                    f"line {call.lineno}: __del__ destroys the service when nothing refers to the object any more, as "
-                    "when its variable is assigned again"
+                    f"line {call.lineno}: __del__ destroys the service when nothing refers to the object any more, "
+                    "for example when its variable is reassigned"
                 )
                 return Cause("service destroyed", text, step) if step else None
     return None
 
 
-def _place(code: Code) -> tuple[ast.stmt, str] | None:
-    """The statement below which a service can be offered, and what the node is called there."""
+def _find_place(code: Code) -> tuple[ast.stmt, str] | None:
+    """Find the statement below which to create a service, and the variable that holds the node there."""
     if made := code.calls("create_service"):
-        around = code.class_of(made[-1])
-        if around is not None and around.name not in code.node_classes:  # a class of the learner's own for a service
+        owner = code.class_of(made[-1])
+        if owner is not None and owner.name not in code.node_classes:  # the learner wraps each service in a class
             return None
-        return code.outermost(made[-1]), code.node(made[-1])
+        return code.outermost_statement(made[-1]), code.node_name(made[-1])
     for call in code.calls("__init__", "create_node", "Node", *code.node_classes):
-        statement = code.outermost(call)
+        statement = code.outermost_statement(call)
         if source.called_name(call) == "__init__" and code.self_name(call):
             return statement, code.self_name(call)
         if source.called_name(call) != "__init__" and isinstance(statement, ast.Assign):
@@ -77,13 +79,14 @@ def _place(code: Code) -> tuple[ast.stmt, str] | None:
     return None
 
 
-def _top(code: Code, at: ast.stmt) -> int:
+def _first_line(code: Code, at: ast.stmt) -> int:
+    """The first line of the outermost function around a statement, decorators included."""
     function = [each for each in code.ancestors(at) if isinstance(each, Function)][-1]
     return min([function.lineno, *(each.lineno for each in function.decorator_list)])
 
 
 def rename_services(trace: Trace, wanted: Sequence[tuple[str, str]], create: str = "create_service") -> str | None:
-    """The step by which each of these (name as it is in the graph, name as it must be) gets its name."""
+    """Step: rename services; `wanted` pairs each name in the graph with the required one."""
     for code in learner_files(trace) if wanted else ():
         change = Changes(code)
         for call in code.calls(create):
@@ -91,46 +94,47 @@ def rename_services(trace: Trace, wanted: Sequence[tuple[str, str]], create: str
             if (
                 name is not None
                 and not isinstance(name, ast.Constant)
-                and all(is_.endswith(must) for is_, must in wanted)
+                and all(actual.endswith(required) for actual, required in wanted)
             ):
                 plain = isinstance(name, ast.Name | ast.Attribute | ast.Subscript | ast.Call)
                 text = ast.unparse(name) if plain else f"({ast.unparse(name)})"
                 change.swaps.append((name, f"'/' + {text}.rpartition('/')[2]"))
-        computed = bool(change.swaps)
-        for is_, must in wanted:
+        names_are_computed = bool(change.swaps)
+        for actual, required in wanted:
             texts = [each for each in code.nodes if isinstance(each, ast.Constant) and isinstance(each.value, str)]
-            for each in texts if not computed else []:
-                if str(each.value).rpartition("/")[2] == is_.rpartition("/")[2] and not _spoken(code, each):
+            for each in texts if not names_are_computed else []:
+                if str(each.value).rpartition("/")[2] == actual.rpartition("/")[2] and not _is_prose(code, each):
                     parts = re.findall("|".join(name[1:] for name in SIGNS), str(each.value))
-                    joined = len(parts) > 1 and "".join(parts) == each.value  # as Python does without a comma
-                    right = must if str(each.value) == must[1:] else must[1:]
-                    change.swaps.append((each, ", ".join(map(repr, parts if joined else [right]))))
+                    # Python joins adjacent literals if the comma between them is missing: 'add' 'subtract'.
+                    joined = len(parts) > 1 and "".join(parts) == each.value
+                    replacement = required if str(each.value) == required[1:] else required[1:]
+                    change.swaps.append((each, ", ".join(map(repr, parts if joined else [replacement]))))
         if change.swaps and (step := change.as_step()) is not None:
             return step
     return None
 
 
-def _spoken(code: Code, text: ast.Constant) -> bool:
-    """Whether a text is an f-string's, or said to a human."""
+def _is_prose(code: Code, text: ast.Constant) -> bool:
+    """Whether a string is part of an f-string, or a docstring."""
     return isinstance(next(code.ancestors(text), None), ast.JoinedStr | ast.Expr)
 
 
 def set_types(trace: Trace, wrong: Sequence[str]) -> str | None:
-    """The step that gives services the type AddTwoInts, and callbacks that fill in a sum."""
-    there = find_offer(trace, wrong[0])
-    if there is None:
+    """Step: give services the type AddTwoInts, and callbacks that set `sum`."""
+    offer = find_offer(trace, wrong[0])
+    if offer is None:
         return None
-    code, kind = there.code, there.code.imported("AddTwoInts")
-    change = Changes(code, more=code.importing("AddTwoInts"))
+    code, required = offer.code, offer.code.local_name("AddTwoInts")
+    change = Changes(code, more=code.missing_imports("AddTwoInts"))
     for call in code.calls("create_service"):
-        given_one = argument(call, 0, "srv_type")
-        if given_one is not None and ast.unparse(given_one) != kind:
-            change.swaps.append((given_one, kind))
+        srv_type = argument(call, 0, "srv_type")
+        if srv_type is not None and ast.unparse(srv_type) != required:
+            change.swaps.append((srv_type, required))
     return compute_results(trace, wrong, whole=True, change=change)
 
 
 def use_default_qos(code: Code) -> str | None:
-    """The step that leaves the QoS profile of services, and of their clients, at its default."""
+    """Step: leave the QoS profile of services and service clients at its default."""
     change = Changes(code)
     for call in code.calls("create_service", "create_client"):
         kept = [each for each in call.keywords if each.arg != "qos_profile"]
@@ -140,20 +144,20 @@ def use_default_qos(code: Code) -> str | None:
 
 
 def return_response(trace: Trace, service: str) -> str | None:
-    """The step that lets a callback return its response on every path: its own, or that of what is around it."""
+    """Step: return the response on every path through the callback, a decorator of it, or a helper it returns."""
     found = find_callback(trace, service)
     if found is None:
         return compute_results(trace, [service], whole=True)
     code, function = found
     for each in (function, *_wrappers(code, function), *_helpers(code, function)):
-        changes = list(_returns(code, each, argument_names(code, function)[1]))
+        changes = list(_fix_returns(code, each, argument_names(code, function)[1]))
         if changes and (step := code.as_step(changes)) is not None:
             return step
     return compute_results(trace, [service], whole=True)
 
 
 def _wrappers(code: Code, function: Function) -> Iterator[Function]:
-    """The functions that decorators put around this one."""
+    """The inner functions that decorators wrap around this one."""
     names = {
         source.called_name(each) if isinstance(each, ast.Call) else ast.unparse(each)
         for each in function.decorator_list
@@ -170,7 +174,8 @@ def _helpers(code: Code, function: Function) -> Iterator[Function]:
             yield from code.named(source.called_name(each.value))
 
 
-def _returns(code: Code, function: Function, usual: str) -> Iterator[Edit]:
+def _fix_returns(code: Code, function: Function, usual: str) -> Iterator[Edit]:
+    """Yield edits that make a function return its response, `usual` being the response's usual name."""
     names = argument_names(code, function)
     response = usual if usual in names or not names else names[-1]
     for each in ast.walk(function):
@@ -190,18 +195,17 @@ def _returns(code: Code, function: Function, usual: str) -> Iterator[Edit]:
     for each in ast.walk(function):
         if isinstance(each, ast.Return) and code.function_around(each) is function:
             value = each.value
-            none = value is None or ast.unparse(value) == "None"
             if (
                 value is not None
-                and not none
+                and ast.unparse(value) != "None"
                 and not isinstance(value, ast.Call)
-                and not _given(function, value, response)
+                and not _may_be_response(function, value, response)
             ):
                 sums = [] if f"{response}.sum" == ast.unparse(value) else [f"{response}.sum = {ast.unparse(value)}"]
                 yield edits.replace_statement(each, "\n".join([*sums, f"return {response}"]))
 
 
-def _given(function: Function, value: ast.expr, response: str) -> bool:
-    """Whether what is returned may well be a response: it is called so, or is a variable of the function's own."""
-    made = {ast.unparse(each.targets[0]) for each in ast.walk(function) if isinstance(each, ast.Assign)}
-    return ast.unparse(value) in (response, *made)
+def _may_be_response(function: Function, value: ast.expr, response: str) -> bool:
+    """Whether a returned value may be a response: it has the response's name, or is a local variable."""
+    local = {ast.unparse(each.targets[0]) for each in ast.walk(function) if isinstance(each, ast.Assign)}
+    return ast.unparse(value) in (response, *local)

@@ -1,4 +1,4 @@
-"""I1.3: edits of the server's code that make a service compute its own, whatever its callback does."""
+"""I1.3: steps that make a service compute its own result, whatever its callback does now."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from tutor.judge.rewriting.node import argument, with_body
 from tutor.judge.source import Function, last_name
 from tutor.judge.trace import Trace
 
-PYTHON = {**SIGNS, "/divide": "//"}
+OPERATORS = {**SIGNS, "/divide": "//"}
 
 
 @dataclass(frozen=True)
 class Offer:
-    """A call of create_service in which a service is offered; `alone`: no other one is offered there."""
+    """The create_service call that offers a service. `alone`: this call offers no other one, as in a loop."""
 
     code: Code
     call: ast.Call
@@ -32,7 +32,7 @@ class Offer:
 
 @dataclass
 class Changes:
-    """What is to be changed in one file: expressions swapped, and other edits."""
+    """Changes to one file: expressions to replace (`swaps`), and other edits (`more`)."""
 
     code: Code
     swaps: list[tuple[ast.expr, str]] = field(default_factory=list)
@@ -44,29 +44,29 @@ class Changes:
 
 
 def find_offer(trace: Trace, service: str) -> Offer | None:
-    """Where the service is offered."""
+    """Find the create_service call that offers a service, by its literal name or else the first with a computed one."""
     made = [(code, call) for code in learner_files(trace) for call in code.calls("create_service")]
     for code, call in made:
         if _means_service(argument(call, 1, "srv_name"), service):
             return Offer(code, call, True)
-    loose = [each for each in made if not isinstance(argument(each[1], 1, "srv_name"), ast.Constant)]
-    return Offer(*loose[0], False) if loose else None
+    computed = [each for each in made if not isinstance(argument(each[1], 1, "srv_name"), ast.Constant)]
+    return Offer(*computed[0], False) if computed else None
 
 
 def find_callback(trace: Trace, service: str) -> tuple[Code, Function] | None:
-    """The function that answers this service and no other one."""
-    there = find_offer(trace, service)
-    if there is None or there.callback is None:
+    """Find the function that answers this service and no other."""
+    offer = find_offer(trace, service)
+    if offer is None or offer.callback is None:
         return None
-    code, expression = there.code, there.callback
+    code, expression = offer.code, offer.callback
     if isinstance(expression, ast.Call) and source.called_name(expression) == "getattr":
         found = code.named(service[1:])
-    elif there.alone:
+    elif offer.alone:
         name = last_name(expression)
         uses = [call for call in code.calls("create_service") if last_name(argument(call, 2, "callback")) == name]
         found = code.named(name) if len(uses) == 1 or is_named_after(name, service) else []
     else:
-        found = [each for each in code.functions if is_named_after(each.name, service) and any(_sums(each))]
+        found = [each for each in code.functions if is_named_after(each.name, service) and any(_sum_assignments(each))]
     found = [each for each in found if len(argument_names(code, each)) >= 2]
     return (code, found[0]) if len(found) == 1 else None
 
@@ -74,52 +74,53 @@ def find_callback(trace: Trace, service: str) -> tuple[Code, Function] | None:
 def compute_results(
     trace: Trace, wrong: Sequence[str], *, whole: bool = False, change: Changes | None = None
 ) -> str | None:
-    """The step that makes services compute their own; `whole`: not only the line with the result.
+    """Step: make services compute their own results.
 
-    `change`: what else is to be changed.
+    `whole`: replace the whole body of a callback, not just the line with the result. `change`: further changes that
+    belong to the same step.
     """
     changes = {change.code.file: change} if change is not None else {}
     for service in wrong:
-        there = find_offer(trace, service)
-        if there is None:
+        offer = find_offer(trace, service)
+        if offer is None:
             return None
-        change = changes.setdefault(there.code.file, Changes(there.code))
-        if not whole and (other := _other(trace, there, service)) is not None:
-            change.swaps.append(other)
+        change = changes.setdefault(offer.code.file, Changes(offer.code))
+        if not whole and (swap := _swap_callback(offer, service)) is not None:
+            change.swaps.append(swap)
         elif (found := find_callback(trace, service)) is not None:
-            line = None if whole else _line(*found, service)
-            change.more.append(line or with_body(found[1], "\n".join(lines_of(*found, service))))
+            line = None if whole else _replace_result_line(*found, service)
+            change.more.append(line or with_body(found[1], "\n".join(callback_body(*found, service))))
         else:
-            _anew(change, there, service)
+            _replace_callback(change, offer, service)
     steps = [change.as_step() for change in changes.values()]
     return "\n".join(step for step in steps if step) or None
 
 
 def guard_division(trace: Trace) -> str | None:
-    """The step that lets /divide answer, and log an error, before it does anything else."""
+    """Step: let /divide check for zero first, log an error and answer."""
     found = find_callback(trace, "/divide")
     if found is None:
         return compute_results(trace, ["/divide"], whole=True)
     code, function = found
-    guard = lines_of(code, function, "/divide")[:4]
+    guard = callback_body(code, function, "/divide")[:4]
     first = function.body[1:] if ast.get_docstring(function) is not None and function.body[1:] else function.body
-    has = isinstance(first[0], ast.If) and f"if {ast.unparse(first[0].test)}:" == guard[0]
-    if has or isinstance(function, ast.AsyncFunctionDef) or function.decorator_list:
+    is_guarded = isinstance(first[0], ast.If) and f"if {ast.unparse(first[0].test)}:" == guard[0]
+    if is_guarded or isinstance(function, ast.AsyncFunctionDef) or function.decorator_list:
         return compute_results(trace, ["/divide"], whole=True)
     return code.as_step(edits.insert_above(first[0].lineno, "\n".join(guard))) or compute_results(
         trace, ["/divide"], whole=True
     )
 
 
-def lines_of(code: Code, function: Function, service: str) -> list[str]:
-    """What the callback of a service does, in the words of this one."""
+def callback_body(code: Code, function: Function, service: str) -> list[str]:
+    """The right body for this callback of a service, with the callback's own argument names."""
     request, response = argument_names(code, function)[:2]
-    return lines_for(request, response, service, logger_of(code, function.body[0]))
+    return body_lines(request, response, service, logger_of(code, function.body[0]))
 
 
-def lines_for(request: str, response: str, service: str, log: str) -> list[str]:
-    """What the callback of a service does, its arguments and the logger being called so."""
-    result = f"{response}.sum = {request}.a {PYTHON[service]} {request}.b"
+def body_lines(request: str, response: str, service: str, log: str) -> list[str]:
+    """The right body for the callback of a service, given the names of its arguments and its logger."""
+    result = f"{response}.sum = {request}.a {OPERATORS[service]} {request}.b"
     if service != "/divide":
         return [result, f"return {response}"]
     return [
@@ -133,56 +134,59 @@ def lines_for(request: str, response: str, service: str, log: str) -> list[str]:
 
 
 def logger_of(code: Code, at: ast.AST) -> str:
-    """How code at this place gets at the node's logger."""
-    return f"{code.node(at)}.get_logger()"
+    """The expression for the node's logger at this place in the code."""
+    return f"{code.node_name(at)}.get_logger()"
 
 
 def new_callback(code: Code, at: ast.AST, service: str) -> tuple[str, Edit]:
-    """A new callback for a service that is offered at this place: what to call it there, and the edit that adds it."""
+    """Write a new callback for a service offered at this place: the expression that refers to it, and the edit."""
     name = next(each for each in (f"{service[1:]}_callback", f"answer_{service[1:]}", "") if not code.named(each))
-    me = code.self_name(at)
-    head = f"def {name}({f'{me}, ' if me else ''}request, response):"
-    log = f"{code.node(at)}.get_logger()"
-    return _added(code, at, [head, *(f"    {each}" for each in lines_for("request", "response", service, log))])
+    self_name = code.self_name(at)
+    head = f"def {name}({f'{self_name}, ' if self_name else ''}request, response):"
+    body = body_lines("request", "response", service, logger_of(code, at))
+    return _add_function(code, at, [head, *(f"    {each}" for each in body)])
 
 
-def _added(code: Code, at: ast.AST, lines: Sequence[str]) -> tuple[str, Edit]:
-    """A new function, a method where this place is in one: what it is called from here, and the edit."""
-    me, name = code.self_name(at), lines[0][4:].partition("(")[0]
-    above: ast.stmt = code.outermost(at)
-    if me:
+def _add_function(code: Code, at: ast.AST, lines: Sequence[str]) -> tuple[str, Edit]:
+    """Add a function, or a method if this place is in one: the expression that refers to it here, and the edit."""
+    self_name, name = code.self_name(at), lines[0][4:].partition("(")[0]
+    above: ast.stmt = code.outermost_statement(at)
+    if self_name:
         above = [each for each in code.ancestors(at) if isinstance(each, Function)][-1]
-    top = min([above.lineno, *(each.lineno for each in getattr(above, "decorator_list", []))])
-    return (f"{me}.{name}" if me else name), edits.insert_above(top, "\n".join([*lines, "", ""]))
+    first_line = min([above.lineno, *(each.lineno for each in getattr(above, "decorator_list", []))])
+    edit = edits.insert_above(first_line, "\n".join([*lines, "", ""]))
+    return (f"{self_name}.{name}" if self_name else name), edit
 
 
-def _anew(change: Changes, there: Offer, service: str) -> None:
-    """A new callback in place of the one that a service has; where several are offered, one for all of them."""
-    code, call = there.code, there.call
-    assert there.callback is not None
-    if there.alone:
+def _replace_callback(change: Changes, offer: Offer, service: str) -> None:
+    """Give a service a new callback; if one call offers several services, give all of them a common one."""
+    code, call = offer.code, offer.call
+    assert offer.callback is not None
+    if offer.alone:
         name, edit = new_callback(code, call, service)
-        change.swaps.append((there.callback, name))
+        change.swaps.append((offer.callback, name))
     else:
-        offered = argument(call, 1, "srv_name")
-        assert offered is not None
-        me = code.self_name(call)
-        lines = _for_all(me)
+        srv_name = argument(call, 1, "srv_name")
+        assert srv_name is not None
+        self_name = code.self_name(call)
+        lines = _common_callback(self_name)
         if any(ast.unparse(each) == ast.unparse(ast.parse("\n".join(lines))) for each in code.named("calculate")):
-            return  # it is there already, and is not what the fault is about
-        name, edit = _added(code, call, lines)
-        more = "" if me else f", {logger_of(code, call)}"
-        to_bind = f"name={ast.unparse(offered)}"
+            return  # the file has it already, so the fault must be elsewhere
+        name, edit = _add_function(code, call, lines)
+        more = "" if self_name else f", {logger_of(code, call)}"
+        binding = f"name={ast.unparse(srv_name)}"
         change.swaps.append(
-            (there.callback, f"lambda request, response, {to_bind}: {name}(name, request, response{more})")
+            (offer.callback, f"lambda request, response, {binding}: {name}(name, request, response{more})")
         )
     change.more.append(edit)
 
 
-def _for_all(me: str) -> list[str]:
-    log = f"{me}.get_logger()" if me else "logger"
+def _common_callback(self_name: str) -> list[str]:
+    """The lines of one callback for all four services; a method if `self_name` is not empty."""
+    log = f"{self_name}.get_logger()" if self_name else "logger"
+    parameters = f"{self_name}, name, request, response" if self_name else "name, request, response, logger"
     return [
-        f"def calculate({f'{me}, ' if me else ''}name, request, response{'' if me else ', logger'}):",
+        f"def calculate({parameters}):",
         "    a, b = request.a, request.b",
         "    if name.endswith('divide') and b == 0:",
         f"        {log}.error('division by zero')",
@@ -194,25 +198,27 @@ def _for_all(me: str) -> list[str]:
     ]
 
 
-def _other(trace: Trace, there: Offer, service: str) -> tuple[ast.expr, str] | None:
-    """The callback that is named after this service, where it was given another one."""
-    given_one = there.callback
+def _swap_callback(offer: Offer, service: str) -> tuple[ast.expr, str] | None:
+    """If a service was given another one's callback, return that and the callback named after this service."""
+    callback = offer.callback
     if (
-        not there.alone
-        or not isinstance(given_one, ast.Attribute | ast.Name)
-        or is_named_after(last_name(given_one), service)
+        not offer.alone
+        or not isinstance(callback, ast.Attribute | ast.Name)
+        or is_named_after(last_name(callback), service)
     ):
         return None
-    found = [each for each in there.code.functions if is_named_after(each.name, service) and any(_sums(each))]
-    if len(found) != 1 or not there.code.named(last_name(given_one)):
+    found = [
+        each for each in offer.code.functions if is_named_after(each.name, service) and any(_sum_assignments(each))
+    ]
+    if len(found) != 1 or not offer.code.named(last_name(callback)):
         return None
     name = found[0].name
-    return given_one, f"{ast.unparse(given_one.value)}.{name}" if isinstance(given_one, ast.Attribute) else name
+    return callback, f"{ast.unparse(callback.value)}.{name}" if isinstance(callback, ast.Attribute) else name
 
 
-def _line(code: Code, function: Function, service: str) -> Edit | None:
-    """The one line of a callback with its result, where there is just one."""
-    found = [each for each in _sums(function) if not isinstance(getattr(each, "value", None), ast.Constant)]
+def _replace_result_line(code: Code, function: Function, service: str) -> Edit | None:
+    """Correct the line of a callback that sets the result, if there is exactly one."""
+    found = [each for each in _sum_assignments(function) if not isinstance(getattr(each, "value", None), ast.Constant)]
     if len(found) != 1 or not isinstance(found[0], ast.Assign) or len(found[0].targets) != 1:
         return None
     request = argument_names(code, function)[0]
@@ -220,18 +226,17 @@ def _line(code: Code, function: Function, service: str) -> Edit | None:
     a, b = (next((each for each in (f"{request}.{x}", x) if each in read), "") for x in "ab")
     if not (a and b) or any(isinstance(each, ast.IfExp) for each in ast.walk(found[0].value)):
         return None
-    new = f"{ast.unparse(found[0].targets[0])} = {a} {PYTHON[service]} {b}"
+    new = f"{ast.unparse(found[0].targets[0])} = {a} {OPERATORS[service]} {b}"
     return None if new == ast.unparse(found[0]) else edits.replace_statement(found[0], new)
 
 
 def is_named_after(function: str, service: str) -> bool:
-    """Whether a function is named after this service, and not after another as well."""
-    called = [each for each in SIGNS if each[1:4] in function.casefold()]
-    return called == [service]
+    """Whether a function is named after this service, and not after another one as well."""
+    return [each for each in SIGNS if each[1:4] in function.casefold()] == [service]
 
 
-def _sums(function: Function) -> Iterator[ast.stmt]:
-    """The statements that set a field `sum`."""
+def _sum_assignments(function: Function) -> Iterator[ast.stmt]:
+    """The statements that assign to an attribute `sum`."""
     for each in ast.walk(function):
         targets = each.targets if isinstance(each, ast.Assign) else []
         if isinstance(each, ast.AugAssign | ast.AnnAssign):
@@ -241,7 +246,7 @@ def _sums(function: Function) -> Iterator[ast.stmt]:
 
 
 def argument_names(code: Code, function: Function) -> list[str]:
-    """The names of a callback's arguments, without self."""
+    """The names of a callback's parameters, without `self`."""
     names = [each.arg for each in (*function.args.posonlyargs, *function.args.args)]
     return names[1:] if isinstance(next(code.ancestors(function), None), ast.ClassDef) else names
 

@@ -30,10 +30,13 @@ CHECK = Check(
         Criterion("timer", judges.judge_timer, (scenarios.change_rate,)),
         Criterion("atomic", judges.judge_atomic, (scenarios.set_atomically, scenarios.switch_at_runtime), bonus=True),
         Criterion(
-            "launch-validation", judges.judge_bad_launch, (scenarios.plain_start, scenarios.bad_launches), bonus=True
+            "launch-validation",
+            judges.judge_bad_launch,
+            (scenarios.plain_start, scenarios.launch_with_bad_rates),
+            bonus=True,
         ),
         Criterion("shutdown", judges.judge_shutdown, (scenarios.plain_start,), bonus=True),
     ),
-    # enabled, at 1 Hz: 2.6 s of silence, 1.1 s to resume, 2.2 s to go on
+    # Switching `enabled` at 1 Hz: 2.6 s of silence, 1.1 s until it resumes, 2.2 s to measure the rate.
     expected_s=5.9,
 )

@@ -1,4 +1,4 @@
-"""I2.1: what is asked of the node, and the facts that are gathered."""
+"""I2.1: the requirements, and the facts that the scenarios gather for the judges."""
 
 from __future__ import annotations
 
@@ -25,29 +25,33 @@ DEFAULTS: Mapping[str, tuple[str, Any]] = {
 DEFAULT_HZ = 1.0
 LAUNCH_HZ, SLOW_LAUNCH_HZ = 5.0, 1.5
 UP_HZ, DOWN_HZ = 10.0, 0.7
-"""The slower ones show a rate that is made a whole number: 1 and 2 Hz are both beyond the tolerance."""
+"""The slower ones of each pair expose rounding: 1 and 2 Hz are both out of tolerance."""
 
 REFUSING_HZ = 3.0
-"""Bad rates are asked for at this rate, so that falling back to the default one shows. A forgotten timer of 1 Hz beside
-it is well beyond the tolerance: at 4 Hz it would be just beyond, and measured as within it now and then."""
+"""The node publishes at this rate when it is asked for bad ones, so that a fallback to the default rate shows.
+
+It also exposes a forgotten 1 Hz timer, whose extra messages are well out of tolerance; at 4 Hz, they would be only
+just out of it, and sometimes measured as within."""
 
 BAD_RATES = (0.0, -1.0)
 ANSWER_S = 5.0
-"""A parameter call is answered within this time, else it is not answered."""
+"""Timeout of a parameter call."""
 
-BURST = 3
-"""This many messages in half a period were held back until then: a node sends two at most, if it sends one at once."""
+MIN_BURST = 3
+"""Messages in half a period that prove a backlog: without one, there are two at most, if the node publishes at once."""
 
 RARE_S = 3.0
-"""At 1 Hz or more, a publisher that exists sends something within this time, late as it may be."""
+"""Time within which an existing publisher of at least 1 Hz sends something, even on a slow machine."""
 
 
 @dataclass(frozen=True)
 class PlainStart:
-    """A plain start. `parameters` is None where no node answered; `ending` where the process had ended by itself.
+    """A start without parameters, interrupted with Ctrl+C at the end.
 
-    Here and below, `stuck` is where the node was, innermost frame first, when it answered nothing; `answering`: it
-    answered, though it published nothing.
+    `parameters`: None if no node answered. `ending`: None if the process had already exited.
+
+    Here and in the classes below, `stuck` is the stack, innermost frame first, of a node that answered nothing, and
+    `answering` says that a node answered although it published nothing.
     """
 
     trace: Trace
@@ -61,9 +65,11 @@ class PlainStart:
 
 @dataclass(frozen=True)
 class ParameterStarts:
-    """Starts with parameters: one with a prefix and a rate, one with a slower rate, one with enabled false.
+    """Three starts with parameters: with a prefix and a rate, with a slower rate (`slow`), and with `enabled` false.
 
-    `woken`: the first message after the last one has had enabled set to true, where it had no publisher to begin with.
+    `disabled`, `disabled_answer`, `disabled_for_s`: the trace of the third start, the `enabled` that it reports, and
+    how long its silence was observed. `woken`: its first message once `enabled` is true; tried only if it began without
+    a publisher.
     """
 
     prefix: str
@@ -81,10 +87,11 @@ class ParameterStarts:
 
 @dataclass(frozen=True)
 class RuntimeChanges:
-    """A plain start on which message_prefix and enabled are set: to `prefix`, off, to `later`, and on again.
+    """A plain start on which parameters are set: message_prefix to `prefix`, enabled off, `later`, enabled on again.
 
-    `after_prefix` and `before` are of another start: the first message with the prefix that was set there, and the rate
-    until then. `again`: what came after it was on, at the latest from a period later on, `rate` the rate of it.
+    `after_prefix` and `before` come from another start: the first message with the new prefix, and the rate up to then.
+    `resumed`: the first message after `enabled` was on again. `again`: the messages from then on or from a period
+    later, with their `rate`.
     """
 
     trace: Trace
@@ -107,13 +114,17 @@ class RuntimeChanges:
 
     @property
     def period_s(self) -> float:
-        """The seconds between two messages."""
+        """The time between two messages, in seconds."""
         return 1 / self.base_hz
 
 
 @dataclass(frozen=True)
 class BadRates:
-    """A plain start on which bad rates are asked for. `rejected` pairs each answer with the value held afterwards."""
+    """A plain start on which bad rates are set.
+
+    `before`: the value of publish_rate before that. `rejected`: each answer with the value afterwards. `rate`,
+    `messages`: what the node publishes then.
+    """
 
     trace: Trace
     base_hz: float = DEFAULT_HZ
@@ -127,7 +138,10 @@ class BadRates:
 
 @dataclass(frozen=True)
 class RateChanges:
-    """A plain start on which publish_rate is set to a faster and then to a slower rate."""
+    """A plain start on which publish_rate is set to a faster and then to a slower rate.
+
+    `steps`: for each change, the answer, the measured rate, and the number of messages it was measured from.
+    """
 
     trace: Trace
     steps: tuple[tuple[SetAnswer, Rate | None, int], ...] = ()
@@ -137,7 +151,10 @@ class RateChanges:
 
 @dataclass(frozen=True)
 class AtomicRequests:
-    """A plain start with two atomic requests: the values before and after each, and a message that shows a change."""
+    """A plain start with two atomic requests.
+
+    `before`, `values`: the prefix and the rate before both, and after each. `shown`: a message with a rejected prefix.
+    """
 
     trace: Trace
     base_hz: float = DEFAULT_HZ
@@ -157,11 +174,11 @@ def find_parameter(parameters: Sequence[Parameter], name: str) -> Parameter | No
 
 
 def text_of(sample: Sample) -> str:
-    """What a message says."""
+    """The text of a message."""
     return str(sample.message["data"])
 
 
 def messages_naming_rate(trace: Trace) -> list[str]:
-    """The messages, logged or printed, that name publish_rate; the source lines in a traceback do not count."""
+    """The lines, logged or printed, that name publish_rate; source lines in a traceback do not count."""
     lines = [*(log.text for log in trace.logs), *tracebacks.lines_without_tracebacks(trace.output)]
     return [line for line in lines if RATE in line]

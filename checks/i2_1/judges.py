@@ -1,4 +1,4 @@
-"""I2.1: what must have been seen."""
+"""I2.1: the verdicts, as pure functions of the facts."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from typing import Any
 from checks.i2_1 import steps
 from checks.i2_1.facts import (
     BAD_RATES,
-    BURST,
     DEFAULT_HZ,
     DEFAULTS,
     DOWN_HZ,
     ENABLED,
     LAUNCH_HZ,
+    MIN_BURST,
     PREFIX,
     RATE,
     REFUSING_HZ,
@@ -44,15 +44,15 @@ from tutor.judge.wording import shape
 from tutor.ros_model import Parameter
 
 
-def _runs(*facts: object) -> list[Trace]:
+def _traces(*facts: object) -> list[Trace]:
     return [trace for each in facts if isinstance(trace := getattr(each, "trace", None), Trace)]
 
 
-def _followable[**P](judge: Callable[P, Verdict]) -> Callable[P, Verdict]:
-    return with_applicable_steps(judge, _runs, steps.whole_program_step)
+def _with_steps[**P](judge: Callable[P, Verdict]) -> Callable[P, Verdict]:
+    return with_applicable_steps(judge, _traces, steps.whole_program_step)
 
 
-@_followable
+@_with_steps
 def judge_defaults(seen: PlainStart) -> Verdict:
     expected = ", ".join(f"{name} = {_show(value)} ({kind})" for name, (kind, value) in DEFAULTS.items())
     if seen.parameters is None:
@@ -60,7 +60,7 @@ def judge_defaults(seen: PlainStart) -> Verdict:
         return failed(expected, "the node answers no parameter call", cause, causes.output_tail(seen.trace))
     found = {name: seen.value_of(name) for name in DEFAULTS}
     observed = ", ".join(f"{n} = {_show(p.value)} ({p.type})" if p else f"no {n}" for n, p in found.items())
-    wrong = [name for name, (kind, value) in DEFAULTS.items() if not _is(found[name], kind, value)]
+    wrong = [name for name, (kind, value) in DEFAULTS.items() if not _matches(found[name], kind, value)]
     if wrong:
         cause = _diagnose_default(wrong[0], found[wrong[0]], steps.declare_parameters(seen.trace, wrong))
         return failed(expected, observed, cause)
@@ -68,11 +68,11 @@ def judge_defaults(seen: PlainStart) -> Verdict:
 
 
 def judge_defaults_so_far(seen: PlainStart) -> Verdict | None:
-    """Judge `defaults` as soon as the node has told its parameters."""
+    """Judge `defaults` as soon as the node has reported its parameters."""
     return judge_defaults(seen) if seen.parameters is not None else None
 
 
-def _is(parameter: Parameter | None, kind: str, value: Any) -> bool:
+def _matches(parameter: Parameter | None, kind: str, value: Any) -> bool:
     return parameter is not None and (parameter.type, parameter.value) == (kind, value)
 
 
@@ -81,13 +81,13 @@ def _diagnose_default(name: str, parameter: Parameter | None, step: str) -> Caus
     if parameter is None:
         return Cause("parameter not declared", f"the node has no parameter {name}", step)
     if parameter.type != kind:
-        whole = (kind, parameter.type) == ("double", "integer")
+        is_integer = (kind, parameter.type) == ("double", "integer")
         text = f"{name} is of type {parameter.type}, not {kind}: the type of the default is the type of the parameter"
-        return Cause(names.INTEGER_PARAMETER if whole else "wrong parameter type", text, step)
+        return Cause(names.INTEGER_PARAMETER if is_integer else "wrong parameter type", text, step)
     return Cause("wrong default", f"{name} is {_show(parameter.value)}, not {_show(value)}", step)
 
 
-@_followable
+@_with_steps
 def judge_launch(seen: ParameterStarts) -> Verdict:
     expected = f"--ros-args -p sets {PREFIX}, {RATE} and {ENABLED}, and each takes effect"
     samples = seen.trace.samples_on(TOPIC)
@@ -126,7 +126,8 @@ def judge_launch(seen: ParameterStarts) -> Verdict:
     broken = causes.diagnose_process(seen.disabled)
     held = seen.disabled_answer.value if seen.disabled_answer else None
     offered = any(p.topic == TOPIC for p in seen.disabled.graph.publishers)
-    # A node that answers no parameter call shows its purpose by its publisher, one that has none by being woken.
+    # A silent node with a publisher is disabled even if it answers no parameter call; one without a publisher must also
+    # send messages once it is enabled.
     silent_on_purpose = held in (False, None) if offered else held is False and seen.woken is not None
     if broken or not silent_on_purpose:
         return failed(
@@ -143,8 +144,8 @@ def judge_launch(seen: ParameterStarts) -> Verdict:
 
 def _diagnose_launch_rate(seen: ParameterStarts) -> Cause:
     rate, trace = seen.rate, seen.trace
-    if (whole := period_slips.diagnose_integer_period(started_node(trace))) is not None:
-        return whole
+    if (cause := period_slips.diagnose_integer_period(started_node(trace))) is not None:
+        return cause
     if rate is not None and rate.in_bursts:
         return causes.diagnose_bursts(steps.send_once_per_tick(trace))
     if rate is not None and (rate.agrees(DEFAULT_HZ) or _are_alike(rate, seen.slow_rate)):
@@ -155,7 +156,7 @@ def _diagnose_launch_rate(seen: ParameterStarts) -> Cause:
 
 
 def _are_alike(rate: Rate, other: Rate | None) -> bool:
-    """Whether two rates are the same one, though others were asked for."""
+    """Whether two rates are about the same, although different ones were requested."""
     return other is not None and max(rate.hz, other.hz) < 1.1 * min(rate.hz, other.hz)
 
 
@@ -169,9 +170,9 @@ def _diagnose_other_rate(trace: Trace) -> Cause:
 
 
 def _diagnose_rounded_rate(rate: Rate | None, asked: float, step: str) -> Cause | None:
-    """A rate of 1.5 Hz becomes 1 or 2 Hz, one of 0.7 Hz becomes 1 Hz."""
-    wholes = {math.floor(asked), math.ceil(asked)} - {asked}
-    if rate is None or not any(abs(rate.hz - whole) < 0.1 for whole in wholes):
+    """Diagnose a rounded rate: 1.5 Hz that becomes 1 or 2 Hz, or 0.7 Hz that becomes 1 Hz."""
+    rounded = {math.floor(asked), math.ceil(asked)} - {asked}
+    if rate is None or not any(abs(rate.hz - hz) < 0.1 for hz in rounded):
         return None
     return Cause("rate made a whole number", f"{RATE} {asked} is treated as {rate.hz:.0f}", step)
 
@@ -185,19 +186,19 @@ def _diagnose_ignored(name: str, trace: Trace) -> Cause:
 EXPECTED_CHANGES = f"setting {PREFIX} and {ENABLED} on the running node takes effect within one period"
 
 
-@_followable
+@_with_steps
 def judge_changes(seen: RuntimeChanges) -> Verdict:
-    """Judge `runtime-params`, but for a rate that is another one afterwards: `timer` may tell why."""
+    """Judge `runtime-params`, apart from a rate that differs afterwards: `timer` may show why."""
     if seen.set_prefix is None:
-        return _not_running(seen, EXPECTED_CHANGES)
+        return _fail_not_running(seen, EXPECTED_CHANGES)
     for answer in (seen.set_prefix, seen.set_off, seen.set_later, seen.set_on):
         if answer is not None and not (answer.answered and answer.successful):
-            return _not_set(EXPECTED_CHANGES, answer, seen.trace, seen.stuck)
+            return _fail_not_set(EXPECTED_CHANGES, answer, seen.trace, seen.stuck)
     expected = EXPECTED_CHANGES
     if seen.after_prefix is None:
         return failed(
             expected,
-            f'{PREFIX} set to {seen.prefix}, but the messages still read "{_last(seen.trace)}"',
+            f'{PREFIX} set to {seen.prefix}, but the messages still read "{_last_text(seen.trace)}"',
             _diagnose_ignored_change(PREFIX, seen.trace),
         )
     if seen.sent_while_off:
@@ -220,62 +221,65 @@ def judge_changes(seen: RuntimeChanges) -> Verdict:
             ),
         )
     assert seen.set_on is not None
-    return _why_not_as_before(seen, expected, any_rate=True) or passed(
+    return _fail_if_not_as_before(seen, expected, any_rate=True) or passed(
         expected,
         f'"{text_of(seen.after_prefix)}"; silence while false; resumed '
         f"{seen.resumed.source_time - seen.set_on.asked_at:.2f} s after true",
     )
 
 
-@_followable
+@_with_steps
 def judge_runtime(seen: RuntimeChanges, retimed: RateChanges) -> Verdict:
     verdict = judge_changes(seen)
-    # A timer that is left behind, whatever is set, is for `timer` to report.
+    # If a timer is left running whenever a parameter is set, it is up to `timer` to report that.
     if not verdict.passed or not judge_timer(retimed).passed:
         return verdict
-    return _why_not_as_before(seen, EXPECTED_CHANGES, any_rate=False) or verdict
+    return _fail_if_not_as_before(seen, EXPECTED_CHANGES, any_rate=False) or verdict
 
 
-def _why_not_as_before(seen: RuntimeChanges, expected: str, *, any_rate: bool) -> Verdict | None:
-    """What is wrong once it sends messages again: with the prefix that was set meanwhile, or with the rate."""
-    off = f"{PREFIX} set to {seen.later} while {ENABLED} was false, then {ENABLED} to true"
-    said = [text_of(sample) for sample in seen.again]
-    other = next((each for each in said if seen.later not in each), None)
-    if other is not None:
-        return failed(expected, f'{off}: "{other}"', _diagnose_ignored_change(PREFIX, seen.trace), said)
-    both = next((each for each in said if seen.prefix in each), None)
-    if both is not None:
+def _fail_if_not_as_before(seen: RuntimeChanges, expected: str, *, any_rate: bool) -> Verdict | None:
+    """Fail if the messages after `enabled` is true again have the wrong prefix, or, unless `any_rate`, the wrong rate.
+
+    The right prefix is the one that was set in the meantime.
+    """
+    actions = f"{PREFIX} set to {seen.later} while {ENABLED} was false, then {ENABLED} to true"
+    texts = [text_of(sample) for sample in seen.again]
+    without = next((text for text in texts if seen.later not in text), None)
+    if without is not None:
+        return failed(expected, f'{actions}: "{without}"', _diagnose_ignored_change(PREFIX, seen.trace), texts)
+    with_both = next((text for text in texts if seen.prefix in text), None)
+    if with_both is not None:
         cause = Cause(
             "old prefix kept", "the new prefix does not replace the old one", steps.use_parameter(seen.trace, PREFIX)
         )
-        return failed(expected, f'{off}: "{both}"', cause, said)
-    if said and any_rate:
+        return failed(expected, f'{actions}: "{with_both}"', cause, texts)
+    if texts and any_rate:
         return None
-    burst = _held_back(seen)
-    if len(burst) >= BURST:
+    burst = _burst_on_resume(seen)
+    if len(burst) >= MIN_BURST:
         cause = Cause(
             "messages held back",
-            f"what was due while {ENABLED} was false is kept, and sent when it is true again",
+            f"messages due while {ENABLED} is false are queued, and sent when it is true again",
             steps.send_once_per_tick(seen.trace),
         )
-        return failed(expected, f"{off}: {len(burst)} messages at once", cause, burst)
-    if _goes_on(seen.rate, seen.base_hz, seen):
+        return failed(expected, f"{actions}: {len(burst)} messages at once", cause, burst)
+    if _rate_is_unchanged(seen.rate, seen.base_hz, seen):
         return None
-    observed = f"{off}: {describe(seen.rate, len(said))}, not {seen.base_hz:g} Hz ±{TOLERANCE:.0%} as before"
+    observed = f"{actions}: {describe(seen.rate, len(texts))}, not {seen.base_hz:g} Hz ±{TOLERANCE:.0%} as before"
     return failed(
         expected,
         observed,
         (causes.diagnose_process(seen.trace) if seen.trace.exit else None)
         or Cause(
             "rate changed",
-            f"the rate is another one after setting {PREFIX} and {ENABLED}, though {RATE} was not touched",
+            f"the rate is different after setting {PREFIX} and {ENABLED}, though {RATE} was not touched",
             steps.keep_timer_running(seen.trace),
         ),
     )
 
 
-def _held_back(seen: RuntimeChanges) -> list[str]:
-    """What came with the first message after `enabled` had been set to true again."""
+def _burst_on_resume(seen: RuntimeChanges) -> list[str]:
+    """The messages within half a period of the first one after `enabled` was set to true again."""
     assert seen.resumed is not None
     begin = seen.resumed.source_time
     hz = max(seen.base_hz, seen.before.hz if seen.before else 0.0)
@@ -298,12 +302,12 @@ def _diagnose_ignored_change(name: str, trace: Trace) -> Cause:
     return Cause("parameter ignored", text, steps.use_parameter_later(trace, name))
 
 
-def _last(trace: Trace) -> str:
+def _last_text(trace: Trace) -> str:
     samples = trace.samples_on(TOPIC)
     return text_of(samples[-1]) if samples else "nothing"
 
 
-def _not_running(seen: RuntimeChanges | BadRates | RateChanges | AtomicRequests, expected: str) -> Verdict:
+def _fail_not_running(seen: RuntimeChanges | BadRates | RateChanges | AtomicRequests, expected: str) -> Verdict:
     trace, stuck = seen.trace, seen.stuck
     if trace.samples_on(TOPIC):
         return failed(
@@ -319,13 +323,13 @@ def _not_running(seen: RuntimeChanges | BadRates | RateChanges | AtomicRequests,
 
 
 def _diagnose_no_answer(trace: Trace, stuck: Sequence[Frame], *, spins: bool = False) -> Cause:
-    """Why the node answers nothing; what keeps it waiting is left out of its callbacks."""
+    """Diagnose a node that answers nothing; if a callback blocks, the step removes the wait."""
     cause = causes.diagnose_no_answer(trace, stuck, spins=spins)
     blocked = causes.diagnose_blocked(trace, stuck, spins=spins)
     return replace(cause, hint=steps.remove_waits(trace, stuck)) if cause == blocked else cause
 
 
-def _not_set(expected: str, answer: SetAnswer, trace: Trace, stuck: Sequence[Frame]) -> Verdict:
+def _fail_not_set(expected: str, answer: SetAnswer, trace: Trace, stuck: Sequence[Frame]) -> Verdict:
     what = ", ".join(f"{name} to {_show(value)}" for name, value in answer.values.items())
     if not answer.answered:
         cause = _diagnose_no_answer(trace, stuck, spins=True)
@@ -335,47 +339,49 @@ def _not_set(expected: str, answer: SetAnswer, trace: Trace, stuck: Sequence[Fra
     return failed(expected, f'setting {what}: rejected, "{answer.reason}"', cause)
 
 
-def _ended_by(bad: float, expected: str, trace: Trace) -> Verdict | None:
-    """Whether the node has ended because it made a timer of a bad rate: nothing had refused it."""
+def _fail_if_crashed(bad: float, expected: str, trace: Trace) -> Verdict | None:
+    """Fail a node that crashed because it accepted a bad rate and created a timer from it."""
     found = tracebacks.last_traceback(trace)
-    told = found.raised if found is not None and trace.exit is not None else ""
-    if not told.startswith("ZeroDivisionError") and "timer period must be non-negative" not in told:
+    raised = found.raised if found is not None and trace.exit is not None else ""
+    if not raised.startswith("ZeroDivisionError") and "timer period must be non-negative" not in raised:
         return None
     cause = _diagnose_no_validation(trace, bad)
-    return failed(expected, f"{RATE} set to {bad} ends the node: {told}", cause, causes.output_tail(trace))
+    return failed(expected, f"{RATE} set to {bad} ends the node: {raised}", cause, causes.output_tail(trace))
 
 
-@_followable
+@_with_steps
 def judge_validation(seen: BadRates, switched: RuntimeChanges) -> Verdict:
     expected = _expected_refusal(seen)
     if not seen.rejected:
-        return _not_running(seen, expected)
-    if (accepted := _not_refused(seen, expected)) is not None:
+        return _fail_not_running(seen, expected)
+    if (accepted := _fail_if_not_refused(seen, expected)) is not None:
         return accepted
-    if not _goes_on(seen.rate, seen.base_hz, switched):
+    if not _rate_is_unchanged(seen.rate, seen.base_hz, switched):
         cause = causes.diagnose_process(seen.trace) if seen.trace.exit else None
         cause = cause or _diagnose_change(seen.trace, "the rate changes although the value was rejected")
         return failed(expected, f"after the rejection: {describe(seen.rate, seen.messages)}", cause)
     return passed(expected, f'rejected: "{seen.rejected[0][0].reason}"; still {seen.rate}')
 
 
-@_followable
+@_with_steps
 def judge_validation_so_far(seen: BadRates) -> Verdict:
-    """Judge `validation` by the answers that have come by now."""
+    """Judge `validation` by the answers so far."""
     expected = _expected_refusal(seen)
-    return _not_refused(seen, expected) or passed(expected, "so far")
+    return _fail_if_not_refused(seen, expected) or passed(expected, "so far")
 
 
 def _expected_refusal(seen: BadRates) -> str:
     return f"{RATE} 0.0 and -1.0 are rejected with a reason; the value and the rate stay at {seen.base_hz} Hz"
 
 
-def _not_refused(seen: BadRates, expected: str) -> Verdict | None:
-    """What is wrong with the answers to bad rates, if anything is."""
+def _fail_if_not_refused(seen: BadRates, expected: str) -> Verdict | None:
+    """Fail if one of the answers to bad rates is wrong."""
     for answer, value in seen.rejected:
         bad = answer.values[RATE]
         if not answer.answered:
-            return _ended_by(bad, expected, seen.trace) or _not_set(expected, answer, seen.trace, seen.stuck)
+            return _fail_if_crashed(bad, expected, seen.trace) or _fail_not_set(
+                expected, answer, seen.trace, seen.stuck
+            )
         if answer.successful:
             return failed(
                 expected,
@@ -389,7 +395,7 @@ def _not_refused(seen: BadRates, expected: str) -> Verdict | None:
                 Cause("no reason given", "the reason is empty", steps.refuse_bad_rates(seen.trace)),
             )
         if causes.RCLPY_REASON.match(answer.reason):
-            return _not_set(expected, answer, seen.trace, seen.stuck)
+            return _fail_not_set(expected, answer, seen.trace, seen.stuck)
         if value != seen.before:
             return failed(
                 expected,
@@ -405,15 +411,15 @@ def _diagnose_change(trace: Trace, text: str) -> Cause:
     )
 
 
-@_followable
+@_with_steps
 def judge_timer(seen: RateChanges) -> Verdict:
     expected = f"setting {RATE} changes the measured rate: {UP_HZ} Hz, then {DOWN_HZ} Hz, ±{TOLERANCE:.0%}"
     if not seen.steps:
-        return _not_running(seen, expected)
+        return _fail_not_running(seen, expected)
     for answer, rate, messages in seen.steps:
         asked = answer.values[RATE]
         if not answer.answered or not answer.successful:
-            return _not_set(expected, answer, seen.trace, seen.stuck)
+            return _fail_not_set(expected, answer, seen.trace, seen.stuck)
         if rate is None or not rate.agrees(asked):
             return failed(
                 expected,
@@ -427,9 +433,9 @@ def _diagnose_timer(seen: RateChanges, asked: float, rate: Rate | None) -> Cause
     if seen.trace.exit and (cause := causes.diagnose_process(seen.trace)):
         return cause
     read, trace = started_node(seen.trace), seen.trace
-    diagnose_integer_period = period_slips.diagnose_integer_period(read)
+    integer_period = period_slips.diagnose_integer_period(read)
     if rate is not None and rate.in_bursts:
-        return diagnose_integer_period or causes.diagnose_bursts(steps.send_once_per_tick(trace))
+        return integer_period or causes.diagnose_bursts(steps.send_once_per_tick(trace))
     if rate is not None and rate.hz < asked and (asleep := period_slips.diagnose_sleep(read, asked)) is not None:
         return asleep
     before = DEFAULT_HZ if asked == UP_HZ else UP_HZ
@@ -439,17 +445,17 @@ def _diagnose_timer(seen: RateChanges, asked: float, rate: Rate | None) -> Cause
         return _diagnose_old_period(trace)
     if rate is not None and rate.hz < UP_HZ and all(_are_alike(rate, other) for _, other, _ in seen.steps):
         return _diagnose_old_period(trace)
-    if (whole := _diagnose_rounded_rate(rate, asked, steps.follow_changes(trace))) is not None:
-        return whole
+    if (rounded := _diagnose_rounded_rate(rate, asked, steps.follow_changes(trace))) is not None:
+        return rounded
     if rate is not None and rate.hz > asked:
-        return diagnose_integer_period or causes.diagnose_old_timer(rate.hz, asked, steps.cancel_old_timer(trace))
+        return integer_period or causes.diagnose_old_timer(rate.hz, asked, steps.cancel_old_timer(trace))
     if rate is None or rate.agrees(1 / asked):
-        return diagnose_integer_period or causes.diagnose_rate_as_period(RATE, steps.follow_changes(trace))
+        return integer_period or causes.diagnose_rate_as_period(RATE, steps.follow_changes(trace))
     return Cause("wrong rate", f"{rate.hz:.1f} Hz instead of {asked:g} Hz", steps.follow_changes(trace))
 
 
 def _diagnose_old_period(trace: Trace) -> Cause:
-    """The parameter has a new value, the timer its old period."""
+    """Diagnose a timer that keeps its old period although the parameter has a new value."""
     read = started_node(trace)
     if (cause := parameter_slips.diagnose_override(read, RATE)) is not None:
         return cause
@@ -462,29 +468,31 @@ def _diagnose_old_period(trace: Trace) -> Cause:
 
 
 def _diagnose_no_validation(trace: Trace, bad: float) -> Cause:
-    """A bad number is taken."""
+    """Diagnose a node that accepts a bad rate."""
     read = started_node(trace)
     return parameter_slips.diagnose_uncalled_callback(read) or Cause(
         "no validation", parameter_slips.why_accepted(read, bad), steps.refuse_bad_rates(trace)
     )
 
 
-def _goes_on(rate: Rate | None, hz: float, switched: RuntimeChanges) -> bool:
-    """Whether the rate stays what it was: this one, or what the node sends at from the start, whatever it declares."""
+def _rate_is_unchanged(rate: Rate | None, hz: float, switched: RuntimeChanges) -> bool:
+    """Whether the rate is still `hz`, or the one the node has actually published at from the start."""
     if rate is None or rate.agrees(hz):
         return rate is not None
-    # At the rate that bad ones are asked for, it has just been seen.
+    # A node at REFUSING_HZ has just been measured at exactly that rate, so the initial one is no excuse.
     return hz != REFUSING_HZ and switched.before is not None and switched.before.agrees(rate.hz)
 
 
-@_followable
+@_with_steps
 def judge_atomic(seen: AtomicRequests, switched: RuntimeChanges) -> Verdict:
     expected = f"an atomic set of a good {PREFIX} and a bad {RATE}, in either order, changes nothing at all"
     if not seen.answers:
-        return _not_running(seen, expected)
+        return _fail_not_running(seen, expected)
     unanswered = next((answer for answer in seen.answers if not answer.answered), None)
     if unanswered is not None:
-        return _ended_by(BAD_RATES[1], expected, seen.trace) or _not_set(expected, unanswered, seen.trace, seen.stuck)
+        return _fail_if_crashed(BAD_RATES[1], expected, seen.trace) or _fail_not_set(
+            expected, unanswered, seen.trace, seen.stuck
+        )
     if any(answer.successful for answer in seen.answers):
         return failed(
             expected,
@@ -492,7 +500,7 @@ def judge_atomic(seen: AtomicRequests, switched: RuntimeChanges) -> Verdict:
             _diagnose_no_validation(seen.trace, BAD_RATES[1]),
         )
     if "declared" in seen.answers[0].reason:
-        return _not_set(expected, seen.answers[0], seen.trace, seen.stuck)
+        return _fail_not_set(expected, seen.answers[0], seen.trace, seen.stuck)
     changed = next((held for held in seen.values if held != seen.before), None)
     partial = steps.check_all_first(seen.trace)
     if changed is not None or seen.shown is not None:
@@ -505,7 +513,7 @@ def judge_atomic(seen: AtomicRequests, switched: RuntimeChanges) -> Verdict:
                 "partial change", "the callback applies the first parameter before it looks at the second", partial
             ),
         )
-    if not _goes_on(seen.rate, seen.base_hz, switched):
+    if not _rate_is_unchanged(seen.rate, seen.base_hz, switched):
         return failed(
             expected,
             f"rejected, but then {describe(seen.rate, seen.messages)}",
@@ -514,7 +522,7 @@ def judge_atomic(seen: AtomicRequests, switched: RuntimeChanges) -> Verdict:
     return passed(expected, f'both rejected ("{seen.answers[0].reason}"), nothing changed')
 
 
-@_followable
+@_with_steps
 def judge_bad_launch(plain: PlainStart, seen: Sequence[Trace]) -> Verdict:
     expected = f"a start with {RATE}:=0.0 or {RATE}:=-1.0 gives a message that names {RATE}"
     ordinary = {_wording(line) for line in messages_naming_rate(plain.trace)}
@@ -522,28 +530,28 @@ def judge_bad_launch(plain: PlainStart, seen: Sequence[Trace]) -> Verdict:
         if not any(_wording(line) not in ordinary for line in messages_naming_rate(trace)):
             given = f"{RATE}:={trace.parameters[RATE]}"
             found = tracebacks.last_traceback(trace)
-            said = next((str(log) for log in reversed(trace.logs) if log.level >= Level.WARN), "")
-            if said and not found:
+            warning = next((str(log) for log in reversed(trace.logs) if log.level >= Level.WARN), "")
+            if warning and not found:
                 cause = Cause(
                     "parameter not named",
                     f"the message does not name {RATE}, which is what was typed",
                     f"put {RATE} into the message",
                 )
-                return failed(expected, f"with {given}: {said}", cause)
+                return failed(expected, f"with {given}: {warning}", cause)
             observed = f"with {given}: {found.raised if found else 'no message about it'}"
             cause = Cause(
                 "only a traceback" if found else "no validation",
                 "nobody can tell from this which parameter is wrong"
                 if found
                 else "the node takes the bad value silently",
-                steps.checked_at_start(trace),
+                steps.check_at_start(trace),
             )
             return failed(expected, observed, cause, causes.output_tail(trace))
     return passed(expected, "it does", [messages_naming_rate(trace)[-1] for trace in seen])
 
 
 def _wording(line: str) -> str:
-    """A line without numbers and log prefix: what an ordinary start says, too, is not a complaint."""
+    """Strip a line of numbers and its log prefix, so that it can be compared with those of an ordinary start."""
     return shape(line.rsplit("]: ", 1)[-1])
 
 

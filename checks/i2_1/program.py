@@ -1,4 +1,4 @@
-"""I2.1: the whole program, in the learner's names: the step that is left where no smaller one helps."""
+"""I2.1: a rewrite of the whole program that keeps the learner's names: the step of last resort."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ class {node_class}(Node):
 
 
 def whole_program(file: NodeFile) -> list[Edit]:
-    """The node, its callbacks and main(), as a whole."""
+    """Replace the node, its callbacks and main()."""
     own = vars(names_of(file, "parameterized_publisher"))
     defaults = [value for _, value in DEFAULTS.values()]
     asked = {"prefix": PREFIX, "rate": RATE, "enabled": ENABLED, "topic": TOPIC.lstrip("/"), "defaults": defaults}

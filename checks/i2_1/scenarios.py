@@ -1,4 +1,4 @@
-"""I2.1: what is done to the node."""
+"""I2.1: the scenarios, which start the node and gather the facts."""
 
 from __future__ import annotations
 
@@ -54,10 +54,10 @@ from tutor.ros_model import Parameter
 
 @repeat_if_doubtful
 async def plain_start(bench: Bench) -> PlainStart:
-    """A plain start: which parameters has it, and does Ctrl+C end it cleanly?"""
-    async with bench.start(FILE, watch={TOPIC: TYPE}, expected_s=7.0) as run:  # first: much is told by it alone
+    """Start without parameters: which ones does it declare, and does Ctrl+C end it cleanly?"""
+    async with bench.start(FILE, watch={TOPIC: TYPE}, expected_s=7.0) as run:  # goes first: it decides a lot on its own
         bench.report_progress(0.2, "asking for its parameters")
-        node = await _node(run)
+        node = await _find_node(run)
         declared = await run.parameters(ANSWER_S) if node else None
         bench.report_facts(PlainStart(run.trace(), declared, None))
         bench.report_progress(0.5, "waiting for a message, then pressing Ctrl+C")
@@ -65,18 +65,18 @@ async def plain_start(bench: Bench) -> PlainStart:
             await wait_for_message(run, TOPIC, TYPE, rare_s=RARE_S)
         trace = run.trace()
         ended = await run.interrupt() if run.exit is None else None
-    return PlainStart(trace, declared, ended, () if declared is not None else await _stuck(bench, trace))
+    return PlainStart(trace, declared, ended, () if declared is not None else await _find_stuck_frames(bench, trace))
 
 
 async def start_with_parameters(bench: Bench) -> ParameterStarts:
-    """Start it with each parameter given on the command line."""
+    """Start with each of the parameters given on the command line."""
     prefix = "Ahoy7"
 
     async def loud(hz: float, more: Mapping[str, Any]) -> tuple[Trace, Rate | None, int]:
         parameters = {**more, RATE: hz}
         async with bench.start(FILE, parameters=parameters, watch={TOPIC: TYPE}, expected_s=5 / hz) as run:
             bench.report_progress(0.2, " ".join(f"{name}:={value}" for name, value in parameters.items()))
-            # Longer than the period that LAUNCH_HZ would be, were it taken for one.
+            # Longer than LAUNCH_HZ seconds, the period of a node that takes the rate for a period.
             if not await wait_for_message(run, TOPIC, TYPE, rare_s=LAUNCH_HZ + 1):
                 return run.trace(), None, 0
             rate, messages = await measure_steady_rate(run, TOPIC, hz, since=run.samples_on(TOPIC)[0].source_time)
@@ -86,15 +86,15 @@ async def start_with_parameters(bench: Bench) -> ParameterStarts:
         parameters = {ENABLED: False, RATE: LAUNCH_HZ}
         async with bench.start(FILE, parameters=parameters, watch={TOPIC: TYPE}, expected_s=2.5) as run:
             bench.report_progress(0.3, f"{ENABLED}:=false, listening for silence")
-            node = await _node(run)
+            node = await _find_node(run)
             declared = await run.parameters(ANSWER_S) if node else None
-            await wait_until_seen(run, lambda: _offers(run))
+            await wait_until_seen(run, lambda: _has_publisher(run))
             since = run.now()
-            # Two periods of the default rate, in case the rate that was given here has no effect.
+            # Two periods of the default rate, in case the rate given here has no effect.
             await run.until(lambda: bool(run.samples_on(TOPIC)) or run.now() - since >= 2.2 / DEFAULT_HZ, 4.0)
             trace, quiet_s, woken = run.trace(), run.now() - since, None
-            if node and not trace.samples_on(TOPIC) and not _offers(run):
-                # It may make its publisher only when it is enabled.
+            if node and not trace.samples_on(TOPIC) and not _has_publisher(run):
+                # The node may create its publisher only once it is enabled.
                 bench.report_progress(0.7, f"setting {ENABLED} to true")
                 await run.set_parameters(node, {ENABLED: True}, limit_s=ANSWER_S)
                 await wait_for_message(run, TOPIC, TYPE, rare_s=RARE_S)
@@ -112,65 +112,67 @@ async def start_with_parameters(bench: Bench) -> ParameterStarts:
 
 
 async def switch_at_runtime(bench: Bench) -> RuntimeChanges:
-    """Set message_prefix while it runs, and on another start enabled, too. A change may take one period to show."""
+    """Set message_prefix at run time, and on another start `enabled` as well. A change may take one period to show."""
     switching = asyncio.ensure_future(_switch_enabled(bench))
     try:
-        named = await _set_prefix(bench)
-        if named.after_prefix is None:
-            return named
+        prefixed = await _set_prefix(bench)
+        if prefixed.after_prefix is None:
+            return prefixed
         switched = await switching
     finally:
         switching.cancel()
         await asyncio.gather(switching, return_exceptions=True)
-    return replace(switched, after_prefix=named.after_prefix, before=named.before)
+    return replace(switched, after_prefix=prefixed.after_prefix, before=prefixed.before)
 
 
 async def _set_prefix(bench: Bench) -> RuntimeChanges:
-    """Set message_prefix while it publishes."""
+    """Set message_prefix while the node publishes."""
     async with bench.start(FILE, watch={TOPIC: TYPE}, expected_s=3.0) as run:
         bench.report_progress(0.05, "waiting for it to publish")
-        node, answering = await _publishing(run)
+        node, answering = await _wait_until_publishing(run)
         if node is None:
             return RuntimeChanges(
-                trace := run.trace(), stuck=await _stuck(bench, trace, answering), answering=answering
+                trace := run.trace(), stuck=await _find_stuck_frames(bench, trace, answering), answering=answering
             )
-        seen = RuntimeChanges(run.trace(), await _base_hz(run))
+        seen = RuntimeChanges(run.trace(), await _read_base_hz(run))
         bench.report_progress(0.2, f"setting {PREFIX} to {seen.prefix}")
         answer = await run.set_parameters(node, {PREFIX: seen.prefix}, limit_s=ANSWER_S)
         if not answer.answered:
             return replace(seen, trace=run.trace(), set_prefix=answer, stuck=await run.dump_stacks())
         due = answer.answered_at + seen.period_s + 0.1
 
-        def shown() -> Sample | None:
+        def with_new_prefix() -> Sample | None:
             since = answer.asked_at
             return next((s for s in run.samples_on(TOPIC) if s.source_time > since and seen.prefix in text_of(s)), None)
 
-        def old() -> Sample | None:
+        def overdue_with_old_prefix() -> Sample | None:
             return next(
                 (s for s in run.samples_on(TOPIC) if s.source_time > due and seen.prefix not in text_of(s)), None
             )
 
-        await run.until(lambda: shown() is not None or old() is not None, 2 * seen.period_s + 2)
-        changed = shown() if answer.successful else None
+        await run.until(
+            lambda: with_new_prefix() is not None or overdue_with_old_prefix() is not None, 2 * seen.period_s + 2
+        )
+        changed = with_new_prefix() if answer.successful else None
         before = measure(run.samples_on(TOPIC))
         return replace(seen, trace=run.trace(), set_prefix=answer, after_prefix=changed, before=before)
 
 
 async def _switch_enabled(bench: Bench) -> RuntimeChanges:
-    """Set message_prefix, and enabled to false; then another prefix, and enabled to true."""
+    """Set message_prefix and switch `enabled` off; then set another prefix and switch it on again."""
     seen = await _switch(bench, at_once=True)
     answers = (seen.set_prefix, seen.set_off)
     if all(answer is None or answer.answered for answer in answers):
         return seen
-    return await _switch(bench, at_once=False)  # it may not have had its timer yet
+    return await _switch(bench, at_once=False)  # the node may have had no timer yet
 
 
 async def _switch(bench: Bench, *, at_once: bool) -> RuntimeChanges:
     async with bench.start(FILE, watch={TOPIC: TYPE}) as run:
-        node = await _ready(run, at_once=at_once)
+        node = await _wait_until_ready(run, at_once=at_once)
         if node is None:
             return RuntimeChanges(run.trace())
-        seen = RuntimeChanges(run.trace(), await _base_hz(run), answering=True)
+        seen = RuntimeChanges(run.trace(), await _read_base_hz(run), answering=True)
         set_prefix = await run.set_parameters(node, {PREFIX: seen.prefix}, limit_s=ANSWER_S)
         if not set_prefix.answered:
             return replace(seen, trace=run.trace(), set_prefix=set_prefix, stuck=await run.dump_stacks())
@@ -183,11 +185,12 @@ async def _switch(bench: Bench, *, at_once: bool) -> RuntimeChanges:
             return seen
         quiet_from = set_off.answered_at + seen.period_s + 0.1
 
-        def noise() -> list[Sample]:
+        def unwanted() -> list[Sample]:
             return [s for s in run.samples_on(TOPIC) if s.source_time > quiet_from]
 
-        await run.until(lambda: bool(noise()) or run.now() >= quiet_from + 1.5 * seen.period_s, 3 * seen.period_s + 2)
-        sent, off_for_s = tuple(noise()), run.now() - set_off.answered_at
+        quiet_until = quiet_from + 1.5 * seen.period_s
+        await run.until(lambda: bool(unwanted()) or run.now() >= quiet_until, 3 * seen.period_s + 2)
+        sent, off_for_s = tuple(unwanted()), run.now() - set_off.answered_at
         bench.report_progress(0.6, f"setting {PREFIX} to {seen.later}, then {ENABLED} to true")
         seen = replace(seen, trace=run.trace(), sent_while_off=sent, off_for_s=off_for_s)
         if sent:
@@ -201,17 +204,18 @@ async def _switch(bench: Bench, *, at_once: bool) -> RuntimeChanges:
             return next((s for s in run.samples_on(TOPIC) if s.source_time > set_on.asked_at), None)
 
         await run.until(lambda: resumed() is not None, 2 * seen.period_s + 2)
-        bench.report_progress(0.8, "listening whether it goes on as before")
+        bench.report_progress(0.8, "checking that it goes on as before")
         since = set_on.answered_at + seen.period_s + 0.1
         seen = replace(seen, set_later=set_later, set_on=set_on, resumed=resumed())
-        again, rate = await _as_before(run, seen, since=since) if seen.resumed is not None else ((), None)
+        again, rate = await _measure_resumed(run, seen, since=since) if seen.resumed is not None else ((), None)
         return replace(seen, trace=run.trace(), again=again, rate=rate)
 
 
-async def _as_before(run: Run, seen: RuntimeChanges, *, since: float) -> tuple[tuple[Sample, ...], Rate | None]:
-    """The messages from `since` on, and their rate: by little more than two periods, if these show it.
+async def _measure_resumed(run: Run, seen: RuntimeChanges, *, since: float) -> tuple[tuple[Sample, ...], Rate | None]:
+    """Return the messages after `enabled` was switched on again, and their rate.
 
-    Those from the first one on will do, if nothing is wrong with them: until `since`, something may be.
+    Just over two periods from the first message are enough if all is well with them. Otherwise only the messages from
+    `since` on count, because the node may take that long to settle; if needed, the rate is then measured for longer.
     """
     assert seen.resumed is not None
     hz, first = seen.base_hz, seen.resumed.source_time
@@ -220,11 +224,11 @@ async def _as_before(run: Run, seen: RuntimeChanges, *, since: float) -> tuple[t
         return tuple(sample for sample in run.samples_on(TOPIC) if sample.source_time >= since)
 
     await run.until(lambda: run.now() >= first + 2.2 / hz, 2.2 / hz + 2)
-    soon = received(first)
-    rate = measure(soon)
-    right = all(seen.later in text and seen.prefix not in text for text in map(text_of, soon))
-    if right and len(soon) > 2 and rate is not None and rate.agrees(hz):
-        return soon, rate
+    early = received(first)
+    rate = measure(early)
+    texts_are_right = all(seen.later in text and seen.prefix not in text for text in map(text_of, early))
+    if texts_are_right and len(early) > 2 and rate is not None and rate.agrees(hz):
+        return early, rate
     await run.until(lambda: run.now() >= since + 2.2 / hz, 3.5 / hz + 2)
     rate = measure(received())
     if rate is None or not rate.agrees(hz):
@@ -233,39 +237,43 @@ async def _as_before(run: Run, seen: RuntimeChanges, *, since: float) -> tuple[t
 
 
 async def ask_for_bad_rates(bench: Bench) -> BadRates:
-    """Ask for bad rates, which must change nothing: at another rate than the default one, if that can be had."""
-    return await _validated(bench, REFUSING_HZ)
+    """Set bad rates, which must change nothing, on a node at a rate other than the default if it accepts one."""
+    return await _try_bad_rates(bench, REFUSING_HZ)
 
 
-async def _validated(bench: Bench, from_hz: float | None) -> BadRates:
+async def _try_bad_rates(bench: Bench, from_hz: float | None) -> BadRates:
     async with bench.start(FILE, watch={TOPIC: TYPE}, expected_s=5.0) as run:
         bench.report_progress(0.05, "waiting for it to publish")
-        node, answering = await _publishing(run)
+        node, answering = await _wait_until_publishing(run)
         if node is None:
-            return BadRates(trace := run.trace(), stuck=await _stuck(bench, trace, answering), answering=answering)
-        base_hz = await _base_hz(run)
+            return BadRates(
+                trace := run.trace(), stuck=await _find_stuck_frames(bench, trace, answering), answering=answering
+            )
+        base_hz = await _read_base_hz(run)
         if from_hz is not None:
-            refused = await _ask_for_bad(bench, run, node, base_hz)  # most that do not refuse show it at once
+            refused = await _set_bad_rates(
+                bench, run, node, base_hz
+            )  # most nodes without validation show it right away
             if any(answer.successful or not answer.answered for answer, _ in refused.rejected):
                 return refused
-        if from_hz is None or await _takes(run, node, from_hz, base_hz):
-            return await _refusing(bench, run, node, from_hz or base_hz)
-    # Whether it takes a good rate is judged elsewhere: a node that does not must still refuse from where it starts.
-    return await _validated(bench, None)
+        if from_hz is None or await _accepts_rate(run, node, from_hz, base_hz):
+            return await _set_bad_rates_and_measure(bench, run, node, from_hz or base_hz)
+    # Accepting a good rate is judged elsewhere: a node that does not must still reject bad ones at its initial rate.
+    return await _try_bad_rates(bench, None)
 
 
-async def _takes(run: Run, node: str, new_hz: float, old_hz: float) -> bool:
-    """Whether the node takes this rate, and publishes at it."""
+async def _accepts_rate(run: Run, node: str, new_hz: float, old_hz: float) -> bool:
+    """Set a rate; return whether the node accepts it and publishes at it."""
     answer = await run.set_parameters(node, {RATE: new_hz}, limit_s=ANSWER_S)
     if not answer.answered or not answer.successful:
         return False
-    rate, _ = await _changed_rate(run, answer, new_hz, old_hz)
+    rate, _ = await _measure_new_rate(run, answer, new_hz, old_hz)
     return rate is not None and rate.agrees(new_hz)
 
 
-async def _refusing(bench: Bench, run: Run, node: str, base_hz: float) -> BadRates:
-    """Ask this node, which publishes at `base_hz`, for bad rates, and measure what it publishes at then."""
-    seen = await _ask_for_bad(bench, run, node, base_hz)
+async def _set_bad_rates_and_measure(bench: Bench, run: Run, node: str, base_hz: float) -> BadRates:
+    """Set bad rates on a node that publishes at `base_hz`, and measure its rate afterwards."""
+    seen = await _set_bad_rates(bench, run, node, base_hz)
     if not seen.rejected[-1][0].answered:
         return seen
     bench.report_progress(0.7, "measuring the rate after it")
@@ -273,9 +281,9 @@ async def _refusing(bench: Bench, run: Run, node: str, base_hz: float) -> BadRat
     return replace(seen, trace=run.trace(), rate=rate, messages=messages)
 
 
-async def _ask_for_bad(bench: Bench, run: Run, node: str, base_hz: float) -> BadRates:
-    """Ask this node for bad rates, until it does not answer."""
-    (before,) = await _held(run, (RATE,))
+async def _set_bad_rates(bench: Bench, run: Run, node: str, base_hz: float) -> BadRates:
+    """Set each of the bad rates, but stop if the node does not answer."""
+    (before,) = await _read_parameters(run, (RATE,))
     rejected: list[tuple[SetAnswer, Any]] = []
     for bad in BAD_RATES:
         bench.report_progress(0.4, f"setting {RATE} to {bad}")
@@ -283,30 +291,30 @@ async def _ask_for_bad(bench: Bench, run: Run, node: str, base_hz: float) -> Bad
         if not answer.answered:
             rejected.append((answer, None))
             return BadRates(run.trace(), base_hz, before, tuple(rejected), stuck=await run.dump_stacks())
-        rejected.append((answer, (await _held(run, (RATE,)))[0]))
+        rejected.append((answer, (await _read_parameters(run, (RATE,)))[0]))
         bench.report_facts(BadRates(run.trace(), base_hz, before, tuple(rejected)))
     return BadRates(run.trace(), base_hz, before, tuple(rejected))
 
 
 async def change_rate(bench: Bench) -> RateChanges:
-    """Ask for a faster and then for a slower rate; each may take effect after one period of the old one.
+    """Set a faster and then a slower rate; each may take one period of the old rate to take effect.
 
-    Whether it publishes at all, the plain start tells: the first message need not be waited for.
+    There is no need to wait for the first message: the plain start shows whether the node publishes at all.
     """
     seen = await _change_rate(bench, at_once=True)
     if all(answer.answered for answer, _, _ in seen.steps[:1]):
         return seen
-    return await _change_rate(bench, at_once=False)  # it may not have had its timer yet
+    return await _change_rate(bench, at_once=False)  # the node may have had no timer yet
 
 
 async def _change_rate(bench: Bench, *, at_once: bool) -> RateChanges:
     async with bench.start(FILE, watch={TOPIC: TYPE}) as run:
         bench.report_progress(0.05, "waiting for it to publish")
-        node = await _ready(run, at_once=at_once)
+        node = await _wait_until_ready(run, at_once=at_once)
         if node is None:
-            return RateChanges(trace := run.trace(), stuck=await _stuck(bench, trace))
+            return RateChanges(trace := run.trace(), stuck=await _find_stuck_frames(bench, trace))
         steps: list[tuple[SetAnswer, Rate | None, int]] = []
-        old_hz = await _base_hz(run)
+        old_hz = await _read_base_hz(run)
         for done, new_hz in ((0.3, UP_HZ), (0.6, DOWN_HZ)):
             bench.report_progress(done, f"setting {RATE} to {new_hz}")
             answer = await run.set_parameters(node, {RATE: new_hz}, limit_s=ANSWER_S)
@@ -317,31 +325,31 @@ async def _change_rate(bench: Bench, *, at_once: bool) -> RateChanges:
                 return RateChanges(run.trace(), (*steps, (answer, None, 0)), await run.dump_stacks())
             if not answer.successful:
                 return RateChanges(run.trace(), (*steps, (answer, None, 0)))
-            rate, messages = await _changed_rate(run, answer, new_hz, old_hz)
+            rate, messages = await _measure_new_rate(run, answer, new_hz, old_hz)
             steps.append((answer, rate, messages))
             if rate is not None and rate.agrees(DEFAULT_HZ):
-                break  # it has no effect, as the first one; of any other rate, the second change tells more
+                break  # no effect, so the second change would have none either; in any other case, it tells more
             old_hz = new_hz
         return RateChanges(run.trace(), tuple(steps))
 
 
-async def _changed_rate(run: Run, answer: SetAnswer, new_hz: float, old_hz: float) -> tuple[Rate | None, int]:
-    """The rate, and how many messages it is taken from, one period of the old rate after it was set to a new one."""
+async def _measure_new_rate(run: Run, answer: SetAnswer, new_hz: float, old_hz: float) -> tuple[Rate | None, int]:
+    """Wait for one period of the old rate, then return the new rate and the number of messages it is measured from."""
     settled = answer.answered_at + 1 / old_hz + 0.05
     await run.until(lambda: run.now() >= settled, 1 / old_hz + 1)
     return await measure_steady_rate(run, TOPIC, new_hz, since=settled)
 
 
 async def set_atomically(bench: Bench) -> AtomicRequests:
-    """Set a good prefix and a bad rate in one atomic request, in either order."""
+    """Set a good prefix and a bad rate in one atomic request, once in either order."""
     async with bench.start(FILE, watch={TOPIC: TYPE}, expected_s=5.0) as run:
-        node, answering = await _publishing(run)
+        node, answering = await _wait_until_publishing(run)
         if node is None:
             return AtomicRequests(
-                trace := run.trace(), stuck=await _stuck(bench, trace, answering), answering=answering
+                trace := run.trace(), stuck=await _find_stuck_frames(bench, trace, answering), answering=answering
             )
-        base_hz = await _base_hz(run)
-        before = await _held(run, (PREFIX, RATE))
+        base_hz = await _read_base_hz(run)
+        before = await _read_parameters(run, (PREFIX, RATE))
         tokens = ("Partial1", "Partial2")
         answers: list[SetAnswer] = []
         values: list[tuple[Any, ...]] = []
@@ -350,38 +358,39 @@ async def set_atomically(bench: Bench) -> AtomicRequests:
             answers.append(await run.set_parameters(node, request, atomic=True, limit_s=ANSWER_S))
             if not answers[-1].answered:
                 return AtomicRequests(run.trace(), base_hz, tuple(answers), before, stuck=await run.dump_stacks())
-            values.append(await _held(run, (PREFIX, RATE)))
+            values.append(await _read_parameters(run, (PREFIX, RATE)))
         rate, messages = await measure_steady_rate(run, TOPIC, base_hz, since=answers[-1].answered_at)
         shown = next((s for s in run.samples_on(TOPIC) if any(token in text_of(s) for token in tokens)), None)
         return AtomicRequests(run.trace(), base_hz, tuple(answers), before, tuple(values), shown, rate, messages)
 
 
-async def bad_launches(bench: Bench) -> tuple[Trace, ...]:
-    """Start it with a bad rate: does it say which parameter is wrong?"""
+async def launch_with_bad_rates(bench: Bench) -> tuple[Trace, ...]:
+    """Start with each of the bad rates: does the node report which parameter is wrong?"""
 
-    async def one(bad: float) -> Trace:
+    async def launch(bad: float) -> Trace:
         async with bench.start(FILE, parameters={RATE: bad}, watch={TOPIC: TYPE}, expected_s=0.5) as run:
             bench.report_progress(0.3, f"starting with {RATE}:={bad}")
-            said = lambda: run.exit is not None or bool(messages_naming_rate(run.trace()))  # noqa: E731
-            if await wait_until_seen(run, said, idle_s=IDLE_S):
-                await run.until(lambda: run.exit is not None, 1.0)  # what it says may come in more than one message
+            if await wait_until_seen(
+                run, lambda: run.exit is not None or bool(messages_naming_rate(run.trace())), idle_s=IDLE_S
+            ):
+                await run.until(lambda: run.exit is not None, 1.0)  # the report may come in more than one message
             return run.trace()
 
-    return tuple(await asyncio.gather(*(one(bad) for bad in BAD_RATES)))
+    return tuple(await asyncio.gather(*(launch(bad) for bad in BAD_RATES)))
 
 
-async def silent(bench: Bench) -> tuple[Frame, ...]:
-    """Where the node is while it answers nothing."""
+async def dump_silent_node(bench: Bench) -> tuple[Frame, ...]:
+    """Start without parameters and return the node's stack while it answers nothing."""
     return await find_stuck_frames(bench, FILE)
 
 
-async def _stuck(bench: Bench, trace: Trace, answering: bool = False) -> tuple[Frame, ...]:
-    """Where the node of this trace is, if it is one that runs but does nothing, and answers nothing."""
-    return await bench.facts(silent) if trace.graph.nodes and trace.exit is None and not answering else ()
+async def _find_stuck_frames(bench: Bench, trace: Trace, answering: bool = False) -> tuple[Frame, ...]:
+    """Return the stack of a node that, according to this trace, is up but does nothing and answers nothing; else ()."""
+    return await bench.facts(dump_silent_node) if trace.graph.nodes and trace.exit is None and not answering else ()
 
 
-async def _node(run: Run) -> str | None:
-    """The node to talk to: the one that has most of the parameters. None where no node answers."""
+async def _find_node(run: Run) -> str | None:
+    """Find the node to talk to: the one with most of the required parameters. None if no node answers."""
     if not await run.until(lambda: bool(run.graph.parameter_nodes), START_S, idle_s=RESENT_S):
         return None
     declared = await run.parameters(ANSWER_S)
@@ -391,16 +400,19 @@ async def _node(run: Run) -> str | None:
     return max(holders or run.graph.parameter_nodes, key=holders.count, default=None)
 
 
-async def _publishing(run: Run) -> tuple[str | None, bool]:
-    """The node to talk to, once it publishes, or None where it does not; and whether it answers."""
-    node = await _node(run)
+async def _wait_until_publishing(run: Run) -> tuple[str | None, bool]:
+    """Return the node to talk to once it publishes (None if it does not), and whether it answers."""
+    node = await _find_node(run)
     publishes = node is not None and await wait_for_message(run, TOPIC, TYPE, rare_s=RARE_S)
     return (node if publishes else None), node is not None
 
 
-async def _ready(run: Run, *, at_once: bool) -> str | None:
-    """The node to talk to, once it publishes or, `at_once`, has its publisher; None where no node answers."""
-    node = await _node(run)
+async def _wait_until_ready(run: Run, *, at_once: bool) -> str | None:
+    """Return the node to talk to once it publishes, or with `at_once`, as soon as it has its publisher.
+
+    None if no node answers.
+    """
+    node = await _find_node(run)
     if node is not None and not at_once:
         await wait_for_message(run, TOPIC, TYPE, rare_s=RARE_S)
     elif node is not None:
@@ -408,18 +420,18 @@ async def _ready(run: Run, *, at_once: bool) -> str | None:
     return node
 
 
-def _offers(run: Run) -> bool:
+def _has_publisher(run: Run) -> bool:
     return any(publisher.topic == TOPIC for publisher in run.graph.publishers)
 
 
-async def _held(run: Run, names: Sequence[str]) -> tuple[Any, ...]:
-    """The values that the node says these parameters have; None for one that it does not have."""
+async def _read_parameters(run: Run, names: Sequence[str]) -> tuple[Any, ...]:
+    """Read these parameters; None for each that the node does not have."""
     declared = await run.parameters(ANSWER_S) or ()
     found = [find_parameter(declared, name) for name in names]
     return tuple(parameter.value if parameter else None for parameter in found)
 
 
-async def _base_hz(run: Run) -> float:
-    """The rate that the node declares to begin with: 1.0 Hz, or what a wrong default says."""
-    value = (await _held(run, (RATE,)))[0]
+async def _read_base_hz(run: Run) -> float:
+    """Read the rate that the node starts at: 1.0 Hz, or a wrong default from 0.5 to 10 Hz."""
+    value = (await _read_parameters(run, (RATE,)))[0]
     return float(value) if isinstance(value, (int, float)) and 0.5 <= value <= 10 else DEFAULT_HZ

@@ -1,7 +1,7 @@
-"""I2.1: next steps as edits of the learner's own file. The source only chooses the words.
+"""I2.1: next steps, worded as edits to the learner's own file. The source affects only the wording, never the verdict.
 
-Where an edit is in the file already, a larger one follows, down to the whole program; plain words are left for a file
-that Python cannot read.
+If the file already contains an edit, the next larger one is suggested, up to a rewrite of the whole program. A file
+that Python cannot parse gets plain advice.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from tutor.judge.verdict import Cause
 
 
 def declare_parameters(trace: Trace, names: Sequence[str]) -> str:
-    """These parameters are declared with their defaults."""
+    """Step: declare these parameters with their defaults."""
     read = started_node(trace)
     edits = [
         edit
@@ -37,7 +37,7 @@ def declare_parameters(trace: Trace, names: Sequence[str]) -> str:
 
 
 def add_publisher(trace: Trace) -> str:
-    """A publisher, a timer and its callback that sends the messages."""
+    """Step: add a publisher, a timer, and a callback that publishes."""
     read = started_node(trace)
     data = publishing.text_with(read, PREFIX)
     return (
@@ -47,78 +47,78 @@ def add_publisher(trace: Trace) -> str:
 
 
 def use_parameter(trace: Trace, name: str) -> str:
-    """What the node does follows the parameter: each message looks its value up."""
+    """Step: let the node use the parameter's value, which each message looks up."""
     read = started_node(trace)
     if name == RATE:
-        first = publishing.set_period(read, f"1.0 / {read.value(RATE)}")
+        smallest = publishing.set_period(read, f"1.0 / {read.value(RATE)}")
     elif name == PREFIX:
-        first = publishing.send_data(read, publishing.text_with(read, PREFIX))
+        smallest = publishing.send_data(read, publishing.text_with(read, PREFIX))
     else:
-        first = publishing.waiting_while_off(read, ENABLED)
-    words = f"the timer's period is 1.0 / {RATE}" if name == RATE else f"look {name} up for each message"
-    return read.step(first, *_larger(read, _whole)) or f"{words}: {read.value(name)}"
+        smallest = publishing.waiting_while_off(read, ENABLED)
+    advice = f"the timer's period is 1.0 / {RATE}" if name == RATE else f"look {name} up for each message"
+    return read.step(smallest, *_larger(read, _all_callbacks)) or f"{advice}: {read.value(name)}"
 
 
 def use_parameter_later(trace: Trace, name: str) -> str:
-    """As `use_parameter`, while the node runs: the whole callback, where the other one has no effect either."""
+    """Step: use a parameter's current value; rewrite the whole callback if it ignores the other parameter as well."""
     read = started_node(trace)
     others = {PREFIX, ENABLED} - {name}
     if all(parameters.is_followed(read, other) for other in others):
         return use_parameter(trace, name)
-    return read.step(*_larger(read, _ticking, _whole)) or use_parameter(trace, name)
+    return read.step(*_larger(read, _timer_callback, _all_callbacks)) or use_parameter(trace, name)
 
 
 def follow_changes(trace: Trace) -> str:
-    """Every change of a parameter takes effect: its callbacks are rewritten, or else the timer's, too."""
+    """Step: let every parameter change take effect; rewrite the parameter callbacks, or else the timer's as well."""
     read = started_node(trace)
-    return read.step(*_larger(read, _following_by_one, _whole)) or (
+    return read.step(*_larger(read, _parameter_callbacks_and_one_timer, _all_callbacks)) or (
         "in a post-set callback: cancel the timer, and make another one with the period 1.0 / rate"
     )
 
 
 def keep_timer_running(trace: Trace) -> str:
-    """The timer goes on, whatever `enabled` says: the timer's callback and those of the parameters are rewritten."""
+    """Step: keep the timer running whatever `enabled` is, by rewriting the timer and parameter callbacks."""
     read = started_node(trace)
-    return read.step(*_larger(read, _whole)) or (
+    return read.step(*_larger(read, _all_callbacks)) or (
         f"let one timer run on, and only skip publish() while {ENABLED} is false"
     )
 
 
 def send_once_per_tick(trace: Trace) -> str:
-    """One message for each call of the timer's callback, by one timer."""
+    """Step: publish one message per timer callback, with one timer."""
     read = started_node(trace)
-    return read.step(*_larger(read, _ticking_by_one, _whole)) or (
+    return read.step(*_larger(read, _timer_callback_and_one_timer, _all_callbacks)) or (
         f"publish one message in each callback of one timer, whose period is 1.0 / {RATE}"
     )
 
 
 def cancel_old_timer(trace: Trace) -> str:
-    """The old timer is cancelled before there is a new one."""
+    """Step: cancel the old timer before creating a new one."""
     read = started_node(trace)
     return read.step(parameters.cancel_old_timer(read)) or follow_changes(trace)
 
 
 def remove_waits(trace: Trace, stuck: Sequence[Frame]) -> str:
-    """Nothing waits in the callbacks of the timer or of the parameters, whichever it was."""
+    """Step: remove blocking waits from the callback that was stuck, be it the timer's or a parameter callback."""
     read = started_node(trace)
     tick = read.tick
-    here = {frame.line for frame in stuck}
-    if tick is not None and any(tick.lineno <= line <= (tick.end_lineno or 0) for line in here):
-        return read.step(*_larger(read, _ticking, _whole)) or keep_timer_running(trace)
+    stuck_lines = {frame.line for frame in stuck}
+    if tick is not None and any(tick.lineno <= line <= (tick.end_lineno or 0) for line in stuck_lines):
+        return read.step(*_larger(read, _timer_callback, _all_callbacks)) or keep_timer_running(trace)
     return follow_changes(trace)
 
 
 def refuse_bad_rates(trace: Trace) -> str:
-    """Bad rates are refused, before anything else is done."""
+    """Step: reject bad rates before doing anything else."""
     read = started_node(trace)
-    first = [*parameters.remove_pre_set_callback(read), *parameters.refuse_bad_rates(read, RATE)]
-    return read.step(first, *_larger(read, _following)) or (
+    smallest = [*parameters.remove_pre_set_callback(read), *parameters.refuse_bad_rates(read, RATE)]
+    return read.step(smallest, *_larger(read, _parameter_callbacks)) or (
         "return SetParametersResult(successful=False, reason='...') from an on-set-parameters callback"
     )
 
 
 def accept_value(trace: Trace, answer: SetAnswer) -> str:
-    """A good value is accepted: the declaration leaves it free, and so do the callbacks."""
+    """Step: accept a good value, in the parameter's declaration and in the callbacks."""
     read, reason = started_node(trace), answer.reason
     if "parameter list cannot be empty" in reason:
         return refuse_bad_rates(trace)
@@ -127,22 +127,22 @@ def accept_value(trace: Trace, answer: SetAnswer) -> str:
             each for n in answer.values for each in parameters.declare_parameter(read, n, DEFAULTS[n][1], plain=True)
         ]
         return (
-            read.step(declaring, *_larger(read, _following))
+            read.step(declaring, *_larger(read, _parameter_callbacks))
             or "declare it in __init__ with its default, and nothing more"
         )
     return check_all_first(trace)
 
 
 def check_all_first(trace: Trace) -> str:
-    """All values are checked before one takes effect."""
+    """Step: check all values before applying any."""
     read = started_node(trace)
-    return read.step(*_larger(read, _following, _whole)) or (
+    return read.step(*_larger(read, _parameter_callbacks, _all_callbacks)) or (
         "only validate in the on-set callback; apply in a post-set callback (add_post_set_parameters_callback)"
     )
 
 
-def checked_at_start(trace: Trace) -> str:
-    """A bad rate that the node is started with is found by the parameter's name."""
+def check_at_start(trace: Trace) -> str:
+    """Step: check the rate at start-up, with an error message that names the parameter."""
     read = started_node(trace)
     return read.step(parameters.check_at_start(read, RATE), whole_program(read)) or (
         f"check it after declaring it, and log an error that names {RATE}"
@@ -150,37 +150,37 @@ def checked_at_start(trace: Trace) -> str:
 
 
 def diagnose_override(trace: Trace, name: str) -> Cause | None:
-    """Whether the code itself gives the parameter another value than the one of the start."""
+    """Diagnose code that overrides the value given to a parameter at start-up."""
     read = started_node(trace)
     return parameter_slips.diagnose_override(read, name, whole_program(read))
 
 
 def whole_program_step(trace: Trace) -> str:
-    """The program as a whole, whatever its fault is; empty where Python cannot read the file."""
+    """Step for any fault: rewrite the whole program. Return "" if Python cannot parse the file."""
     read = started_node(trace)
     return read.step(whole_program(read)) or ""
 
 
 def _larger(read: NodeFile, *parts: Callable[[NodeFile], list[Edit]]) -> list[list[Edit]]:
-    """These parts, where it is sure what they do to the node, and the whole program."""
+    """The larger edits: these parts, if the node is regular enough for them to be safe, then the whole program."""
     return [*(part(read) for part in parts if whole.is_usual(read)), whole_program(read)]
 
 
-def _following(read: NodeFile) -> list[Edit]:
+def _parameter_callbacks(read: NodeFile) -> list[Edit]:
     return parameters.follow_parameters(read, RATE, PREFIX, ENABLED)
 
 
-def _ticking(read: NodeFile) -> list[Edit]:
+def _timer_callback(read: NodeFile) -> list[Edit]:
     return publishing.whole_timer_callback(read, publishing.text_with(read, PREFIX), enabled=ENABLED)
 
 
-def _whole(read: NodeFile) -> list[Edit]:
-    return [*_following(read), *publishing.keep_one_timer(read), *_ticking(read)]
+def _all_callbacks(read: NodeFile) -> list[Edit]:
+    return [*_parameter_callbacks(read), *publishing.keep_one_timer(read), *_timer_callback(read)]
 
 
-def _following_by_one(read: NodeFile) -> list[Edit]:
-    return [*_following(read), *publishing.keep_one_timer(read)]
+def _parameter_callbacks_and_one_timer(read: NodeFile) -> list[Edit]:
+    return [*_parameter_callbacks(read), *publishing.keep_one_timer(read)]
 
 
-def _ticking_by_one(read: NodeFile) -> list[Edit]:
-    return [*_ticking(read), *publishing.keep_one_timer(read)]
+def _timer_callback_and_one_timer(read: NodeFile) -> list[Edit]:
+    return [*_timer_callback(read), *publishing.keep_one_timer(read)]

@@ -1,4 +1,4 @@
-"""I2.2 Launch File Creation: one command that starts two nodes, which can be told where to talk."""
+"""I2.2 Launch File Creation: one command starts two nodes, with launch arguments for topic and namespace."""
 
 from __future__ import annotations
 
@@ -25,5 +25,5 @@ CHECK = Check(
         Criterion("communicates", judges.judge_communicates, (scenarios.plain,), after=("starts",)),
         Criterion("shutdown", judges.judge_shutdown, (scenarios.plain,), after=("starts",), bonus=True),
     ),
-    expected_s=0.5,  # the first message of our solution's publisher; a talker of the demo nodes takes 1.0 s
+    expected_s=0.5,  # our solution's first message comes after 0.5 s; the demo nodes' talker takes 1.0 s
 )

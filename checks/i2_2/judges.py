@@ -1,4 +1,4 @@
-"""I2.2: what must have been seen."""
+"""I2.2: the verdict on each criterion."""
 
 from __future__ import annotations
 
@@ -42,58 +42,64 @@ def judge_starts(seen: LaunchRun) -> Verdict:
     observed = f"{len(nodes)} node{'s' if len(nodes) != 1 else ''}" + (f": {', '.join(nodes)}" if nodes else "")
     if found is None:
         return failed(expected, observed, diagnose_missing(seen), causes.output_tail(seen.trace))
-    return passed(expected, observed, _who(found))
+    return passed(expected, observed, _describe_pair(found))
 
 
-def judge_topic(usual: LaunchRun, seen: LaunchRun) -> Verdict:
+def judge_topic(default_run: LaunchRun, seen: LaunchRun) -> Verdict:
     name = seen.arguments["topic"]
     expected = f"with topic:={name}, both nodes use /{name}, and the default topic is unused"
-    spaces = shared_namespaces(usual.trace.graph)
+    spaces = shared_namespaces(default_run.trace.graph)
     found = pairs_on_topic(seen.trace.graph, name, spaces)
-    if _moved(usual, seen, found) and _sent(usual, seen, found):
-        return passed(expected, _observed(seen), _who(found[0]))
+    if _has_moved(default_run, seen, found) and _has_messages(default_run, seen, found):
+        return passed(expected, _describe_graph(seen), _describe_pair(found[0]))
     wanted = next(
         (f"{space}/{name}" for space in spaces if f"{space}/{name}" in topics_in_use(seen.trace.graph)), f"/{name}"
     )
-    return failed(expected, _observed(seen), diagnose_topic(usual, seen, wanted), causes.output_tail(seen.trace))
+    return failed(
+        expected, _describe_graph(seen), diagnose_topic(default_run, seen, wanted), causes.output_tail(seen.trace)
+    )
 
 
 def judge_namespace(
-    usual: LaunchRun, elsewhere: LaunchRun, alone: LaunchRun, both: LaunchRun, another: LaunchRun | None = None
+    default_run: LaunchRun, elsewhere: LaunchRun, alone: LaunchRun, both: LaunchRun, another: LaunchRun | None = None
 ) -> Verdict:
-    """Judge `namespace`. `another`: a launch in another one, where all is in this one by default."""
+    """Judge `namespace`. `another`: a launch in a second namespace, if everything is in the first one by default."""
     expected = f"with {alone.typed}, both nodes and the topic are under /{NAMESPACE}"
     within = pairs_in_namespace(alone.trace.graph)
-    # Nodes that share no topic without a namespace either, or do not follow the argument topic, break other criteria.
+    # Nodes that share no topic even without a namespace, or ignore the topic argument, fail other criteria.
     right = has_pair_in_namespace(alone.trace.graph)
     if another is not None:
         right = bool(within)
-        if not (right and _moved(usual, another, pairs_in_namespace(another.trace.graph, space=ANOTHER))):
+        if not (right and _has_moved(default_run, another, pairs_in_namespace(another.trace.graph, space=ANOTHER))):
             expected = f"with {another.typed}, both nodes and the topic are under /{ANOTHER}"
-            cause = diagnose_namespace(usual, another)
-            return failed(expected, _observed(another), cause, causes.output_tail(another.trace))
-    elif shared_topics(usual.trace.graph):
-        right = _moved(usual, alone, within) and _sent(usual, alone, within)
+            cause = diagnose_namespace(default_run, another)
+            return failed(expected, _describe_graph(another), cause, causes.output_tail(another.trace))
+    elif shared_topics(default_run.trace.graph):
+        right = _has_moved(default_run, alone, within) and _has_messages(default_run, alone, within)
     if not right:
-        return failed(expected, _observed(alone), diagnose_namespace(usual, alone), causes.output_tail(alone.trace))
+        return failed(
+            expected, _describe_graph(alone), diagnose_namespace(default_run, alone), causes.output_tail(alone.trace)
+        )
     topic = both.arguments["topic"]
     expected = f"with {both.typed}, both nodes and /{NAMESPACE}/{topic} are under /{NAMESPACE}"
-    if pairs_on_topic(elsewhere.trace.graph, elsewhere.arguments["topic"], shared_namespaces(usual.trace.graph)):
+    if pairs_on_topic(elsewhere.trace.graph, elsewhere.arguments["topic"], shared_namespaces(default_run.trace.graph)):
         found = pairs_in_namespace(both.trace.graph, topic)
-        right = _moved(usual, both, found) and _sent(usual, both, found)
+        right = _has_moved(default_run, both, found) and _has_messages(default_run, both, found)
     else:
         right = has_pair_in_namespace(both.trace.graph)
     if not right:
-        return failed(expected, _observed(both), diagnose_namespace(usual, both), causes.output_tail(both.trace))
+        return failed(
+            expected, _describe_graph(both), diagnose_namespace(default_run, both), causes.output_tail(both.trace)
+        )
     expected = f"with namespace:={NAMESPACE}, alone and with a topic, both nodes and the topic are under /{NAMESPACE}"
-    return passed(expected, _observed(both), [*_who(within[0])] if within else ())
+    return passed(expected, _describe_graph(both), [*_describe_pair(within[0])] if within else ())
 
 
 def judge_communicates(seen: LaunchRun) -> Verdict:
     expected = "without arguments, the subscriber gets what the publisher sends"
     found = pairs(seen.trace.graph)
     if not found:
-        return failed(expected, _observed(seen), diagnose_pair(seen), causes.output_tail(seen.trace))
+        return failed(expected, _describe_graph(seen), diagnose_pair(seen), causes.output_tail(seen.trace))
     reasons: list[tuple[Pair, Cause]] = []
     for pair in found:
         reason = _diagnose_delivery(seen, pair)
@@ -102,42 +108,45 @@ def judge_communicates(seen: LaunchRun) -> Verdict:
             count = len(seen.trace.samples_on(topic))
             logs = logs_of_messages(pair, seen.trace.logs, seen.trace.samples_on(topic))
             observed = f"{count} message{'s' if count != 1 else ''} on {topic}" if count else f"connected on {topic}"
-            return passed(expected, observed, [*_who(pair), *(str(log) for log in logs[:2])])
+            return passed(expected, observed, [*_describe_pair(pair), *(str(log) for log in logs[:2])])
         reasons.append((pair, diagnose_program(seen, reason)))
     pair, reason = reasons[0]
-    return failed(expected, _observed(seen), reason, causes.output_tail(seen.trace))
+    return failed(expected, _describe_graph(seen), reason, causes.output_tail(seen.trace))
 
 
 def _diagnose_delivery(seen: LaunchRun, pair: Pair) -> Cause | None:
-    """Why what `pair` sends does not arrive; None where it does."""
-    one, other = pair
-    if one.type != other.type:
+    """Why the messages of this pair do not arrive; None where they do."""
+    publisher, subscription = pair
+    if publisher.type != subscription.type:
         return Cause(
             "wrong type",
-            f"on {one.topic}, {one.node} sends {one.type}, and {other.node} wants {other.type}",
+            f"on {publisher.topic}, {publisher.node} sends {publisher.type}, "
+            f"and {subscription.node} wants {subscription.type}",
             "choose two programs whose messages have the same type",
         )
-    if (cause := causes.diagnose_incompatible_qos(one, other)) is not None:
+    if (cause := causes.diagnose_incompatible_qos(publisher, subscription)) is not None:
         return cause
-    if not seen.trace.samples_on(one.topic) and one.topic not in seen.hidden:
+    if not seen.trace.samples_on(publisher.topic) and publisher.topic not in seen.hidden:
         return diagnose_launch(seen.trace) or Cause(
-            "no messages", f"{one.node} publishes nothing on {one.topic}", "start it alone, and see what it says"
+            "no messages",
+            f"{publisher.node} publishes nothing on {publisher.topic}",
+            "start it alone, and look at its output",
         )
-    alive = other.node in seen.answering
-    mute = other.node not in seen.trace.graph.parameter_nodes
-    logged = logs_of_messages(pair, seen.trace.logs, seen.trace.samples_on(one.topic))
+    alive = subscription.node in seen.answering
+    mute = subscription.node not in seen.trace.graph.parameter_nodes
+    logged = logs_of_messages(pair, seen.trace.logs, seen.trace.samples_on(publisher.topic))
     if seen.parted:
         return diagnose_launch(seen.trace) or Cause(
             "a node that ends",
-            f"{one.node} and {other.node} had met, and one is gone",
+            f"{publisher.node} and {subscription.node} were connected, but one of them is gone",
             "see the last lines of its output",
         )
     if alive or (mute and seen.trace.exit is None) or (logged and not ended_processes(seen.trace.output)):
         return None
     return diagnose_launch(seen.trace) or Cause(
         "no spin",
-        f"{other.node} has a subscription, but answers no request: its callbacks are never run",
-        "let the program call rclpy.spin(node), and no callback block",
+        f"{subscription.node} has a subscription, but answers no request: its callbacks are never run",
+        "call rclpy.spin(node) in the program, and let no callback block",
     )
 
 
@@ -145,8 +154,8 @@ def judge_shutdown(seen: LaunchRun) -> Verdict:
     expected = "one Ctrl+C ends the whole launch within 5 s, and no process is left"
     ended = seen.ending
     if ended is not None:
-        # The launch passes on what its nodes write, with a prefix.
-        ended = replace(ended, output=_of_all(ended.output))
+        # `ros2 launch` relays its nodes' output with a prefix on each line.
+        ended = replace(ended, output=_without_prefixes(ended.output))
     verdict = ending.judge_ending(seen.trace, ended)
     if not verdict.passed or ended is None:
         return replace(verdict, expected=expected)
@@ -164,24 +173,24 @@ def judge_shutdown(seen: LaunchRun) -> Verdict:
     return passed(expected, f"{verdict.observed}; no process is left")
 
 
-def _of_all(output: tuple[OutputLine, ...]) -> tuple[OutputLine, ...]:
+def _without_prefixes(output: tuple[OutputLine, ...]) -> tuple[OutputLine, ...]:
     return tuple(line for process in (None, *writers(output)) for line in by_stream(written_by(output, process)))
 
 
-def _moved(usual: LaunchRun, seen: LaunchRun, found: list[Pair]) -> bool:
-    """Whether there is a pair where one is wanted, and a topic that the nodes share without arguments is unused."""
-    before = shared_topics(usual.trace.graph)
+def _has_moved(default_run: LaunchRun, seen: LaunchRun, found: list[Pair]) -> bool:
+    """Whether pairs were found, and at least one topic that is shared without arguments is no longer in use."""
+    before = shared_topics(default_run.trace.graph)
     return bool(found) and (not before or bool(before - topics_in_use(seen.trace.graph)))
 
 
-def _sent(usual: LaunchRun, seen: LaunchRun, found: list[Pair]) -> bool:
-    """Whether messages come where the pairs are; a publisher that sends nothing without arguments either need not."""
-    if not any(usual.trace.samples.values()):
+def _has_messages(default_run: LaunchRun, seen: LaunchRun, found: list[Pair]) -> bool:
+    """Whether messages arrive on the pairs' topics, or none arrive even without arguments (judged elsewhere)."""
+    if not any(default_run.trace.samples.values()):
         return True
-    return any(one.topic in seen.hidden or bool(seen.trace.samples_on(one.topic)) for one, _ in found)
+    return any(publisher.topic in seen.hidden or bool(seen.trace.samples_on(publisher.topic)) for publisher, _ in found)
 
 
-def _observed(seen: LaunchRun) -> str:
+def _describe_graph(seen: LaunchRun) -> str:
     graph = seen.trace.graph
     if not graph.nodes:
         return "no node" + (f"; the launch ended with {seen.trace.exit}" if seen.trace.exit else "")
@@ -190,6 +199,9 @@ def _observed(seen: LaunchRun) -> str:
     return "; ".join(sorted(set(ends))) or f"nodes without topics: {', '.join(graph.nodes)}"
 
 
-def _who(pair: Pair) -> list[str]:
-    one, other = pair
-    return [f"{one.node} publishes on {one.topic}", f"{other.node} subscribes to {other.topic}"]
+def _describe_pair(pair: Pair) -> list[str]:
+    publisher, subscription = pair
+    return [
+        f"{publisher.node} publishes on {publisher.topic}",
+        f"{subscription.node} subscribes to {subscription.topic}",
+    ]

@@ -1,4 +1,4 @@
-"""I2.2: what the launch wrote about its processes, and what they wrote through it."""
+"""I2.2: the output of a launch, split into its own lines and those of its processes."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _FINISHED = re.compile(r"\[(?P<process>[^\[\]\s]+-\d+)\]: process has finished c
 
 @dataclass(frozen=True)
 class EndedProcess:
-    """A process that ended while the launch went on. `process` is its name in the launch, such as "talker-1"."""
+    """A process that ended while the launch kept running. `process`: its name in the launch, such as "talker-1"."""
 
     process: str
     code: int
@@ -26,13 +26,13 @@ class EndedProcess:
 
     @property
     def traceback(self) -> Traceback | None:
-        """The traceback that it ended with, if any."""
+        """The last traceback that the process printed, if any."""
         found = tracebacks.find_tracebacks(by_stream(self.output))
         return found[-1] if found else None
 
 
 def ended_processes(output: Sequence[OutputLine]) -> list[EndedProcess]:
-    """The processes that had ended, as the launch said, in that order."""
+    """The processes that the launch reported as ended, in that order."""
     found = []
     for line in output:
         text = _COLOUR.sub("", line.text)
@@ -44,7 +44,7 @@ def ended_processes(output: Sequence[OutputLine]) -> list[EndedProcess]:
 
 
 def written_by(output: Iterable[OutputLine], process: str | None) -> tuple[OutputLine, ...]:
-    """What one process wrote, without the launch's prefix; for None, what the launch itself wrote."""
+    """The lines of one process, without the launch's prefix; for None, the launch's own lines."""
     found = []
     for line in output:
         match = _PREFIX.match(_COLOUR.sub("", line.text))
@@ -56,11 +56,11 @@ def written_by(output: Iterable[OutputLine], process: str | None) -> tuple[Outpu
 
 
 def by_stream(output: Sequence[OutputLine]) -> tuple[OutputLine, ...]:
-    """The lines of one stream after those of the other: as they came, the two may be mixed up line by line."""
+    """The lines of stdout, then those of stderr, as one stream: they may have arrived interleaved line by line."""
     return tuple(replace(line, stream="stderr") for line in sorted(output, key=lambda line: line.stream == "stderr"))
 
 
 def writers(output: Sequence[OutputLine]) -> list[str]:
-    """The names of all processes that wrote anything."""
+    """The names of all processes that wrote anything, in order of their first line."""
     matches = (_PREFIX.match(_COLOUR.sub("", line.text)) for line in output)
     return list(dict.fromkeys(match["process"] for match in matches if match))

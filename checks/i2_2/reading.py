@@ -1,6 +1,6 @@
-"""I2.2: what a launch file says, call by call: it serves the words of a diagnosis, never a verdict.
+"""I2.2: the calls in a launch file, used to word a diagnosis, never for a verdict.
 
-Read by its syntax tree only; whatever cannot be parsed says nothing.
+Only the syntax tree is read; a file that cannot be parsed has no calls.
 """
 
 from __future__ import annotations
@@ -16,10 +16,11 @@ from tutor.judge.source import SourceFile, called_name
 
 @dataclass(frozen=True, slots=True)
 class Call:
-    """One call: `name` is the last part of what is called; `given` and `named` are its arguments, as written.
+    """One call. `name`: the last part of what is called; `given` and `named`: its arguments as source text.
 
-    `code` is the whole call in one line; `within` the function around it, or empty; `kept` what its result is assigned
-    to ("self.timer"), or empty. `named` has what comes by `**common`, too, where `common` is a dict in the same file.
+    `code`: the whole call on one line; `within`: the name of the enclosing function, or ""; `kept`: the variable that
+    its result is assigned to ("self.timer"), or "". `named` includes the items of `**common` if `common` is a dict in
+    the same file.
     """
 
     name: str
@@ -31,44 +32,44 @@ class Call:
     kept: str
 
     def argument(self, position: int, name: str) -> str:
-        """One argument, given by position or by name; empty where it is not there."""
+        """The argument, given by position or by name; "" if it is missing."""
         return self.given[position] if len(self.given) > position else self.named.get(name, "")
 
     @property
     def where(self) -> str:
-        """Line and code, to be put into a sentence."""
+        """Line number and code, to be put into a sentence."""
         return f"line {self.line}: {self.code}"
 
 
 @dataclass(frozen=True)
 class Source:
-    """A launch file, by its text, as if each imported class went by its own name, whatever it is called.
+    """A launch file as source text, with import aliases resolved.
 
-    With `from a import Name as N`, or `import a`, both N(...) and a.Name(...) read Name(...).
+    With `from a import Name as N` or `import a`, both N(...) and a.Name(...) are read as Name(...).
     """
 
     text: str = ""
 
     @cached_property
     def _file(self) -> SourceFile:
-        return _PlainFile(self.text)
+        return _ResolvedFile(self.text)
 
     @property
     def readable(self) -> bool:
-        """Whether Python can read it, and it says anything."""
+        """Whether Python can parse the file, and it is not empty."""
         return bool(self._file.tree.body)
 
     def own(self, name: str) -> str:
-        """How the file calls a class: "Name", "N" or "a.Name"; `name` where it knows none of this name."""
-        classes = _Plain(SourceFile(self.text)).classes()
+        """The file's own expression for a class: "Name", "N" or "a.Name"; `name` itself if it does not import it."""
+        classes = _AliasResolver(SourceFile(self.text)).classes()
         return next((written for written, plain in classes if plain == name), name)
 
     def calls(self, *names: str) -> list[Call]:
-        """The calls of functions or methods of these names, in the order of the file."""
+        """The calls of functions or methods with these names, in file order."""
         return [_call(each, self._file) for each in self._file.calls(*names)]
 
     def assignments(self) -> list[tuple[str, str]]:
-        """Each target ("self.rate") with the value that it is set to, as written, in the order of the file."""
+        """Each assignment as (target, value), such as ("self.rate", "10"), in file order."""
         found = [each for each in self._file.nodes if isinstance(each, ast.Assign | ast.AnnAssign) and each.value]
         found.sort(key=lambda each: each.lineno)
         return [
@@ -79,30 +80,30 @@ class Source:
         ]
 
     def texts(self) -> list[tuple[str, ...]]:
-        """The texts that are put together by an f-string, + or join(): their parts, as written."""
+        """The strings composed by an f-string, + or join(), each as the source text of its parts."""
         return [parts for each in self._file.nodes if (parts := _parts(each, self._file))]
 
     def uses(self, name: str) -> int:
-        """How often the variable of this name is read."""
+        """How often the variable with this name is read."""
         names = [each for each in self._file.nodes if isinstance(each, ast.Name) and isinstance(each.ctx, ast.Load)]
         return [each.id for each in names].count(name)
 
     def imports(self, name: str) -> bool:
-        """Whether something of this name is imported."""
+        """Whether something is imported under this name."""
         return any((alias.asname or alias.name).split(".")[0] == name for _, alias in self._file.imports)
 
 
-class _PlainFile(SourceFile):
-    """A file with the name of each imported class in place of what the file calls it."""
+class _ResolvedFile(SourceFile):
+    """A file in which each imported class goes by its original name."""
 
     @cached_property
     def tree(self) -> ast.Module:
-        plain: ast.Module = _Plain(SourceFile(self.text)).visit(copy.deepcopy(super().tree))
+        plain: ast.Module = _AliasResolver(SourceFile(self.text)).visit(copy.deepcopy(super().tree))
         return plain
 
 
-class _Plain(ast.NodeTransformer):
-    """Puts the name of each imported class in place of what the file calls it."""
+class _AliasResolver(ast.NodeTransformer):
+    """Replaces aliases and qualified names of imported classes by their original names."""
 
     def __init__(self, file: SourceFile) -> None:
         self._file = file
@@ -114,7 +115,7 @@ class _Plain(ast.NodeTransformer):
         }
 
     def classes(self) -> Iterator[tuple[str, str]]:
-        """Every class that is imported under another name, or by its module: as it is written, and its own name."""
+        """Each class that is imported under an alias or by its module, as (written, original name)."""
         yield from self._renamed.items()
         for node in self._file.nodes:
             if isinstance(node, ast.Attribute) and self._is_of_module(node):
@@ -129,7 +130,7 @@ class _Plain(ast.NodeTransformer):
         return self.generic_visit(node)
 
     def _is_of_module(self, node: ast.Attribute) -> bool:
-        """Whether this is a.b.Name, with `a` imported: all parts but the last in small letters, as modules are."""
+        """Whether this is a.b.Name with `a` imported: all parts but the last are lower case, like module names."""
         *path, last = ast.unparse(node).split(".")
         return (
             path[0] in self._roots
@@ -139,7 +140,7 @@ class _Plain(ast.NodeTransformer):
 
 
 def _dicts(tree: ast.AST) -> dict[str, dict[str, ast.expr]]:
-    """The dicts that the file gives a name: what each has under its keys that are texts."""
+    """The dicts that are assigned to a variable, by its name: their values by string key."""
     found: dict[str, dict[str, ast.expr]] = {}
     for node in ast.walk(tree):
         match node:
@@ -175,7 +176,7 @@ def _call(node: ast.Call, file: SourceFile) -> Call:
 
 
 def _parts(node: ast.AST, file: SourceFile) -> tuple[str, ...]:
-    """The parts of a text that is put together; none where this is no such text, or only a part of one."""
+    """The parts of a composed string; () if the node is not one, or only a part of one."""
     match node:
         case ast.JoinedStr():
             return tuple(
@@ -183,21 +184,21 @@ def _parts(node: ast.AST, file: SourceFile) -> tuple[str, ...]:
                 for each in node.values
             )
         case ast.BinOp(op=ast.Add()) if not isinstance(next(file.ancestors(node), None), ast.BinOp):
-            return tuple(_added(node))
+            return tuple(_summands(node))
         case ast.Call(
-            func=ast.Attribute(value=ast.Constant(value=str() as between), attr="join"), args=[ast.List(elts=parts)]
+            func=ast.Attribute(value=ast.Constant(value=str() as separator), attr="join"), args=[ast.List(elts=parts)]
         ):
-            every = [[ast.unparse(part), repr(between)] for part in parts]
-            return tuple(each for pair in every for each in pair)[:-1]
+            with_separators = [[ast.unparse(part), repr(separator)] for part in parts]
+            return tuple(each for pair in with_separators for each in pair)[:-1]
         case _:
             return ()
 
 
-def _added(node: ast.expr) -> Iterator[str]:
+def _summands(node: ast.expr) -> Iterator[str]:
     match node:
         case ast.BinOp(left=left, op=ast.Add(), right=right):
-            yield from _added(left)
-            yield from _added(right)
+            yield from _summands(left)
+            yield from _summands(right)
         case ast.Call(func=ast.Name(id="str"), args=[inner]):
             yield ast.unparse(inner)
         case _:

@@ -1,6 +1,7 @@
-"""I2.2: the launch description of a learner's file, rewritten: one node, the list, or the whole function.
+"""I2.2: edits of a learner's launch file: one node, the list of actions, or the whole function.
 
-Each gives edits in the file's own names, and the imports that they need; none where the file gives no hold for it.
+The edits use the file's own names, and add the imports that they need; there are none where the file has no place for
+them.
 """
 
 from __future__ import annotations
@@ -28,16 +29,16 @@ from tutor.judge.trace import Trace
 LAUNCHED = "generate_launch_description"
 DEFAULTS = {"topic": "chatter", "namespace": ""}
 PACKAGES = ("demo_nodes_py", "demo_nodes_cpp", "my_package")
-_SENDING = {"talker": "listener", "minimal_publisher": "minimal_subscriber"}
-_TAKING = {taking: sending for sending, taking in _SENDING.items()}
-PROGRAMS = (*_SENDING, *_TAKING)
+_SUBSCRIBER_OF = {"talker": "listener", "minimal_publisher": "minimal_subscriber"}
+_PUBLISHER_OF = {subscriber: publisher for publisher, subscriber in _SUBSCRIBER_OF.items()}
+PROGRAMS = (*_SUBSCRIBER_OF, *_PUBLISHER_OF)
 _MODULES = {
     "LaunchDescription": "launch",
     "DeclareLaunchArgument": "launch.actions",
     "LaunchConfiguration": "launch.substitutions",
     "Node": "launch_ros.actions",
 }
-_PLACES = {
+_CLASSES_OF_MODULE = {
     "launch.actions": (
         *("DeclareLaunchArgument", "ExecuteProcess", "GroupAction", "IncludeLaunchDescription", "LogInfo"),
         *("OpaqueFunction", "RegisterEventHandler", "SetEnvironmentVariable", "TimerAction"),
@@ -50,13 +51,13 @@ _PLACES = {
     "launch_ros.substitutions": ("FindPackageShare",),
     "launch": ("LaunchDescription",),
 }
-"""Where the classes are that a launch file imports."""
+"""The modules of the classes that a launch file may import."""
 _OWN_TOPIC = re.compile(r"create_(?:publisher|subscription)\([^'\"]*['\"]([\w/]+)['\"]")
 
 
 @dataclass(frozen=True)
 class Program:
-    """What a node runs, and what its own code calls the topic."""
+    """The program that a node runs, and the topic name in its code."""
 
     package: str
     executable: str
@@ -65,44 +66,44 @@ class Program:
 
 @dataclass(frozen=True)
 class Launch:
-    """A launch file, the learner's other files beside it, and what it calls the classes of launch."""
+    """A launch file. `others`: the learner's other files, by name."""
 
     file: NodeFile
     others: Mapping[str, str]
     path: str = "my_launch.py"
 
     def name(self, of: str) -> str:
-        """What the file calls a class."""
+        """The file's own expression for a class."""
         return self.file.own(of, _MODULES[of])[0]
 
     def imports(self, *names: str) -> list[Edit]:
-        """The imports that these classes need, as far as they are missing."""
+        """The missing imports of these classes, as edits."""
         if any(alias.name == "*" for _, alias in self.file.imports):
             names = tuple(each for each in names if not self.calls(each))
         return [edit for each in names for edit in self.file.own(each, _MODULES[each])[1]]
 
     def calls(self, of: str) -> list[ast.Call]:
-        """Where something of this class is made."""
+        """The calls that create an instance of this class."""
         return self.file.calls(self.name(of).rpartition(".")[2])
 
     @property
     def source(self) -> Source:
-        """The file as it is read for the texts of a diagnosis."""
+        """The file, parsed for the texts of a diagnosis."""
         return Source(self.file.text)
 
     @property
     def demo(self) -> list[Program]:
-        """What is known to be there, and to work."""
+        """The demo nodes, which are known to exist and to work."""
         return [Program(PACKAGES[0], "talker"), Program(PACKAGES[0], "listener")]
 
     def step(self, *choices: Sequence[Edit] | None) -> str | None:
-        """The first of these edits that leaves a file which Python can run, in words; None where there is none."""
+        """Describe the first choice of edits that leaves a valid Python file; None if none does."""
         found = self.file.step(*choices)
         return f"in {self.path}, {found}" if found and self.others else found
 
     @property
     def function(self) -> Function | None:
-        """The function that launch calls, or the one that is meant for it."""
+        """The function `generate_launch_description`, or else one that creates a LaunchDescription."""
         named = [each for each in self.file.functions if each.name == LAUNCHED]
         made = [
             found for each in self.calls("LaunchDescription") if (found := self.file.function_around(each)) is not None
@@ -110,11 +111,11 @@ class Launch:
         return next(iter([*named[-1:], *made]), None)
 
     def value(self, of: str) -> str:
-        """How the file gives the value of an argument."""
+        """The expression for the value of a launch argument."""
         return f"{self.name('LaunchConfiguration')}('{of}')"
 
     def declaration(self, of: str) -> str:
-        """The declaration of an argument, with the default that it has."""
+        """The declaration of a launch argument, with its current default if it has one."""
         return f"{self.name('DeclareLaunchArgument')}('{of}', default_value={self._default(of)!r})"
 
     def _default(self, of: str) -> str:
@@ -125,17 +126,17 @@ class Launch:
         return DEFAULTS.get(of, "")
 
     def declared(self, of: str) -> list[ast.Call]:
-        """Where an argument is declared."""
+        """The declarations of a launch argument."""
         return [each for each in self.calls("DeclareLaunchArgument") if _text(argument(each, 0, "name")) == of]
 
     def programs(self) -> list[Program]:
-        """What the file starts, as far as it is known to be there, and what is missing for a pair."""
+        """The programs that the file starts, as far as they are known to exist; a single one is completed to a pair."""
         found = [each for call in self.calls("Node") if (each := self._program(call)) is not None]
         found = list(dict.fromkeys(found))
-        kinds = {each.executable for each in found}
-        if len(found) == 1 or (kinds <= set(_SENDING) or kinds <= set(_TAKING)):
+        executables = {each.executable for each in found}
+        if len(found) == 1 or (executables <= set(_SUBSCRIBER_OF) or executables <= set(_PUBLISHER_OF)):
             one = found[0] if found else Program(PACKAGES[0], "talker")
-            other = (_SENDING | _TAKING).get(one.executable, "")
+            other = (_SUBSCRIBER_OF | _PUBLISHER_OF).get(one.executable, "")
             partner = Program(one.package, other) if other else self._partner(one)
             return [one, partner]
         return found
@@ -166,144 +167,147 @@ class Launch:
 
 
 def launch(trace: Trace) -> Launch:
-    """The learner's launch file that was started."""
+    """Return the learner's launch file that was started."""
     others = {name: text for name, text in trace.sources.items() if name != trace.file}
     return Launch(node_file(trace.sources.get(trace.file, "")), others, trace.file)
 
 
-def rewrite_description(there: Launch, programs: Sequence[Program] = ()) -> list[Edit]:
-    """The function as a whole: both arguments declared first, then each node in the namespace and on the topic."""
-    function = there.function
+def rewrite_description(launch_file: Launch, programs: Sequence[Program] = ()) -> list[Edit]:
+    """Rewrite the whole function: declare both arguments first, then each node with namespace and remapping."""
+    function = launch_file.function
     names = ("Node", "LaunchConfiguration", "DeclareLaunchArgument", "LaunchDescription")
-    imports = there.imports(*names)
-    nodes = [line for each in programs or there.programs() for line in _node(there, each)]
+    imports = launch_file.imports(*names)
+    nodes = [line for each in programs or launch_file.programs() for line in _node_lines(launch_file, each)]
     code = "\n".join(
         [
-            f"return {there.name('LaunchDescription')}([",
-            *(f"    {there.declaration(each)}," for each in DEFAULTS),
+            f"return {launch_file.name('LaunchDescription')}([",
+            *(f"    {launch_file.declaration(each)}," for each in DEFAULTS),
             *(f"    {line}" for line in nodes),
             "])",
         ]
     )
-    if not there.file.tree.body:
-        lines = len(there.file.text.splitlines())
-        froms = "\n".join(sorted(f"from {_MODULES[each]} import {each}" for each in names))
-        body = "".join(f"\n    {line}" for line in code.splitlines())
-        return [Edit(1, lines, f"{froms}\n\n\ndef {LAUNCHED}():{body}")] if lines else []
+    body = "".join(f"\n    {line}" for line in code.splitlines())
+    if not launch_file.file.tree.body:
+        lines = len(launch_file.file.text.splitlines())
+        import_lines = "\n".join(sorted(f"from {_MODULES[each]} import {each}" for each in names))
+        return [Edit(1, lines, f"{import_lines}\n\n\ndef {LAUNCHED}():{body}")] if lines else []
     if function is None or function.name != LAUNCHED or function.lineno == function.body[0].lineno:
-        last = there.file.tree.body[-1]
-        body = "".join(f"\n    {line}" for line in code.splitlines())
-        like = next((each.lineno for each in there.file.tree.body), 1)
+        last = launch_file.file.tree.body[-1]
+        like = next((each.lineno for each in launch_file.file.tree.body), 1)
         return [*imports, insert_below(last.end_lineno or last.lineno, f"\n\ndef {LAUNCHED}():{body}", like=like)]
-    first, last_ = function.body[0], function.body[-1]
+    first, end = function.body[0], function.body[-1]
     if ast.get_docstring(function) is not None and len(function.body) > 1:
         first = function.body[1]
-    return [*imports, Edit(first.lineno, last_.end_lineno or last_.lineno, code, like=first.lineno)]
+    return [*imports, Edit(first.lineno, end.end_lineno or end.lineno, code, like=first.lineno)]
 
 
-def _node(there: Launch, program: Program) -> Iterator[str]:
-    yield f"{there.name('Node')}("
+def _node_lines(launch_file: Launch, program: Program) -> Iterator[str]:
+    yield f"{launch_file.name('Node')}("
     yield f"    package='{program.package}',"
     yield f"    executable='{program.executable}',"
-    yield f"    namespace={there.value('namespace')},"
-    yield f"    remappings=[('{program.topic}', {there.value('topic')})],"
+    yield f"    namespace={launch_file.value('namespace')},"
+    yield f"    remappings=[('{program.topic}', {launch_file.value('topic')})],"
     yield "    output='screen',"
     yield "),"
 
 
-def fix_imports(there: Launch) -> list[Edit]:
-    """The imports of classes from where they are not, with the module that has them."""
+def fix_imports(launch_file: Launch) -> list[Edit]:
+    """Correct the imports of classes from the wrong module."""
     edits = []
-    for each in there.file.tree.body:
+    for each in launch_file.file.tree.body:
         if isinstance(each, ast.ImportFrom) and not each.level:
-            found = [(alias, _place(alias.name)) for alias in each.names]
+            found = [(alias, _module_of(alias.name)) for alias in each.names]
             moved = [(alias, f"from {at} import {alias.name}") for alias, at in found if at not in ("", each.module)]
             edits += [replace_imports(each, moved)] if moved else []
     return edits
 
 
-def _place(name: str) -> str:
-    return next((module for module, names in _PLACES.items() if name in names), "")
+def _module_of(name: str) -> str:
+    return next((module for module, names in _CLASSES_OF_MODULE.items() if name in names), "")
 
 
-def add_node_argument(there: Launch, keyword: str, value: str, *without: str) -> list[Edit]:
-    """Every node with this argument, and without others; none where a node has arguments in a dict, `**common`."""
+def add_node_argument(launch_file: Launch, keyword: str, value: str, *without: str) -> list[Edit]:
+    """Give every node this argument, and drop those in `without`; no edits if a node takes a dict, `**common`."""
     edits = []
-    if any(each.arg is None for call in there.calls("Node") for each in call.keywords):
+    if any(each.arg is None for call in launch_file.calls("Node") for each in call.keywords):
         return []
-    for call in there.calls("Node"):
+    for call in launch_file.calls("Node"):
         kept = [each for each in call.keywords if each.arg not in without]
-        had = next((each.value for each in kept if each.arg == keyword), None)
-        if had is not None and len(kept) == len(call.keywords):
-            edits.append(replace_node(there.file.text, had, value))
+        present = next((each.value for each in kept if each.arg == keyword), None)
+        if present is not None and len(kept) == len(call.keywords):
+            edits.append(replace_node(launch_file.file.text, present, value))
             continue
         words = [f"{each.arg}={value if each.arg == keyword else ast.unparse(each.value)}" for each in kept if each.arg]
-        added = [] if had is not None else [f"{keyword}={value}"]
+        added = [] if present is not None else [f"{keyword}={value}"]
         parts = [*map(ast.unparse, call.args), *words, *added]
-        edits.append(replace_node(there.file.text, call, f"{ast.unparse(call.func)}({', '.join(parts)})"))
-    return [*there.imports("LaunchConfiguration"), *edits]
+        edits.append(replace_node(launch_file.file.text, call, f"{ast.unparse(call.func)}({', '.join(parts)})"))
+    return [*launch_file.imports("LaunchConfiguration"), *edits]
 
 
-def prepend_to_list(there: Launch, *wanted: str) -> list[Edit]:
-    """What the list of the launch description begins with."""
-    made = next(iter(there.calls("LaunchDescription")), None)
-    given_ = argument(made, 0, "initial_entities") if made is not None else None
-    if isinstance(given_, ast.Name) and there.function is not None:
-        given_ = next(iter(values_of(given_.id, there.function)), None)
-    if not isinstance(given_, ast.List) or not given_.elts:
+def prepend_to_list(launch_file: Launch, *wanted: str) -> list[Edit]:
+    """Insert entries at the beginning of the launch description's list."""
+    made = next(iter(launch_file.calls("LaunchDescription")), None)
+    entries = argument(made, 0, "initial_entities") if made is not None else None
+    if isinstance(entries, ast.Name) and launch_file.function is not None:
+        entries = next(iter(values_of(entries.id, launch_file.function)), None)
+    if not isinstance(entries, ast.List) or not entries.elts:
         return []
-    first = given_.elts[0]
-    code = ast.get_source_segment(there.file.text, first) or ""
+    first = entries.elts[0]
+    code = ast.get_source_segment(launch_file.file.text, first) or ""
     if "\n" in code:
-        alone = there.file.text.splitlines()[first.lineno - 1][: first.col_offset].strip() == ""
+        alone = launch_file.file.text.splitlines()[first.lineno - 1][: first.col_offset].strip() == ""
         return [Edit(first.lineno, first.lineno - 1, ",\n".join(wanted) + ",", like=first.lineno)] if alone else []
-    return [replace_node(there.file.text, first, f"{', '.join(wanted)}, {code}")]
+    return [replace_node(launch_file.file.text, first, f"{', '.join(wanted)}, {code}")]
 
 
-def rename_argument(there: Launch, other: str, right: str) -> list[Edit]:
-    """An argument of another name, wherever it is named."""
+def rename_argument(launch_file: Launch, other: str, right: str) -> list[Edit]:
+    """Rename a launch argument wherever it is declared or read."""
     found = [
         name
-        for each in (*there.calls("DeclareLaunchArgument"), *there.calls("LaunchConfiguration"))
+        for each in (*launch_file.calls("DeclareLaunchArgument"), *launch_file.calls("LaunchConfiguration"))
         if (name := each.args[0] if each.args else None) is not None and _text(name) == other
     ]
     lines = [each.lineno for each in found]
     if len(lines) != len(set(lines)):
         return []
-    return [replace_node(there.file.text, each, repr(right)) for each in found]
+    return [replace_node(launch_file.file.text, each, repr(right)) for each in found]
 
 
-def replace_keyword(there: Launch, keyword: str, wrong: str, right: str) -> list[Edit]:
-    """A package or an executable of another name."""
-    found = [each.value for call in there.calls("Node") for each in call.keywords if each.arg == keyword]
-    return [replace_node(there.file.text, each, repr(right)) for each in found if _text(each) == wrong] if right else []
+def replace_keyword(launch_file: Launch, keyword: str, wrong: str, right: str) -> list[Edit]:
+    """Correct the name of a package or an executable."""
+    found = [each.value for call in launch_file.calls("Node") for each in call.keywords if each.arg == keyword]
+    return (
+        [replace_node(launch_file.file.text, each, repr(right)) for each in found if _text(each) == wrong]
+        if right
+        else []
+    )
 
 
-def return_description(there: Launch) -> list[Edit]:
-    """The launch description, returned."""
-    made, function = next(iter(there.calls("LaunchDescription")), None), there.function
-    if made is None or function is None or there.file.function_around(made) is not function:
+def return_description(launch_file: Launch) -> list[Edit]:
+    """Return the launch description that the function creates."""
+    made, function = next(iter(launch_file.calls("LaunchDescription")), None), launch_file.function
+    if made is None or function is None or launch_file.file.function_around(made) is not function:
         return []
-    if kept := there.file.assigned_to(made):
+    if kept := launch_file.file.assigned_to(made):
         return [append_to_function(function, f"return {kept}")]
-    line = there.file.text.splitlines()[made.lineno - 1].strip()
+    line = launch_file.file.text.splitlines()[made.lineno - 1].strip()
     return [replace_lines(made.lineno, f"return {line}")]
 
 
-def return_opaque_actions(there: Launch) -> list[Edit]:
-    """What the function of an OpaqueFunction makes, returned where it ends."""
-    for call in there.file.calls("OpaqueFunction"):
-        function = there.file.function(argument(call, 0, "function"))
+def return_opaque_actions(launch_file: Launch) -> list[Edit]:
+    """Let the function of an OpaqueFunction return the actions that it creates."""
+    for call in launch_file.file.calls("OpaqueFunction"):
+        function = launch_file.file.function(argument(call, 0, "function"))
         if function is None or any(isinstance(each, ast.Return) and each.value for each in ast.walk(function)):
             continue
         made = [each for each in ast.walk(function) if isinstance(each, ast.Assign)]
         lists = [each for each in made if isinstance(each.value, ast.List)]
-        nodes = [each for each in made if isinstance(each.value, ast.Call) and each.value in there.calls("Node")]
+        nodes = [each for each in made if isinstance(each.value, ast.Call) and each.value in launch_file.calls("Node")]
         if lists and not nodes:
             return [append_to_function(function, f"return {ast.unparse(lists[-1].targets[0])}")]
         last = function.body[-1]
         if isinstance(last, ast.Expr) and isinstance(last.value, ast.List):
-            return [replace_lines(last.lineno, f"return {there.file.text.splitlines()[last.lineno - 1].strip()}")]
+            return [replace_lines(last.lineno, f"return {launch_file.file.text.splitlines()[last.lineno - 1].strip()}")]
         if nodes:
             return [
                 append_to_function(function, f"return [{', '.join(ast.unparse(each.targets[0]) for each in nodes)}]")
@@ -311,29 +315,29 @@ def return_opaque_actions(there: Launch) -> list[Edit]:
     return []
 
 
-def remove_exits(there: Launch) -> list[Edit]:
-    """The file without what ends Python while it is loaded."""
+def remove_exits(launch_file: Launch) -> list[Edit]:
+    """Remove module-level calls that end Python while the file is being loaded."""
     ends = ("exit", "_exit", "quit", "abort", "kill")
     return [
-        remove_statement(there.file.text, each)
-        for each in there.file.tree.body
+        remove_statement(launch_file.file.text, each)
+        for each in launch_file.file.tree.body
         if isinstance(each, ast.Expr) and isinstance(each.value, ast.Call) and called_name(each.value) in ends
     ]
 
 
-def rename_function(there: Launch) -> list[Edit]:
-    """The function that describes the launch, with the name that launch calls."""
-    function = there.function
+def rename_function(launch_file: Launch) -> list[Edit]:
+    """Rename the function that creates the launch description to the name that launch calls."""
+    function = launch_file.function
     if function is None or function.args.args or function.name == LAUNCHED:
         return []
-    line = there.file.text.splitlines()[function.lineno - 1].strip()
+    line = launch_file.file.text.splitlines()[function.lineno - 1].strip()
     return [replace_lines(function.lineno, line.replace(f"def {function.name}(", f"def {LAUNCHED}(", 1))]
 
 
 def nearest(wrong: str, known: Sequence[str]) -> str:
-    """What was probably meant, or nothing."""
+    """The known name that was probably meant, or ""."""
     return next(iter(difflib.get_close_matches(wrong, known, n=1, cutoff=0.5)), "")
 
 
-def _text(given_: ast.expr | None) -> str:
-    return given_.value if isinstance(given_, ast.Constant) and isinstance(given_.value, str) else ""
+def _text(given: ast.expr | None) -> str:
+    return given.value if isinstance(given, ast.Constant) and isinstance(given.value, str) else ""

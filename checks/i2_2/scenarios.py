@@ -1,4 +1,4 @@
-"""I2.2: what is done with the launch file."""
+"""I2.2: scenarios that run the launch file and gather facts."""
 
 from __future__ import annotations
 
@@ -27,102 +27,110 @@ from tutor.judge.trace import Trace
 from tutor.judge.waiting import RARE_S, START_S
 from tutor.ros_model import Graph
 
-DELAYED_S = 12.0
-"""A node may be started this much later than the first one, by a timer say."""
+NODE_DELAY_S = 12.0
+"""Time limit for the second node after the first, for example one that is started by a timer."""
 
-MORE_S = 6.0
-"""Where two nodes are there, but share no topic, what joins them may come this much later."""
+CONNECT_S = 6.0
+"""Time limit for a connecting endpoint once there are two nodes that share no topic yet."""
 
 ENDPOINTS_S = 2.0
-"""When as many nodes are there as without arguments, their publishers and subscriptions are there within this time."""
+"""Time limit for publishers and subscriptions to be discovered once there are as many nodes as without arguments."""
 
-GONE_S = 3.0
-"""A launch tells that a process has ended within this time."""
+EXIT_REPORT_S = 3.0
+"""Time limit for the launch to report that a process has ended."""
 
 ANSWERS_S = 12.0
-"""A node whose callbacks take some seconds answers a request within this time; most do at once."""
+"""Timeout of a service request: most nodes answer at once, one with slow callbacks takes some seconds."""
 
 LIST_PARAMETERS = "rcl_interfaces/srv/ListParameters"
-"""What every node of rclpy's and rclcpp's can be asked."""
+"""The type of a service that every rclpy and rclcpp node offers by default."""
 
-SILENT_S = 1.0
-"""A subscriber that logs what it gets does so within this time."""
+LOG_DELAY_S = 1.0
+"""A subscriber that logs its messages does so within this time of receiving one."""
 
 
 async def plain(bench: Bench) -> LaunchRun:
-    """Launch without arguments, see the nodes and whether they talk, then press Ctrl+C."""
+    """Launch without arguments, watch the nodes and their messages, then press Ctrl+C."""
     async with bench.launch(FILE) as run:
         bench.report_progress(0.1, "launching without arguments")
         if await run.until(lambda: bool(run.graph.nodes), START_S) and await run.until(
-            lambda: find_pair(run.graph) is not None, DELAYED_S
+            lambda: find_pair(run.graph) is not None, NODE_DELAY_S
         ):
-            await run.until(lambda: bool(pairs(run.graph)), MORE_S)
+            await run.until(lambda: bool(pairs(run.graph)), CONNECT_S)
         bench.report_progress(0.4, "listening to the nodes")
         met = run.graph
         hidden = _listen(run, shared_topics(met))
-        await run.until(lambda: _wait_until_quiet(run, hidden), RARE_S)
-        answering = await _answering(run)
-        if pairs(met):  # DDS reports a node that has gone a little later
-            await run.until(lambda: bool(pairs(run.graph)) or bool(ended_processes(run.output)), GONE_S)
+        await run.until(lambda: _has_heard_enough(run, hidden), RARE_S)
+        answering = await _find_answering(run)
+        if pairs(met):  # DDS reports with some delay that a node is gone
+            await run.until(lambda: bool(pairs(run.graph)) or bool(ended_processes(run.output)), EXIT_REPORT_S)
         trace, command_lines = run.trace(), await run.command_lines()
         parted = bool(pairs(met)) and not pairs(trace.graph)
         bench.report_progress(0.8, "pressing Ctrl+C")
         ending = await run.interrupt() if run.exit is None else None
-        return LaunchRun(_with(trace, met, pairs), {}, command_lines, hidden, answering, ending, parted)
+        return LaunchRun(_with_best_graph(trace, met, pairs), {}, command_lines, hidden, answering, ending, parted)
 
 
 async def other_topic(bench: Bench) -> LaunchRun:
     """Launch with another topic."""
-    name = _name()
-    return await _varied(bench, {"topic": name}, lambda graph: pairs_on_topic_named(graph, name))
+    name = _random_topic()
+    return await _launch_with(bench, {"topic": name}, lambda graph: pairs_on_topic_named(graph, name))
 
 
 async def other_namespace(bench: Bench) -> LaunchRun:
     """Launch in a namespace."""
-    return await _varied(bench, {"namespace": NAMESPACE}, pairs_in_namespace)
+    return await _launch_with(bench, {"namespace": NAMESPACE}, pairs_in_namespace)
 
 
 async def another_namespace(bench: Bench) -> LaunchRun | None:
-    """Launch in yet another namespace; nothing, where what is there without arguments is not in the first one."""
+    """Launch in a second namespace; None unless everything is in the first one by default."""
     if not pairs_in_namespace((await bench.facts(plain)).trace.graph):
         return None
-    return await _varied(bench, {"namespace": ANOTHER}, lambda graph: pairs_in_namespace(graph, space=ANOTHER))
+    return await _launch_with(bench, {"namespace": ANOTHER}, lambda graph: pairs_in_namespace(graph, space=ANOTHER))
 
 
 async def both(bench: Bench) -> LaunchRun:
     """Launch with another topic, in a namespace."""
-    name = _name()
-    return await _varied(bench, {"topic": name, "namespace": NAMESPACE}, lambda graph: pairs_in_namespace(graph, name))
+    name = _random_topic()
+    return await _launch_with(
+        bench, {"topic": name, "namespace": NAMESPACE}, lambda graph: pairs_in_namespace(graph, name)
+    )
 
 
-async def _varied(bench: Bench, arguments: Mapping[str, str], wanted: Callable[[Graph], list[Pair]]) -> LaunchRun:
-    """Launch with arguments, until the nodes use what is wanted, or as much is there as without arguments."""
-    usual = asyncio.ensure_future(bench.facts(plain))
+async def _launch_with(
+    bench: Bench, arguments: Mapping[str, str], find_wanted: Callable[[Graph], list[Pair]]
+) -> LaunchRun:
+    """Launch with arguments, until `find_wanted` finds pairs or the graph is as large as without arguments."""
+    default_run = asyncio.ensure_future(bench.facts(plain))
     try:
         async with bench.launch(FILE, arguments=arguments) as run:
             bench.report_progress(
                 0.1, "launching with " + " ".join(f"{name}:={value}" for name, value in arguments.items())
             )
-            await run.until(lambda: bool(wanted(run.graph)) or usual.done(), START_S + DELAYED_S + RARE_S)
-            if not wanted(run.graph):
-                expected = count_entities((await usual).trace.graph)
-                await run.until(lambda: bool(wanted(run.graph)) or _wait_at_least(run.graph, expected), DELAYED_S)
-                await run.until(lambda: bool(wanted(run.graph)), ENDPOINTS_S)
+            await run.until(lambda: bool(find_wanted(run.graph)) or default_run.done(), START_S + NODE_DELAY_S + RARE_S)
+            if not find_wanted(run.graph):
+                expected = count_entities((await default_run).trace.graph)
+                await run.until(
+                    lambda: bool(find_wanted(run.graph)) or _has_at_least(run.graph, expected), NODE_DELAY_S
+                )
+                await run.until(lambda: bool(find_wanted(run.graph)), ENDPOINTS_S)
             met = run.graph
-            topics = _topics(wanted(met))
+            topics = {publisher.topic for publisher, _ in find_wanted(met)}
             hidden = _listen(run, topics)
             if topics and not hidden:
                 await run.until(lambda: any(run.samples_on(topic) for topic in topics), RARE_S)
-            # Whatever else there is without arguments must have had its time, too: it may be where it should not.
-            expected = count_entities((await usual).trace.graph)
-            await run.until(lambda: _wait_at_least(run.graph, expected), ENDPOINTS_S)
-            return LaunchRun(_with(run.trace(), met, wanted), arguments, await run.command_lines(), hidden)
+            # Give all other endpoints time to appear, too: some may be where they should not be.
+            expected = count_entities((await default_run).trace.graph)
+            await run.until(lambda: _has_at_least(run.graph, expected), ENDPOINTS_S)
+            return LaunchRun(
+                _with_best_graph(run.trace(), met, find_wanted), arguments, await run.command_lines(), hidden
+            )
     finally:
-        usual.cancel()
+        default_run.cancel()
 
 
-async def _answering(run: Run) -> frozenset[str]:
-    """The nodes of the pairs that answer a request."""
+async def _find_answering(run: Run) -> frozenset[str]:
+    """The nodes of the pairs that answer a service request."""
     able = set(run.graph.parameter_nodes)
     asked = sorted(able & {end.node for pair in pairs(run.graph) for end in pair})
     answers = await asyncio.gather(
@@ -131,34 +139,30 @@ async def _answering(run: Run) -> frozenset[str]:
     return frozenset(node for node, answer in zip(asked, answers, strict=True) if answer.response is not None)
 
 
-def _with(trace: Trace, met: Graph, wanted: Callable[[Graph], list[Pair]]) -> Trace:
-    """The trace, with the graph as it was when the nodes met, should they be gone by now."""
-    return replace(trace, graph=met) if wanted(met) and not wanted(trace.graph) else trace
+def _with_best_graph(trace: Trace, met: Graph, find_wanted: Callable[[Graph], list[Pair]]) -> Trace:
+    """The trace, with the earlier graph `met` if only that one has the wanted pairs: nodes may be gone by now."""
+    return replace(trace, graph=met) if find_wanted(met) and not find_wanted(trace.graph) else trace
 
 
 def _listen(run: Run, topics: Iterable[str]) -> frozenset[str]:
-    """Collect the messages of these topics; gives those whose type this ROS does not have."""
+    """Subscribe to these topics, and return those whose message type is not installed."""
     types = {each.topic: each.type for each in run.graph.publishers}
     return frozenset(topic for topic in topics if not run.watch(topic, types[topic]))
 
 
-def _wait_until_quiet(run: Run, hidden: frozenset[str]) -> bool:
-    """Whether there is a message on each shared topic, and whether its subscribers have logged it, or will not."""
+def _has_heard_enough(run: Run, hidden: frozenset[str]) -> bool:
+    """Whether the subscribers have logged a message, or have had enough time to."""
     found = pairs(run.graph)
     if any(logs_of_messages(pair, run.logs, run.samples_on(pair[0].topic)) for pair in found):
         return True
     samples = [sample for pair in found if pair[0].topic not in hidden for sample in run.samples_on(pair[0].topic)]
-    return not found or any(run.now() - sample.received_at > SILENT_S for sample in samples)
+    return not found or any(run.now() - sample.received_at > LOG_DELAY_S for sample in samples)
 
 
-def _topics(found: Iterable[Pair]) -> set[str]:
-    return {one.topic for one, _ in found}
+def _has_at_least(graph: Graph, expected: tuple[int, int, int]) -> bool:
+    return all(count >= least for count, least in zip(count_entities(graph), expected, strict=True))
 
 
-def _wait_at_least(graph: Graph, expected: tuple[int, int, int]) -> bool:
-    return all(here >= wanted for here, wanted in zip(count_entities(graph), expected, strict=True))
-
-
-def _name() -> str:
-    """A topic that no launch file can know beforehand."""
+def _random_topic() -> str:
+    """A random topic name, which no launch file can know in advance."""
     return f"topic_{random.randrange(1000, 9999)}"

@@ -1,6 +1,6 @@
-"""I2.2: the next step in the words of the learner's own file: its lines, and the names that it gives to values.
+"""I2.2: next steps that refer to lines and names of the learner's own file.
 
-The source only chooses the words; what is wrong has been seen of the launch.
+The source only determines the wording; the fault itself was observed in the launch.
 """
 
 from __future__ import annotations
@@ -32,32 +32,36 @@ from tutor.judge.step_parsing import NotAnEdit, apply_step
 from tutor.judge.verdict import Cause
 
 _NO_IMPORT = re.compile(r"\b(?:ImportError|ModuleNotFoundError)\b")
-_OWN_GROUP = "it acts on what comes after it in the same list only"
+_OWN_GROUP = "it only affects what comes after it in the same list"
 
 
 def nodes(source: Source) -> list[Call]:
-    """Where the file describes its nodes."""
+    """The calls that describe a node."""
     return source.calls("Node", "LifecycleNode")
 
 
-def rewrite_launch_file(there: Launch) -> str | None:
-    """The step that rewrites the launch description, with the file's own programs, or with those of the demos."""
-    return there.step(rewrite_description(there), rewrite_description(there, there.demo))
+def rewrite_launch_file(launch_file: Launch) -> str | None:
+    """The step that rewrites the launch description, with the file's own programs or else with the demo nodes."""
+    return launch_file.step(rewrite_description(launch_file), rewrite_description(launch_file, launch_file.demo))
 
 
-def with_applicable_step(there: Launch, cause: Cause, programs: Sequence[Program] = ()) -> Cause:
-    """The cause with a step that can be followed: where it is in words, the launch description is rewritten."""
+def with_applicable_step(launch_file: Launch, cause: Cause, programs: Sequence[Program] = ()) -> Cause:
+    """The cause with a hint that is an edit: a hint in prose is replaced by a rewritten launch description."""
     try:
-        apply_step(cause.hint, {there.path: there.file.text, **there.others})
+        apply_step(cause.hint, {launch_file.path: launch_file.file.text, **launch_file.others})
     except NotAnEdit:
-        step = there.step(fix_imports(there)) if _NO_IMPORT.search(cause.text) else None
-        step = step or (there.step(rewrite_description(there, programs)) if programs else rewrite_launch_file(there))
+        step = launch_file.step(fix_imports(launch_file)) if _NO_IMPORT.search(cause.text) else None
+        step = step or (
+            launch_file.step(rewrite_description(launch_file, programs))
+            if programs
+            else rewrite_launch_file(launch_file)
+        )
         return replace(cause, hint=step or cause.hint)
     return cause
 
 
 def value(source: Source, argument: str) -> str:
-    """How the file calls the argument's value: its variable, or the substitution itself."""
+    """The file's expression for the argument's value: a variable, or the substitution itself."""
     written = f"LaunchConfiguration('{argument}'"
     for target, set_to in source.assignments():
         if set_to.startswith(written) and set_to.endswith(")") and target.isidentifier():
@@ -66,13 +70,13 @@ def value(source: Source, argument: str) -> str:
 
 
 def declaration(argument: str) -> str:
-    """The declaration that such an argument needs."""
+    """The code that declares the argument."""
     return f"DeclareLaunchArgument('{argument}', default_value='{DEFAULTS.get(argument, '')}')"
 
 
-def diagnose_undeclared_argument(there: Launch, argument: str) -> Cause:
-    """A launch configuration is read that is not there, or not yet."""
-    source = there.source
+def diagnose_undeclared_argument(launch_file: Launch, argument: str) -> Cause:
+    """The cause where a launch configuration is read that does not exist, or does not exist yet."""
+    source = launch_file.source
     name = "launch argument not declared"
     early = next((call for call in source.calls("perform") if call.within == "generate_launch_description"), None)
     if early is not None:
@@ -80,25 +84,29 @@ def diagnose_undeclared_argument(there: Launch, argument: str) -> Cause:
         return Cause(
             "value read too early",
             f"{early.where} asks for the value while the launch is only being described: there is none yet",
-            rewrite_launch_file(there)
+            rewrite_launch_file(launch_file)
             or f"line {early.line}: {kept}{early.code.rpartition('.perform')[0]}, without .perform(...)",
         )
-    declared = _declared(source, argument)
-    listed = next(iter(source.calls("LaunchDescription")), None)
-    where = f" (line {listed.line})" if listed else ""
+    declared = _find_declarations(source, argument)
+    description = next(iter(source.calls("LaunchDescription")), None)
+    where = f" (line {description.line})" if description else ""
     if not declared:
         others = [call for call in source.calls("DeclareLaunchArgument") if not _is_read(source, call)]
         text = f"LaunchConfiguration('{argument}') is read, but no argument '{argument}' is declared"
         if others:
             other = others[0].argument(0, "name")
-            hint = _renamed(there, other.strip("'\""), argument) or f"name it '{argument}'"
+            hint = _rename_argument(launch_file, other.strip("'\""), argument) or f"name it '{argument}'"
             return Cause(name, f"{text}; line {others[0].line} declares {other}, which nothing reads", hint)
-        every = [each for each in dict.fromkeys([argument, *_read_bare(source)]) if not _declared(source, each)]
+        undeclared = [
+            each
+            for each in dict.fromkeys([argument, *_names_without_default(source)])
+            if not _find_declarations(source, each)
+        ]
         return Cause(
             name,
             text,
-            there.step(prepend_to_list(there, *map(there.declaration, every)))
-            or f"begin the list in LaunchDescription([...]){where} with: {', '.join(map(declaration, every))}",
+            launch_file.step(prepend_to_list(launch_file, *map(launch_file.declaration, undeclared)))
+            or f"begin the list in LaunchDescription([...]){where} with: {', '.join(map(declaration, undeclared))}",
         )
     made = declared[0]
     if made.kept and not source.uses(made.kept):
@@ -108,136 +116,150 @@ def diagnose_undeclared_argument(there: Launch, argument: str) -> Cause:
         return Cause(
             name,
             f"line {made.line} makes the argument '{argument}', but it is not in the launch description",
-            there.step(prepend_to_list(there, *left_out))
+            launch_file.step(prepend_to_list(launch_file, *left_out))
             or f"begin the list in LaunchDescription([...]){where} with: {', '.join(left_out)}",
         )
     return Cause(
         name,
         f"the argument '{argument}' is declared (line {made.line}) after the nodes that read its value",
-        f"move it to the front of the list in LaunchDescription([...]){where}: what is listed first is done first",
+        f"move it to the front of the list in LaunchDescription([...]){where}: its entries are executed in order",
     )
 
 
-def diagnose_missing_default(there: Launch, argument: str) -> Cause:
-    """A declared argument has no default, and none was given."""
-    bare = [call for call in there.calls("DeclareLaunchArgument") if argument_of(call, 1, "default_value") is None]
+def diagnose_missing_default(launch_file: Launch, argument: str) -> Cause:
+    """The cause where a declared argument has no default, and no value was given."""
+    bare = [
+        call for call in launch_file.calls("DeclareLaunchArgument") if argument_of(call, 1, "default_value") is None
+    ]
     names = [argument_of(call, 0, "name") for call in bare]
     edits = [
-        replace_node(there.file.text, call, there.declaration(str(name.value)))
+        replace_node(launch_file.file.text, call, launch_file.declaration(str(name.value)))
         for call, name in zip(bare, names, strict=True)
         if isinstance(name, ast.Constant)
     ]
     return Cause(
         "argument without a default",
         f"'{argument}' has no default_value, so that a launch without arguments is refused",
-        there.step(edits) or declaration(argument),
+        launch_file.step(edits) or declaration(argument),
     )
 
 
-def _declared(source: Source, argument: str) -> list[Call]:
+def _find_declarations(source: Source, argument: str) -> list[Call]:
     return [call for call in source.calls("DeclareLaunchArgument") if call.argument(0, "name") == f"'{argument}'"]
 
 
-def _read_bare(source: Source) -> list[str]:
-    """The names that are read without a default of their own."""
+def _names_without_default(source: Source) -> list[str]:
+    """The names that are read without a default in the LaunchConfiguration."""
     reads = [call for call in source.calls("LaunchConfiguration") if "default" not in call.named]
     return [call.argument(0, "variable_name").strip("'\"") for call in reads]
 
 
-def step_for_other_program(there: Launch, keyword: str, wrong: str, right: str) -> str | None:
-    """The step where a package or an executable is not called so, and `right` is."""
-    return there.step(replace_keyword(there, keyword, wrong, right))
+def step_for_other_program(launch_file: Launch, keyword: str, wrong: str, right: str) -> str | None:
+    """The step that replaces the name of a package or an executable by `right`."""
+    return launch_file.step(replace_keyword(launch_file, keyword, wrong, right))
 
 
-def step_for_empty_description(there: Launch) -> str | None:
-    """The step where a launch description has nothing to start in it."""
-    made = [node.kept for node in nodes(there.source) if node.kept and not there.source.uses(node.kept)]
-    return there.step(
-        remove_exits(there), return_opaque_actions(there), prepend_to_list(there, *made) if made else None
+def step_for_empty_description(launch_file: Launch) -> str | None:
+    """The step where the launch description is empty."""
+    made = [node.kept for node in nodes(launch_file.source) if node.kept and not launch_file.source.uses(node.kept)]
+    return launch_file.step(
+        remove_exits(launch_file),
+        return_opaque_actions(launch_file),
+        prepend_to_list(launch_file, *made) if made else None,
     )
 
 
-def step_for_missing_return(there: Launch) -> str | None:
+def step_for_missing_return(launch_file: Launch) -> str | None:
     """The step where generate_launch_description() returns nothing."""
-    return there.step(return_description(there))
+    return launch_file.step(return_description(launch_file))
 
 
-def step_for_other_function(there: Launch) -> str | None:
+def step_for_other_function(launch_file: Launch) -> str | None:
     """The step where no function is called generate_launch_description."""
-    return there.step(rename_function(there))
+    return launch_file.step(rename_function(launch_file))
 
 
-def step_for_other_name(there: Launch, argument: str, others: Sequence[str]) -> str | None:
-    """The step where an argument is called otherwise."""
+def step_for_other_name(launch_file: Launch, argument: str, others: Sequence[str]) -> str | None:
+    """The step that renames a similar argument among `others` to `argument`."""
     near = [other for other in others if len(others) == 1 or argument[:2] in other]
-    return next((step for each in near if (step := _renamed(there, each, argument))), None)
+    return next((step for each in near if (step := _rename_argument(launch_file, each, argument))), None)
 
 
-def _renamed(there: Launch, other: str, right: str) -> str | None:
-    return there.step(rename_argument(there, other, right))
+def _rename_argument(launch_file: Launch, other: str, right: str) -> str | None:
+    return launch_file.step(rename_argument(launch_file, other, right))
 
 
-def remap_nodes(there: Launch, name: str, *without: str) -> str | None:
-    """The step that gives every node the remapping, and leaves out other arguments."""
-    same = _declares(there, "topic") and len({each.topic for each in there.programs()}) < 2
-    values = (value(there.source, "topic"), there.value("topic")) if same else ()
-    return there.step(*(add_node_argument(there, "remappings", f"[('{name}', {each})]", *without) for each in values))
+def remap_nodes(launch_file: Launch, name: str, *without: str) -> str | None:
+    """The step that gives every node the remapping from `name`, and drops the arguments in `without`."""
+    same = _declares(launch_file, "topic") and len({each.topic for each in launch_file.programs()}) < 2
+    values = (value(launch_file.source, "topic"), launch_file.value("topic")) if same else ()
+    return launch_file.step(
+        *(add_node_argument(launch_file, "remappings", f"[('{name}', {each})]", *without) for each in values)
+    )
 
 
-def put_into_namespace(there: Launch, *without: str) -> str | None:
-    """The step that puts every node into the namespace, and leaves out other arguments."""
-    values = (value(there.source, "namespace"), there.value("namespace")) if _declares(there, "namespace") else ()
-    return there.step(*(add_node_argument(there, "namespace", each, *without) for each in values))
+def put_into_namespace(launch_file: Launch, *without: str) -> str | None:
+    """The step that puts every node into the namespace, and drops the arguments in `without`."""
+    values = (
+        (value(launch_file.source, "namespace"), launch_file.value("namespace"))
+        if _declares(launch_file, "namespace")
+        else ()
+    )
+    return launch_file.step(*(add_node_argument(launch_file, "namespace", each, *without) for each in values))
 
 
-def _declares(there: Launch, argument: str) -> bool:
-    return bool(there.declared(argument)) and not there.file.calls("PushRosNamespace", "PushROSNamespace", "SetRemap")
+def _declares(launch_file: Launch, argument: str) -> bool:
+    return bool(launch_file.declared(argument)) and not launch_file.file.calls(
+        "PushRosNamespace", "PushROSNamespace", "SetRemap"
+    )
 
 
-def step_for_early_text(there: Launch, name: str) -> str | None:
-    """The step where a substitution was made part of a text."""
-    source = there.source
+def step_for_early_text(launch_file: Launch, name: str) -> str | None:
+    """The step where a substitution was made part of a string."""
+    source = launch_file.source
     known = {target for target, set_to in source.assignments() if "LaunchConfiguration(" in set_to}
     for parts in source.texts():
         names = [part for part in parts if part in known or "LaunchConfiguration(" in part]
         if names:
-            return remap_nodes(there, name)
+            return remap_nodes(launch_file, name)
     return None
 
 
 def remapping(source: Source, name: str) -> str:
-    """What every node is to be given."""
+    """The keyword argument that every node needs for the remapping from `name`."""
     return f"remappings=[('{name}', {value(source, 'topic')})]"
 
 
 def with_own_names(source: Source, cause: Cause) -> Cause:
-    """The cause with what the file calls these classes, and with the import of what it does not have yet."""
+    """The cause with the file's own names for classes, and with the imports that the file lacks."""
     missing = []
 
-    def named(text: str) -> str:
-        return _CLASS.sub(lambda found: source.own(found[0]), text)
+    def with_own(text: str) -> str:
+        return _CLASS_NAME.sub(lambda found: source.own(found[0]), text)
 
     for name, module in _MODULES.items():
         known = source.own(name) != name or source.imports(name) or source.imports("*") or "import " in cause.hint
         if source.readable and not known and re.search(rf"(?<![\w.']){name}\(", cause.hint):
             missing.append(f"from {module} import {name}")
-    top = f"\nat the top of the file: {'; '.join(missing)}" if missing else ""
-    return Cause(cause.name, named(cause.text), named(cause.hint) + top)
+    imports = f"\nat the top of the file: {'; '.join(missing)}" if missing else ""
+    return Cause(cause.name, with_own(cause.text), with_own(cause.hint) + imports)
 
 
 _MODULES = {"LaunchConfiguration": "launch.substitutions", "DeclareLaunchArgument": "launch.actions"}
-_CLASS = re.compile(r"(?<![\w.'])(?:LaunchConfiguration|DeclareLaunchArgument|LaunchDescription|Node|SetRemap)(?=\()")
+_CLASS_NAME = re.compile(
+    r"(?<![\w.'])(?:LaunchConfiguration|DeclareLaunchArgument|LaunchDescription|Node|SetRemap)(?=\()"
+)
 
 
 def commands(source: Source) -> list[Call]:
-    """The processes that are started by a command instead of a Node(...)."""
+    """The ExecuteProcess(...) calls, if the file uses no Node(...)."""
     used = [node for node in nodes(source) if not node.kept or source.uses(node.kept)]
     return [] if used else source.calls("ExecuteProcess")
 
 
-def diagnose_split_command(there: Launch) -> Cause | None:
-    """Whether a command is given as one text, which is taken for the name of a program."""
-    source = there.source
+def diagnose_split_command(launch_file: Launch) -> Cause | None:
+    """Find a command given as a single string, which launch takes for the name of a program."""
+    source = launch_file.source
     for call in source.calls("ExecuteProcess"):
         try:
             words = ast.literal_eval(call.named.get("cmd", ""))
@@ -246,9 +268,9 @@ def diagnose_split_command(there: Launch) -> Cause | None:
         if isinstance(words, list) and len(words) == 1 and " " in str(words[0]) and "shell" not in call.named:
             return Cause(
                 "command in one piece",
-                f"line {call.line}: cmd={call.named['cmd']} asks for a program that is called '{words[0]}', blanks "
+                f"line {call.line}: cmd={call.named['cmd']} asks for a program that is called '{words[0]}', spaces "
                 "included",
-                rewrite_launch_file(there)
+                rewrite_launch_file(launch_file)
                 or "\n".join(
                     f"line {each.line}: cmd={each.named['cmd'][2:-2].split()!r}"
                     for each in source.calls("ExecuteProcess")
@@ -258,8 +280,8 @@ def diagnose_split_command(there: Launch) -> Cause | None:
     return None
 
 
-def _diagnose_command(there: Launch, cause: str, rule: str) -> Cause | None:
-    started = commands(there.source)
+def _diagnose_command(launch_file: Launch, cause: str, rule: str) -> Cause | None:
+    started = commands(launch_file.source)
     if not started:
         return None
     return Cause(
@@ -269,10 +291,12 @@ def _diagnose_command(there: Launch, cause: str, rule: str) -> Cause | None:
     )
 
 
-def diagnose_topic_argument(there: Launch, name: str) -> Cause | None:
-    """What the file does with the topic, where nothing of it reaches a node as a remapping from `name`."""
-    source = there.source
-    if (cause := _diagnose_command(there, "topic hard-coded", f"['{name}:=', {value(source, 'topic')}]")) is not None:
+def diagnose_topic_argument(launch_file: Launch, name: str) -> Cause | None:
+    """Find how the file uses the topic argument, if not in a remapping from `name`."""
+    source = launch_file.source
+    if (
+        cause := _diagnose_command(launch_file, "topic hard-coded", f"['{name}:=', {value(source, 'topic')}]")
+    ) is not None:
         return cause
     right, wanted = remapping(source, name), value(source, "topic")
     used = re.compile(rf"(?<!['\w]){re.escape(wanted)}(?!['\w])|LaunchConfiguration\('topic'")
@@ -282,9 +306,9 @@ def diagnose_topic_argument(there: Launch, name: str) -> Cause | None:
                 what = "a parameter" if keyword == "parameters" else "an argument"
                 return Cause(
                     f"topic given as {what}",
-                    f"the Node in line {node.line} gets {keyword}={node.named[keyword]}: the program knows no such "
-                    f"{what.split()[-1]}, and goes on using '{name}'; a topic gets another name by a remapping",
-                    remap_nodes(there, name, keyword) or right,
+                    f"the Node in line {node.line} gets {keyword}={node.named[keyword]}: the program has no such "
+                    f"{what.split()[-1]}, and keeps using '{name}'; a topic is renamed by a remapping",
+                    remap_nodes(launch_file, name, keyword) or right,
                 )
     for node in nodes(source):
         for keyword in ("arguments", "ros_arguments"):
@@ -293,13 +317,13 @@ def diagnose_topic_argument(there: Launch, name: str) -> Cause | None:
                     "topic hard-coded",
                     f"the Node in line {node.line} has {keyword}={node.named[keyword]}: a fixed text, not the "
                     "argument's value",
-                    remap_nodes(there, name, keyword) or right,
+                    remap_nodes(launch_file, name, keyword) or right,
                 )
     for call in source.calls("SetRemap"):
         return Cause(
             "remapping without effect",
-            f"{call.where}: {_OWN_GROUP}, and a node that is not there keeps its topic",
-            remap_nodes(there, name) or right,
+            f"{call.where}: {_OWN_GROUP}, and other nodes keep their topic",
+            remap_nodes(launch_file, name) or right,
         )
     for node in nodes(source):
         if "'topic'" in node.named.get("remappings", "") and not used.search(node.named["remappings"]):
@@ -307,16 +331,16 @@ def diagnose_topic_argument(there: Launch, name: str) -> Cause | None:
                 "topic hard-coded",
                 f"the Node in line {node.line} has remappings={node.named['remappings']}: 'topic' in quotation marks "
                 "is the text topic, not the argument's value",
-                remap_nodes(there, name) or right,
+                remap_nodes(launch_file, name) or right,
             )
     return None
 
 
-def diagnose_namespace_argument(there: Launch) -> Cause | None:
-    """What the file does with the namespace, where not every node is in it."""
-    source = there.source
+def diagnose_namespace_argument(launch_file: Launch) -> Cause | None:
+    """Find how the file uses the namespace argument, if not every node is in the namespace."""
+    source = launch_file.source
     wanted = value(source, "namespace")
-    if (cause := _diagnose_command(there, "namespace not used", f"['__ns:=/', {wanted}]")) is not None:
+    if (cause := _diagnose_command(launch_file, "namespace not used", f"['__ns:=/', {wanted}]")) is not None:
         return cause
     right = f"namespace={wanted}"
     pushed = next(iter(source.calls("PushRosNamespace", "PushROSNamespace")), None)
@@ -324,7 +348,7 @@ def diagnose_namespace_argument(there: Launch) -> Cause | None:
         return Cause(
             "namespace not used",
             f"{pushed.where}: {_OWN_GROUP}",
-            put_into_namespace(there) or right,
+            put_into_namespace(launch_file) or right,
         )
     used = re.compile(rf"(?<!['\w]){re.escape(wanted)}(?!['\w])|LaunchConfiguration\('namespace'")
     for node in nodes(source):
@@ -333,36 +357,36 @@ def diagnose_namespace_argument(there: Launch) -> Cause | None:
             return Cause(
                 "namespace not used",
                 f"the Node in line {node.line} has namespace={fixed}, which is a fixed text",
-                put_into_namespace(there) or right,
+                put_into_namespace(launch_file) or right,
             )
         for keyword in ("parameters", "arguments", "ros_arguments", "name", "remappings"):
             if not fixed and used.search(node.named.get(keyword, "")):
                 return Cause(
                     "namespace not used",
-                    f"the Node in line {node.line} has the namespace in {keyword}={node.named[keyword]}: that puts no "
-                    "node into it",
-                    put_into_namespace(there, keyword) or right,
+                    f"the Node in line {node.line} has the namespace in {keyword}={node.named[keyword]}: that does "
+                    "not put the node into it",
+                    put_into_namespace(launch_file, keyword) or right,
                 )
     return None
 
 
-def diagnose_missing_node(there: Launch, wanted: str) -> Cause | None:
-    """Why one of the nodes that the file describes, the `wanted` one, is not started."""
-    source = there.source
+def diagnose_missing_node(launch_file: Launch, missing: str) -> Cause | None:
+    """Find why a node that the file describes is not started. `missing`: "publisher" or "subscriber"."""
+    source = launch_file.source
     for node in nodes(source):
         if "condition" in node.named:
             return Cause(
-                f"no {wanted}",
+                f"no {missing}",
                 f"the Node in line {node.line} has condition={node.named['condition']}, which is not met",
                 f"leave condition=... out of the Node in line {node.line}",
             )
         if node.kept and not source.uses(node.kept):
-            listed = next(iter(source.calls("LaunchDescription")), node)
+            description = next(iter(source.calls("LaunchDescription")), node)
             return Cause(
-                f"no {wanted}",
-                f"{node.kept} (line {node.line}) is described, but is not in the list that LaunchDescription is given",
-                there.step(prepend_to_list(there, node.kept))
-                or f"put {node.kept} into the list in LaunchDescription([...]), line {listed.line}",
+                f"no {missing}",
+                f"{node.kept} (line {node.line}) is created, but is not in the list passed to LaunchDescription",
+                launch_file.step(prepend_to_list(launch_file, node.kept))
+                or f"put {node.kept} into the list in LaunchDescription([...]), line {description.line}",
             )
     for call in source.calls("OnProcessExit", "TimerAction", "OnExecutionComplete", "OnShutdown"):
         outer = next((each for each in source.calls("RegisterEventHandler") if call.code in each.code), call)
@@ -372,8 +396,8 @@ def diagnose_missing_node(there: Launch, wanted: str) -> Cause | None:
             "TimerAction": f"only after {call.argument(0, 'period')} s",
         }.get(call.name, "only later")
         return Cause(
-            f"no {wanted}",
-            f"line {call.line}: what {call.name} holds is started {when}",
+            f"no {missing}",
+            f"line {call.line}: the contents of {call.name} are started {when}",
             f"put {inner.strip('[]') or 'the node'} itself into the list in LaunchDescription([...]), instead of "
             f"{outer.name}(...) in line {outer.line}",
         )

@@ -1,4 +1,4 @@
-"""I2.3 Multi-Threaded Service: a slow service beside a fast timer that it must not hold up, and a clean end of both."""
+"""I2.3 Multi-Threaded Service: a slow service that must not block a fast timer, and a clean shutdown."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""I2.3: likely causes, by name."""
+"""I2.3: the likely causes of a failure."""
 
 from __future__ import annotations
 
@@ -19,15 +19,15 @@ from tutor.judge.verdict import Cause
 from tutor.judge.wording import shape
 from tutor.ros_model import ServiceEndpoint
 
-WHOLE = 0.75
-"""A timer that stands still for less than this share of a call is not held up by the call as a whole."""
+BLOCKED_SHARE = 0.75
+"""A timer that pauses for less than this share of a call is not blocked by the whole call."""
 
-REPEATED = 4
-"""Lines of one shape that are as many as this come from a timer."""
+MIN_REPEATS = 4
+"""At least this many lines of the same shape are taken for a timer's."""
 
 
 def diagnose_no_service(trace: Trace) -> Cause:
-    """Why the service is not there."""
+    """Why the service is missing."""
     if (broken := causes.diagnose_process(trace) or causes.diagnose_lifecycle(trace)) is not None:
         return broken
     offered = [s for s in trace.graph.servers if not s.is_standard]
@@ -40,14 +40,14 @@ def diagnose_no_service(trace: Trace) -> Cause:
                 or f"create it with AddTwoInts: self.create_service(AddTwoInts, '{SERVICE[1:]}', ...)",
             )
     same_type = [service for service in offered if service.type == TYPE]
-    if (unmatched := causes.diagnose_incompatible_service(_here(trace))) is not None:
+    if (unmatched := causes.diagnose_incompatible_service(_our_servers(trace))) is not None:
         return unmatched
     for service in same_type or offered:
         return Cause(
             "wrong service name",
             f"there is {service.name} instead of {SERVICE}",
             steps.fix_service(started_node(trace))
-            or f"name it '{SERVICE[1:]}', spelled like this, without a namespace or ~ in front",
+            or f"name it '{SERVICE[1:]}', spelled exactly like this, without a namespace or ~ in front",
         )
     return Cause(
         "service missing",
@@ -61,7 +61,7 @@ def diagnose_no_answer(seen: SingleCalls) -> Cause:
     """Why a call got no answer."""
     if (broken := causes.diagnose_process(seen.trace)) is not None:
         return broken
-    if (unmatched := causes.diagnose_incompatible_service(_here(seen.trace))) is not None:
+    if (unmatched := causes.diagnose_incompatible_service(_our_servers(seen.trace))) is not None:
         return unmatched
     if not seen.spins and (empty := steps.diagnose_node_not_added(started_node(seen.trace))) is not None:
         return empty
@@ -81,55 +81,55 @@ def diagnose_no_answer(seen: SingleCalls) -> Cause:
             if own
             else steps.fix_answer(started_node(seen.trace))
         )
-        or "let the callback wait 3 s, fill in response.sum and return the response; let nothing wait without a limit",
+        or "let the callback wait 3 s, fill in response.sum and return the response; never wait without a timeout",
     )
 
 
 def _with_step(cause: Cause, file: NodeFile) -> Cause:
-    """The cause, with the step that rewrites the callback, or all: it needs no more than one service and one timer."""
+    """The cause with the step that rewrites the callback, or else all: one service and one timer are all it needs."""
     return replace(cause, hint=steps.fix_answer(file) or cause.hint)
 
 
-def _here(trace: Trace) -> list[ServiceEndpoint]:
+def _our_servers(trace: Trace) -> list[ServiceEndpoint]:
     return [service for service in trace.graph.servers if service.name == SERVICE]
 
 
 def diagnose_wrong_sum(answer: CallAnswer, trace: Trace) -> Cause:
-    """What may be wrong with this answer."""
+    """Why the sum may be wrong."""
     assert answer.response is not None
     source = started_node(trace)
     if answer.took_s < SHORTEST_S and (early := steps.diagnose_early_answer(source)) is not None:
         return early
     step = steps.fix_answer(source) or "response.sum = request.a + request.b"
-    got, right = answer.response["sum"], right_sum(answer)
-    if got == 0:
+    actual, expected = answer.response["sum"], right_sum(answer)
+    if actual == 0:
         return Cause("wrong sum", "the sum is 0: was it put into response.sum?", step)
-    return Cause("wrong sum", f"{got} instead of {right}", step)
+    return Cause("wrong sum", f"{actual} instead of {expected}", step)
 
 
 def diagnose_exception(trace: Trace) -> Cause | None:
-    """The exception of the learner's that was seen in the run: it explains whatever fails."""
+    """The last uncaught exception of the learner's code in this run: it explains any failure."""
     found = tracebacks.last_traceback(trace)
     return causes.diagnose_traceback(found, trace) if found is not None and not found.ignored else None
 
 
-def diagnose_other_pace(alone: IdleRun, likely: Series | None) -> Cause:
-    """Why no 10 Hz timer was seen, though nobody called."""
-    if (broken := causes.diagnose_process(alone.trace)) is not None:
+def diagnose_other_pace(idle: IdleRun, likely: Series | None) -> Cause:
+    """Why no 10 Hz timer was seen while the service was idle."""
+    if (broken := causes.diagnose_process(idle.trace)) is not None:
         return broken
-    source = started_node(alone.trace)
+    source = started_node(idle.trace)
     if likely is None:
-        after = alone.ending.output if alone.ending else ()
-        lines = Counter(shape(line.text) for line in (*alone.trace.output, *after))
+        output_at_exit = idle.ending.output if idle.ending else ()
+        lines = Counter(shape(line.text) for line in (*idle.trace.output, *output_at_exit))
         printed = causes.diagnose_printed(
-            alone.trace, lambda text: lines[shape(text)] >= REPEATED, "what comes again and again", after=after
+            idle.trace, lambda text: lines[shape(text)] >= MIN_REPEATS, "the repeated message", after=output_at_exit
         )
         return (
             printed
             or steps.diagnose_no_ticks(source)
             or Cause(
                 "no timer messages",
-                "no log message comes back while nobody calls (debug messages are not shown)",
+                "no log message is repeated while nobody calls (debug messages are not shown)",
                 steps.rewrite_ticking(source)
                 or f"self.create_timer({1 / HZ:g}, self.tick, ...), and log every tenth tick's number at info",
             )
@@ -144,12 +144,12 @@ def diagnose_other_pace(alone: IdleRun, likely: Series | None) -> Cause:
         "wrong timer period",
         f"{likely.hz:.1f} messages per second, without a number that counts the ticks",
         steps.fix_period(source)
-        or f"let the timer have a period of {1 / HZ:g} s; if it logs every tenth tick only, put the tick's number in",
+        or f"give the timer a period of {1 / HZ:g} s; if it logs every tenth tick only, put the tick's number in",
     )
 
 
 def diagnose_disturbed_timer(seen: SingleCalls, timer: TimerPace) -> Cause:
-    """Why the timer does not go on during a call as it does outside one."""
+    """Why the timer does not keep its pace during a call."""
     if (broken := causes.diagnose_process(seen.trace)) is not None:
         return broken
     source = started_node(seen.trace)
@@ -166,7 +166,7 @@ def diagnose_disturbed_timer(seen: SingleCalls, timer: TimerPace) -> Cause:
             steps.separate_groups(source)
             or "give the timer a callback group of its own and the executor enough threads; let the service sleep",
         )
-    if timer.count > 1 and timer.longest_s < WHOLE * timer.for_s:
+    if timer.count > 1 and timer.longest_s < BLOCKED_SHARE * timer.for_s:
         return Cause(
             "timer pauses",
             f"the timer goes on during a call, but pauses for {timer.longest_s:.1f} s of it",
@@ -178,7 +178,7 @@ def diagnose_disturbed_timer(seen: SingleCalls, timer: TimerPace) -> Cause:
     if not seen.stuck:
         return Cause(
             names.BLOCKED_EXECUTOR,
-            "the timer stands still during a call",
+            "the timer stops during a call",
             steps.use_threads(source)
             or "use a MultiThreadedExecutor, and put the timer and the service into different callback groups",
         )
@@ -187,7 +187,7 @@ def diagnose_disturbed_timer(seen: SingleCalls, timer: TimerPace) -> Cause:
             return replace(locked, hint=steps.separate_groups(source) or locked.hint)
         return Cause(
             names.BLOCKED_EXECUTOR,
-            f"the timer stands still while the service works{where}: {steps.what_timer_waits_for(source)}",
+            f"the timer stops while the service works{where}: {steps.what_timer_waits_for(source)}",
             steps.separate_groups(source)
             or "give the timer a ReentrantCallbackGroup of its own, and the executor at least 2 threads: num_threads=4",
         )
@@ -199,15 +199,15 @@ def diagnose_disturbed_timer(seen: SingleCalls, timer: TimerPace) -> Cause:
     )
 
 
-def diagnose_lost_calls(trace: Trace, three: CallBatch, answered: Sequence[CallAnswer]) -> Cause:
-    """Why not every one of three calls at once got its own sum."""
+def diagnose_lost_calls(trace: Trace, batch: CallBatch, answered: Sequence[CallAnswer]) -> Cause:
+    """Why some of three concurrent calls did not get their own sum."""
     if (broken := causes.diagnose_process(trace)) is not None:
         return broken
     source = started_node(trace)
-    if len(answered) < len(three.answers):
+    if len(answered) < len(batch.answers):
         return Cause(
             "no answer",
-            f"{len(three.answers) - len(answered)} of {len(three.answers)} calls made at once got no answer",
+            f"{len(batch.answers) - len(answered)} of {len(batch.answers)} calls made at once got no answer",
             steps.fix_answer(source)
             or "let every call wait its turn or work beside the others, and return its response; refuse none",
         )

@@ -1,4 +1,4 @@
-"""I2.3: what is asked of the node, and the facts that are gathered."""
+"""I2.3: what the node must do, and the facts gathered about it."""
 
 from __future__ import annotations
 
@@ -17,37 +17,37 @@ SERVICE, TYPE = "/slow_add", "example_interfaces/srv/AddTwoInts"
 
 WORK_S = 3.0
 SHORTEST_S, LONGEST_S = 2.75, 3.4
-"""What counts as 3 s: thirty waits of 0.1 s may be 2.9 s or 3.2 s; neither 2.5 s nor 3.5 s is meant."""
+"""Accepted range for 3 s: thirty sleeps of 0.1 s may take 2.9 s or 3.2 s, but 2.5 s or 3.5 s are meant to differ."""
 
 EXCUSED_S = 0.5
-"""A busy machine may add this much to what a call takes."""
+"""Maximum delay of a call that is attributed to a busy machine."""
 
 NEGLIGIBLE_S = 0.2
-"""Seconds that a busy machine takes away without anybody being in doubt about the rest."""
+"""CPU wait, in seconds, that is too short to cast doubt on an observation."""
 
-MOST_EXCUSED_S = 1.0
-"""A timer may pause this much longer on a busy machine. With more, one that stands still for 3 s looks like another."""
+MAX_EXCUSED_PAUSE_S = 1.0
+"""A timer may pause this much longer on a busy machine. With more, one that is blocked for 3 s would pass."""
 
-ANSWER_S = 12.0
-"""A service that answers after some other time than 3 s gets that as its cause, up to this one."""
+ANSWER_TIMEOUT_S = 12.0
+"""Timeout of a call: a service that answers later than 3 s, but within this time, is reported as too slow."""
 
 CALLS = 3
-PARALLEL = 1.5
-"""Three calls at once take less than this many times one call where they run in parallel."""
+PARALLEL_RATIO = 1.5
+"""Three concurrent calls that run in parallel take less than this many times one call."""
 
-SLOWED_AT_MOST = 1.2
-"""Calls that took more only because the machine was busy, and less than this many times one without, tell nothing."""
+INCONCLUSIVE_RATIO = 1.2
+"""Concurrent calls are inconclusive if, without the CPU wait, they took less than this many times one call."""
 
-IN_TURN = 2.6
-"""Three calls that take more than this many times one were made one after another, however busy the machine is."""
+SEQUENTIAL_RATIO = 2.6
+"""Three calls that take more than this many times one ran one after another, however busy the machine is."""
 
 
 @dataclass(frozen=True)
 class IdleRun:
-    """A start without any call: what the timer logs by itself, and how Ctrl+C ends an idle node.
+    """A run without any call: the timer's log messages, and the shutdown of an idle node.
 
-    `series` are the ways to see the timer's log messages: all those of 10 Hz, or the likeliest of another pace, or
-    none. `excused`: the pace means nothing, the machine was too busy.
+    `series`: the possible readings of the timer's log messages: all those of 10 Hz, else the likeliest one of another
+    pace, if any. `excused`: the machine was too busy for the pace to mean anything.
     """
 
     trace: Trace
@@ -58,10 +58,10 @@ class IdleRun:
 
 @dataclass(frozen=True)
 class Call:
-    """One call, made while no other was.
+    """One call, with no other call at the same time.
 
-    `until`: how long the node was listened to after it (seconds since the epoch); `cpu_wait_s`: seconds of the call in
-    which the machine kept the node, or us, who wait for its answer, from running.
+    `until`: the end of listening to the node after the call (seconds since the epoch); `cpu_wait_s`: how long, during
+    the call, the node or our process waited for the CPU.
     """
 
     answer: CallAnswer
@@ -70,29 +70,29 @@ class Call:
 
     @property
     def in_time(self) -> bool:
-        """Whether it was answered, and not too late. No machine is so busy that 4 s become 3 s."""
+        """Whether the answer came, and not too late. However busy the machine, a call of 4 s is too slow."""
         limit_s = LONGEST_S + min(self.cpu_wait_s, EXCUSED_S)
         return self.answer.response is not None and self.answer.took_s <= limit_s
 
     @property
-    def near(self) -> bool:
-        """Whether it was answered almost in time, so that a busy machine may be what made it late."""
+    def nearly_in_time(self) -> bool:
+        """Whether the answer was so little late that a busy machine may be the reason."""
         return self.answer.response is not None and self.answer.took_s <= LONGEST_S + 2 * EXCUSED_S
 
     @property
     def busy(self) -> bool:
-        """Whether the machine was so busy meanwhile that what was late may have been on time."""
+        """Whether the machine was busy enough during the call to have made the answer late."""
         return self.cpu_wait_s >= CPU_WAIT_SHARE * self.answer.took_s
 
 
 @dataclass(frozen=True)
 class SingleCalls:
-    """Single calls: one, or more where the first was disturbed; none where the service was not there.
+    """Single calls: one, or more if the first was disturbed; none if there was no service.
 
-    `later` are those made for a second time, with large numbers, where nothing was wrong with the first. `stuck`: where
-    the node's threads are during a call (innermost frames first), looked up where the call was not answered or the
-    timer stood still; `spins`: whether the node answered anything at all then. `idle`: what the timer does without a
-    call, where the first call and its repetitions are told of before all is over.
+    `later`: the second call, with large numbers, and its repetitions; only made if nothing was wrong with the first.
+    `stuck`: the stack dump of the node's threads during a call (innermost frames first), taken if the call was not
+    answered or the timer paused; `spins`: whether the node answered any request then. `idle`: the run without calls,
+    if the first call is reported before the scenario has ended.
     """
 
     trace: Trace
@@ -104,27 +104,27 @@ class SingleCalls:
 
     @property
     def first_and_later(self) -> tuple[SingleCalls, ...]:
-        """The first call and the second one, each with its repetitions, to be judged for itself."""
+        """The first call and the second one, each with its repetitions, to be judged separately."""
         first = replace(self, later=())
         return (first, replace(first, calls=self.later)) if self.later else (first,)
 
     @property
     def quickest(self) -> Call | None:
-        """The answered call that took the least time: whatever the machine adds, it is the nearest to the truth."""
+        """The answered call that took the least time, and so was delayed least by the machine."""
         answered = [call for call in self.calls if call.answer.response is not None]
         return min(answered, key=lambda call: call.answer.took_s, default=None)
 
 
 @dataclass(frozen=True)
 class CallBatch:
-    """Three calls made at once, and the seconds in which the machine kept the node, or us, from running meanwhile."""
+    """Three concurrent calls. `cpu_wait_s`: how long, during them, the node or our process waited for the CPU."""
 
     answers: tuple[CallAnswer, ...]
     cpu_wait_s: float = 0.0
 
     @property
-    def right(self) -> int:
-        """How many were answered with their own sum."""
+    def correct_count(self) -> int:
+        """The number of calls answered with their own sum."""
         return sum(each.response is not None and each.response["sum"] == right_sum(each) for each in self.answers)
 
     @property
@@ -133,28 +133,28 @@ class CallBatch:
         return max(a.answered_at for a in self.answers) - min(a.asked_at for a in self.answers)
 
     def may_be_slowed(self, one_s: float) -> bool:
-        """Whether a busy machine alone may be why they took longer than one call, which takes `one_s` seconds."""
-        return self.took_s < IN_TURN * one_s and self.took_s - self.cpu_wait_s < SLOWED_AT_MOST * one_s
+        """Whether a busy machine may be the only reason that they took longer than one call of `one_s` seconds."""
+        return self.took_s < SEQUENTIAL_RATIO * one_s and self.took_s - self.cpu_wait_s < INCONCLUSIVE_RATIO * one_s
 
 
 @dataclass(frozen=True)
 class ConcurrentCalls:
-    """Three calls at once, made again where the machine may have held them up; not made where there was no service."""
+    """Batches of three concurrent calls: several if the machine may have delayed them, none if there was no service."""
 
     trace: Trace
     batches: tuple[CallBatch, ...] = ()
 
     def is_conclusive(self, one_s: float) -> bool:
-        """Whether they show how the node serves calls at once, however busy the machine was.
+        """Whether the batches show how the node serves concurrent calls, however busy the machine was.
 
-        What held up the first time only may have been the first connection.
+        The first batch is left out if there are others: connecting may have delayed it.
         """
-        return not all(three.may_be_slowed(one_s) for three in self.batches[1:] or self.batches)
+        return not all(batch.may_be_slowed(one_s) for batch in self.batches[1:] or self.batches)
 
 
 @dataclass(frozen=True)
 class Interrupted:
-    """Ctrl+C during a call. `called`: whether there was a service to call."""
+    """A run with Ctrl+C during a call. `called`: whether there was a service to call."""
 
     trace: Trace
     called: bool
@@ -162,37 +162,37 @@ class Interrupted:
 
 
 def has_service(services: Sequence[ServiceEndpoint]) -> bool:
-    """Whether the service is there, with its type."""
+    """Whether the service exists, with the right type."""
     return any(service.name == SERVICE and service.type == TYPE for service in services)
 
 
 def right_sum(answer: CallAnswer) -> int:
-    """What the service must answer."""
+    """The sum that the service must answer with."""
     return int(answer.request["a"]) + int(answer.request["b"])
 
 
 def is_disturbed(logs: Sequence[LogRecord], call: Call, series: Sequence[Series]) -> bool:
-    """Whether no way to see the timer's messages lets them go on as they should during this call."""
+    """Whether the timer's messages lose their pace during this call in every possible reading of them."""
     right = [each for each in series if each.is_10_hz]
     return bool(right) and all(timer_during_call(each, logs, call).fault for each in right)
 
 
 def is_doubtful(logs: Sequence[LogRecord], call: Call, series: Sequence[Series]) -> bool:
-    """Whether the timer seems undisturbed during this call only because a busy machine excuses much."""
+    """Whether the timer only counts as undisturbed during this call because the machine was busy."""
     if call.cpu_wait_s <= NEGLIGIBLE_S or is_disturbed(logs, call, series):
         return False
     return is_disturbed(logs, replace(call, cpu_wait_s=NEGLIGIBLE_S), series)
 
 
 def is_excused(logs: Sequence[LogRecord], call: Call, series: Sequence[Series]) -> bool:
-    """Whether a busy machine may be what disturbed the timer: had it lost twice the time, all would be well."""
+    """Whether a busy machine may have disturbed the timer: its pace is acceptable with twice the CPU wait."""
     right = [each for each in series if each.is_10_hz]
     return call.busy and any(_timer_during_call(each, logs, call, 2 * call.cpu_wait_s).fault is None for each in right)
 
 
 def timer_during_call(series: Series, logs: Sequence[LogRecord], call: Call) -> TimerPace:
-    """What was seen of the timer during this call."""
-    return _timer_during_call(series, logs, call, min(call.cpu_wait_s, MOST_EXCUSED_S))
+    """The timer's pace during this call."""
+    return _timer_during_call(series, logs, call, min(call.cpu_wait_s, MAX_EXCUSED_PAUSE_S))
 
 
 def _timer_during_call(series: Series, logs: Sequence[LogRecord], call: Call, cpu_wait_s: float) -> TimerPace:

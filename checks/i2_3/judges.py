@@ -1,4 +1,4 @@
-"""I2.3: what must have been seen."""
+"""I2.3: the verdict on each criterion."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from checks.i2_3.facts import (
     CALLS,
     EXCUSED_S,
     LONGEST_S,
-    PARALLEL,
+    PARALLEL_RATIO,
     SERVICE,
     SHORTEST_S,
     TYPE,
@@ -38,20 +38,20 @@ from tutor.judge.trace import CallAnswer, Trace
 from tutor.judge.verdict import Cause, Status, Undecided, Verdict, failed, passed, skipped, undecided
 
 
-def judge_blocks(seen: SingleCalls, several: ConcurrentCalls) -> Verdict:
-    # Where calls at once do not get their sums either, it is `concurrent` that tells so.
-    alike = any(three.right < CALLS for three in several.batches[:1])
-    verdict = _judge_answer(replace(seen, later=())) if alike else _of_both(seen, _judge_answer)
-    return _followed(verdict, seen.trace)
+def judge_blocks(seen: SingleCalls, concurrent: ConcurrentCalls) -> Verdict:
+    # If concurrent calls get wrong sums, too, `concurrent` reports that: judge only the first call here.
+    concurrent_wrong = any(batch.correct_count < CALLS for batch in concurrent.batches[:1])
+    verdict = _judge_answer(replace(seen, later=())) if concurrent_wrong else _judge_both_calls(seen, _judge_answer)
+    return _with_applicable_step(verdict, seen.trace)
 
 
 def judge_blocks_so_far(seen: SingleCalls) -> Verdict | None:
-    """Judge `blocks` by the first call and its repetitions, if any was answered."""
-    return _followed(_judge_answer(seen), seen.trace) if seen.quickest is not None else None
+    """Judge `blocks` by the calls so far, if any was answered."""
+    return _with_applicable_step(_judge_answer(seen), seen.trace) if seen.quickest is not None else None
 
 
-def _followed(verdict: Verdict, trace: Trace) -> Verdict:
-    """The verdict with a step that can be followed: where it is in words, all that it may be due to is rewritten."""
+def _with_applicable_step(verdict: Verdict, trace: Trace) -> Verdict:
+    """The verdict with a hint that is an edit: a hint in prose is replaced by one that rewrites everything relevant."""
     if verdict.status is not Status.FAILED:
         return verdict
     try:
@@ -61,13 +61,13 @@ def _followed(verdict: Verdict, trace: Trace) -> Verdict:
     return verdict
 
 
-def _of_both(seen: SingleCalls, judge: Callable[[SingleCalls], Verdict]) -> Verdict:
-    """The verdict on the first call, unless the second one is not as good as it."""
+def _judge_both_calls(seen: SingleCalls, judge: Callable[[SingleCalls], Verdict]) -> Verdict:
+    """The verdict on the first call, unless that passed and the second call fails."""
     first, *later = seen.first_and_later
     verdict = judge(first)
     for each in later if verdict.passed else ():
         second = judge(each)
-        if not second.passed and not isinstance(second, Undecided):  # the first call has shown it
+        if not second.passed and not isinstance(second, Undecided):  # if undecided, the first call counts
             return replace(second, observed=f"the second call: {second.observed}")
     return verdict
 
@@ -95,133 +95,133 @@ def _judge_answer_alone(seen: SingleCalls) -> Verdict:
     for call in seen.calls:
         answer = call.answer
         if answer.response is not None and answer.response["sum"] != right_sum(answer):
-            return failed(expected, _told(answer), why.diagnose_wrong_sum(answer, seen.trace))
+            return failed(expected, _describe_answer(answer), why.diagnose_wrong_sum(answer, seen.trace))
     source = started_node(seen.trace)
-    told, took = _told(best.answer), f"the work takes {best.answer.took_s:.1f} s"
+    observed, took = _describe_answer(best.answer), f"the work takes {best.answer.took_s:.1f} s"
     if best.answer.took_s < SHORTEST_S:
         if (early := steps.diagnose_early_answer(source)) is not None:
-            return failed(expected, told, early)
+            return failed(expected, observed, early)
         step = steps.fix_work_time(source) or "let the callback wait: time.sleep(3.0), then answer"
-        return failed(expected, told, Cause("too quick", took, step))
+        return failed(expected, observed, Cause("too quick", took, step))
     if not best.in_time:
-        if best.near and all(call.busy for call in seen.calls):
+        if best.nearly_in_time and all(call.busy for call in seen.calls):
             return undecided("to time the service")
         step = steps.fix_work_time(source) or "let the callback wait 3 s once, then answer"
-        return failed(expected, told, Cause("too slow", took, step))
-    return passed(expected, told)
+        return failed(expected, observed, Cause("too slow", took, step))
+    return passed(expected, observed)
 
 
-def _told(answer: CallAnswer) -> str:
+def _describe_answer(answer: CallAnswer) -> str:
     if answer.response is None:
         return f"{answer.request['a']} + {answer.request['b']}: no answer"
     sum_ = answer.response["sum"]
     return f"{answer.request['a']} + {answer.request['b']} = {sum_} after {answer.took_s:.2f} s"
 
 
-def judge_timer(alone: IdleRun, seen: SingleCalls) -> Verdict:
-    return _followed(_of_both(seen, partial(_judge_timer, alone)), alone.trace)
+def judge_timer(idle: IdleRun, seen: SingleCalls) -> Verdict:
+    return _with_applicable_step(_judge_both_calls(seen, partial(_judge_timer, idle)), idle.trace)
 
 
-def judge_idle_timer(alone: IdleRun) -> Verdict | None:
-    """Judge `timer` by what it does while nobody calls, if it has another pace then."""
-    likely = best_series(alone.series)
+def judge_idle_timer(idle: IdleRun) -> Verdict | None:
+    """Judge `timer` by the run without calls, if its pace is wrong even then."""
+    likely = best_series(idle.series)
     if likely is None or likely.is_10_hz:
         return None
-    return _followed(_judge_timer(alone, SingleCalls(alone.trace)), alone.trace)
+    return _with_applicable_step(_judge_timer(idle, SingleCalls(idle.trace)), idle.trace)
 
 
 def judge_timer_so_far(seen: SingleCalls) -> Verdict | None:
-    """Judge `timer` by the first call, when no more is to be made of it."""
+    """Judge `timer` by the first call and its repetitions, unless the stack dump is still needed for the cause."""
     if seen.idle is None or seen.quickest is None:
         return None
     verdict = _judge_timer(seen.idle, seen)
-    # Where it stands still, it is about to be looked up where the threads are.
-    return None if verdict.cause.startswith(names.BLOCKED_EXECUTOR) else _followed(verdict, seen.idle.trace)
+    # For a blocked timer, `call_singly` is about to take a stack dump.
+    return None if verdict.cause.startswith(names.BLOCKED_EXECUTOR) else _with_applicable_step(verdict, seen.idle.trace)
 
 
-def _judge_timer(alone: IdleRun, seen: SingleCalls) -> Verdict:
+def _judge_timer(idle: IdleRun, seen: SingleCalls) -> Verdict:
     expected = (
         f"the timer of {HZ:g} Hz (±{TOLERANCE:.0%}) logs during a call at the pace it has outside one, without a gap "
         "or a burst"
     )
-    likely = best_series(alone.series)
+    likely = best_series(idle.series)
     if likely is None or not likely.is_10_hz:
-        if alone.excused:
+        if idle.excused:
             return undecided("to measure the timer")
         observed = f"outside a call: {likely}" if likely else "outside a call, the node logs nothing repeatedly"
-        evidence = [tick.text for tick in likely.ticks[:4]] if likely else causes.output_tail(alone.trace)
+        evidence = [tick.text for tick in likely.ticks[:4]] if likely else causes.output_tail(idle.trace)
         silent = likely is None and bool(seen.calls) and not seen.spins
-        cause = why.diagnose_no_answer(seen) if silent else why.diagnose_other_pace(alone, likely)
+        cause = why.diagnose_no_answer(seen) if silent else why.diagnose_other_pace(idle, likely)
         return failed(expected, observed, cause, evidence)
     if not seen.calls:
         return skipped("not judged, because there was no call to listen during: `blocks` did not pass")
-    right = [series for series in alone.series if series.is_10_hz]
+    right = [series for series in idle.series if series.is_10_hz]
     calls = [call for call in seen.calls if not is_doubtful(seen.trace.logs, call, right)] or seen.calls
     found = [(series, timer_during_call(series, seen.trace.logs, call)) for call in calls for series in right]
-    series, call = next(
-        ((series, call) for series, call in found if not call.fault),
+    series, pace = next(
+        ((series, pace) for series, pace in found if not pace.fault),
         next(each for each in reversed(found) if each[0] == likely),
     )
     texts = [log.text for log in seen.trace.logs if series.key.of(log)]
-    observed = f"outside: {series}; {_heard(call, series)}"
+    observed = f"outside: {series}; {_describe_pace(pace, series)}"
     if seen.trace.exit is not None:
         observed = f"{observed}; then the process ended by itself with {seen.trace.exit}"
-        return failed(expected, observed, why.diagnose_disturbed_timer(seen, call), causes.output_tail(seen.trace))
-    if call.fault is None:
+        return failed(expected, observed, why.diagnose_disturbed_timer(seen, pace), causes.output_tail(seen.trace))
+    if pace.fault is None:
         return passed(expected, observed, texts[:6])
     if is_excused(seen.trace.logs, calls[-1], right):
         return undecided("to listen to the timer")
-    return failed(expected, observed, why.diagnose_disturbed_timer(seen, call), texts[-6:])
+    return failed(expected, observed, why.diagnose_disturbed_timer(seen, pace), texts[-6:])
 
 
-def _heard(call: TimerPace, series: Series) -> str:
-    pace = f", {call.hz:.1f} ticks/s" if call.hz is not None and call.fault is not Fault.GAP else ""
+def _describe_pace(pace: TimerPace, series: Series) -> str:
+    rate = f", {pace.hz:.1f} ticks/s" if pace.hz is not None and pace.fault is not Fault.GAP else ""
     return (
-        f"during the call of {call.for_s:.1f} s: {call.count} messages{pace}, the longest pause {call.longest_s:.2f} s "
+        f"during the call of {pace.for_s:.1f} s: {pace.count} messages{rate}, the longest pause {pace.longest_s:.2f} s "
         f"(outside {series.longest_s:.2f} s)"
     )
 
 
-def judge_concurrent(seen: ConcurrentCalls, one: SingleCalls | None = None) -> Verdict:
+def judge_concurrent(seen: ConcurrentCalls, single: SingleCalls | None = None) -> Verdict:
     expected = "three calls made at once are all answered, each with its own sum"
     if not seen.batches:
         return skipped(f"not judged, because there is no {SERVICE}: `blocks` did not pass")
-    three = seen.batches[0]
-    told = [_told(answer) for answer in sorted(three.answers, key=lambda answer: answer.answered_at)]
-    if three.right == CALLS:
-        return passed(expected, f"all {CALLS} within {three.took_s:.2f} s", told)
-    answered = [answer for answer in three.answers if answer.response is not None]
-    observed = f"{three.right} of {CALLS} right, {CALLS - len(answered)} not answered"
-    never = one is not None and bool(one.calls) and one.quickest is None and not answered
+    batch = seen.batches[0]
+    answers = [_describe_answer(answer) for answer in sorted(batch.answers, key=lambda answer: answer.answered_at)]
+    if batch.correct_count == CALLS:
+        return passed(expected, f"all {CALLS} within {batch.took_s:.2f} s", answers)
+    answered = [answer for answer in batch.answers if answer.response is not None]
+    observed = f"{batch.correct_count} of {CALLS} right, {CALLS - len(answered)} not answered"
+    never_answers = single is not None and bool(single.calls) and single.quickest is None and not answered
     cause = (
-        why.diagnose_no_answer(one)
-        if one is not None and never and seen.trace.exit is None
-        else why.diagnose_lost_calls(seen.trace, three, answered)
+        why.diagnose_no_answer(single)
+        if single is not None and never_answers and seen.trace.exit is None
+        else why.diagnose_lost_calls(seen.trace, batch, answered)
     )
-    return _followed(failed(expected, observed, cause, told), seen.trace)
+    return _with_applicable_step(failed(expected, observed, cause, answers), seen.trace)
 
 
 def judge_concurrent_so_far(seen: ConcurrentCalls) -> Verdict | None:
-    """Judge `concurrent` by itself: where none is answered, the single calls tell more of the cause."""
-    answered = any(answer.response is not None for three in seen.batches[:1] for answer in three.answers)
+    """Judge `concurrent` by itself, unless no call was answered: then the single calls explain the cause better."""
+    answered = any(answer.response is not None for batch in seen.batches[:1] for answer in batch.answers)
     return judge_concurrent(seen) if answered else None
 
 
-def judge_parallel(one: SingleCalls, several: ConcurrentCalls) -> Verdict:
-    expected = f"three calls at once take less than {PARALLEL:g} times one call"
-    alone = one.quickest
-    assert alone is not None  # it was answered: `blocks` passed
-    one_s = alone.answer.took_s
-    best = min(several.batches, key=lambda three: three.took_s)
+def judge_parallel(single: SingleCalls, concurrent: ConcurrentCalls) -> Verdict:
+    expected = f"three calls at once take less than {PARALLEL_RATIO:g} times one call"
+    quickest = single.quickest
+    assert quickest is not None  # it was answered: `blocks` passed
+    one_s = quickest.answer.took_s
+    best = min(concurrent.batches, key=lambda batch: batch.took_s)
     observed = f"one call {one_s:.2f} s, three at once {best.took_s:.2f} s ({best.took_s / one_s:.1f} times)"
-    if any(three.took_s < PARALLEL * one_s + min(three.cpu_wait_s, EXCUSED_S) for three in several.batches):
+    if any(batch.took_s < PARALLEL_RATIO * one_s + min(batch.cpu_wait_s, EXCUSED_S) for batch in concurrent.batches):
         return passed(expected, observed)
-    if not several.is_conclusive(one_s):
+    if not concurrent.is_conclusive(one_s):
         return undecided("to time three calls at once")
     cause = Cause(
         "one call at a time",
         "the calls wait for each other",
-        steps.allow_overlap(started_node(several.trace))
+        steps.allow_overlap(started_node(concurrent.trace))
         or "put the service into a ReentrantCallbackGroup, and give the executor threads enough: num_threads=8",
     )
     return failed(expected, observed, cause)

@@ -1,4 +1,4 @@
-"""I2.3: how long to listen to a node, so that its timer can be recognised."""
+"""I2.3: how long to listen to a node until its timer can be recognised."""
 
 from __future__ import annotations
 
@@ -11,46 +11,48 @@ from tutor.judge.rates import TOLERANCE
 from tutor.judge.trace import CallAnswer, LogRecord
 from tutor.judge.waiting import IDLE_S, IN_FLIGHT_S
 
-UP_S = 1.5
-"""What a node logs later than this after its first sign of life is not a greeting."""
+STARTUP_S = 1.5
+"""Messages logged later than this after the first one are not part of the node's startup."""
 
 LISTEN_S = 6.5
-"""Time enough to see that what comes is of another pace, or that nothing comes, not even from a tick in fifty."""
+"""Long enough to recognise a wrong pace, or a silent timer: even one that logs every fiftieth tick would be heard."""
 
 RARE_S = 12.0
-"""Time enough for a second message of a timer that logs every fiftieth tick."""
+"""Long enough for a second message of a timer that logs every fiftieth tick."""
 
-LOOK_EVERY_S = 0.1
+ANALYSIS_INTERVAL_S = 0.1
+"""Minimum interval between analyses of the logs, which would be costly for each message of a flood."""
 
 
 def logs_since(logs: Sequence[LogRecord], since: float) -> Sequence[LogRecord]:
-    """What was logged from then on: what a node logs of its own start, however steadily, comes from no timer."""
+    """The messages logged from `since` on: those of the node's startup, however regular, are no timer's."""
     return [log for log in logs if log.stamp >= since]
 
 
 async def listen(run: Run, since: float, is_up: Callable[[], bool]) -> None:
-    """Wait until the logs `since` then tell all about the timer. It is given time from when the node `is_up`."""
-    up_at, lost_s = run.now(), run.node_cpu_wait_s() + run.our_cpu_wait_s()
-    was_up, looked_at, enough = is_up(), 0.0, False
+    """Wait until the logs from `since` on show the timer's pace. The timeout starts once the node `is_up`."""
+    up_at, waited_before_s = run.now(), run.node_cpu_wait_s() + run.our_cpu_wait_s()
+    was_up, analysed_at, enough = is_up(), 0.0, False
 
     def seen_enough() -> bool:
-        nonlocal up_at, was_up, looked_at, enough
+        nonlocal up_at, was_up, analysed_at, enough
         if not was_up and is_up():
             up_at, was_up = run.now(), True
-        if run.now() - looked_at >= LOOK_EVERY_S:  # not at each of a thousand messages
-            looked_at = run.now()
+        if run.now() - analysed_at >= ANALYSIS_INTERVAL_S:
+            analysed_at = run.now()
             logs = logs_since(run.logs, since)
             enough = (
-                _told(logs)
-                or run.now() - up_at > _patience_s(logs) + run.node_cpu_wait_s() + run.our_cpu_wait_s() - lost_s
+                _is_pace_known(logs)
+                or run.now() - up_at
+                > _patience_s(logs) + run.node_cpu_wait_s() + run.our_cpu_wait_s() - waited_before_s
             )
         return enough
 
     await run.until(seen_enough, 2 * RARE_S, idle_s=IDLE_S)
 
 
-def _told(logs: Sequence[LogRecord]) -> bool:
-    """Whether a timer of 10 Hz has been seen for long enough to know its pace."""
+def _is_pace_known(logs: Sequence[LogRecord]) -> bool:
+    """Whether a 10 Hz timer has been observed long enough to be sure of its pace."""
     return any(
         series.is_10_hz and (series.span_s >= 3.5 or (series.span_s >= 1.8 and len(series.ticks) > 2))
         for series in all_series(logs)
@@ -58,21 +60,21 @@ def _told(logs: Sequence[LogRecord]) -> bool:
 
 
 def _patience_s(logs: Sequence[LogRecord]) -> float:
-    """How long to listen. A late message that nothing explains may be the first of a timer that logs rarely."""
-    often = [series for series in all_series(logs) if len(series.ticks) > 2]
-    late = [log for log in logs if log.stamp - logs[0].stamp > UP_S]
-    if any(not any(series.key.of(log) for series in often) for log in late):
+    """How long to listen. A late message that belongs to no series may be the first of a timer that logs rarely."""
+    frequent = [series for series in all_series(logs) if len(series.ticks) > 2]
+    late = [log for log in logs if log.stamp - logs[0].stamp > STARTUP_S]
+    if any(not any(series.key.of(log) for series in frequent) for log in late):
         return RARE_S
     return LISTEN_S
 
 
 def may_be_10_hz(series: Series, share: float) -> bool:
-    """Whether a timer of 10 Hz looks like this where the machine kept it from running for this share of the time."""
+    """Whether this may be a 10 Hz timer whose node waited for the CPU for this share of the time."""
     return series.hz < HZ and series.hz / max(0.05, 1 - share) >= (1 - TOLERANCE) * HZ
 
 
 async def next_tick(run: Run, series: Sequence[Series], answer: CallAnswer) -> None:
-    """Wait for the first of the timer's messages after the call, and for others that come with it."""
+    """Wait for the timer's first message after the call, and for others that arrive together with it."""
     if not series:
         return
 
@@ -81,5 +83,5 @@ async def next_tick(run: Run, series: Sequence[Series], answer: CallAnswer) -> N
         return any(log.stamp > answer.answered_at and any(each.key.of(log) for each in series) for log in late)
 
     await run.until(seen_enough, 1.3 * min(10.0, max(each.longest_s for each in series)) + 1.0)
-    last = run.now() + 2 * IN_FLIGHT_S
-    await run.until(lambda: run.now() >= last, 1.0)
+    deadline = run.now() + 2 * IN_FLIGHT_S
+    await run.until(lambda: run.now() >= deadline, 1.0)

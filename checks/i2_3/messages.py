@@ -1,6 +1,6 @@
-"""I2.3: log messages, read for what those of one timer have in common.
+"""I2.3: features of log messages that those of one timer have in common.
 
-Where a message comes from counts beside its words: what one function logs may be worded in many ways.
+Not only the wording counts, but also the origin: one function may word its messages in many ways.
 """
 
 from __future__ import annotations
@@ -12,19 +12,19 @@ from functools import lru_cache
 from tutor.judge.trace import LogRecord
 from tutor.judge.wording import shape
 
-KEPT = 8000
-"""This many texts are read once only: a flood is looked at again and again."""
+CACHE_SIZE = 8000
+"""Number of parsed texts to cache: a flood of messages is analysed repeatedly."""
 
 _NUMBER = re.compile(r"\d+(?:\.\d+)?")
 _WORD_BEFORE = re.compile(r"\w*\W*$")
 _WORD_AFTER = re.compile(r"\W*[^\W\d]+")
 _FIRST_WORD = re.compile(r"\W*[^\W\d]{3,}")
-_TRUTH = re.compile(r"\b(true|false|yes|no|on|off|idle|busy)\b", re.IGNORECASE)
+_STATE = re.compile(r"\b(true|false|yes|no|on|off|idle|busy)\b", re.IGNORECASE)
 
 
 @dataclass(frozen=True, slots=True)
 class Tick:
-    """One log message of a series: when it was logged (seconds since the epoch), and the tick number in it, if any.
+    """One log message of a series. `stamp`: seconds since the epoch; `number`: the tick number in it, if any.
 
     `whole`: the number is written without decimals.
     """
@@ -37,9 +37,11 @@ class Tick:
 
 @dataclass(frozen=True, slots=True)
 class Key:
-    """What the messages of a series have in common; `of` reads a message, and gives None for one of another series.
+    """What the messages of a series have in common.
 
-    `name`: the logger's, where it matters; `column`: which of a message's numbers is the tick's.
+    `kind`: "shape" (the same wording), "word" (a number with the same label), "begin" (the same first word), "any" (one
+    of several `shapes`) or "function" (logged by the same function). `text`: that shape, label, word or function.
+    `name`: the logger's name, if it matters; `column`: the index of the tick number among the message's numbers.
     """
 
     kind: str
@@ -49,7 +51,7 @@ class Key:
     name: str | None = None
 
     def of(self, log: LogRecord) -> Tick | None:
-        """The tick that this message is about, where it belongs to the series."""
+        """The tick that this message reports; None if it does not belong to the series."""
         if self.name not in (None, log.name):
             return None
         if self.kind == "function" and log.function == self.text:
@@ -69,10 +71,10 @@ class Key:
         return None
 
 
-@lru_cache(KEPT)
+@lru_cache(CACHE_SIZE)
 def shape_of(text: str) -> str:
-    """A message without its numbers, and without what it says of a state."""
-    return _TRUTH.sub("?", shape(text))
+    """The wording of a message, without numbers and without words for a state such as "on" or "idle"."""
+    return _STATE.sub("?", shape(text))
 
 
 def _tick(log: LogRecord, written: str | None) -> Tick:
@@ -81,9 +83,9 @@ def _tick(log: LogRecord, written: str | None) -> Tick:
     return Tick(log.stamp, float(written), log.text, "." not in written)
 
 
-@lru_cache(KEPT)
+@lru_cache(CACHE_SIZE)
 def numbers(text: str) -> tuple[tuple[str, str], ...]:
-    """The numbers in a text, each with its label: the word right before it, or where there is none, the one after."""
+    """The numbers in a text as (label, number). The label is the word right before it, or else the one after it."""
     found: list[tuple[str, str]] = []
     end = 0
     for match in _NUMBER.finditer(text):
@@ -98,11 +100,11 @@ def numbers(text: str) -> tuple[tuple[str, str], ...]:
 
 
 def has_word(label: str) -> bool:
-    """Whether there is a letter in it."""
+    """Whether the label contains a letter."""
     return any(map(str.isalpha, label))
 
 
 def first_word(text: str) -> str:
-    """The first word of three letters or more with nothing but signs before it, or an empty text."""
+    """The first word, if it has at least three letters and only punctuation before it; else ""."""
     words = _FIRST_WORD.match(text)
     return words.group().casefold() if words else ""

@@ -1,4 +1,4 @@
-"""I2.3: whether the timer's messages go on during a call as they do outside one."""
+"""I2.3: whether the timer keeps its pace during a call."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from tutor.judge.rates import TOLERANCE
 from tutor.judge.trace import LogRecord
 
 SLACK_S = 0.4
-"""A gap is told apart from jitter when it is longer than the usual interval by this much, and by a tolerance."""
+"""A pause is a gap, not jitter, if it exceeds the usual interval by the tolerance and this much."""
 
 
 class Fault(Enum):
-    """How the timer's messages differ during a call."""
+    """How the timer's pace is wrong during a call."""
 
     GAP = "gap"
     SLOW = "slow"
@@ -25,9 +25,10 @@ class Fault(Enum):
 
 @dataclass(frozen=True, slots=True)
 class TimerPace:
-    """The timer's messages around one call: `count` of them during its `for_s` seconds, the longest gap touching it.
+    """The timer's messages during one call. `count`: how many; `for_s`: the duration of the call.
 
-    `hz`: the ticks in a second, as the series tells them; None where too few messages tell it.
+    `longest_s`: the longest pause, including those at both ends; `hz`: ticks per second, None if there are too few
+    messages to tell.
     """
 
     count: int
@@ -41,9 +42,9 @@ class TimerPace:
 def measure_timer(
     series: Series, logs: Iterable[LogRecord], asked_at: float, answered_at: float, *, until: float, cpu_wait_s: float
 ) -> TimerPace:
-    """How the series went on while a call was made. `until`: how long the node was watched (seconds since the epoch).
+    """Measure the pace of the series during a call. `until`: end of the observation. Times in seconds since the epoch.
 
-    A node that the machine kept from running for `cpu_wait_s` may pause that much longer, and tick that much less.
+    A node that waited `cpu_wait_s` for the CPU may pause that much longer, and tick correspondingly less.
     """
     ticks = [tick for log in sorted(logs, key=lambda log: log.stamp) if (tick := series.key.of(log))]
     before = [tick for tick in ticks if tick.stamp < asked_at][-1:]
@@ -61,19 +62,19 @@ def measure_timer(
     expected = for_s / series.interval_s
     least = (1 - TOLERANCE) * max(0.0, for_s - cpu_wait_s) / series.interval_s - 1
     most = (1 + TOLERANCE) * expected + 1
-    told = len(around) > 1 and around[-1].stamp - around[0].stamp >= 0.5 * for_s > 0.5
-    hz = series.hz_in(around) if told else None
+    measurable = len(around) > 1 and around[-1].stamp - around[0].stamp >= 0.5 * for_s > 0.5
+    hz = series.hz_in(around) if measurable else None
     fault = None
     if longest > allowed:
         fault = Fault.GAP
     elif len(within) < least or (hz and hz < (1 - TOLERANCE) * series.hz * max(0.1, 1 - cpu_wait_s / max(for_s, 0.1))):
         fault = Fault.SLOW
-    elif len(within) > most or _bursts(series, edges) or (hz and hz > (1 + TOLERANCE) * series.hz):
+    elif len(within) > most or _has_burst(series, edges) or (hz and hz > (1 + TOLERANCE) * series.hz):
         fault = Fault.FAST
     return TimerPace(len(within), expected, for_s, longest, hz, fault)
 
 
-def _bursts(series: Series, stamps: Sequence[float]) -> bool:
-    """Whether half a second of it holds far more messages than it should."""
+def _has_burst(series: Series, stamps: Sequence[float]) -> bool:
+    """Whether any half second contains far more messages than the timer's pace allows."""
     most = 1.5 * 0.5 / series.interval_s + 3
     return any(sum(start <= stamp < start + 0.5 for stamp in stamps) > most for start in stamps)

@@ -1,4 +1,4 @@
-"""I2.3: what is done to the node."""
+"""I2.3: scenarios that run the node and gather facts."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 from checks.i2_3.facts import (
-    ANSWER_S,
+    ANSWER_TIMEOUT_S,
     CALLS,
     EXCUSED_S,
     FILE,
@@ -39,26 +39,27 @@ from tutor.judge.tracebacks import Frame
 from tutor.judge.waiting import CPU_WAIT_SHARE, IDLE_S, wait_until_seen
 
 INTO_CALL_S = 1.5
-"""A call that was made this long ago is being worked on."""
+"""A call is being processed this long after the request."""
 
-IN_GRAPH_S = 1.0
-"""All services of a node are in the graph this much later than the first sign of it."""
+DISCOVERY_S = 1.0
+"""Time limit for all services of a node to appear in the graph once the node is discovered."""
 
-SPINS_S = 2.5
-"""A node whose service is there spins at the latest twice this later, or never."""
+SPIN_S = 2.5
+"""A node spins within twice this time of its service being discovered, or never."""
 
 APART_S = 0.1
-"""Of three calls at once, the last is made this much later, so that answers in another order mean something."""
+"""Delay of the last of three concurrent calls, so that the order of the answers has a meaning."""
 
 
 @repeat_if_doubtful
 async def run_idle(bench: Bench) -> IdleRun:
-    """Listen to the node while nobody calls, then press Ctrl+C."""
-    async with bench.start(FILE) as run:  # first, like `call_singly`, which waits for it
+    """Listen to the idle node, then press Ctrl+C."""
+    async with bench.start(FILE) as run:  # start first, like `call_singly`, which waits for these facts
         bench.report_progress(0.1, "waiting for the timer's log messages")
         await wait_until_seen(run, lambda: bool(run.graph.nodes))
         up_at = run.now()
-        may_tick = await _spins(run) or bool(logs_since(run.logs, up_at))  # a timer needs a node that spins
+        # A timer needs a node that spins.
+        may_tick = await _wait_until_spinning(run) or bool(logs_since(run.logs, up_at))
         since = run.now()
         if may_tick:
             await wait_until_seen(run, lambda: bool(logs_since(run.logs, since)), idle_s=IDLE_S)
@@ -75,181 +76,187 @@ async def run_idle(bench: Bench) -> IdleRun:
 
 
 async def call_singly(bench: Bench) -> SingleCalls:
-    """Call the service, then once more, and watch the timer meanwhile and until it is seen again."""
-    looking: list[asyncio.Task[tuple[tuple[Frame, ...], bool]]] = []
+    """Call the service, then once more, and watch the timer during the calls and until its next message."""
+    dumps: list[asyncio.Task[tuple[tuple[Frame, ...], bool]]] = []
 
     def suspect(answers: bool) -> None:
-        looking.append(asyncio.ensure_future(_stuck(bench, answers=answers)))
+        dumps.append(asyncio.ensure_future(_dump_stacks(bench, answers=answers)))
 
     try:
-        seen, well = await _call_singly(bench, suspect)
-        if seen.calls and seen.trace.exit is None and not well:
+        seen, fine = await _call_singly(bench, suspect)
+        if seen.calls and seen.trace.exit is None and not fine:
             answers = seen.calls[-1].answer.response is not None
-            stuck, spins = await (looking[-1] if looking else _stuck(bench, answers=answers))
+            stuck, spins = await (dumps[-1] if dumps else _dump_stacks(bench, answers=answers))
             return replace(seen, stuck=stuck, spins=spins)
         return seen
     finally:
-        for task in looking:
+        for task in dumps:
             task.cancel()
-        await asyncio.gather(*looking, return_exceptions=True)
+        await asyncio.gather(*dumps, return_exceptions=True)
 
 
 async def _call_singly(bench: Bench, suspect: Callable[[bool], None]) -> tuple[SingleCalls, bool]:
-    """The calls, and whether there was nothing wrong with the first.
+    """Make the calls; also return whether the first one was fine.
 
-    `suspect` is called as soon as there may be, with whether the node answers.
+    `suspect` is called as soon as it may not be, with whether the node answers at all.
     """
     async with bench.start(FILE) as run:
         bench.report_progress(0.1, f"waiting for {SERVICE}")
-        if not await _is_served(run):
+        if not await _wait_for_service(run):
             return SingleCalls(run.trace()), False
-        if not (spins := await _spins(run)):
+        if not (spins := await _wait_until_spinning(run)):
             suspect(False)
         bench.report_progress(0.2, f"calling {SERVICE}")
-        second: list[asyncio.Task[_Made]] = []
+        second: list[asyncio.Task[_TimedAnswer]] = []
         try:
-            calls, well = await _call_first(bench, run, suspect, second, _answer_limit_s(spins))
+            calls, fine = await _call_first(bench, run, suspect, second, _answer_limit_s(spins))
             later: Sequence[Call] = ()
             idle = await bench.facts(run_idle)
             bench.report_facts(SingleCalls(run.trace(), tuple(calls), idle=idle))
-            if well and run.exit is None:
+            if fine and run.exit is None:
                 bench.report_progress(0.6, f"calling {SERVICE} once more, with large numbers")
-                later = await _call_again(run, idle.series, *second)
+                later = await _call_second(run, idle.series, *second)
         finally:
             for task in second:
                 task.cancel()
             await asyncio.gather(*second, return_exceptions=True)
-        return SingleCalls(run.trace(), tuple(calls), later=tuple(later)), well
+        return SingleCalls(run.trace(), tuple(calls), later=tuple(later)), fine
 
 
-_Made = tuple[CallAnswer, float]
-"""A call's answer, and the seconds in which the machine kept the node or us from running meanwhile."""
+_TimedAnswer = tuple[CallAnswer, float]
+"""The answer to a call, and how long (in seconds) the node and our process waited for the CPU during it."""
 
 
-async def _make_call(run: Run, operands: Mapping[str, int], limit_s: float) -> _Made:
-    lost_s = _lost_s(run)
+async def _make_call(run: Run, operands: Mapping[str, int], limit_s: float) -> _TimedAnswer:
+    waited_s = _cpu_wait_s(run)
     answer = await run.call(SERVICE, TYPE, operands, limit_s=limit_s)
-    return answer, _lost_s(run) - lost_s
+    return answer, _cpu_wait_s(run) - waited_s
 
 
 async def _call_first(
     bench: Bench,
     run: Run,
     suspect: Callable[[bool], None],
-    second: list[asyncio.Task[_Made]],
+    second: list[asyncio.Task[_TimedAnswer]],
     limit_s: float,
 ) -> tuple[list[Call], bool]:
-    """Make a call, and again where a busy machine leaves it in doubt; and whether there was nothing wrong with it.
+    """Make the first call, and repeat it while a busy machine leaves it in doubt; also return whether it was fine.
 
-    `suspect`: called where the first one leaves the timer standing still. `second`: gets the call that comes next,
-    where all is well when the first is answered: what the timer does after that is seen meanwhile.
+    `suspect`: called if the timer stops during the first call. `second`: receives the task of the second call, which is
+    started right after the first answer if all is well so far, to save time: the timer is still being watched then.
     """
     calls: list[Call] = []
     series: Sequence[Series] = ()
     while not calls or (run.exit is None and needs_repeat(run.logs, calls, series, MOST_TRIES)):
-        await asyncio.gather(*second)  # it would be in the way
-        answer, lost_s = await _make_call(run, _operands(), limit_s)
+        await asyncio.gather(*second)  # must not overlap with a repetition
+        answer, waited_s = await _make_call(run, _random_operands(), limit_s)
         if not calls and _is_wrong(answer):
-            bench.report_facts(SingleCalls(run.trace(), (Call(answer, run.now(), lost_s),)))
+            bench.report_facts(SingleCalls(run.trace(), (Call(answer, run.now(), waited_s),)))
         series = (await bench.facts(run_idle)).series
-        if not calls and run.exit is None and _is_well(run, Call(answer, run.now(), lost_s), series):
-            second.append(asyncio.ensure_future(_make_call(run, _large(), ANSWER_S)))
+        if not calls and run.exit is None and _is_fine(run, Call(answer, run.now(), waited_s), series):
+            second.append(asyncio.ensure_future(_make_call(run, _large_operands(), ANSWER_TIMEOUT_S)))
         await next_tick(run, series, answer)
-        calls.append(Call(answer, run.now(), lost_s))
+        calls.append(Call(answer, run.now(), waited_s))
         if len(calls) == 1 and run.exit is None and is_disturbed(run.logs, calls[0], series):
             suspect(answer.response is not None)
     last = calls[-1]
-    well = not is_disturbed(run.logs, last, series) or is_excused(run.logs, last, series)
-    return calls, last.answer.response is not None and well
+    fine = not is_disturbed(run.logs, last, series) or is_excused(run.logs, last, series)
+    return calls, last.answer.response is not None and fine
 
 
-async def _call_again(run: Run, series: Sequence[Series], begun: asyncio.Task[_Made] | None = None) -> list[Call]:
-    """Make a call with large numbers, or take the one that is `begun`; again where a busy machine leaves it in doubt.
+async def _call_second(
+    run: Run, series: Sequence[Series], started: asyncio.Task[_TimedAnswer] | None = None
+) -> list[Call]:
+    """Make a call with large numbers, or await the `started` one; repeat it while a busy machine leaves it in doubt.
 
-    No more often than the first: without a word of the timer it takes nothing back.
+    At most `TRIES` times, since an inconclusive second call does not change the verdict on the first.
     """
     calls: list[Call] = []
     while not calls or (run.exit is None and needs_repeat(run.logs, calls, series, TRIES)):
-        answer, lost_s = await (begun if begun and not calls else _make_call(run, _large(), ANSWER_S))
-        call = Call(answer, run.now(), lost_s)
-        if is_disturbed(run.logs, call, series):  # or is it only that its next message is still to come?
+        answer, waited_s = await (
+            started if started and not calls else _make_call(run, _large_operands(), ANSWER_TIMEOUT_S)
+        )
+        call = Call(answer, run.now(), waited_s)
+        if is_disturbed(run.logs, call, series):  # perhaps only because its next message has not come yet
             await next_tick(run, series, answer)
             call = replace(call, until=run.now())
         calls.append(call)
     return calls
 
 
-def _is_well(run: Run, call: Call, series: Sequence[Series]) -> bool:
-    """Whether the call was answered right and in time, and nothing has disturbed the timer until then."""
+def _is_fine(run: Run, call: Call, series: Sequence[Series]) -> bool:
+    """Whether the call was answered correctly and in time, and the timer has been undisturbed until now."""
     return call.in_time and not _is_wrong(call.answer) and not is_disturbed(run.logs, call, series)
 
 
 def _is_wrong(answer: CallAnswer) -> bool:
-    """Whether it has an answer that no repetition makes right: another sum, or one that comes too soon."""
+    """Whether the answer is wrong however busy the machine is: a wrong sum, or one that comes too early."""
     return answer.response is not None and (answer.response["sum"] != right_sum(answer) or answer.took_s < SHORTEST_S)
 
 
-async def _is_served(run: Run) -> bool:
-    """Wait for the service, and give whether it is there."""
+async def _wait_for_service(run: Run) -> bool:
+    """Wait for the service, and return whether it exists."""
     return await wait_until_seen(run, lambda: has_service(run.graph.servers))
 
 
 def _answer_limit_s(spins: bool) -> float:
-    """How long a call may take: a node that answers nothing yet has begun to spin, and done the work, by then."""
-    return ANSWER_S if spins else SPINS_S + LONGEST_S + EXCUSED_S
+    """Timeout of a call. A node that does not spin yet has time to begin to, and to do the work."""
+    return ANSWER_TIMEOUT_S if spins else SPIN_S + LONGEST_S + EXCUSED_S
 
 
-async def _spins(run: Run) -> bool:
-    """Wait until the node answers what every node does; False where it could, and does not.
+async def _wait_until_spinning(run: Run) -> bool:
+    """Wait until the node answers a parameter request; False if it has parameter services, but does not answer.
 
-    It may be in the graph long before it spins.
+    A node may be in the graph long before it spins.
     """
-    if await run.until(lambda: bool(run.graph.parameter_nodes), IN_GRAPH_S):
-        return await run.parameters(SPINS_S) is not None
+    if await run.until(lambda: bool(run.graph.parameter_nodes), DISCOVERY_S):
+        return await run.parameters(SPIN_S) is not None
     return True
 
 
-def _lost_s(run: Run) -> float:
+def _cpu_wait_s(run: Run) -> float:
     return run.node_cpu_wait_s() + run.our_cpu_wait_s()
 
 
-async def _stuck(bench: Bench, *, answers: bool) -> tuple[tuple[Frame, ...], bool]:
-    """Call once more, only to see where the node is while it works on the call, and whether it spins at all."""
+async def _dump_stacks(bench: Bench, *, answers: bool) -> tuple[tuple[Frame, ...], bool]:
+    """Start the node again and call it, only to take a stack dump during the call, and to see whether it spins."""
     async with bench.start(FILE) as run:
-        bench.report_progress(0.9, "looking where the node is during a call")
-        await _is_served(run)
+        bench.report_progress(0.9, "finding out where the node is during a call")
+        await _wait_for_service(run)
         spins = await run.parameters(2.0) is not None
-        # A callback that answers is in the middle of its work; one that does not may come to a halt after it.
-        into_s = WORK_S / 2 if answers else WORK_S + 0.5
-        await run.call(SERVICE, TYPE, _operands(), limit_s=into_s)
+        # A callback that answers is looked at halfway; one that does not may hang only after its work.
+        dump_after_s = WORK_S / 2 if answers else WORK_S + 0.5
+        await run.call(SERVICE, TYPE, _random_operands(), limit_s=dump_after_s)
         return await run.dump_stacks(), spins
 
 
 async def call_concurrently(bench: Bench) -> ConcurrentCalls:
-    """Three calls at once, each with its own sum."""
+    """Make three concurrent calls, each with its own sum."""
     async with bench.start(FILE, expected_s=3.5) as run:
         bench.report_progress(0.1, f"waiting for {SERVICE}")
-        if not await _is_served(run):
+        if not await _wait_for_service(run):
             return ConcurrentCalls(run.trace())
-        limit_s = _answer_limit_s(await _spins(run))
+        limit_s = _answer_limit_s(await _wait_until_spinning(run))
         bench.report_progress(0.3, f"calling {SERVICE} three times at once")
-        made: list[CallBatch] = []
-        while not made or needs_repeat_at_once(ConcurrentCalls(run.trace(), tuple(made))):
-            lost_s = _lost_s(run)
-            made.append(CallBatch(await _ask_at_once(run, _different(), limit_s), _lost_s(run) - lost_s))
-        return ConcurrentCalls(run.trace(), tuple(made))
+        batches: list[CallBatch] = []
+        while not batches or needs_repeat_at_once(ConcurrentCalls(run.trace(), tuple(batches))):
+            waited_s = _cpu_wait_s(run)
+            batches.append(
+                CallBatch(await _call_at_once(run, _distinct_operands(), limit_s), _cpu_wait_s(run) - waited_s)
+            )
+        return ConcurrentCalls(run.trace(), tuple(batches))
 
 
-async def _ask_at_once(run: Run, requests: Sequence[Mapping[str, int]], limit_s: float) -> tuple[CallAnswer, ...]:
-    """Make all calls at once; give up when none has been answered for `limit_s`, as long as one call may take."""
+async def _call_at_once(run: Run, requests: Sequence[Mapping[str, int]], limit_s: float) -> tuple[CallAnswer, ...]:
+    """Make all calls at once; give up if no answer has come for `limit_s`, the timeout of a single call."""
     calls: list[asyncio.Task[CallAnswer]] = []
     asked_at = run.now()
     for request in requests:
         if len(calls) == len(requests) - 1:
             await run.until(lambda: run.now() >= asked_at + APART_S, 1.0)
         calls.append(asyncio.create_task(run.call(SERVICE, TYPE, request, limit_s=len(requests) * limit_s)))
-    while (answered := _done(calls)) < len(calls):
-        if not await run.until(lambda answered=answered: _done(calls) > answered, limit_s):  # type: ignore[misc]
+    while (answered := _count_done(calls)) < len(calls):
+        if not await run.until(lambda answered=answered: _count_done(calls) > answered, limit_s):  # type: ignore[misc]
             break
     for call in calls:
         call.cancel()
@@ -260,7 +267,7 @@ async def _ask_at_once(run: Run, requests: Sequence[Mapping[str, int]], limit_s:
     )
 
 
-def _done(calls: Sequence[asyncio.Task[CallAnswer]]) -> int:
+def _count_done(calls: Sequence[asyncio.Task[CallAnswer]]) -> int:
     return sum(call.done() for call in calls)
 
 
@@ -269,10 +276,10 @@ async def interrupt_during_call(bench: Bench) -> Interrupted:
     """Press Ctrl+C during a call."""
     async with bench.start(FILE, expected_s=2.0) as run:
         bench.report_progress(0.1, f"waiting for {SERVICE}")
-        called = await _is_served(run)
+        called = await _wait_for_service(run)
         if called:
-            await _spins(run)
-        call = asyncio.create_task(run.call(SERVICE, TYPE, _operands(), limit_s=ANSWER_S))
+            await _wait_until_spinning(run)
+        call = asyncio.create_task(run.call(SERVICE, TYPE, _random_operands(), limit_s=ANSWER_TIMEOUT_S))
         try:
             if called:
                 bench.report_progress(0.4, f"calling {SERVICE}")
@@ -282,25 +289,25 @@ async def interrupt_during_call(bench: Bench) -> Interrupted:
                 )
             trace = run.trace()
             bench.report_progress(0.7, "pressing Ctrl+C during the call")
-            ended = await run.interrupt() if run.exit is None else None
+            ending = await run.interrupt() if run.exit is None else None
         finally:
             call.cancel()
             with contextlib.suppress(asyncio.CancelledError):
                 await call
-        return Interrupted(trace, called, ended)
+        return Interrupted(trace, called, ending)
 
 
-def _operands() -> Mapping[str, int]:
-    """Operands by chance, so that no sum can be known beforehand."""
+def _random_operands() -> Mapping[str, int]:
+    """Random operands, so that the sum cannot be known in advance."""
     return {"a": random.randint(-900, 900), "b": random.randint(1000, 9000)}
 
 
-def _large() -> Mapping[str, int]:
-    """Operands whose sum needs an integer of 64 bits: neither 32 bits nor a float can hold it."""
+def _large_operands() -> Mapping[str, int]:
+    """Operands whose sum needs a 64-bit integer: neither 32 bits nor a float can represent it."""
     return {"a": 2**53 + 2 * random.randint(1, 2**50) + 1, "b": 2 * random.randint(1, 900)}
 
 
-def _different() -> list[Mapping[str, int]]:
-    """Operands for calls at once, whose sums all differ."""
+def _distinct_operands() -> list[Mapping[str, int]]:
+    """Operands for concurrent calls, whose sums all differ."""
     start = random.randint(-900, 900)
     return [{"a": start + 1000 * number, "b": random.randint(1, 900)} for number in range(CALLS)]

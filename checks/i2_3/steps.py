@@ -1,7 +1,7 @@
-"""I2.3: the next step in the words of the learner's own file: its lines, its groups, its executor.
+"""I2.3: next steps that refer to the learner's own file: its lines, its callback groups, its executor.
 
-Each is tried on a copy of the file, the shortest edit first, and the last one rewrites all that it may be due to. The
-source only chooses the words; None where it says nothing.
+Each step is tried on a copy of the file, the shortest edit first; the last resort rewrites everything that may be
+relevant. The source only determines the wording. A step is None if no edit is possible.
 """
 
 from __future__ import annotations
@@ -20,13 +20,13 @@ from tutor.judge.source import calls_in, values_of
 from tutor.judge.verdict import Cause
 
 _GROUP = "callback_group"
-_MANY = "MultiThreadedExecutor"
+_MULTI_THREADED = "MultiThreadedExecutor"
 _THREADS = 8
 _LOGS = ("info", "warning", "warn", "error", "fatal")
 
 
 def rewrite_everything(file: NodeFile) -> str | None:
-    """The step that rewrites service, timer and program, for what nothing shorter is known to help."""
+    """The step that rewrites service, timer and main program, where no shorter one is known to help."""
     parts = (
         rewriting.rewrite_service(file),
         rewriting.rewrite_timer(file),
@@ -41,7 +41,7 @@ def rewrite_everything(file: NodeFile) -> str | None:
 
 
 def fix_service(file: NodeFile) -> str | None:
-    """The step where the service is missing, or has another name or type than it should."""
+    """The step where the service is missing, or has the wrong name or type."""
     made = service(file)
     name = argument(made, 1, "srv_name") if made is not None else None
     right = ast.unparse(name).strip("'\"") == SERVICE[1:] if name is not None else False
@@ -55,16 +55,16 @@ def fix_service(file: NodeFile) -> str | None:
 
 
 def fix_answer(file: NodeFile) -> str | None:
-    """The step where the answer is wrong, or does not come."""
+    """The step where the answer is wrong or missing."""
     return file.step(rewriting.rewrite_service_callback(file)) or rewrite_everything(file)
 
 
 def fix_work_time(file: NodeFile) -> str | None:
-    """The step where the work takes another time than it should."""
-    return file.step(_slept(file)) or fix_answer(file)
+    """The step where the work takes the wrong time."""
+    return file.step(_fix_sleep(file)) or fix_answer(file)
 
 
-def _slept(file: NodeFile) -> list[Edit]:
+def _fix_sleep(file: NodeFile) -> list[Edit]:
     found = service_callback(file)
     if found is None or any(isinstance(each, ast.While | ast.For | ast.If) for each in ast.walk(found)):
         return []
@@ -76,34 +76,37 @@ def _slept(file: NodeFile) -> list[Edit]:
 
 def use_threads(file: NodeFile) -> str | None:
     """The step where one thread runs all callbacks."""
-    return file.step(_with_groups(file, _executor(file))) or rewrite_everything(file)
+    return file.step(_with_group_edits(file, _fix_executor(file))) or rewrite_everything(file)
 
 
-def _executor(file: NodeFile) -> list[Edit]:
+def _fix_executor(file: NodeFile) -> list[Edit]:
     spins = file.calls("spin")
     spun, own = next((each for each in spins if each.args), None), next((each for each in spins if not each.args), None)
-    many, single = next(iter(file.calls(_MANY)), None), next(iter(file.calls("SingleThreadedExecutor")), None)
-    name, imported = file.own(_MANY, "rclpy.executors")
-    if spun is not None and many is not None and own is not None:
+    multi, single = (
+        next(iter(file.calls(_MULTI_THREADED)), None),
+        next(iter(file.calls("SingleThreadedExecutor")), None),
+    )
+    name, imported = file.own(_MULTI_THREADED, "rclpy.executors")
+    if spun is not None and multi is not None and own is not None:
         statement = file.statement(spun)
         return [remove_statement(file.text, statement)]
-    if spun is not None and many is not None and (kept := file.assigned_to(many)) and len(spun.args) == 1:
+    if spun is not None and multi is not None and (kept := file.assigned_to(multi)) and len(spun.args) == 1:
         node = ast.unparse(spun.args[0])
         added = "" if file.calls("add_node") else f"{kept}.add_node({node})\n"
         return [replace_statement(spun, f"{added}{kept}.spin()")]
-    if spun is None and many is None and single is not None:
+    if spun is None and multi is None and single is not None:
         return [*imported, replace_node(file.text, single, f"{name}(num_threads={_THREADS})")]
     return rewriting.rewrite_program(file)
 
 
-def _with_groups(file: NodeFile, edits: list[Edit]) -> list[Edit]:
-    return combine_edits(file, edits, _groups(file)) if edits else []
+def _with_group_edits(file: NodeFile, edits: list[Edit]) -> list[Edit]:
+    return combine_edits(file, edits, _group_edits(file)) if edits else []
 
 
 def separate_groups(file: NodeFile) -> str | None:
-    """The step where several threads run the callbacks, and the timer waits for the service all the same."""
+    """The step where the timer waits for the service although several threads run the callbacks."""
     return (
-        file.step(_threads(file), _groups(file), rewriting.rewrite_service_callback(file))
+        file.step(_add_threads(file), _group_edits(file), rewriting.rewrite_service_callback(file))
         or file.step(
             combine_edits(file, rewriting.rewrite_service_callback(file), rewriting.rewrite_timer_callback(file))
         )
@@ -111,19 +114,19 @@ def separate_groups(file: NodeFile) -> str | None:
     )
 
 
-def _threads(file: NodeFile) -> list[Edit]:
-    """More threads, for an executor that has one only."""
-    made = next(iter(file.calls(_MANY)), None)
+def _add_threads(file: NodeFile) -> list[Edit]:
+    """More threads for a MultiThreadedExecutor that has only one."""
+    made = next(iter(file.calls(_MULTI_THREADED)), None)
     given = argument(made, 0, "num_threads") if made is not None else None
     return [replace_node(file.text, given, str(_THREADS))] if given is not None and ast.unparse(given) == "1" else []
 
 
 def what_timer_waits_for(file: NodeFile) -> str:
-    """What the timer waits for while the service works, though the executor has threads."""
+    """Why the timer waits for the service although the executor has threads, as part of a sentence."""
     made = timer(file)
-    if edits := _threads(file):
+    if edits := _add_threads(file):
         return f"the executor has too few threads, 1 (line {edits[0].first})"
-    if made is None or not _groups(file):
+    if made is None or not _group_edits(file):
         return (
             "they are in one MutuallyExclusiveCallbackGroup (a node's default group is one), or the executor has too "
             "few threads"
@@ -134,12 +137,12 @@ def what_timer_waits_for(file: NodeFile) -> str:
     return f"both are in {group}, which is a MutuallyExclusiveCallbackGroup"
 
 
-def _groups(file: NodeFile) -> list[Edit]:
-    """A group of its own for the timer, where it is in the service's."""
-    ticks, works = timer(file), service(file)
-    if ticks is None or works is None or _group(ticks) != _group(works):
+def _group_edits(file: NodeFile) -> list[Edit]:
+    """Give the timer its own callback group if it shares the service's."""
+    timer_call, service_call = timer(file), service(file)
+    if timer_call is None or service_call is None or _group(timer_call) != _group(service_call):
         return []
-    if _reentrant(file, _group(ticks)):
+    if _is_reentrant(file, _group(timer_call)):
         return []
     name, imported = file.own("ReentrantCallbackGroup", "rclpy.callback_groups")
     spare = next(
@@ -147,16 +150,16 @@ def _groups(file: NodeFile) -> list[Edit]:
             kept
             for each in file.calls("ReentrantCallbackGroup", "MutuallyExclusiveCallbackGroup")
             if (kept := file.assigned_to(each)).startswith("self.")
-            and kept != _group(works)
-            and each.lineno < ticks.lineno
+            and kept != _group(service_call)
+            and each.lineno < timer_call.lineno
         ),
         "",
     )
-    return [*([] if spare else imported), set_group(file, ticks, spare or f"{name}()")]
+    return [*([] if spare else imported), set_group(file, timer_call, spare or f"{name}()")]
 
 
 def set_group(file: NodeFile, call: ast.Call, group: str) -> Edit:
-    """A timer or a service, made in another group."""
+    """Create the timer or service of this call in another callback group."""
     given = next((each.value for each in call.keywords if each.arg == _GROUP), None)
     if given is not None:
         return replace_node(file.text, given, group)
@@ -165,32 +168,32 @@ def set_group(file: NodeFile, call: ast.Call, group: str) -> Edit:
 
 
 def _group(call: ast.Call) -> str:
-    """What a group is called that may be the node's default one, which an empty text means."""
+    """The expression for the callback group of a timer or service; "" is the node's default group."""
     given = next((ast.unparse(each.value) for each in call.keywords if each.arg == _GROUP), "")
     return "" if given in ("None", "self.default_callback_group") else given
 
 
-def _reentrant(file: NodeFile, group: str) -> bool:
+def _is_reentrant(file: NodeFile, group: str) -> bool:
     return "Reentrant" in group or any(file.assigned_to(each) == group for each in file.calls("ReentrantCallbackGroup"))
 
 
 def allow_overlap(file: NodeFile) -> str | None:
-    """The step where calls wait for each other: the service's group, or too few threads."""
+    """The step where calls wait for each other: due to the service's callback group, or too few threads."""
     made = service(file)
     name, imported = file.own("ReentrantCallbackGroup", "rclpy.callback_groups")
     edits: list[Edit] = []
-    if made is not None and not _reentrant(file, _group(made)):
+    if made is not None and not _is_reentrant(file, _group(made)):
         edits += [*imported, set_group(file, made, f"{name}()")]
-    many = next(iter(file.calls(_MANY)), None)
-    given = argument(many, 0, "num_threads") if many is not None else None
-    if many is not None and (given is None or ast.unparse(given) in ("1", "2", "3")):
-        edits.append(replace_node(file.text, many, f"{ast.unparse(many.func)}(num_threads={_THREADS})"))
+    multi = next(iter(file.calls(_MULTI_THREADED)), None)
+    given = argument(multi, 0, "num_threads") if multi is not None else None
+    if multi is not None and (given is None or ast.unparse(given) in ("1", "2", "3")):
+        edits.append(replace_node(file.text, multi, f"{ast.unparse(multi.func)}(num_threads={_THREADS})"))
     return file.step(edits) or fix_answer(file)
 
 
 def diagnose_node_not_added(file: NodeFile) -> Cause | None:
-    """Whether an executor is spun that has no node."""
-    made = next(iter(file.calls(_MANY, "SingleThreadedExecutor")), None)
+    """Find an executor that is spun without a node."""
+    made = next(iter(file.calls(_MULTI_THREADED, "SingleThreadedExecutor")), None)
     spun = next((each for each in file.calls("spin") if not each.args), None)
     if made is None or spun is None or file.calls("add_node"):
         return None
@@ -204,21 +207,21 @@ def diagnose_node_not_added(file: NodeFile) -> Cause | None:
 
 
 def diagnose_early_answer(file: NodeFile) -> Cause | None:
-    """Whether the callback answers while another thread is still at work."""
+    """Find a callback that answers while another thread is still working."""
     found = service_callback(file)
     started = next(iter(calls_in(found, "Thread", "Timer", "submit", "create_task")), None)
     if found is None or started is None or (step := fix_answer(file)) is None:
         return None
     return Cause(
         "answered too early",
-        f"line {started.lineno}: {ast.unparse(started)} does the work beside {found.name}, which answers at once; the "
-        "response that is filled in later reaches nobody",
+        f"line {started.lineno}: {ast.unparse(started)} does the work in parallel to {found.name}, which answers at "
+        "once; the response that is filled in later reaches nobody",
         step,
     )
 
 
 def fix_period(file: NodeFile) -> str | None:
-    """The step where the timer has another period than it should, its callback takes too long, or bears no number."""
+    """The step where the timer has the wrong period, its callback takes too long, or its messages have no number."""
     made, found = timer(file), timer_callback(file)
     given = argument(made, 0, "timer_period_sec") if made is not None else None
     if naps := calls_in(found, "sleep"):
@@ -231,7 +234,7 @@ def fix_period(file: NodeFile) -> str | None:
 
 
 def _is_right(file: NodeFile, given: ast.expr) -> bool:
-    """Whether the period is written as 0.1, or as something that is set to it."""
+    """Whether the period is 0.1, or a variable that is set to it."""
     return any(_number(each) == 1 / HZ for each in (given, *values_of(ast.unparse(given), file.tree)))
 
 
@@ -261,39 +264,41 @@ def rewrite_ticking(file: NodeFile) -> str | None:
 
 
 def diagnose_no_ticks(file: NodeFile) -> Cause | None:
-    """Why no message of the timer's comes."""
+    """Find why no messages of the timer arrive."""
     made, found = timer(file), timer_callback(file)
     given = [each for call in file.calls("__init__", "Node") for each in call.keywords]
     if (off := next((each.value for each in given if each.arg == "enable_rosout"), None)) is not None:
-        return _found(f"line {off.lineno}: what the node logs does not leave it", enable_rosout(file))
+        return _cause_if_step(f"line {off.lineno}: the node's log messages are not published", enable_rosout(file))
     if made is None or found is None:
         return (
-            _found("the node makes no timer", rewrite_everything(file)) if file.tree.body and not file.timers else None
+            _cause_if_step("the node makes no timer", rewrite_everything(file))
+            if file.tree.body and not file.timers
+            else None
         )
-    logs, idle_run = calls_in(found, *_LOGS), next(iter(calls_in(found, "debug")), None)
-    if idle_run is not None and not logs:
-        info = replace_node(file.text, idle_run.func, f"{ast.unparse(idle_run.func).removesuffix('debug')}info")
-        return _found(
-            f"line {idle_run.lineno}: {ast.unparse(idle_run)}: debug messages are not shown", file.step([info])
+    logs, debug_log = calls_in(found, *_LOGS), next(iter(calls_in(found, "debug")), None)
+    if debug_log is not None and not logs:
+        info = replace_node(file.text, debug_log.func, f"{ast.unparse(debug_log.func).removesuffix('debug')}info")
+        return _cause_if_step(
+            f"line {debug_log.lineno}: {ast.unparse(debug_log)}: debug messages are not shown", file.step([info])
         )
     if not logs:
-        return _found(f"{found.name} (line {found.lineno}) logs nothing", rewrite_ticking(file))
+        return _cause_if_step(f"{found.name} (line {found.lineno}) logs nothing", rewrite_ticking(file))
     seconds = argument(made, 0, "timer_period_sec")
     if seconds is not None and (value := _number(seconds)) is not None and value > 2 / HZ:
         return Cause(
             "wrong timer period",
-            f"line {made.lineno}: {ast.unparse(made)} ticks once in {value:g} s: create_timer takes the seconds "
+            f"line {made.lineno}: {ast.unparse(made)} ticks every {value:g} s: create_timer takes the seconds "
             "between two ticks, not ticks per second",
             str(fix_period(file)),
         )
     return None
 
 
-def _found(says: str, step: str | None) -> Cause | None:
-    return Cause("no timer messages", says, step) if step else None
+def _cause_if_step(text: str, step: str | None) -> Cause | None:
+    return Cause("no timer messages", text, step) if step else None
 
 
 def remove_wait(file: NodeFile, code: str, line: int) -> str | None:
-    """The step where a callback waits for something that never comes, in this line."""
+    """The step where a callback waits in this line for something that never happens."""
     limited = [replace_lines(line, code.replace(".wait()", f".wait({WORK_S})"))] if file.text else []
     return file.step(limited) or fix_answer(file)

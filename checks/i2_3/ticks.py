@@ -1,7 +1,7 @@
-"""I2.3: which log messages are the timer's, and how fast they say it ticks.
+"""I2.3: find the timer's log messages, and measure how fast it ticks.
 
-A learner logs every tick or every tenth, with its number or without, in any words and beside any other messages. So
-the timer's messages are found by what they must be: alike, repeated while nobody calls, and ten ticks a second.
+A learner may log every tick or every tenth, with its number or without, in any words, and among any other messages. So
+the timer's messages are recognised by their properties: alike, repeated while nobody calls, and ten ticks per second.
 """
 
 from __future__ import annotations
@@ -19,27 +19,27 @@ from tutor.judge.trace import LogRecord
 HZ = 10.0
 
 EVEN_SHARE = 0.5
-"""Messages of different wording are one series if most intervals are within this share of their median."""
+"""Messages of different wording form one series if most intervals deviate from the median by at most this share."""
 
 CLOCKS_HZ = (1e3, 1e6, 1e9)
-"""A number that rises at one of these speeds is a time in ms, µs or ns, not a count of ticks."""
+"""A number that rises at one of these rates is a time in ms, µs or ns, not a count of ticks."""
 
 MIN_SPAN_S = 0.9
-"""What comes again and again within less than this, and then no more, is a greeting."""
+"""Minimum duration of a series: a shorter burst of messages belongs to the node's startup."""
 
 MAX_MESSAGES = 2000
-"""Of a flood of messages, the latest will do."""
+"""Of a flood of messages, only this many of the latest are analysed."""
 
-STARTS_OVER = 2
-"""A number that falls back by more than this starts over; by less, callbacks that overlap were logged out of turn."""
+RESTART_STEP = 2
+"""A number that falls by more than this starts over; if by less, overlapping callbacks logged out of order."""
 
-NEARLY_ALL = 0.8
-"""This share of a function's messages tells how fast it counts."""
+COVERED_SHARE = 0.8
+"""A numbered series with at least this share of a function's messages is preferred to counting the messages."""
 
 
 @dataclass(frozen=True, slots=True)
 class Series:
-    """Log messages that look like a timer's, logged while nobody called the service. `ticks` are two or more."""
+    """Two or more log messages that look like a timer's, logged while nobody called the service."""
 
     key: Key
     ticks: tuple[Tick, ...]
@@ -51,12 +51,12 @@ class Series:
 
     @property
     def interval_s(self) -> float:
-        """The mean time between two messages."""
+        """The mean interval between two messages."""
         return self.span_s / (len(self.ticks) - 1)
 
     @property
     def longest_s(self) -> float:
-        """The longest time between two messages."""
+        """The longest interval between two messages."""
         return max(b.stamp - a.stamp for a, b in pairwise(self.ticks))
 
     @property
@@ -66,60 +66,60 @@ class Series:
 
     @property
     def hz(self) -> float:
-        """Ticks in a second: by the tick's number, or where there is none, by the messages."""
+        """Ticks per second: by the tick numbers, or if there are none, by the count of messages."""
         return self.hz_in(self.ticks)
 
     def hz_in(self, ticks: Sequence[Tick]) -> float:
-        """The same of other messages of this series."""
+        """Ticks per second in other messages of this series."""
         return hz_of(ticks, starts_over=self.key.kind != "function")
 
     @property
     def is_10_hz(self) -> bool:
-        """Whether this is a timer of 10 Hz, within the tolerance."""
+        """Whether this is a 10 Hz timer, within the tolerance."""
         return abs(self.hz - HZ) <= TOLERANCE * HZ
 
     def __str__(self) -> str:
-        by = "by the number in them" if self.numbered else "by their count"
-        return f"{self.hz:.1f} ticks/s {by}, {len(self.ticks)} messages in {self.span_s:.1f} s"
+        basis = "by the number in them" if self.numbered else "by their count"
+        return f"{self.hz:.1f} ticks/s {basis}, {len(self.ticks)} messages in {self.span_s:.1f} s"
 
 
 def timer_series(found: Sequence[Series]) -> tuple[Series, ...]:
-    """Those that are of 10 Hz, or else the likeliest of another pace.
+    """The series of 10 Hz, or else the likeliest one of another pace.
 
-    Messages that are some of another series' are not all that the timer logs, and left out.
+    A series whose messages are a proper subset of another one's is left out: the timer logs more than that.
     """
-    right = [series for series in found if series.is_10_hz]
-    if not right:
-        one = best_series(found)
-        return (one,) if one else ()
-    stamps = {series: {tick.stamp for tick in series.ticks} for series in right}
-    return tuple(series for series in right if not any(stamps[series] < stamps[other] for other in right))
+    at_10_hz = [series for series in found if series.is_10_hz]
+    if not at_10_hz:
+        likeliest = best_series(found)
+        return (likeliest,) if likeliest else ()
+    stamps = {series: {tick.stamp for tick in series.ticks} for series in at_10_hz}
+    return tuple(series for series in at_10_hz if not any(stamps[series] < stamps[other] for other in at_10_hz))
 
 
 def best_series(found: Iterable[Series]) -> Series | None:
-    """The series that is most likely the timer's: one with tick numbers, else the one with most messages."""
+    """The series that is most likely the timer's: preferably of 10 Hz, then with tick numbers, then the longest."""
     return max(found, key=lambda series: (series.is_10_hz, series.numbered, len(series.ticks)), default=None)
 
 
 def all_series(logs: Iterable[LogRecord]) -> list[Series]:
-    """Every way to see repeated messages in these logs."""
+    """All possible series of repeated messages in these logs."""
     ordered = sorted(logs, key=lambda log: log.stamp)[-MAX_MESSAGES:]
-    found = _alike(ordered)
+    found = _series_by_wording(ordered)
     names = {log.name for log in ordered}
     if len(names) > 1:  # two nodes may use the same words
         for name in names:
-            found += _alike([log for log in ordered if log.name == name], name)
+            found += _series_by_wording([log for log in ordered if log.name == name], name)
     places: dict[tuple[str, str], list[LogRecord]] = defaultdict(list)
     for log in ordered:
         places[log.name, log.function].append(log)
-    for (name, function), theirs in places.items():
+    for (name, function), own_logs in places.items():
         if function:
-            found += _of_function(name, function, theirs, found)
+            found += _series_of_function(name, function, own_logs, found)
     return found
 
 
-def _alike(ordered: Sequence[LogRecord], name: str | None = None) -> list[Series]:
-    """The series of messages with words in common, of one logger or all."""
+def _series_by_wording(ordered: Sequence[LogRecord], name: str | None = None) -> list[Series]:
+    """The series of messages with common words, of one logger or of all."""
     shapes: dict[str, list[LogRecord]] = defaultdict(list)
     words: dict[str, list[LogRecord]] = defaultdict(list)
     for log in ordered:
@@ -129,54 +129,56 @@ def _alike(ordered: Sequence[LogRecord], name: str | None = None) -> list[Series
     found: list[Series] = []
     for text, alike in shapes.items():
         columns = range(min(len(numbers(log.text)) for log in alike))
-        numbered = [s for c in columns if (s := _counting(_series(Key("shape", text, c, name=name), alike)))]
-        found += numbered or _some(_uncounted(_series(Key("shape", text, name=name), alike)))
+        numbered = [s for c in columns if (s := _if_counting(_make_series(Key("shape", text, c, name=name), alike)))]
+        found += numbered or _as_list(_if_long(_make_series(Key("shape", text, name=name), alike)))
     for word, alike in words.items():
-        found += _some(_counting(_series(Key("word", word, name=name), alike)))
+        found += _as_list(_if_counting(_make_series(Key("word", word, name=name), alike)))
     plain = frozenset(series.key.text for series in found if series.key.kind == "shape" and not series.numbered)
     if len(plain) > 1:
-        found += _some(_even(_series(Key("any", shapes=plain, name=name), ordered)))
+        found += _as_list(_if_regular(_make_series(Key("any", shapes=plain, name=name), ordered)))
     for word in {first_word(text) for text in plain} - {""}:
-        found += _some(_even(_series(Key("begin", word, name=name), ordered)))
+        found += _as_list(_if_regular(_make_series(Key("begin", word, name=name), ordered)))
     return found
 
 
-def _of_function(name: str, function: str, theirs: Sequence[LogRecord], found: Sequence[Series]) -> list[Series]:
-    """What one function logs, in whatever words: by a number that counts on through all of them, or else as a beat."""
+def _series_of_function(
+    name: str, function: str, own_logs: Sequence[LogRecord], found: Sequence[Series]
+) -> list[Series]:
+    """The series of all messages of one function, in any wording: by a common counter, else if regular in time."""
     keys = (Key("function", function, column, name=name) for column in (0, -1))
-    if counted := [series for key in keys if (series := _counting(_series(key, theirs)))]:
+    if counted := [series for key in keys if (series := _if_counting(_make_series(key, own_logs)))]:
         return counted
-    stamps = {log.stamp for log in theirs}
-    if any(s.numbered and sum(t.stamp in stamps for t in s.ticks) >= NEARLY_ALL * len(theirs) for s in found):
+    stamps = {log.stamp for log in own_logs}
+    if any(s.numbered and sum(t.stamp in stamps for t in s.ticks) >= COVERED_SHARE * len(own_logs) for s in found):
         return []
-    return _some(_even(_series(Key("function", function, name=name), theirs)))
+    return _as_list(_if_regular(_make_series(Key("function", function, name=name), own_logs)))
 
 
-def _series(key: Key, logs: Iterable[LogRecord]) -> Series | None:
+def _make_series(key: Key, logs: Iterable[LogRecord]) -> Series | None:
     ticks = tuple(tick for log in logs if (tick := key.of(log)))
     return Series(key, ticks) if len(ticks) > 1 and ticks[-1].stamp - ticks[0].stamp >= MIN_SPAN_S else None
 
 
-def _counting(series: Series | None) -> Series | None:
-    """The series, where its numbers count something: whole, rising (or falling) on and on, but no clock."""
+def _if_counting(series: Series | None) -> Series | None:
+    """The series, if its numbers are a counter: whole, steadily rising (or falling), and not a clock."""
     if series is None:
         return None
     numbers = [tick.number or 0.0 for tick in series.ticks]
     steps = [b - a for a, b in pairwise(numbers)]
-    # Callbacks that overlap may log two ticks in the wrong order; a number that starts over counts nothing.
+    # Overlapping callbacks may log two ticks in the wrong order, but a number that keeps starting over is no counter.
     one_way = abs(numbers[-1] - numbers[0]) >= 0.8 * sum(map(abs, steps)) and sum(map(bool, steps)) >= 0.8 * len(steps)
-    whole = all(tick.whole for tick in series.ticks) or series.is_10_hz  # "12.0 ticks" counts, "1.2 s" tells the time
+    whole = all(tick.whole for tick in series.ticks) or series.is_10_hz  # "12.0 ticks" is a count, "1.2 s" a time
     if not one_way or not whole:
         return None
     return None if any(abs(series.hz - clock) <= 0.1 * clock for clock in CLOCKS_HZ) else series
 
 
-def _uncounted(series: Series | None) -> Series | None:
+def _if_long(series: Series | None) -> Series | None:
     return series if series and len(series.ticks) > 2 else None
 
 
-def _even(series: Series | None) -> Series | None:
-    """The series, where it is one beat in several wordings, not several messages at each beat."""
+def _if_regular(series: Series | None) -> Series | None:
+    """The series, if its messages are regular in time: one per tick in several wordings, not several per tick."""
     if series is None or len(series.ticks) < 4:
         return None
     steps = [b.stamp - a.stamp for a, b in pairwise(series.ticks)]
@@ -185,22 +187,22 @@ def _even(series: Series | None) -> Series | None:
     return series if near >= 0.8 * len(steps) else None
 
 
-def _some(series: Series | None) -> list[Series]:
+def _as_list(series: Series | None) -> list[Series]:
     return [] if series is None else [series]
 
 
 def hz_of(ticks: Sequence[Tick], *, starts_over: bool = True) -> float:
-    """Ticks in a second, from the first message to the last: by the numbers in them, or by their count.
+    """Ticks per second from the first message to the last: by the numbers in them, or else by their count.
 
-    Where the number `starts_over`, nobody knows how many ticks there were, and that interval is left out. In messages
-    of other words, one that does is another number.
+    With `starts_over`, an interval in which the number starts over is left out, since its ticks are unknown. Among
+    messages of different wording a falling number is just a different one, so no interval is left out.
     """
     if any(tick.number is None for tick in ticks):
         return _per_second([(b.stamp - a.stamp, 1.0) for a, b in pairwise(ticks)])
     steps = [(b.stamp - a.stamp, (b.number or 0.0) - (a.number or 0.0)) for a, b in pairwise(ticks)]
     down = sum(step < 0 for _, step in steps) > len(steps) / 2
     steps = [(for_s, -step if down else step) for for_s, step in steps]
-    return abs(_per_second([(for_s, step) for for_s, step in steps if step >= -STARTS_OVER or not starts_over]))
+    return abs(_per_second([(for_s, step) for for_s, step in steps if step >= -RESTART_STEP or not starts_over]))
 
 
 def _per_second(steps: Sequence[tuple[float, float]]) -> float:

@@ -137,17 +137,17 @@ def test_a_number_that_is_compared_with_the_count(test: str) -> None:
                 (COMPARES, "self.last_number is not None and number > self.last_number"),
                 ("self.last_number = number", "self.last_number += 1"),
             ],
-            "line 13: self.last_number += 1 goes on counting",
+            "line 13: self.last_number += 1 keeps counting",
             "line 13 becomes: self.last_number = number + 1",
         ),
         (
             [("self.last_number = number", "self.last_number += 1")],
-            "line 13: self.last_number += 1 goes on counting",
+            "line 13: self.last_number += 1 keeps counting",
             "line 13 becomes: self.last_number = number",
         ),
         (
             [("        self.last_number = number", "        else:\n            self.last_number += 1")],
-            "line 14: self.last_number += 1 goes on counting",
+            "line 14: self.last_number += 1 keeps counting",
             "write below line 14, with the indentation of line 11: self.last_number = number",
         ),
     ],
@@ -173,7 +173,7 @@ def test_a_comparison_that_is_about_lower_numbers_only() -> None:
     told = started(("number > self.last_number + 1", "number < self.last_number"))
     cause = gap_steps.diagnose_no_messages(told)
     assert cause is not None
-    assert "line 11: number < self.last_number is about lower numbers only" in cause.text
+    assert "line 11: number < self.last_number only detects lower numbers" in cause.text
     assert COMPARES.replace("last_number", "number_before") in followed(told, cause.hint)
 
 
