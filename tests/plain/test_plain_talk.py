@@ -122,7 +122,7 @@ def test_lesson_check_hints_and_checklist_by_a_pipe(tmp_path: Path, env: dict[st
         "1 of 15 ticked.",
         "There is no item 99: they go from 1 to 15. checklist lists them.",
         "Written: ~/ros_tutor_ws/checklist.html",
-        "There is no format pdf: it is markdown, json or html.",
+        "There is no format pdf: choose markdown, json or html.",
         "tick NUMBER: tick an item of the checklist.",
     ):
         assert f"{line}\n" in said, line
@@ -190,9 +190,9 @@ def test_ctrl_c_is_130_at_the_prompt_and_during_a_check(tmp_path: Path, env: dic
             assert talk.wait(LIMIT_S) == 130
         return said
 
-    assert stopped(PROGRAM, "", "help says what else").endswith("Stopped; nothing that was started is left.\n")
+    assert stopped(PROGRAM, "", "help says what else").endswith("Stopped; nothing is left running.\n")
     said = stopped(WITH_FAKE_ENGINE, says("start", "check"), "begun", "--slow")
-    assert said == "cleaned up\n\nStopped; nothing that was started is left.\n"
+    assert said == "cleaned up\n\nStopped; nothing is left running.\n"
 
 
 def test_a_terminal_shows_what_is_typed_only_once(env: dict[str, str]) -> None:

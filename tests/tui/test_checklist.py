@@ -81,7 +81,7 @@ async def test_i_tick_what_i_can_do_and_it_is_kept_at_once(learner: Any) -> None
         file.unlink()
         file.mkdir()  # as good as a disk that is gone, for root too
         await me.press("space")
-        await me.sees("Your progress is not kept", "2 of 15 ticked")
+        await me.sees("Your progress could not be saved", "2 of 15 ticked")
         file.rmdir()
         file.write_text(text)
 
@@ -186,7 +186,7 @@ async def test_i_export_in_each_format_and_no_file_is_replaced_unasked(learner: 
         await me.sees("(•) Markdown")
         me.app.screen.query_one(Input).value = "n" * 300
         await me.press("enter")
-        await me.sees("Your checklist is not written")
+        await me.sees("Your checklist could not be written")
 
 
 async def test_the_last_pass_leads_to_the_checklist_and_capital_x_exports_there_too(learner: Any) -> None:

@@ -35,7 +35,7 @@ async def test_start_never_touches_what_is_there(learner: Any) -> None:
         path: Path = me.session.path(me.session.lessons[0].files[0])
         path.write_text("mine = 1\n")
         await me.press("s")
-        await me.sees("is there already")
+        await me.sees("already exists")
         assert path.read_text() == "mine = 1\n"
 
 
@@ -72,7 +72,7 @@ async def test_the_solution_is_shown_only_after_a_question(learner: Any) -> None
         await me.press("escape")
         assert "# the solution" not in me.screen()
         await me.press("v", "enter")
-        await me.sees("Our solution, to read", "# the solution")
+        await me.sees("Our solution, read-only", "# the solution")
         await me.press("escape")
         await me.until(lambda: "# the solution" not in me.screen())
 

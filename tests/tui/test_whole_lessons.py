@@ -171,7 +171,7 @@ async def test_our_server_answers_my_client_and_my_own_server_runs_beside_it_too
         await me.press("j")
         await me.sees("● running  calculator_server.py", "j stops it")
         await me.press("b")
-        await me.sees("Your calculator_server.py runs already")
+        await me.sees("Your calculator_server.py is already running")
         await me.press("j")
         await me.sees("■ ended  calculator_server.py")
 

@@ -1,4 +1,4 @@
-"""A screen reader's way through the course: lines of text in, lines of text out, and nothing that is drawn."""
+"""The course for screen readers: lines of text in, lines of text out, nothing drawn on screen."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from pathlib import Path
 
 
 def run(workspace: Path, out: Callable[[str], None], lessons: Path | None = None) -> int:
-    """Talk with the learner until they leave; 0, or 130 where they press Ctrl+C. `out` writes to stdout.
+    """Run the dialog until the learner leaves. Return 0, or 130 after Ctrl+C. `out` writes to stdout.
 
-    `lessons` is a folder with further `lessons/` and `checks/`. Raises ContentError where a lesson is broken.
+    `lessons` is a folder with additional `lessons/` and `checks/`. Raises ContentError if a lesson is broken.
     """
     from tutor.content import load_course
     from tutor.plain.dialog import run_dialog

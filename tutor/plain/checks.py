@@ -1,4 +1,4 @@
-"""The check, reported as it goes."""
+"""The check command, reported while it runs, and the diagnosis of its criteria."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from tutor.workspace import find_submission
 
 
 class Checks:
-    """Judges the lesson's files, and remembers what was found."""
+    """Checks the lesson's files, and remembers the latest result of each lesson."""
 
     def __init__(self, conversation: Conversation) -> None:
         self._conversation = conversation
-        self._found: dict[str, ExerciseResult] = {}
-        self._said: set[str] = set()
-        self._failed = False
+        self._results: dict[str, ExerciseResult] = {}
+        self._announced: set[str] = set()
+        self._first_cause_said = False
         self.commands = (
             DialogCommand(
                 "check", "check your node by what it does; check first ends at the first failure", self.check
@@ -30,68 +30,68 @@ class Checks:
         )
 
     async def check(self, words: list[str]) -> None:
-        """Judge, and say what each criterion came to."""
+        """Run the check, and say the verdict of each criterion."""
         if words not in ([], ["first"]):
             raise CommandRefused("Say check, or check first, which ends at the first failure.")
         session, lesson = self._conversation.session, self._conversation.lesson
         submission = find_submission(lesson, None, session.workspace)
-        from tutor import engine  # late: nothing but a check needs ROS
+        from tutor import engine  # late import: only a check needs ROS
 
-        self._said.clear()
-        self._failed = False
+        self._announced.clear()
+        self._first_cause_said = False
         try:
             run_check = partial(engine.run_check, first=True) if words else engine.run_check
-            report = await run_check([submission], session.course, only=None, on_event=self._tell)
+            report = await run_check([submission], session.course, only=None, on_event=self._on_event)
         except EngineError as error:
             raise CommandRefused(
-                f"The check could not be made, which is no fault of your code: {error}. {error.hint}"
+                f"The check could not be run, which is no fault of your code: {error}. {error.hint}"
             ) from error
         for result in report.exercises:
-            self._found[result.id] = result
-            self._sum_up(result)
+            self._results[result.id] = result
+            self._report_result(result)
             try:
                 session.record(result)
             except StorageError as error:
                 self._conversation.say(f"This check is not in your progress: {error}")
 
-    def _tell(self, event: Event) -> None:
+    def _on_event(self, event: Event) -> None:
         match event:
             case CheckStarted():
                 count = speech.counted(len(event.criteria), "criterion").replace("criterions", "criteria")
-                self._conversation.say(f"Checking {event.exercise}, {count}. This takes some seconds.")
-            case Progress() if event.doing and event.doing not in self._said:  # one run serves many criteria
-                self._said.add(event.doing)
+                self._conversation.say(f"Checking {event.exercise}, {count}. This takes a few seconds.")
+            case Progress() if event.doing and event.doing not in self._announced:  # one run can serve many criteria
+                self._announced.add(event.doing)
                 self._conversation.say(f"{event.doing[0].upper()}{event.doing[1:]}.")
-            case Progress() if event.so_far and event.so_far not in self._said:
-                self._said.add(event.so_far)
+            case Progress() if event.so_far and event.so_far not in self._announced:
+                self._announced.add(event.so_far)
                 self._conversation.say(f"So far: {one_line(event.so_far)}.")
             case CriterionJudged():
                 self._conversation.say(speech.headline(event.result))
                 self._say_first_cause(event.result)
 
     def _say_first_cause(self, result: CriterionResult) -> None:
-        """Why the first required criterion failed, as soon as that is final; of the others, it is said at the end."""
-        if self._failed or result.bonus or result.verdict.status is not Status.FAILED:
+        """Say the cause of the first failed required criterion at once; the other causes follow at the end."""
+        if self._first_cause_said or result.bonus or result.verdict.status is not Status.FAILED:
             return
-        self._failed = True
+        self._first_cause_said = True
         self._conversation.say(f"Cause: {one_line(result.verdict.cause, 1000)}".replace("`", ""))
 
-    def _sum_up(self, result: ExerciseResult) -> None:
+    def _report_result(self, result: ExerciseResult) -> None:
         self._conversation.say(speech.outcome(result))
-        missed = [criterion for criterion in result.criteria if not criterion.verdict.passed]
-        for criterion in missed:
+        unmet = [criterion for criterion in result.criteria if not criterion.verdict.passed]
+        for criterion in unmet:
             for line in speech.diagnosis(criterion):
                 self._conversation.say(line)
-        if missed:
-            self._conversation.say(f"why {missed[0].id} reads the evidence, hint the next hint.")
+        if unmet:
+            self._conversation.say(f"why {unmet[0].id} reads the evidence, hint the next hint.")
         elif self._conversation.lesson is not self._conversation.session.lessons[-1]:
             self._conversation.say("Well done. next goes to the next lesson, checklist to what you can do by now.")
         else:
             self._conversation.say("Well done: this was the last lesson. checklist goes to what you can do by now.")
 
     async def why(self, words: list[str]) -> None:
-        """One criterion of the last check."""
-        result = self._found.get(self._conversation.lesson.id)
+        """Say the diagnosis and evidence of one criterion of the last check."""
+        result = self._results.get(self._conversation.lesson.id)
         if result is None:
             raise CommandRefused("There is no check of this lesson yet: say check.")
         for criterion in result.criteria:
@@ -99,5 +99,5 @@ class Checks:
                 for line in (*speech.diagnosis(criterion), *speech.evidence(criterion)):
                     self._conversation.say(line)
                 return
-        known = speech.listed(criterion.id for criterion in result.criteria)
-        raise CommandRefused(f"Which criterion? They are {known}.")
+        ids = speech.listed(criterion.id for criterion in result.criteria)
+        raise CommandRefused(f"Which criterion? They are {ids}.")

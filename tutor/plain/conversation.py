@@ -1,4 +1,4 @@
-"""Where the learner is in the course, and the two ways to talk with them."""
+"""The learner's place in the course, and how to talk with them."""
 
 from __future__ import annotations
 
@@ -13,60 +13,60 @@ from tutor.workspace import Progress, State
 
 @dataclass(frozen=True, slots=True)
 class DialogCommand:
-    """A thing to do: its name (and others that are understood), what may follow it, and what it does, in words."""
+    """A command: `text` describes it, `arguments` names what may follow it, `aliases` are other names for it."""
 
     name: str
     text: str
-    do: Callable[[list[str]], Awaitable[None]]
-    follows: str = ""
-    others: tuple[str, ...] = ()
+    run: Callable[[list[str]], Awaitable[None]]
+    arguments: str = ""
+    aliases: tuple[str, ...] = ()
 
 
 class Conversation:
-    """The lesson that the learner is at; `say` tells a line, `ask` a question, whose answer is None at the end."""
+    """The current lesson. `say` prints a line; `ask` prints a question and returns the answer, None at end of input."""
 
     def __init__(
         self, session: Session, say: Callable[[str], None], ask: Callable[[str], Awaitable[str | None]]
     ) -> None:
         self.session, self.say, self.ask = session, say, ask
         session.notify = say
-        self.lesson = self._first()
+        self.lesson = self._initial_lesson()
 
-    def _first(self) -> Lesson:
-        """Where the learner was last; else the first lesson that is not passed."""
+    def _initial_lesson(self) -> Lesson:
+        """Return the lesson opened last, else the first one that is not passed."""
         lessons = self.session.lessons
         remembered = {lesson.id: lesson for lesson in lessons}.get(self.session.app_state().lesson)
         if remembered is not None:
             return remembered
         progress = self.session.progress()
-        left = [lesson for lesson in lessons if not progress.of(lesson.id).is_passed]
-        return (left or [*lessons])[0]
+        open_lessons = [lesson for lesson in lessons if not progress.of(lesson.id).is_passed]
+        return (open_lessons or [*lessons])[0]
 
     def open_lesson(self, lesson: Lesson) -> None:
-        """Be at this lesson, and say so. The app, too, opens there the next time."""
+        """Go to a lesson, and say so. The app will open there next time, too."""
         self.lesson = lesson
-        self.say(f"You are at {self.about(lesson, self.session.progress())}")
+        self.say(f"You are at {self.describe(lesson, self.session.progress())}")
         try:
             self.session.keep(replace(self.session.app_state(), lesson=lesson.id))
         except StorageError as error:
-            self.say(f"This place is not remembered: {error}")
+            self.say(f"Your place could not be saved: {error}")
 
-    def about(self, lesson: Lesson, progress: Progress) -> str:
-        """A lesson in a line: its id, title and difficulty, and how it stands."""
-        return f"{lesson.id} {lesson.title}, {lesson.difficulty.value}, {self.state_words(lesson, progress)}."
+    def describe(self, lesson: Lesson, progress: Progress) -> str:
+        """Return a lesson on one line: id, title, difficulty and progress."""
+        return f"{lesson.id} {lesson.title}, {lesson.difficulty.value}, {self.describe_progress(lesson, progress)}."
 
-    def state_words(self, lesson: Lesson, progress: Progress) -> str:
-        """How far the learner is with a lesson."""
-        found = self.session.states(progress)[lesson.id]
+    def describe_progress(self, lesson: Lesson, progress: Progress) -> str:
+        """Return the learner's progress in a lesson, in words."""
+        current = self.session.states(progress)[lesson.id]
         return {
             State.PASSED: "passed",
-            State.NOT_PASSED: f"not passed yet, {found.count} criteria met",
+            State.NOT_PASSED: f"not passed yet, {current.count} criteria met",
             State.STARTED: "started",
             State.NOT_STARTED: "not started",
-        }[found.state]
+        }[current.state]
 
-    def find(self, text: str) -> Lesson:
-        """A lesson by its number in the list, or by its id. Raises Refused."""
+    def find_lesson(self, text: str) -> Lesson:
+        """Return a lesson by its number in the list or its id. Raises CommandRefused."""
         lessons = self.session.lessons
         if text.isdecimal():
             if 1 <= int(text) <= len(lessons):

@@ -1,4 +1,4 @@
-"""The learner's node, run in their own ROS domain while they go on talking with us."""
+"""Commands to run, read and stop the learner's node, in their own ROS domain, while the dialog goes on."""
 
 from __future__ import annotations
 
@@ -12,32 +12,35 @@ from tutor.plain.speech import counted
 from tutor.report.plain import one_line
 from tutor.session.node import Node, NodeState, Phase
 
-FIRST_LINE_S = 5.0
-"""How long `log` waits for a node to say something at all, in seconds."""
+_FIRST_LINE_TIMEOUT_S = 5.0
+"""How long `log` waits for a node's first line, in seconds."""
 
-_LINES = 10
+_DEFAULT_LINES = 10
 
 
 class Nodes:
-    """One node for each file. What has ended is reported once, before the next question."""
+    """At most one node per file. The end of a node is reported once, before the next prompt."""
 
     def __init__(self, conversation: Conversation) -> None:
         self._conversation = conversation
         self._nodes: dict[Path, Node] = {}
         self._tasks: set[asyncio.Task[None]] = set()
         self._latest: Node | None = None
-        self._untold: list[Node] = []
+        self._unreported: list[Node] = []
         self._changed = asyncio.Event()
         self.commands = (
             DialogCommand("run", "run your node; with a number, that file of the lesson", self.run, "[NUMBER]"),
             DialogCommand(
-                "log", f"read the last {_LINES} lines that your node wrote, or NUMBER of them", self.log, "[NUMBER]"
+                "log",
+                f"read the last {_DEFAULT_LINES} lines that your node wrote, or NUMBER of them",
+                self.log,
+                "[NUMBER]",
             ),
             DialogCommand("stop", "stop your node, as Ctrl+C does", self.stop),
         )
 
     async def run(self, words: list[str]) -> None:
-        """Run a file of the lesson with the options that the app remembers."""
+        """Run a file of the lesson with the run options saved in the app."""
         session, lesson = self._conversation.session, self._conversation.lesson
         number = int(words[0]) if words and words[0].isdecimal() else 1
         if not 1 <= number <= len(lesson.files):
@@ -46,35 +49,35 @@ class Nodes:
         path = session.path(file)
         if not path.exists():
             raise CommandRefused(f"{file.name} is not in your workspace yet: say start.")
-        known = self._nodes.get(path)
-        if known is not None and known.state.alive:
-            raise CommandRefused(f"{file.name} runs already: stop ends it.")
+        previous = self._nodes.get(path)
+        if previous is not None and previous.state.alive:
+            raise CommandRefused(f"{file.name} is already running: stop ends it.")
         try:
             command = await asyncio.to_thread(session.node_command, file, session.app_state().run_of(lesson.id))
         except (CommandError, OSError) as error:
             raise CommandRefused(f"The node cannot be started: {error}") from error
         await self._stop_others({session.path(each) for each in lesson.files})
-        node = Node(command, self._show)
+        node = Node(command, self._on_state)
         self._nodes[path] = self._latest = node
         task = asyncio.create_task(node.run())
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
-        await self._until(lambda: node.state.phase is not Phase.STARTING, None)
+        await self._wait_until(lambda: node.state.phase is not Phase.STARTING, None)
         if node.state.alive:
-            self._untold.append(node)
+            self._unreported.append(node)
             self._conversation.say(f"Running in ROS domain {self._conversation.session.domain}: {command.typed}")
             self._conversation.say("log reads what it writes, stop ends it.")
         else:
             self._conversation.say(f"It could not be started: {node.state.note}")
 
     async def log(self, words: list[str]) -> None:
-        """Read what was written last; a node that has just been started is given a moment."""
+        """Read the last lines of the log; wait a moment for a node that has only just started."""
         node = self._latest
         if node is None:
             raise CommandRefused("No node has been run yet: say run.")
-        most = int(words[0]) if words and words[0].isdecimal() and int(words[0]) else _LINES
-        await self._until(lambda: bool(node.state.lines) or not node.state.alive, FIRST_LINE_S)
-        lines = node.state.lines[-most:]
+        limit = int(words[0]) if words and words[0].isdecimal() and int(words[0]) else _DEFAULT_LINES
+        await self._wait_until(lambda: bool(node.state.lines) or not node.state.alive, _FIRST_LINE_TIMEOUT_S)
+        lines = node.state.lines[-limit:]
         self._conversation.say(
             f"{counted(len(lines), 'line')}, the latest last:" if lines else "It has written nothing yet."
         )
@@ -82,15 +85,15 @@ class Nodes:
             self._conversation.say(one_line(line.text, 500))
 
     async def stop(self, words: list[str]) -> None:
-        """Stop whatever runs, and wait until it has."""
+        """Stop all nodes, and wait until they have ended."""
         if not self._tasks:
             raise CommandRefused("No node is running.")
-        await self.leave()
+        await self.stop_all()
         self.report_ended()
 
-    async def _stop_others(self, own: set[Path]) -> None:
-        """Two lessons' nodes would talk into each other's topics."""
-        others = [node for path, node in self._nodes.items() if path not in own and node.state.alive]
+    async def _stop_others(self, kept: set[Path]) -> None:
+        """Stop other lessons' nodes, which would publish on the same topics."""
+        others = [node for path, node in self._nodes.items() if path not in kept and node.state.alive]
         for node in others:
             node.stop()
         for node in others:
@@ -98,25 +101,25 @@ class Nodes:
         self.report_ended()
 
     def report_ended(self) -> None:
-        """Say which nodes have ended since this was last said."""
-        for node in [node for node in self._untold if not node.state.alive]:
-            self._untold.remove(node)
+        """Say which nodes have ended since the last report."""
+        for node in [node for node in self._unreported if not node.state.alive]:
+            self._unreported.remove(node)
             self._conversation.say(f"Your node {node.state.file}: {node.state.note}.")
 
-    async def leave(self) -> None:
-        """Stop all of them; nothing of them is left then."""
+    async def stop_all(self) -> None:
+        """Stop all nodes, and wait until no process of theirs is left."""
         for node in self._nodes.values():
             node.stop()
         if self._tasks:
             await asyncio.wait(set(self._tasks))
 
-    def _show(self, state: NodeState) -> None:
+    def _on_state(self, state: NodeState) -> None:
         self._changed.set()
 
-    async def _until(self, seen: Callable[[], bool], limit_s: float | None) -> None:
+    async def _wait_until(self, condition: Callable[[], bool], timeout_s: float | None) -> None:
         try:
-            async with asyncio.timeout(limit_s):
-                while not seen():
+            async with asyncio.timeout(timeout_s):
+                while not condition():
                     self._changed.clear()
                     await self._changed.wait()
         except TimeoutError:

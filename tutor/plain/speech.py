@@ -1,4 +1,4 @@
-"""How lessons and verdicts are said: a line for each thought, without signs that a voice would stumble over."""
+"""Lessons and verdicts as spoken lines: one line per thought, without symbols that a screen reader stumbles over."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from tutor.judge.verdict import Status
 from tutor.report.plain import details, evidence_lines, one_line, seconds, tally
 from tutor.terminal_text import printable
 
-WORDS = {
+_STATUS_WORDS = {
     Status.PASSED: "passed",
     Status.FAILED: "failed",
     Status.SKIPPED: "skipped",
@@ -25,16 +25,16 @@ _MARKUP = re.compile(r"`+([^`]+)`+|\*\*(.+?)\*\*|(?<![\w*])\*([^*\s][^*]*)\*(?![
 
 @dataclass(frozen=True, slots=True)
 class Section:
-    """A part of a lesson: its title, and its lines as they are said."""
+    """A section of a lesson: its title, and its spoken lines."""
 
     title: str
     lines: tuple[str, ...]
 
 
 def sections(markdown: str) -> list[Section]:
-    """A lesson's text by its headings. A paragraph is one line; code is said line by line, between two words."""
+    """Split a lesson at its headings. A paragraph becomes one line; code stays as it is, between two lines."""
     found: list[tuple[str, list[str]]] = []
-    for title, line in _said(markdown):
+    for title, line in _spoken_lines(markdown):
         if title:
             found.append((line, []))
         elif found:
@@ -44,15 +44,15 @@ def sections(markdown: str) -> list[Section]:
     return [Section(title, tuple(lines)) for title, lines in found]
 
 
-def _said(markdown: str) -> Iterator[tuple[bool, str]]:
-    """Each line, and whether it is a heading."""
+def _spoken_lines(markdown: str) -> Iterator[tuple[bool, str]]:
+    """Yield each spoken line, and whether it is a heading."""
     paragraph: list[str] = []
     fenced = False
     for line in [*markdown.splitlines(), ""]:
         fence = line.lstrip().startswith("```")
         heading = None if fenced else _HEADING.fullmatch(line)
-        ends = fence or fenced or heading is not None or not line.strip() or _ITEM.match(line) is not None
-        if ends and paragraph:
+        ends_paragraph = fence or fenced or heading is not None or not line.strip() or _ITEM.match(line) is not None
+        if ends_paragraph and paragraph:
             yield False, _plain(" ".join(paragraph))
             paragraph = []
         if fence:
@@ -72,50 +72,50 @@ def _plain(text: str) -> str:
 
 
 def outcome(result: ExerciseResult) -> str:
-    """How a check ended, in a line."""
+    """Return the result of a check on one line."""
     verdict = {Status.PASSED: "passed", Status.ERROR: "could not be judged"}.get(result.verdict, "not passed yet")
     return f"{result.id} {result.title}: {verdict}. {tally(result)}, after {seconds(result.duration_s)}."
 
 
 def headline(criterion: CriterionResult) -> str:
-    """One criterion and how it ended."""
+    """Return a criterion and its verdict."""
     bonus = " (bonus)" if criterion.bonus else ""
-    return f"{criterion.id}{bonus}: {WORDS[criterion.verdict.status]}."
+    return f"{criterion.id}{bonus}: {_STATUS_WORDS[criterion.verdict.status]}."
 
 
 def diagnosis(criterion: CriterionResult) -> list[str]:
-    """What there is to say about a criterion that was not passed."""
+    """Return the diagnosis of a criterion that was not passed."""
     found = details(criterion.verdict)
     code = [line for label, text in found if label == "next step" for line in text.split("\n")[1:]]
-    said = [(label.capitalize(), _line(label, text)) for label, text in found]
-    if criterion.verdict.status is Status.SKIPPED:  # there are many where one thing is wrong: a line each
-        return [" ".join([headline(criterion), *(f"{text[:1].upper()}{text[1:]}." for _, text in said)])]
-    lines = [f"{label}: {text}" for label, text in said]
+    spoken = [(label.capitalize(), _spoken_detail(label, text)) for label, text in found]
+    if criterion.verdict.status is Status.SKIPPED:  # one fault can skip many: one line each
+        return [" ".join([headline(criterion), *(f"{text[:1].upper()}{text[1:]}." for _, text in spoken)])]
+    lines = [f"{label}: {text}" for label, text in spoken]
     return [headline(criterion), f"The criterion: {criterion.text}.", *lines, *code]
 
 
-def _line(label: str, text: str) -> str:
-    """A part of a diagnosis in one line; the code of a next step, which has lines of its own, left out."""
+def _spoken_detail(label: str, text: str) -> str:
+    """Return a part of a diagnosis on one line, without the code of a next step, which is said separately."""
     return one_line(text.split("\n")[0] if label == "next step" else text, 1000).replace("`", "")
 
 
 def evidence(criterion: CriterionResult) -> list[str]:
-    """What was seen, line by line."""
+    """Return the evidence, line by line."""
     lines = evidence_lines(criterion.verdict)
     return [f"Evidence, {counted(len(lines), 'line')}:", *lines] if lines else ["There is no further evidence."]
 
 
 def code(text: str) -> list[str]:
-    """A file's lines, empty ones left out."""
+    """Return a file's lines without the empty ones."""
     return [line for line in printable(text).splitlines() if line.strip()]
 
 
 def counted(number: int, thing: str) -> str:
-    """A number of things: "1 line", "3 lines"."""
+    """Return a number of things: "1 line", "3 lines"."""
     return f"{number} {thing}{'' if number == 1 else 's'}"
 
 
 def listed(words: Iterable[str]) -> str:
-    """Words as people list them: "a, b and c"."""
+    """Return words as a list in prose: "a, b and c"."""
     *most, last = words
     return f"{', '.join(most)} and {last}" if most else last

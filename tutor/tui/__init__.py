@@ -1,18 +1,19 @@
-"""The terminal app. Textual is imported only when it is opened; rclpy never is."""
+"""The terminal app. Textual is imported only when the app opens; rclpy is never imported."""
 
 from __future__ import annotations
 
 import os
 from pathlib import Path
 
-# What a key changes waits for the next frame: half as long as by default. Textual reads this when it is imported.
+# The effect of a key press is painted with the next frame; this halves Textual's default frame time of 1/60 s.
+# Textual reads the variable when it is imported.
 os.environ.setdefault("TEXTUAL_FPS", "120")
 
 
 def run(workspace: Path, lessons: Path | None = None) -> int:
-    """Open the terminal app on a workspace (which need not exist yet) and give its exit code when it is closed.
+    """Open the terminal app on a workspace (which need not exist yet) and return its exit code once it is closed.
 
-    `lessons` is a folder with further `lessons/` and `checks/`. Raises ContentError where a lesson is broken.
+    `lessons` is a folder with additional `lessons/` and `checks/`. Raises ContentError if a lesson is broken.
     """
     from tutor.content import load_course
     from tutor.ros import stale_segments
@@ -26,5 +27,5 @@ def run(workspace: Path, lessons: Path | None = None) -> int:
     try:
         app.run()
     finally:
-        stale_segments.remove()  # of nodes that were ended by force
+        stale_segments.remove()  # left behind by nodes that were killed
     return app.return_code or 0

@@ -1,4 +1,4 @@
-"""The terminal app itself: themes, the way in, and the way out."""
+"""The terminal app: themes, startup and shutdown."""
 
 from __future__ import annotations
 
@@ -24,11 +24,11 @@ if TYPE_CHECKING:
 
 
 class TutorApp(TextApp[int]):
-    """Opens on the welcome screen where there is no workspace yet, else on the lessons."""
+    """Opens the welcome screen if there is no workspace yet, else the lessons."""
 
     TITLE = "ROS Tutor"
-    # Notes come beside the tabs: further down they would cover a diagnosis.
-    # An emoji is two cells wide in some terminals and one in others.
+    # Toasts appear beside the tabs: further down they would cover a diagnosis.
+    # The search icon is hidden: an emoji is two cells wide in some terminals and one in others.
     CSS = """
     SearchIcon { display: none; }
     ToastRack { dock: top; align: right top; margin: 0; }
@@ -42,84 +42,84 @@ class TutorApp(TextApp[int]):
         self.main: MainScreen | None = None
         self._leaving = False
         self._typeahead = Typeahead(self, super().on_event)
-        self._notes: list[str] = []
-        session.notify = self._notes.append
+        self._early_warnings: list[str] = []
+        session.notify = self._early_warnings.append
         self._state = session.app_state()
         self.register_theme(DARK)
         self.register_theme(LIGHT)
         self.theme = self._state.theme if self._state.theme in (DARK.name, LIGHT.name) else DARK.name
 
     async def on_event(self, event: Event) -> None:
-        """Keys and pastes in the order in which they were typed; those that were handed on already come back up."""
+        """Queue keys and pastes so that they take effect in the order typed; forwarded ones bubble back up here."""
         if isinstance(event, Key | Paste) and not event.is_forwarded:
             await self._typeahead.take(event)
         else:
             await super().on_event(event)
 
     def get_default_screen(self) -> Screen[Any]:
-        """What is painted first."""
-        known = {lesson.id: lesson for lesson in self.session.lessons}
-        first = known.get(self._state.lesson, self.session.lessons[0])
+        """Return the screen that is painted first."""
+        by_id = {lesson.id: lesson for lesson in self.session.lessons}
+        first = by_id.get(self._state.lesson, self.session.lessons[0])
         return OpeningScreen(first if self.session.workspace.exists else None)
 
     async def on_mount(self) -> None:
-        for text in self._notes:
-            self._tell(text)
-        self.session.notify = self._tell
+        for text in self._early_warnings:
+            self._warn(text)
+        self.session.notify = self._warn
         loop = asyncio.get_running_loop()
-        for number in (signal.SIGTERM, signal.SIGHUP):
-            loop.add_signal_handler(number, self.leave)
+        for signum in (signal.SIGTERM, signal.SIGHUP):
+            loop.add_signal_handler(signum, self.leave)
         self.screen.call_after_refresh(self._open)
 
     def _open(self) -> None:
-        """The first paint is out: now for what takes longer."""
+        """Open the real first screen, now that the first paint is out and slow imports no longer delay it."""
         if self.session.workspace.exists:
-            self._begin()
+            self._open_lessons()
             return
         from tutor.tui.screens.welcome import WelcomeScreen
 
-        self.push_screen(WelcomeScreen(self.session), self._welcomed)
+        self.push_screen(WelcomeScreen(self.session), self._workspace_created)
 
-    def _tell(self, text: str) -> None:
-        # Told from worker threads: a message queue is the way to the app's own thread.
+    def _warn(self, text: str) -> None:
+        # Called from worker threads: the message queue carries it to the app's own thread.
         self.call_later(self.notify, text, severity="warning", timeout=12)
 
     def get_system_commands(self, screen: Screen[Any]) -> Iterable[SystemCommand]:
-        """None of Textual's own: ours are in the palette already."""
+        """Return none of Textual's own commands: ours are in the palette already."""
         return ()
 
-    def _welcomed(self, begun: bool | None) -> None:
-        """The workspace is there: a new one, or one from before."""
+    def _workspace_created(self, begun: bool | None) -> None:
+        """Open the lessons: the workspace now exists, be it a new or an earlier one."""
         found = self.session.app_state()
         self._state = replace(found, theme=self.theme)
-        self._begin()
+        self._open_lessons()
 
-    def _begin(self) -> None:
-        from tutor.tui.screens.main import MainScreen  # late: half of all that is imported is imported here
+    def _open_lessons(self) -> None:
+        from tutor.tui.screens.main import MainScreen  # late: this accounts for half of all imports
 
         self.main = MainScreen(self.session, self._state)
         self.push_screen(self.main)
 
     def action_switch_theme(self) -> None:
-        """Dark to light and back."""
+        """Switch between the dark and the light theme."""
         self.theme = LIGHT.name if self.current_theme.dark else DARK.name
 
     async def action_quit(self) -> None:
-        """End the check and the node, then leave. Asked a second time: leave at once (they are killed)."""
+        """Stop the check and the node, then quit. The second time, quit at once (they are killed)."""
         self.leave()
 
     def leave(self) -> None:
-        """Begin to leave."""
+        """Start shutting down, or quit at once if that is under way or there is nothing to shut down."""
         if self._leaving or self.main is None:
             self.exit(0)
             return
         self._leaving = True
         if self.main.busy:
             self.notify("Ending your node and the check. Press q again to leave at once.", timeout=20)
-        leave: Callable[[], Any] = partial(self._leave, self.main)
-        self.run_worker(leave, group="leave", exit_on_error=False)
+        shut_down: Callable[[], Any] = partial(self._shut_down, self.main)
+        self.run_worker(shut_down, group="leave", exit_on_error=False)
 
-    async def _leave(self, main: MainScreen) -> None:
+    async def _shut_down(self, main: MainScreen) -> None:
         try:
             await main.close_down()
         finally:

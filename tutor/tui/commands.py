@@ -1,4 +1,4 @@
-"""All that the learner can do, in one table: it gives the keys, the footer, the help and the command palette."""
+"""Everything the learner can do, in one table: the source of the keys, the footer, the help and the command palette."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ _KEY_NAMES = {"escape": "Esc", "question_mark": "?", "slash": "/", "space": "Spa
 
 @dataclass(frozen=True, slots=True)
 class Command:
-    """One thing to do. `name` is what the screen knows it by; `label` is for the footer, `text` for help and palette.
+    """One action. `name` identifies it; `label` is shown in the footer, `text` in the help and the palette.
 
-    `help` is for the help instead of `text`: commands with the same one share a line there.
+    `help` replaces `text` in the help: commands with the same `help` share a line there.
 
-    `keys`: any of them does it, the first is shown in the footer where `footer` says so. One key may belong to several
-    commands, of which only one makes sense at a time.
+    Any of the `keys` triggers it; the first is shown in the footer if `footer` is set. Several commands may share a
+    key, as long as only one of them is available at a time.
     """
 
     name: str
@@ -29,11 +29,11 @@ class Command:
 
     @property
     def shown_keys(self) -> tuple[str, ...]:
-        """The keys as the learner reads them."""
+        """The keys as shown to the learner."""
         return tuple(key_label(key) for key in self.keys)
 
     def bindings(self) -> Iterator[Binding]:
-        """As Textual wants them."""
+        """Yield a Textual binding for each key."""
         for number, key in enumerate(self.keys):
             yield Binding(
                 key, f"do('{self.name}')", self.label, show=self.footer and number == 0, key_display=key_label(key)
@@ -41,7 +41,7 @@ class Command:
 
 
 def key_label(key: str) -> str:
-    """A key as the learner reads it."""
+    """Return a Textual key name as shown to the learner, e.g. "ctrl+s" as "Ctrl+S"."""
     if key in _KEY_NAMES:
         return _KEY_NAMES[key]
     if key.startswith("ctrl+"):
@@ -74,7 +74,7 @@ HINT = Command("hint", ("h",), "Hint", "Show the next hint", footer=True)
 START = Command("start", ("s",), "Start", "Put the skeleton into your workspace")
 EDIT = Command("edit", ("e",), "Edit", "Edit your file here, until Esc", footer=True)
 SAVE = Command("save", ("ctrl+s",), "Save", "Save (it is also saved as you go)")
-FIND = Command("find", ("ctrl+f",), "Find", "Find a text in your code")
+FIND = Command("find", ("ctrl+f",), "Find", "Find text in your code")
 FIND_NEXT = Command("find_next", ("ctrl+g",), "Find next", "Find the same text again")
 OWN_EDITOR = Command("own_editor", ("E",), "$EDITOR", "Open it in your own editor ($EDITOR)")
 NEXT_FILE = Command("next_file", ("f",), "File", "Show the exercise's other file")
@@ -85,17 +85,17 @@ AGAINST = Command("against", ("V",), "Compare", "Compare your file with our solu
 RESET = Command("reset", ("Z",), "Reset", "Start again (keeps a backup)")
 
 # The log
-LEVEL = Command("level", ("m",), "Level", "Choose the lowest level that is shown")
-FILTER = Command("filter", ("slash",), "Filter", "Show only lines with a certain text")
+LEVEL = Command("level", ("m",), "Level", "Choose the lowest log level to show")
+FILTER = Command("filter", ("slash",), "Filter", "Show only lines that contain a given text")
 PAUSE = Command("pause", ("space",), "Pause", "Pause the log, or follow it again")
 CLEAR = Command("clear", ("x",), "Clear", "Clear the log")
 GO_TO_ERROR = Command("go_to_error", ("g",), "Go to error", "Go to the last error in your code")
 
-# Around
+# Getting around
 NEXT = Command("next", ("n",), "Next", "Go to the next lesson", footer=True, help=_STEP)
 PREVIOUS = Command("previous", ("p",), "Prev", "Go to the previous lesson", help=_STEP)
 LESSONS = Command("lessons", ("l",), "Lessons", "Show or hide the list of lessons")
-ZOOM = Command("zoom", ("z",), "Zoom", "Give the page all the room, or not")
+ZOOM = Command("zoom", ("z",), "Zoom", "Maximize the page, or restore the panels")
 PAGE_LESSON = Command("page_lesson", ("1", "f2"), "Lesson", "Show the lesson")
 PAGE_CODE = Command("page_code", ("2", "f3"), "Code", "Show your code")
 PAGE_LOG = Command("page_log", ("3", "f4"), "Log", "Show the log of your node")
@@ -128,7 +128,7 @@ GROUPS: tuple[tuple[str, tuple[Command, ...]], ...] = (
     ),
     ("The log", (LEVEL, FILTER, PAUSE, CLEAR, GO_TO_ERROR)),
     (
-        "Around",
+        "Getting around",
         (
             NEXT,
             PREVIOUS,
@@ -155,7 +155,7 @@ GROUPS: tuple[tuple[str, tuple[Command, ...]], ...] = (
         ),
     ),
 )
-"""Every command, as the help shows them."""
+"""Every command, grouped as in the help."""
 
 PAGES = {
     "lesson": PAGE_LESSON,
@@ -165,7 +165,7 @@ PAGES = {
     "terminal": PAGE_TERMINAL,
     "criteria": PAGE_CRITERIA,
 }
-"""The pages in the order of their tabs, each with the command that turns to it."""
+"""The pages in the order of their tabs, each with the command that opens it."""
 
 LIVE_TABS = {
     "topics": LIVE_TOPICS,
@@ -173,11 +173,11 @@ LIVE_TABS = {
     "services": LIVE_SERVICES,
     "graph": LIVE_GRAPH,
 }
-"""The same for the tabs of the live page."""
+"""The tabs of the live page, likewise."""
 
 
 def all_commands() -> Iterator[Command]:
-    """Every command, in the order of the help."""
+    """Yield every command, in the order of the help."""
     for _, group in GROUPS:
         yield from group
 
@@ -186,14 +186,14 @@ BY_NAME = {command.name: command for command in all_commands()}
 
 
 def bindings() -> list[BindingType]:
-    """The keys of the main screen."""
+    """Return the key bindings of the main screen."""
     return [binding for command in all_commands() for binding in command.bindings()]
 
 
 EDITOR_KEYS = (
-    ("Esc", "Leave it: letters are commands again"),
+    ("Esc", "Leave the editor: letters are commands again"),
     ("Ctrl+F", "Find; Enter or ↓ next, ↑ previous, Esc ends"),
-    ("Ctrl+A", "Select all; Shift and a move selects, too"),
+    ("Ctrl+A", "Select all; Shift with a movement key selects, too"),
     ("Ctrl+C", "Copy; Ctrl+X: cut; Ctrl+V: paste"),
     ("Ctrl+Z", "Undo; Ctrl+Y: redo"),
     ("Home", "To the beginning of the line; End: to its end"),
@@ -202,13 +202,13 @@ EDITOR_KEYS = (
     ("Ctrl+W", "Delete the word before; Ctrl+K: the rest of the line"),
     ("Tab", "Indent; Backspace: back by one step"),
 )
-"""What the keys do in the editor, for the help; the commands above have theirs there, too."""
+"""The editor's own keys, for the help, which lists them beside the commands above."""
 
 
 def panel_bindings(*commands: Command, shown_key: int = 0, show: bool = True) -> list[BindingType]:
-    """The footer of a panel that has the focus: these commands of the screen, each by its key number `shown_key`."""
-    found: list[BindingType] = []
+    """Return bindings for the footer of a focused panel: screen commands, each under its key at index `shown_key`."""
+    panel: list[BindingType] = []
     for command in commands:
         key = command.keys[min(shown_key, len(command.keys) - 1)]
-        found.append(Binding(key, f"screen.do('{command.name}')", command.label, show=show, key_display=key_label(key)))
-    return found
+        panel.append(Binding(key, f"screen.do('{command.name}')", command.label, show=show, key_display=key_label(key)))
+    return panel

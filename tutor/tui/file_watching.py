@@ -6,23 +6,24 @@ import asyncio
 from collections.abc import Callable
 from pathlib import Path
 
-LOOK_EVERY_S = 0.4
+POLL_INTERVAL_S = 0.4
 
 _Stamp = tuple[int, int, int] | None
 
 
-async def watch_file(path: Path, tell: Callable[[], object]) -> None:
-    """Call `tell` now and after each change of the file, until cancelled."""
-    seen: object = "nothing yet"
+async def watch_file(path: Path, on_change: Callable[[], object]) -> None:
+    """Call `on_change` now and after each change to the file, until cancelled."""
+    seen: object = "nothing yet"  # unlike any stamp, so that the first look counts as a change
     while True:
         stamp = _stamp(path)
         if stamp != seen:
             seen = stamp
-            tell()
-        await asyncio.sleep(LOOK_EVERY_S)  # the pace of looking, not a wait for anything
+            on_change()
+        await asyncio.sleep(POLL_INTERVAL_S)
 
 
 def _stamp(path: Path) -> _Stamp:
+    """Return what changes whenever the file does, or None if there is no file."""
     try:
         status = path.stat()
     except OSError:

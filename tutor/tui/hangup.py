@@ -1,4 +1,4 @@
-"""A terminal that is gone: its window was closed. The app still has to save, and to end what it has started."""
+"""Survives a terminal hangup (the window was closed): the app must still save, and stop what it has started."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ if TYPE_CHECKING:
     from _typeshed import ReadableBuffer
 
 
-class _Output(io.FileIO):
-    """Discards what a closed terminal refuses: Textual's writer thread would die, and its waiters would hang."""
+class _HangupSafeOutput(io.FileIO):
+    """Discards output that a closed terminal refuses: EIO would kill Textual's writer thread and hang its waiters."""
 
     def write(self, data: ReadableBuffer, /) -> int:
         try:
@@ -24,7 +24,7 @@ class _Output(io.FileIO):
 
 
 def prepare() -> None:
-    """Have Textual, which draws on `sys.__stderr__`, survive it. Call it before an app is made."""
+    """Make `sys.__stderr__`, on which Textual draws, survive a hangup. Call before creating the app."""
     if sys.__stderr__ is not None and sys.__stderr__.isatty():
-        output = io.BufferedWriter(_Output(sys.__stderr__.fileno(), "w", closefd=False))
+        output = io.BufferedWriter(_HangupSafeOutput(sys.__stderr__.fileno(), "w", closefd=False))
         sys.__stderr__ = io.TextIOWrapper(output, sys.__stderr__.encoding, sys.__stderr__.errors)  # type: ignore[misc]

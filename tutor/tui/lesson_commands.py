@@ -1,4 +1,4 @@
-"""The commands that a lesson's text shows, to be run as they stand."""
+"""Finds the shell commands in a lesson's text, ready to be run as they stand."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 
 LANGUAGES = ("bash", "sh", "shell", "console")
-"""How a fenced example says that it shows commands."""
+"""Info strings of fenced code blocks that show commands."""
 
 _FENCE = re.compile(
     rf"^(?P<fence>`{{3,}}|~{{3,}})(?:{'|'.join(LANGUAGES)})[^\n]*\n(?P<text>.*?)^(?P=fence)[ \t]*$", re.M | re.S
@@ -14,9 +14,9 @@ _FENCE = re.compile(
 
 
 def commands_in(markdown: str) -> tuple[str, ...]:
-    r"""The commands in the text's shell examples, in order, each once and in one line, without comments.
+    r"""Return the commands in the text's shell examples, in order, without duplicates or comments, one line each.
 
-    Of an example with lines that begin with `$ `, only those are commands; the others are what is printed.
+    If an example has lines that begin with `$ `, only those are commands; the others are output.
 
     >>> commands_in("```bash\nros2 topic list  # all\nros2 run a b \\\n    --ros-args\n```\n")
     ('ros2 topic list', 'ros2 run a b --ros-args')
@@ -26,12 +26,12 @@ def commands_in(markdown: str) -> tuple[str, ...]:
 
 
 def command_at(example: str, line: int) -> str:
-    """The command that a line of an example, from 0, belongs to; empty where it shows none."""
+    """Return the command that line `line` (from 0) of an example belongs to, or "" if it is not part of one."""
     return next((command for lines, command in _commands(example) if line in lines), "")
 
 
 def _commands(example: str) -> Iterator[tuple[range, str]]:
-    """Each command with the lines that it takes."""
+    """Yield each command with its range of lines."""
     lines = example.split("\n")
     prompted = any(line.startswith("$ ") for line in lines)
     start = 0
@@ -39,20 +39,20 @@ def _commands(example: str) -> Iterator[tuple[range, str]]:
         end = start
         while end < len(lines) - 1 and lines[end].rstrip().endswith("\\"):
             end += 1
-        whole = " ".join(line.strip().removesuffix("\\").rstrip() for line in lines[start : end + 1])
-        if not prompted or whole.startswith("$ "):
-            yield range(start, end + 1), _without_comment(whole.removeprefix("$ "))
+        joined = " ".join(line.strip().removesuffix("\\").rstrip() for line in lines[start : end + 1])
+        if not prompted or joined.startswith("$ "):
+            yield range(start, end + 1), _strip_comment(joined.removeprefix("$ "))
         start = end + 1
 
 
-def _without_comment(command: str) -> str:
-    """A command without a comment at its end; a `#` in quotes begins none."""
+def _strip_comment(command: str) -> str:
+    """Remove a trailing comment; a `#` inside quotes does not start one."""
     quote = ""
-    for place, letter in enumerate(command):
+    for index, char in enumerate(command):
         if quote:
-            quote = "" if letter == quote else quote
-        elif letter in "\"'":
-            quote = letter
-        elif letter == "#" and command[place - 1 : place] in ("", " "):
-            return command[:place].strip()
+            quote = "" if char == quote else quote
+        elif char in "\"'":
+            quote = char
+        elif char == "#" and command[index - 1 : index] in ("", " "):
+            return command[:index].strip()
     return command.strip()

@@ -1,4 +1,4 @@
-"""Reads a node's output: what is a log message of which level, and which lines point into a source file. Pure."""
+"""Parses a node's output: log messages with their levels, and the source lines that tracebacks point to. Pure."""
 
 from __future__ import annotations
 
@@ -17,9 +17,10 @@ _ERROR = re.compile(r"[\w.]*(Error|Exception|Interrupt)\b")
 
 @dataclass(frozen=True, slots=True)
 class LogLine:
-    """One line. `level` is None for what is not a log message; `said` is the text without what stands before it.
+    """One line of output. `level` is None unless it is a log message; `message` is the text without the log prefix.
 
-    `stamp` is a time in seconds since the epoch; `place` is the file and line, from 1, that a traceback names.
+    `at` is when it was received and `stamp` the time in its log prefix, in seconds since the epoch; `place` is the file
+    and line (from 1) that a traceback names. `error`: it begins or ends a traceback.
     """
 
     text: str
@@ -34,17 +35,17 @@ class LogLine:
 
     @property
     def weight(self) -> Level:
-        """How loud it is: what is written to stderr and is not a log message counts as an error, a print as INFO."""
+        """The severity to filter by: without a log level, stderr counts as ERROR and stdout as INFO."""
         return self.level or (Level.ERROR if self.stderr else Level.INFO)
 
 
 def parse_line(line: OutputLine) -> LogLine:
-    """What a line of output is."""
+    """Parse one line of output."""
     text = strip_ansi(line.text)
     stderr = line.stream == "stderr"
     if found := _ROS_LOG.match(text):
-        level, stamp, name, said = found.groups()
-        return LogLine(text, said, stderr, line.at, Level[level], float(stamp), name)
+        level, stamp, name, message = found.groups()
+        return LogLine(text, message, stderr, line.at, Level[level], float(stamp), name)
     named = _PLACE.match(text)
     place = (Path(named[1]), int(named[2])) if named else None
     error = stderr and (text.startswith("Traceback ") or bool(_ERROR.match(text)))
@@ -52,11 +53,11 @@ def parse_line(line: OutputLine) -> LogLine:
 
 
 def matching_lines(lines: Sequence[LogLine], level: Level, wanted: str, since: float) -> list[LogLine]:
-    """The lines that are at least of `level`, hold the text `wanted` in any case, and came after `since`."""
+    """Return the lines of at least `level` that contain `wanted` (ignoring case) and came after `since`."""
     text = wanted.casefold()
     return [line for line in lines if line.at > since and line.weight >= level and text in line.text.casefold()]
 
 
 def last_place(lines: Sequence[LogLine], own: Sequence[Path]) -> tuple[Path, int] | None:
-    """Where the last traceback was last in one of the learner's own files."""
+    """Return the last place in one of the files `own` that a traceback names."""
     return next((line.place for line in reversed(lines) if line.place is not None and line.place[0] in own), None)

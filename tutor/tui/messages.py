@@ -1,4 +1,4 @@
-"""What workers tell the screens. Only the handlers of these messages touch widgets."""
+"""Messages that workers post to the screens. Only the handlers of these messages touch widgets."""
 
 from __future__ import annotations
 
@@ -15,41 +15,41 @@ from tutor.workspace import Progress
 
 @dataclass
 class CheckEvent(Message):
-    """The running check has something to tell."""
+    """The running check has emitted an event."""
 
     event: Event
 
 
 @dataclass
 class CheckOver(Message):
-    """The check's process is gone."""
+    """The check's process has ended."""
 
-    how: CheckEnded
+    ended: CheckEnded
 
 
 @dataclass
 class NodeChanged(Message):
-    """A node of the learner's has said something, or its state has changed.
+    """One of the running nodes has printed something, or its state has changed.
 
-    `first`: it was started just now. `unasked`: not by a key of theirs, but because its file was changed outside.
+    `started`: it has just been started. `automatic`: not by the learner, but because its file was changed outside.
     """
 
     path: Path
     state: NodeState
-    first: bool = False
-    unasked: bool = False
+    started: bool = False
+    automatic: bool = False
 
 
 @dataclass
 class NodeChosen(Message):
-    """The log of this node is to be shown."""
+    """The learner has chosen to see this node's log."""
 
     path: Path
 
 
 @dataclass
 class Started(Message):
-    """An exercise was started; `written` are the files that were put into the workspace."""
+    """An exercise was started; `written` are the names of the files that were put into the workspace."""
 
     exercise: str
     written: tuple[str, ...]
@@ -57,14 +57,14 @@ class Started(Message):
 
 @dataclass
 class FileTouched(Message):
-    """The file that is shown appeared, changed or went away on the disk, by whomever."""
+    """The file shown has appeared, changed or disappeared on disk; any program may be the cause, including this app."""
 
     path: Path
 
 
 @dataclass
 class FileSaved(Message):
-    """A file has new content on the disk, on purpose: saved by the learner, here or (`outside`) in another editor."""
+    """A file was saved on purpose: by the learner in this app, or (`outside`) in another program."""
 
     path: Path
     outside: bool = False
@@ -72,12 +72,12 @@ class FileSaved(Message):
 
 @dataclass
 class EditorLeft(Message):
-    """The learner is done typing for now."""
+    """The learner has left the editor."""
 
 
 @dataclass
 class GoToLine(Message):
-    """A line of a file, from 1, is to be shown in the editor."""
+    """Request to show a line (from 1) of a file in the editor."""
 
     path: Path
     line: int
@@ -85,7 +85,7 @@ class GoToLine(Message):
 
 @dataclass
 class RunCommand(Message):
-    """A command of the lesson's text is to be run in the terminal."""
+    """Request to run a command from the lesson's text in the terminal."""
 
     command: str
 
@@ -99,6 +99,6 @@ class ProgressRead(Message):
 
 @dataclass
 class ErrorOccurred(Message):
-    """Something that was asked for could not be done; one line that says why."""
+    """An action has failed; `text` says why, in one line."""
 
     text: str

@@ -1,4 +1,4 @@
-"""What is going on in the app: which lesson and file, what is known of them, and what is to be remembered."""
+"""The app's state: the current lesson and file, the progress and findings, and the preferences to remember."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from tutor.workspace import AppState, Progress, RunOptions
 
 @dataclass
 class AppModel:
-    """Shared by the screen and its controllers; only they change it, in the app's own thread."""
+    """Shared by the screen and its controllers; only they change it, and only in the app's own thread."""
 
     session: Session
     lesson: Lesson
@@ -24,28 +24,28 @@ class AppModel:
 
     @classmethod
     def of(cls, session: Session, state: AppState) -> AppModel:
-        """What the app begins with: where the learner left it."""
-        known = {lesson.id: lesson for lesson in session.lessons}
-        model = cls(session, known.get(state.lesson, session.lessons[0]), state)
+        """Create the initial model: the lesson where the learner left off, or the first one."""
+        by_id = {lesson.id: lesson for lesson in session.lessons}
+        model = cls(session, by_id.get(state.lesson, session.lessons[0]), state)
         model.findings = {lesson.id: Findings.of(lesson) for lesson in session.lessons}
         return model
 
     @property
     def file(self) -> LessonFile:
-        """The lesson's file that is shown."""
+        """The file of the lesson that is shown."""
         return self.lesson.files[self.file_index]
 
     @property
     def path(self) -> Path:
-        """Where that file is."""
+        """That file's path in the workspace."""
         return self.session.path(self.file)
 
     @property
     def paths(self) -> list[Path]:
-        """Where the lesson's files are."""
+        """The paths of all of the lesson's files."""
         return [self.session.path(file) for file in self.lesson.files]
 
     @property
     def run_options(self) -> RunOptions:
-        """How the lesson's node is to be run."""
+        """The run options (parameters and remaps) of the lesson."""
         return self.state.run_of(self.lesson.id)

@@ -1,4 +1,4 @@
-"""Hands the terminal to the learner's own editor."""
+"""Suspends the app and hands the terminal to the learner's own editor."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ from tutor.errors import EditorError
 from tutor.process import prctl
 
 VARIABLES = ("VISUAL", "EDITOR")
-"""Where a user names their editor; the first that is set counts."""
+"""Environment variables that name the user's editor; the first one set wins."""
 
-USUAL = ("sensible-editor", "nano", "vim", "vi", "nvim", "micro", "emacs", "ed")
-"""Where none is named, the first of these that is there; `sensible-editor` is Debian's and Ubuntu's choice."""
+FALLBACKS = ("sensible-editor", "nano", "vim", "vi", "nvim", "micro", "emacs", "ed")
+"""If no variable is set, the first of these that is installed; `sensible-editor` is Debian's and Ubuntu's choice."""
 
 
 def editor_command(
     environ: Mapping[str, str] = os.environ, which: Callable[[str], str | None] = shutil.which
 ) -> list[str]:
-    """The learner's editor as a command, without the file; `which` finds a program. Raises EditorError."""
+    """Return the learner's editor as a command, without the file; `which` finds a program. Raises EditorError."""
     for variable in VARIABLES:
         if not (value := environ.get(variable, "").strip()):
             continue
@@ -37,23 +37,23 @@ def editor_command(
             name = command[0] if command else value
             raise EditorError(f"There is no program {name}: set {variable} to your editor, or press e to edit here.")
         return command
-    for name in USUAL:
+    for name in FALLBACKS:
         if which(name) is not None:
             return [name]
     raise EditorError("No editor is installed: set EDITOR to yours, or press e to edit here.")
 
 
 async def edit_outside(app: App[Any], path: Path) -> str:
-    """Open `path` in the learner's editor and wait for its end; what went wrong, or nothing."""
+    """Open `path` in the learner's editor, wait until it exits, and return what went wrong, or ""."""
     try:
         command = editor_command()
     except EditorError as error:
         return str(error)
     name, problem = command[0], ""
     try:
-        prctl.adopt_orphans(False)  # what an editor leaves running is the user's
+        prctl.adopt_orphans(False)  # processes that the editor leaves behind are the user's, not ours to reap
         with app.suspend(), app.batch_update():
-            try:  # in here: the terminal comes back to the app only where nothing is raised
+            try:  # inside the `with`: the app gets the terminal back only if the block raises nothing
                 process = await asyncio.create_subprocess_exec(*command, str(path))
                 code = await process.wait()
             except OSError as error:

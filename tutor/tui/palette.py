@@ -1,4 +1,4 @@
-"""The command palette: every action, every lesson to go to, and every line of the lessons."""
+"""The command palette: all available actions, all lessons, and full-text search in the lessons."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ from tutor.tui import wording
 from tutor.tui.commands import all_commands
 from tutor.tui.control.host import HostScreen
 
-MOST_LINES = 12
-"""This many lines of the lessons are shown for one search."""
+MAX_LINES = 12
+"""Maximum number of lesson lines shown for one query."""
 
-SHORTEST = 3
-"""Fewer letters than this are found everywhere."""
+MIN_QUERY_LENGTH = 3
+"""Minimum query length for searching the lessons: anything shorter matches almost everywhere."""
 
 
 class Actions(Provider):
-    """What can be done now, and the lessons."""
+    """Offers the commands that are available now, and the lessons to go to."""
 
-    def _offers(self) -> Iterator[tuple[str, str, Callable[[], object]]]:
+    def _entries(self) -> Iterator[tuple[str, str, Callable[[], object]]]:
         screen = cast(HostScreen, self.screen)
         for command in all_commands():
             if screen.can(command):
@@ -36,40 +36,43 @@ class Actions(Provider):
             yield name, f"{lesson.unit}, {lesson.difficulty}", partial(screen.go_to, lesson)
 
     async def discover(self) -> Hits:
-        """What is offered before anything is typed."""
-        for name, about, run in self._offers():
-            yield DiscoveryHit(Content(name), run, text=name, help=_help(about))
+        """Yield everything, while nothing has been typed yet."""
+        for name, about, run in self._entries():
+            yield DiscoveryHit(Content(name), run, text=name, help=_escape(about))
 
     async def search(self, query: str) -> Hits:
-        """What has each of the typed words in its name."""
+        """Yield the entries whose names contain every typed word."""
         wanted = query.casefold().split()
-        for name, about, run in self._offers():
+        for name, about, run in self._entries():
             if all(word in name.casefold() for word in wanted):
                 shown = Content(name)
                 for word in wanted:
-                    shown = shown.highlight_regex(_plain(word), style="bold $accent")
-                yield Hit(0.9, shown, run, help=_help(about), text=name)
+                    shown = shown.highlight_regex(_literal_pattern(word), style="bold $accent")
+                yield Hit(0.9, shown, run, help=_escape(about), text=name)
 
 
 class LessonText(Provider):
-    """Finds a text in the lessons, and goes there."""
+    """Searches the lessons' text, and goes to the line chosen."""
 
     async def search(self, query: str) -> Hits:
-        """The lines that hold the typed text, the shown lesson's first."""
+        """Yield the lines that contain the typed text, those of the lesson shown first."""
         screen = cast(HostScreen, self.screen)
         here = screen.model.lesson
-        for number, (lesson, line, text) in enumerate(found(screen.model.session.lessons, query, here)):
-            if number >= MOST_LINES:
+        for rank, (lesson, line, text) in enumerate(_find_lines(screen.model.session.lessons, query, here)):
+            if rank >= MAX_LINES:
                 return
-            shown = Content.assemble(text).highlight_regex(_plain(query), style="bold $accent")
+            shown = Content.assemble(text).highlight_regex(_literal_pattern(query), style="bold $accent")
             about = f"{wording.label(lesson)} {lesson.title}, line {line + 1}"
-            yield Hit(0.7 - number / 100, shown, partial(screen.go_to_line, lesson, line), text=text, help=_help(about))
+            yield Hit(0.7 - rank / 100, shown, partial(screen.go_to_line, lesson, line), text=text, help=_escape(about))
 
 
-def found(lessons: tuple[Lesson, ...], query: str, first: Lesson) -> Iterator[tuple[Lesson, int, str]]:
-    """The lessons' lines that hold `query`, in any case: lesson, line number in its body from 0, the line's text."""
+def _find_lines(lessons: tuple[Lesson, ...], query: str, first: Lesson) -> Iterator[tuple[Lesson, int, str]]:
+    """Yield the lines that contain `query`, ignoring case, as (lesson, line number in its body from 0, text).
+
+    Those of the lesson `first` come first.
+    """
     wanted = query.strip().casefold()
-    if len(wanted) < SHORTEST:
+    if len(wanted) < MIN_QUERY_LENGTH:
         return
     for lesson in sorted(lessons, key=lambda each: each is not first):
         for number, line in enumerate(lesson.body.splitlines()):
@@ -77,10 +80,10 @@ def found(lessons: tuple[Lesson, ...], query: str, first: Lesson) -> Iterator[tu
                 yield lesson, number, line.strip().lstrip("#>*- ").strip("`") or line.strip()
 
 
-def _plain(query: str) -> str:
+def _literal_pattern(query: str) -> str:
     return f"(?i){re.escape(query.strip())}"
 
 
-def _help(text: str) -> str:
-    """As the palette takes it: as markup."""
+def _escape(text: str) -> str:
+    """Escape a help text: the palette parses it as markup."""
     return text.replace("[", r"\[")

@@ -1,4 +1,4 @@
-"""An app on whose screen foreign text is only text: no markup, and nothing that the terminal would obey."""
+"""An app base class that shows foreign text as plain text: no markup, and no terminal control sequences."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from textual.filter import LineFilter
 from tutor.terminal_text import strip_controls
 
 
-class _TextOnly(LineFilter):
-    """The border to the terminal: every line that is strip_controls passes it."""
+class _ControlStripper(LineFilter):
+    """The last step before the terminal: strips control characters from every line painted."""
 
     def apply(self, segments: list[Segment], background: Color) -> list[Segment]:
         if all(text.isprintable() for text, _, _ in segments):
@@ -22,16 +22,16 @@ class _TextOnly(LineFilter):
         return [Segment(strip_controls(text), style, control) for text, style, control in segments]
 
 
-_TEXT_ONLY = _TextOnly()
+_CONTROL_STRIPPER = _ControlStripper()
 
 
 class TextApp[Result](App[Result]):
-    """The base of the app."""
+    """The base class of the app."""
 
     def get_line_filters(self) -> Sequence[LineFilter]:
-        """Textual's, and ours last."""
-        return [*super().get_line_filters(), _TEXT_ONLY]
+        """Return Textual's filters, with ours last."""
+        return [*super().get_line_filters(), _CONTROL_STRIPPER]
 
     def notify(self, message: str, **options: Any) -> None:
-        """Show a note; whatever it names is not markup."""
+        """Show a toast; its text is never parsed as markup."""
         super().notify(message, **{**options, "markup": False})

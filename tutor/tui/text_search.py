@@ -1,4 +1,4 @@
-"""Finds a text in a text. Pure."""
+"""Text search for the editor. Pure."""
 
 from __future__ import annotations
 
@@ -6,11 +6,11 @@ import re
 from collections.abc import Sequence
 
 Place = tuple[int, int]
-"""Row and column, from 0."""
+"""Row and column, both from 0."""
 
 
 def find_all(text: str, wanted: str) -> list[Place]:
-    """Where `wanted` begins, in order, without overlaps; capitals count only where `wanted` has some."""
+    """Return where the matches begin, in order, without overlaps. Case counts only if `wanted` contains capitals."""
     if not wanted:
         return []
     pattern = re.compile(re.escape(wanted), re.IGNORECASE if wanted == wanted.lower() else 0)
@@ -18,7 +18,7 @@ def find_all(text: str, wanted: str) -> list[Place]:
 
 
 def nearest_index(found: Sequence[Place], start: Place, by: int = 0) -> int:
-    """The index of the first place at or after `start` (`by` 0), after it (1) or before it (-1); around the end."""
+    """Return the index of the match nearest to `start`: at or after it (`by` 0), after (1) or before it (-1); wraps."""
     if by < 0:
         return next((n for n in range(len(found) - 1, -1, -1) if found[n] < start), len(found) - 1)
     return next((n for n, place in enumerate(found) if place > start or (not by and place == start)), 0)

@@ -1,4 +1,4 @@
-"""Two themes of one family, dark and light. Every text colour has a contrast of at least 4.5 to 1 on each ground."""
+"""A dark and a light theme. Every text colour has a contrast of at least 4.5:1 (WCAG AA) on every background."""
 
 from __future__ import annotations
 
@@ -101,5 +101,7 @@ LIGHT = Theme(
 )
 
 GROUNDS = ("background", "surface", "panel")
+"""The background colours that text is shown on."""
+
 INKS = ("quiet", "good", "bad", "busy", "warn", "code-keyword", "code-string", "code-number", "code-name", "code-type")
-"""The colours that text is written in, beside the foreground."""
+"""The text colours, besides the foreground."""

@@ -1,4 +1,4 @@
-"""Keeps what is typed in order, however far the app is behind."""
+"""Keeps typed input in order, however far the app lags behind."""
 
 from __future__ import annotations
 
@@ -14,55 +14,55 @@ from textual.screen import Screen
 Typed = Key | Paste
 
 ROUNDS = 2
-"""This many times the way of a key is followed: the second time behind the messages that its action has posted."""
+"""How often the marker follows a key: the second round queues up behind the messages that the key's action posted."""
 
 
 class Typeahead:
-    """Holds back what is typed until the key before it has had its effect.
+    """Holds input back until the key before it has had its effect.
 
-    Textual hands a key to the widget that has the focus. A letter is typed there and then; a key with a binding (End,
-    Esc, any command) first passes through the queue of each container up to the app, which runs the action. What is
-    typed meanwhile would overtake it, or be typed where the focus no longer is. So after each such key a callback
-    follows it through the same queues, and the next one is handed on when that has arrived.
+    Textual forwards a key to the focused widget. A letter is typed right there; a key with a binding (End, Esc, any
+    command) first bubbles up through the message queue of each container to the app, which runs the action. Input that
+    arrives meanwhile could overtake it, or end up in a widget that is about to lose the focus. So after each such key a
+    marker (a callback) is sent through the same queues, and the next input is forwarded once the marker has arrived.
     """
 
-    def __init__(self, app: App[Any], hand_on: Callable[[Typed], Awaitable[None]]) -> None:
-        self._app, self._hand_on = app, hand_on
-        self._waiting: deque[Typed] = deque()
-        self._held = False
+    def __init__(self, app: App[Any], forward: Callable[[Typed], Awaitable[None]]) -> None:
+        self._app, self._forward = app, forward
+        self._queue: deque[Typed] = deque()
+        self._blocked = False
 
     async def take(self, typed: Typed) -> None:
-        """Hand this on now, or when its turn comes. To be called by the app, in its own task."""
-        self._waiting.append(typed)
-        if not self._held:
-            await self._go_on()
+        """Forward this input now, or when its turn comes. To be called by the app, in its own task."""
+        self._queue.append(typed)
+        if not self._blocked:
+            await self._drain()
 
-    async def _go_on(self) -> None:
-        self._held = False
-        while self._waiting and not self._held:
-            typed = self._waiting.popleft()
+    async def _drain(self) -> None:
+        self._blocked = False
+        while self._queue and not self._blocked:
+            typed = self._queue.popleft()
             screen, focused = self._app.screen, self._app.focused
             if isinstance(typed, Key):
-                # A letter in a text field is typed in the field's own turn: nothing can overtake it.
-                self._held = focused is None or not focused.check_consume_key(typed.key, typed.character)
-            await self._hand_on(typed)
-            if self._held:
+                # A letter in a text field is handled in the field's own queue: nothing can overtake it.
+                self._blocked = focused is None or not focused.check_consume_key(typed.key, typed.character)
+            await self._forward(typed)
+            if self._blocked:
                 start = focused or screen
-                self._follow(start, start, screen, ROUNDS)
+                self._send_marker(start, start, screen, ROUNDS)
 
-    def _follow(self, place: MessagePump | None, start: MessagePump, screen: Screen[Any], rounds: int) -> None:
-        """Up from `place`, one queue after the other; a widget that is being removed takes no message any more."""
-        while place is not None and place is not self._app:
-            above = place._parent
-            if place.call_later(self._follow, above, start, screen, rounds):
+    def _send_marker(self, at: MessagePump | None, start: MessagePump, screen: Screen[Any], rounds: int) -> None:
+        """Pass the marker up from `at`, queue by queue; widgets being removed take no messages and are skipped."""
+        while at is not None and at is not self._app:
+            parent = at._parent
+            if at.call_later(self._send_marker, parent, start, screen, rounds):
                 return
-            place = above
-        self._app.call_later(self._arrive, start, screen, rounds)
+            at = parent
+        self._app.call_later(self._marker_arrived, start, screen, rounds)
 
-    async def _arrive(self, start: MessagePump, screen: Screen[Any], rounds: int) -> None:
+    async def _marker_arrived(self, start: MessagePump, screen: Screen[Any], rounds: int) -> None:
         if rounds > 1:
-            self._follow(start, start, screen, rounds - 1)
-        elif (top := self._app.screen) is not screen:  # which has no focus before it is mounted
-            self._follow(top, top, top, ROUNDS)
+            self._send_marker(start, start, screen, rounds - 1)
+        elif (top := self._app.screen) is not screen:  # a new screen has no focus until it is mounted: wait for that
+            self._send_marker(top, top, top, ROUNDS)
         else:
-            await self._go_on()
+            await self._drain()

@@ -1,4 +1,4 @@
-"""How things are said on the screen: a mark (never colour alone), a word, and a short form of paths and times."""
+"""How results, progress and times are worded on screen: always a mark or a word, never colour alone."""
 
 from __future__ import annotations
 
@@ -11,21 +11,21 @@ from tutor.judge.verdict import Status
 from tutor.workspace import ExerciseState, State
 
 MARKS = {Status.PASSED: "✓", Status.FAILED: "✗", Status.SKIPPED: "-", Status.ERROR: "!"}
-"""One cell wide in every terminal font that matters."""
+"""Each is one cell wide in every terminal font that matters."""
 
 INKS = {Status.PASSED: "$good", Status.FAILED: "$bad", Status.SKIPPED: "$quiet", Status.ERROR: "$warn"}
-"""The theme's colour for each status; it never stands alone, a mark is with it."""
+"""The theme's colour for each status; it always comes with a mark."""
 
 LEVELS = {Difficulty.EASY: "●○○ easy", Difficulty.MEDIUM: "●●○ medium", Difficulty.CHALLENGE: "●●● challenge"}
 
 
 def label(lesson: Lesson) -> str:
-    """The exercise's id as the course writes it."""
+    """Return the exercise's id as the course writes it, e.g. "I1.1"."""
     return lesson.id.upper()
 
 
 def progress_label(found: ExerciseState) -> tuple[str, str]:
-    """How a lesson stands: a mark and words. The mark is ✓ only where the whole exercise has been passed."""
+    """Return a lesson's progress as (mark, words). The mark is ✓ only if the whole exercise has been passed."""
     return {
         State.PASSED: ("✓", "passed"),
         State.NOT_PASSED: ("◐", f"{found.count} met"),
@@ -35,7 +35,7 @@ def progress_label(found: ExerciseState) -> tuple[str, str]:
 
 
 def summary(result: ExerciseResult) -> str:
-    """The outcome of a check in one line."""
+    """Summarize a check's outcome in one line."""
     required = [c for c in result.criteria if not c.bonus]
     bonus = [c for c in result.criteria if c.bonus]
     text = f"{sum(c.verdict.passed for c in required)} of {len(required)} passed"
@@ -45,7 +45,7 @@ def summary(result: ExerciseResult) -> str:
 
 
 def when(at: str) -> str:
-    """A time of the progress file, as the learner's clock shows it."""
+    """Format an ISO 8601 time from the progress file in the local time zone; return any other text unchanged."""
     try:
         moment = datetime.fromisoformat(at).astimezone()
     except ValueError:
@@ -55,10 +55,10 @@ def when(at: str) -> str:
 
 
 def key(name: str, *, typing: bool) -> str:
-    """What to press for a command of one letter, which types while the editor has the focus."""
+    """Return what to press for a one-letter command: with the focus in the editor, that needs Esc first."""
     return f"Esc, then {name}" if typing else name
 
 
 def fitted(text: str, width: int) -> str:
-    """A text in this many columns; where it is too long, whole words of it and an ellipsis."""
+    """Shorten a text to at most `width` columns, at a word boundary and with an ellipsis."""
     return text if len(text) <= width else shorten(text, max(1, width), placeholder=" …")

@@ -1,1 +1,1 @@
-"""What the learner can do, each part of it in a controller of its own. They know the screen only as a `HostScreen`."""
+"""The controllers behind the learner's commands, one per area. They know the screen only as a `HostScreen`."""

@@ -1,4 +1,4 @@
-"""The checklist: opened, ticked, exported. Ticks are kept at once, in the order they were made."""
+"""Opens, ticks and exports the checklist. Ticks are saved at once, in the order they were made."""
 
 from __future__ import annotations
 
@@ -17,21 +17,21 @@ if TYPE_CHECKING:
 
 
 class ChecklistController:
-    """Keeps the open checklist up to date; what it needs is imported when it is opened first."""
+    """Keeps the open checklist up to date; its modules are imported when it is first opened."""
 
     def __init__(self, host: HostScreen, records: Records) -> None:
         self._host, self._records = host, records
         self._screen: ChecklistScreen | None = None
-        self._keeping = 0
-        """Ticks on their way to the disk: progress that was read before them is not news."""
-        host.register(commands.CHECKLIST, self.open, self._any)
-        host.register(commands.EXPORT, self.export, self._any)
+        self._pending_ticks = 0
+        """Number of ticks still being saved: progress read meanwhile may lack them, and is not shown."""
+        host.register(commands.CHECKLIST, self.open, self._has_checklist)
+        host.register(commands.EXPORT, self.export, self._has_checklist)
 
-    def _any(self) -> bool:
+    def _has_checklist(self) -> bool:
         return bool(self._host.model.session.course.checklist.groups)
 
     def open(self) -> None:
-        """Show the checklist; what another window has ticked follows in a moment."""
+        """Show the checklist; ticks made in another window appear once the progress has been re-read."""
         from tutor.report.assessment import assess
         from tutor.tui.dialogs.checklist import ChecklistScreen
 
@@ -42,7 +42,7 @@ class ChecklistController:
             assess(model.session.course, model.progress),
             tick=self._tick,
             export=self.export,
-            theme=self._theme,
+            theme=self._switch_theme,
         )
         self._host.app.push_screen(self._screen, self._closed)
         self._records.read()
@@ -51,31 +51,31 @@ class ChecklistController:
         self._screen = None
 
     def show(self, progress: Progress) -> None:
-        """The progress has changed."""
+        """Show changed progress, unless ticks are still being saved."""
         from tutor.report.assessment import assess
 
-        if self._screen is not None and not self._keeping:
+        if self._screen is not None and not self._pending_ticks:
             self._screen.show(assess(self._host.model.session.course, progress))
 
-    def _theme(self) -> None:
+    def _switch_theme(self) -> None:
         self._host.do(commands.THEME)
 
     # --- ticks ---
 
     def _tick(self, item: str, ticked: bool) -> None:
-        self._keeping += 1
-        self._host.work(self._keep, item, ticked, group="progress")
+        self._pending_ticks += 1
+        self._host.work(self._save_tick, item, ticked, group="progress")
 
-    async def _keep(self, item: str, ticked: bool) -> None:
+    async def _save_tick(self, item: str, ticked: bool) -> None:
         try:
             await self._records.change(self._host.model.session.tick, item, ticked)
         finally:
-            self._keeping -= 1
+            self._pending_ticks -= 1
 
     # --- export ---
 
     def export(self) -> None:
-        """Ask for format and file."""
+        """Ask for format and file, then export."""
         self._ask("markdown", None)
 
     def _ask(self, format: str, file: Path | None) -> None:
@@ -90,11 +90,11 @@ class ChecklistController:
     async def _write(self, format: str, path: Path, replace: bool = False) -> None:
         name = short_path(path)
         try:
-            done = await self._records.run_in_order(self._host.model.session.export, format, path, replace)
+            written = await self._records.run_in_order(self._host.model.session.export, format, path, replace)
         except StorageError as error:
-            self._host.show_error(f"Your checklist is not written: {error}")
+            self._host.show_error(f"Your checklist could not be written: {error}")
             return
-        if done:
+        if written:
             self._host.say(f"Your checklist is in {name}")
             return
 
@@ -107,6 +107,6 @@ class ChecklistController:
                 self._ask(format, path)
 
         question = ConfirmScreen(
-            "Replace the file?", f"{name} is there already.\n\nReplace what is in it?", "Replace", "Keep it"
+            "Replace the file?", f"{name} already exists.\n\nReplace its contents?", "Replace", "Keep it"
         )
         self._host.app.push_screen(question, answered)

@@ -1,4 +1,4 @@
-"""The check of one exercise: started, watched, cancelled, restarted on each save."""
+"""Runs the check of one exercise: starts, follows and cancels it, and restarts it on save."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ from tutor.tui.control.preferences import Preferences
 from tutor.tui.control.records import Records
 
 CRASHED = (
-    "This is a fault of ros-tutor or of the machine, not of your code. Check again; if it stays, run: "
+    "This is a fault of ros-tutor or of the machine, not of your code. Check again; if it persists, run: "
     f"{invocation.command('doctor')}"
 )
 
 
 class Checks:
-    """At most one check runs; `show` is called with the findings each time they change."""
+    """Runs at most one check at a time; `show` is called with the findings each time they change."""
 
     def __init__(
         self,
@@ -37,69 +37,69 @@ class Checks:
     ) -> None:
         self._host, self._files, self._records, self._preferences, self._show = host, files, records, preferences, show
         self.running: CheckProcess | None = None
-        self._checked: dict[str, dict[Path, str]] = {}
-        """What each exercise's files held when they were last checked."""
-        self._next: Lesson | None = None
-        """What is to be checked when the running check has been cancelled."""
+        self._checked_texts: dict[str, dict[Path, str]] = {}
+        """The text of each exercise's files when they were last checked, by exercise id."""
+        self._recheck: Lesson | None = None
+        """The lesson to check once the running check, being cancelled, has ended."""
         host.register(commands.CHECK, self.check, lambda: self.running is None)
         host.register(commands.CANCEL, self.cancel, lambda: self.running is not None)
         host.register(commands.WATCH, self.watch)
         host.register(commands.FIRST_FAILURE, self.end_at_first_failure)
 
     def check(self) -> None:
-        """Save and check the lesson that is shown."""
-        if not self._files.needed_for("check"):
+        """Save the files and check the current lesson."""
+        if not self._files.offer_start_if_missing("check"):
             self._begin(self._host.model.lesson)
             if self._host.has_class("-folded"):
                 self._host.show_page("criteria")
 
     def cancel(self) -> None:
-        """Stop the running check; its processes are ended."""
-        self._next = None
-        self._stop("cancelling: your node is being ended")
+        """Cancel the running check and stop its processes."""
+        self._recheck = None
+        self._cancel_running("cancelling: your node is being stopped")
 
     def watch(self) -> None:
-        """Switch checking on save."""
+        """Toggle checking on save."""
         on = not self._host.model.state.check_on_save
         self._preferences.update(check_on_save=on)
         self._host.say("Each save now begins a check." if on else "A save no longer begins a check.")
         self._host.refresh_bindings()
 
     def end_at_first_failure(self) -> None:
-        """Switch whether checks end at their first failure."""
+        """Toggle whether checks end at their first failure."""
         on = not self._host.model.state.first_failure
         self._preferences.update(first_failure=on)
         self._host.say("A check now ends at its first failure." if on else "A check now judges every criterion.")
 
     def saved(self, message: messages.FileSaved) -> None:
-        """A file was saved: check again, where that is wanted."""
+        """Handle a saved file: check again, if checking on save is on."""
         model = self._host.model
         if not model.state.check_on_save or message.path not in model.paths or model.session.missing(model.lesson):
             return
         if self.running is None:
             self._begin(model.lesson)
         else:
-            self._next = model.lesson
-            self._stop("started again: your file has changed")
+            self._recheck = model.lesson
+            self._cancel_running("started again: your file has changed")
 
     def edited(self) -> None:
-        """A file holds something else now: verdicts on what it held before are marked, until that is back."""
+        """Handle an edit: mark the verdicts as outdated while the files differ from what was checked."""
         model = self._host.model
         found = model.findings[model.lesson.id]
-        checked, held = self._checked.get(model.lesson.id, {}), self._files.texts(model.lesson)
-        outdated = any(held.get(path, text) != text for path, text in checked.items())
+        checked, current = self._checked_texts.get(model.lesson.id, {}), self._files.texts(model.lesson)
+        outdated = any(current.get(path, text) != text for path, text in checked.items())
         if outdated != found.outdated:
-            self._tell(replace(found, outdated=outdated))
+            self._update(replace(found, outdated=outdated))
 
     def _begin(self, lesson: Lesson) -> None:
         model = self._host.model
         command = model.session.check_command(lesson, first=model.state.first_failure)
-        self.running = CheckProcess(lesson.id, command, model.session.workspace.root, self._post)
-        self._tell(model.findings[lesson.id].begun())
+        self.running = CheckProcess(lesson.id, command, model.session.workspace.root, self._post_event)
+        self._update(model.findings[lesson.id].begun())
         self._host.refresh_bindings()
         self._host.work(self._run, lesson, self.running, group="check")
 
-    def _post(self, event: Event | CheckEnded) -> None:
+    def _post_event(self, event: Event | CheckEnded) -> None:
         if isinstance(event, CheckEnded):
             self._host.post_message(messages.CheckOver(event))
         else:
@@ -107,24 +107,24 @@ class Checks:
 
     async def _run(self, lesson: Lesson, checking: CheckProcess) -> None:
         await self._files.save_all()
-        self._checked[lesson.id] = self._files.texts(lesson)
+        self._checked_texts[lesson.id] = self._files.texts(lesson)
         await checking.run()
 
-    def _stop(self, note: str) -> None:
+    def _cancel_running(self, note: str) -> None:
         if self.running is not None and not self.running.cancelled:
             self.running.cancel()
-            self._tell(self._host.model.findings[self.running.exercise].stopped(note))
+            self._update(self._host.model.findings[self.running.exercise].stopped(note))
 
     def event(self, event: Event) -> None:
-        """The running check has found something."""
+        """Apply an event of the running check to the findings."""
         if self.running is None or self.running.cancelled:
             return
-        self._tell(self._host.model.findings[self.running.exercise].after(event))
+        self._update(self._host.model.findings[self.running.exercise].after(event))
         if isinstance(event, ExerciseJudged):
             self._records.add(event.result)
 
     def over(self, ended: CheckEnded) -> None:
-        """The check's process is gone."""
+        """Handle the end of the check's process."""
         self.running = None
         model = self._host.model
         found = model.findings[ended.exercise]
@@ -134,21 +134,21 @@ class Checks:
             found = found.broken(ended.fault, CRASHED, ended.evidence)
         elif found.checking:
             found = found.stopped()
-        self._tell(found)
+        self._update(found)
         self._host.refresh_bindings()
-        if self._next is not None:
-            again, self._next = self._next, None
-            self._begin(again)
+        if self._recheck is not None:
+            lesson, self._recheck = self._recheck, None
+            self._begin(lesson)
         elif ended.exercise != model.lesson.id and found.result is not None:
             word = "passed" if found.result.verdict is Status.PASSED else "is checked: not all criteria are met yet"
             self._host.say(f"{ended.exercise.upper()} {word}.")
 
-    def leave(self) -> None:
-        """End it for good."""
-        self._next = None
+    def shut_down(self) -> None:
+        """Cancel the running check, and start none after it."""
+        self._recheck = None
         if self.running is not None:
             self.running.cancel()
 
-    def _tell(self, found: Findings) -> None:
+    def _update(self, found: Findings) -> None:
         self._host.model.findings[found.exercise] = found
         self._show(found)

@@ -1,4 +1,4 @@
-"""The way out: everything saved, nothing running."""
+"""Shutdown: save everything and leave nothing running."""
 
 from __future__ import annotations
 
@@ -12,18 +12,18 @@ from tutor.tui.control.pages import Pages
 from tutor.tui.control.preferences import Preferences
 
 SAVE_LIMIT_S = 5.0
-"""While a question on two versions of a file is open, both are on the disk, and saving waits for the answer."""
+"""Timeout for saving: a save blocks while a conflict dialog is open, and by then both versions are on disk anyway."""
 
 
 async def close_down(
     host: HostScreen, files: Files, nodes: Nodes, checks: Checks, preferences: Preferences, pages: Pages
 ) -> None:
-    """Save, end the check and the nodes, and wait until nothing of them is left."""
-    checks.leave()
-    nodes.leave()
+    """Save, stop the check, the nodes and the terminal's commands, and wait until they are all gone."""
+    checks.shut_down()
+    nodes.shut_down()
     terminal = pages.terminal
     if terminal is not None:
-        terminal.leave()
+        terminal.stop_all()
         host.model.session.keep_typed_commands(terminal.typed_commands)
     try:
         async with asyncio.timeout(SAVE_LIMIT_S):
@@ -34,7 +34,7 @@ async def close_down(
     if (live := pages.live) is not None:
         await live.close_down()
     busy = [worker for worker in host.workers if worker.group in ("check", "node", "progress", "terminal")]
-    if busy:  # an empty list would mean all of them, and the one that follows the file never ends
+    if busy:  # an empty list would mean all workers, and the file watcher never ends
         await host.app.workers.wait_for_complete(busy)
-    files.leave()
-    host.workers.cancel_node(host)  # whatever still reads or follows a file would find no widget to show it in
+    files.close()
+    host.workers.cancel_node(host)  # workers that still read or watch a file would find no widget to show it in

@@ -1,4 +1,4 @@
-"""The learner's files: shown, edited, saved, and followed on the disk, without ever losing a side."""
+"""Shows, edits, saves and watches the learner's files; if editor and disk differ, neither version is ever lost."""
 
 from __future__ import annotations
 
@@ -19,17 +19,17 @@ from tutor.tui.file_watching import watch_file
 from tutor.tui.widgets.code_pane import CodePane
 from tutor.workspace import back_up_file, overwrite_file, read_source
 
-SAVE_AFTER_S = 0.6
-"""What is typed is on the disk after this time, in seconds, and a write."""
+AUTOSAVE_DELAY_S = 0.6
+"""Edits are written to disk this many seconds after the first unsaved keystroke."""
 
 
 class Files:
-    """What the editors hold against what is on the disk. Every look and every write is made under one lock."""
+    """Keeps the editors and the disk in sync. Every read and every write happens under one lock."""
 
     def __init__(self, host: HostScreen, pane: CodePane, records: Records) -> None:
         self._host, self._pane, self._records = host, pane, records
         self._disk: dict[Path, str] = {}
-        """What is on the disk as far as the editors know, by file."""
+        """The text of each file on disk, as last read or written by the app."""
         self._lock = asyncio.Lock()
         self._autosave: Timer | None = None
         self._closed = False
@@ -45,13 +45,13 @@ class Files:
     # --- which file ---
 
     def show(self, index: int) -> None:
-        """Show one of the lesson's files, and follow it on the disk."""
+        """Show one of the lesson's files, and watch it on disk."""
         model = self._host.model
         model.file_index = index
         self._pane.show_names(model.paths, index)
         path = model.path
-        tell = partial(self._host.post_message, messages.FileTouched(path))
-        self._host.work(watch_file, path, tell, group="file", exclusive=True)
+        on_change = partial(self._host.post_message, messages.FileTouched(path))
+        self._host.work(watch_file, path, on_change, group="file", exclusive=True)
 
     def next_file(self) -> None:
         """Show the lesson's other file."""
@@ -60,7 +60,7 @@ class Files:
         self._host.show_page("code")
 
     def go_to(self, message: messages.GoToLine) -> None:
-        """Put the cursor on a line."""
+        """Open the file of the message, and put the cursor on its line."""
         paths = self._host.model.paths
         if message.path in paths:
             self.show(paths.index(message.path))
@@ -74,11 +74,11 @@ class Files:
     # --- the disk has changed ---
 
     def touched(self, message: messages.FileTouched) -> None:
-        """Look at it again."""
+        """Handle a change on disk: read the file again."""
         self._host.work(self.look, message.path, group="look")
 
     async def look(self, path: Path) -> None:
-        """Bring the editor and the disk together now."""
+        """Read a file, and reconcile the editor with it."""
         async with self._lock:
             try:
                 text = await asyncio.to_thread(read_source, path)
@@ -87,25 +87,25 @@ class Files:
                     self._pane.show_missing(path, str(error))
                 return
             if not self._closed:
-                await self._compare(path, text)
+                await self._reconcile(path, text)
 
-    async def _compare(self, path: Path, text: str | None) -> None:
-        """Bring the editor and the disk together; the lock is held."""
+    async def _reconcile(self, path: Path, text: str | None) -> None:
+        """Reconcile the editor with `text`, the file on disk (None: there is no file). The lock must be held."""
         known = self._disk.get(path)
         if text is None:
             if known is not None and self._pane.is_changed(path):
-                await self._write(path, None)  # removed while it was being edited: what is typed counts
+                await self._write(path, None)  # removed while being edited: the editor's text wins
                 return
             self._disk.pop(path, None)
             if path == self._host.model.path:
                 self._pane.show_missing(path)
             return
         if text == known and self._pane.knows(path):
-            self._pane.show_found(path)  # our own save, most often: what was typed since is newer than the disk
+            self._pane.show_found(path)  # usually our own save: anything typed since is newer than the disk
             return
         if known is not None and self._pane.is_changed(path):
             if text != self._pane.text(path):
-                await self._conflict(path, text)
+                await self._resolve_conflict(path, text)
                 return
             self._pane.mark_saved(path, text)
         else:
@@ -116,8 +116,11 @@ class Files:
             self._host.post_message(messages.FileSaved(path, outside=True))
         self._host.refresh_bindings()
 
-    async def _conflict(self, path: Path, theirs: str) -> None:
-        """Both sides have changed: both are on the disk before anything is asked; the lock is held."""
+    async def _resolve_conflict(self, path: Path, theirs: str) -> None:
+        """Let the learner choose, after both sides have changed; both are on disk before they are asked.
+
+        The lock must be held.
+        """
         from tutor.tui.dialogs.conflict import ConflictScreen
 
         ours = self._pane.text(path)
@@ -128,7 +131,7 @@ class Files:
             return
         mine = await self._host.app.push_screen_wait(ConflictScreen(path.name, backup.name, ours, theirs))
         if not mine:
-            if (typed := self._pane.text(path)) != ours:  # while the backup was written, before the question was there
+            if (typed := self._pane.text(path)) != ours:  # typed while the backup was written, before the dialog opened
                 try:
                     backup = await asyncio.to_thread(back_up_file, path, typed)
                 except StorageError as error:
@@ -151,22 +154,22 @@ class Files:
     # --- the learner has changed it ---
 
     def texts(self, lesson: Lesson) -> dict[Path, str]:
-        """What a lesson's files hold, those that have been read."""
+        """Return the current text of a lesson's files, as far as they have been read."""
         paths = map(self._host.model.session.path, lesson.files)
         return {path: self._pane.text(path) for path in paths if self._pane.knows(path)}
 
     def typed(self) -> None:
-        """Something was typed: it is saved soon."""
+        """Handle an edit: schedule an autosave."""
         self._pane.show_saved()
         if self._autosave is None and self._pane.changed():
-            self._autosave = self._host.set_timer(SAVE_AFTER_S, self._save_soon)
+            self._autosave = self._host.set_timer(AUTOSAVE_DELAY_S, self._autosave_due)
 
-    def _save_soon(self) -> None:
+    def _autosave_due(self) -> None:
         self._autosave = None
         self._host.work(self.save_all, group="save")
 
     async def save(self) -> None:
-        """Save by hand: what happens on each save happens now."""
+        """Save on request, which also triggers what is set to happen on each save."""
         if await self.save_all():
             path = self._host.model.path
             if path in self._disk:
@@ -174,7 +177,7 @@ class Files:
                 self._host.say(f"{path.name} is saved.")
 
     async def save_all(self) -> bool:
-        """Save whatever is not; whether all is saved now."""
+        """Save every changed file; return whether everything is saved now."""
         async with self._lock:
             await self._write_changed()
         if not self._closed:
@@ -182,35 +185,36 @@ class Files:
         return not self._pane.changed()
 
     async def _write_changed(self) -> None:
-        """Write what was typed; the lock is held."""
+        """Write every changed file; the lock must be held."""
         for path in self._pane.changed():
             await self._write(path, self._disk.get(path))
 
     async def _write(self, path: Path, expected: str | None) -> None:
+        """Write the editor's text, provided that the file on disk is still `expected`; else reconcile the two."""
         text = self._pane.text(path)
         try:
             saved = await asyncio.to_thread(overwrite_file, path, text, expected)
         except StorageError as error:
-            self._host.show_error(f"{path.name} is not saved: {error}")
+            self._host.show_error(f"{path.name} could not be saved: {error}")
             return
         if not saved.done:
-            await self._compare(path, saved.found)
+            await self._reconcile(path, saved.found)
             return
         self._disk[path] = text
         self._pane.mark_saved(path, text)
         if saved.backup is not None:
             self._host.say(f"{path.name} was changed outside just now: that is kept as {saved.backup.name}.", warn=True)
 
-    def leave(self) -> None:
-        """All is saved, and the editors are about to go: look at nothing any more."""
+    def close(self) -> None:
+        """Stop updating the editors, which are about to be removed; everything has been saved."""
         self._closed = True
         if self._autosave is not None:
             self._autosave.stop()
 
     # --- start, edit, reset ---
 
-    def needed_for(self, what: str) -> bool:
-        """Whether files are missing; then the start is offered."""
+    def offer_start_if_missing(self, what: str) -> bool:
+        """Return whether some of the lesson's files are missing, in which case offer to put the skeletons there."""
         model = self._host.model
         if not (missing := model.session.missing(model.lesson)):
             return False
@@ -220,7 +224,7 @@ class Files:
         return True
 
     def start(self) -> None:
-        """Put the skeletons there."""
+        """Put the lesson's skeletons into the workspace."""
         self._host.work(self._start, self._host.model.lesson, group="start", exclusive=True)
 
     async def _start(self, lesson: Lesson) -> None:
@@ -233,7 +237,7 @@ class Files:
         self._records.read()
 
     def started(self, message: messages.Started) -> None:
-        """The skeletons are there."""
+        """Show the code, now that the skeletons are in the workspace."""
         if message.exercise != self._host.model.lesson.id:
             return
         self.touched(messages.FileTouched(self._host.model.path))
@@ -244,27 +248,27 @@ class Files:
             self._host.say("Your files are there already; nothing was changed.")
 
     def edit(self) -> None:
-        """Put the focus into the editor."""
-        if self.needed_for("edit"):
+        """Focus the editor."""
+        if self.offer_start_if_missing("edit"):
             return
         path = self._host.model.path
         if self._pane.knows(path):
-            self._type()
-        else:  # asked for before the file has been read
-            self._host.work(self._type_soon, path, group="show-line", exclusive=True)
+            self._focus_editor()
+        else:  # requested before the file has been read
+            self._host.work(self._focus_editor_when_read, path, group="show-line", exclusive=True)
 
     def find(self, *, again: bool = False) -> None:
-        """Find a text in the file that is shown."""
+        """Open the search in the file shown, or (`again`) find the next match."""
         if self._host.page != "code":
             self._host.show_page("code")
         self._pane.find(again=again)
 
-    async def _type_soon(self, path: Path) -> None:
+    async def _focus_editor_when_read(self, path: Path) -> None:
         await self.look(path)
         if path == self._host.model.path:
-            self._type()
+            self._focus_editor()
 
-    def _type(self) -> None:
+    def _focus_editor(self) -> None:
         self._pane.edit()
         self._host.show_page("code")
         self._pane.focus_content(typing=True)
@@ -273,11 +277,11 @@ class Files:
         """Hand the terminal to the learner's own editor."""
         from tutor.tui.outside_editor import edit_outside
 
-        if self.needed_for("edit"):
+        if self.offer_start_if_missing("edit"):
             return
         await self.save_all()
         model = self._host.model
-        # Ctrl+C in the editor reaches us too; a handler that does nothing is reset to the default in the editor itself.
+        # Ctrl+C in the editor reaches us, too. A no-op handler, unlike SIG_IGN, is not inherited by the editor.
         before = signal.signal(signal.SIGINT, lambda *_: None)
         try:
             problem = await edit_outside(self._host.app, model.path)
@@ -289,8 +293,8 @@ class Files:
         self._host.refresh(layout=True)
 
     def reset(self) -> None:
-        """Put the skeleton back, after a question."""
-        if self.needed_for("reset"):
+        """Put the skeleton back, after asking for confirmation."""
+        if self.offer_start_if_missing("reset"):
             return
         name = self._host.model.file.name
         text = f"{name} becomes the skeleton again.\n\nYour version is kept beside it as a backup."
@@ -302,10 +306,10 @@ class Files:
     async def _reset_now(self) -> None:
         model = self._host.model
         file, path = model.file, model.path
-        async with self._lock:  # nobody looks at the file between its two versions
+        async with self._lock:  # no read may see the state in between
             await self._write_changed()
             if self._pane.is_changed(path):
-                return  # it could not be saved, which was reported: what was typed is nowhere else
+                return  # saving failed, which was reported: the editor holds the only copy
             try:
                 placed = await asyncio.to_thread(model.session.reset, file)
                 text = await asyncio.to_thread(read_source, path)

@@ -1,4 +1,4 @@
-"""The screen that the controllers act on."""
+"""The screen as the controllers know it."""
 
 from __future__ import annotations
 
@@ -19,24 +19,24 @@ from tutor.tui.model import AppModel
 
 
 def always() -> bool:
-    """For what makes sense at any time."""
+    """Predicate of commands that are available at any time."""
     return True
 
 
 @dataclass(frozen=True, slots=True)
 class CommandHandler:
-    """What a command does, and whether it makes sense now."""
+    """What a command does, and whether it is available now."""
 
     run: Callable[[], Awaitable[object] | object]
-    possible: Callable[[], bool] = always
+    available: Callable[[], bool] = always
 
 
 class HostScreen(Screen[None]):
-    """A screen with the app's model, and pages to turn to."""
+    """A screen with the app's model and several pages."""
 
     model: AppModel
     focused = Reactive[Widget | None](None, repaint=False)
-    """Painted by the widgets that lose and get the focus. Textual's own repaints the whole screen."""
+    """Repainting is left to the widgets that lose and gain focus. Textual's own reactive repaints the whole screen."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -44,76 +44,76 @@ class HostScreen(Screen[None]):
 
     @property
     def page(self) -> str:
-        """The page that is shown."""
+        """The name of the page shown."""
         raise NotImplementedError
 
     @property
     def chosen_criterion(self) -> str:
-        """The id of the criterion whose diagnosis is shown; empty where none is."""
+        """The id of the criterion whose diagnosis is shown, or ""."""
         raise NotImplementedError
 
     def show_page(self, name: str) -> None:
-        """Turn to a page, and focus what is on it."""
+        """Show a page, and focus its content."""
         raise NotImplementedError
 
     async def go_to(self, lesson: Lesson, page: str = "lesson") -> None:
-        """Show a lesson."""
+        """Go to a lesson, and show the given page of it."""
         raise NotImplementedError
 
     async def go_to_line(self, lesson: Lesson, line: int) -> None:
-        """Show a line of a lesson's text, counted from 0."""
+        """Go to a line (from 0) of a lesson's text."""
         raise NotImplementedError
 
     def preferences_changed(self) -> None:
-        """What is remembered has changed: show what of it is to be seen."""
+        """Show changed preferences, as far as they are visible."""
         raise NotImplementedError
 
     # --- commands ---
 
     def register(
-        self, command: Command, run: Callable[[], Awaitable[object] | object], possible: Callable[[], bool] = always
+        self, command: Command, run: Callable[[], Awaitable[object] | object], available: Callable[[], bool] = always
     ) -> None:
-        """`run` is what this command does; `possible`: whether it makes sense now."""
-        self._handlers[command] = CommandHandler(run, possible)
+        """Have a command call `run`, whenever `available()` is true."""
+        self._handlers[command] = CommandHandler(run, available)
 
     def can(self, command: Command) -> bool:
-        """Whether a command makes sense now."""
-        return self.is_mounted and self._handlers[command].possible()
+        """Return whether a command is available now."""
+        return self.is_mounted and self._handlers[command].available()
 
     def do(self, command: Command) -> None:
-        """Do what a command says."""
+        """Run a command."""
         result = self._handlers[command].run()
         if inspect.iscoroutine(result):
             self.run_worker(result, group="command")
 
     def action_do(self, name: str) -> None:
-        """Do what the command of this name says."""
+        """Run the command of this name."""
         self.do(BY_NAME[name])
 
     def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
-        """Hide what makes no sense now: one key is Run or Stop, Check or Cancel."""
+        """Disable unavailable commands, as one key may be Run or Stop, Check or Cancel."""
         return self.can(BY_NAME[str(parameters[0])]) if action == "do" else True
 
-    # --- work, and what is said ---
+    # --- workers, notes and questions ---
 
     def work(
-        self, work: Callable[..., Coroutine[Any, Any, object]], *given: Any, group: str, exclusive: bool = False
+        self, work: Callable[..., Coroutine[Any, Any, object]], *args: Any, group: str, exclusive: bool = False
     ) -> None:
-        """Do this beside the screen."""
-        # Given a coroutine, run_worker leaves it behind, never awaited, where the screen closes before it begins.
-        begun: Callable[[], Any] = partial(work, *given)
-        self.run_worker(begun, group=group, exclusive=exclusive)
+        """Run `work(*args)` in a worker of this screen."""
+        # Not a coroutine: run_worker would never await it if the screen closed before the worker starts.
+        bound: Callable[[], Any] = partial(work, *args)
+        self.run_worker(bound, group=group, exclusive=exclusive)
 
     def show_error(self, text: str) -> None:
-        """Tell that something could not be done."""
+        """Report that something could not be done."""
         self.post_message(messages.ErrorOccurred(text))
 
     def say(self, text: str, *, warn: bool = False) -> None:
-        """Tell in passing."""
+        """Show a toast."""
         self.notify(text, severity="warning" if warn else "information", timeout=10 if warn else 5)
 
     def ask(self, title: str, text: str, yes: str, do: Callable[[], object]) -> None:
-        """Ask, and do it where the answer is yes."""
+        """Ask a yes-or-no question, and call `do` if the answer is yes."""
         from tutor.tui.dialogs.confirm import ConfirmScreen
 
         def answered(answer: bool | None) -> None:

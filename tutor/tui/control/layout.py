@@ -1,4 +1,4 @@
-"""Where the panels go at a terminal's size."""
+"""The layout of the panels for a given terminal size."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from enum import StrEnum
 
 
 class Criteria(StrEnum):
-    """Where the criteria are: behind a tab, below the text, or beside it."""
+    """Where the criteria go: behind a tab, below the text, or beside it."""
 
     FOLDED = "folded"
     STACKED = "stacked"
@@ -16,14 +16,14 @@ class Criteria(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Layout:
-    """`lessons`: whether the list of lessons has a place of its own, or is a drawer over the text."""
+    """`lessons`: whether the lesson list has a column of its own; else it is a drawer over the text."""
 
     lessons: bool
     criteria: Criteria
 
 
 def layout_for(width: int, height: int) -> Layout:
-    """The layout for this many columns and rows."""
+    """Return the layout for a terminal of `width` columns and `height` rows."""
     if width >= 160:
         return Layout(True, Criteria.BESIDE)
     return Layout(width >= 100, Criteria.STACKED if width >= 90 and height >= 30 else Criteria.FOLDED)

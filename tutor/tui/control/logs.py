@@ -1,4 +1,4 @@
-"""What the learner does to the log: filter, pause, clear, and go where an error points."""
+"""Commands on the log: filter, pause, clear, and go to the line an error points to."""
 
 from __future__ import annotations
 
@@ -8,22 +8,22 @@ from tutor.tui.widgets.log_pane import LogPane
 
 
 class Logs:
-    """Acts on the log page; asked for from another page, it turns to it."""
+    """Acts on the log page while it is shown or focused; go_to_error works from any page."""
 
     def __init__(self, host: HostScreen, pane: LogPane) -> None:
         self._host, self._pane = host, pane
 
-        def filled() -> bool:
+        def usable() -> bool:
             return pane.has_class("-filled") and (host.page == "log" or pane.has_focus_within)
 
-        host.register(commands.LEVEL, pane.next_level, filled)
-        host.register(commands.FILTER, pane.filter, filled)
-        host.register(commands.PAUSE, pane.pause, filled)
-        host.register(commands.CLEAR, pane.clear, filled)
+        host.register(commands.LEVEL, pane.next_level, usable)
+        host.register(commands.FILTER, pane.filter, usable)
+        host.register(commands.PAUSE, pane.pause, usable)
+        host.register(commands.CLEAR, pane.clear, usable)
         host.register(commands.GO_TO_ERROR, self.go_to_error, lambda: pane.has_class("-filled"))
 
     def go_to_error(self) -> None:
-        """Put the cursor where the last traceback points in the learner's own code."""
+        """Put the cursor on the line of the learner's code that the last traceback names."""
         place = self._pane.error_place
         if place is None:
             self._host.say("No error in the log points into your code.")

@@ -1,4 +1,4 @@
-"""The learner's nodes, and ours beside them: run, stopped, run again, each by itself."""
+"""Runs, stops and restarts the learner's nodes, and our partner nodes, independently of each other."""
 
 from __future__ import annotations
 
@@ -16,24 +16,26 @@ from tutor.workspace import RunOptions
 
 
 class Nodes:
-    """One node for each file, and our partner node that goes with them.
+    """One node for each file of a lesson, and the partner node that goes with them.
 
-    Only those of one lesson: two lessons' nodes would talk into each other's topics.
+    Only the nodes of one lesson run at a time: those of two lessons would interfere on the same topics.
     """
 
     def __init__(self, host: HostScreen, files: Files, preferences: Preferences) -> None:
         self._host, self._files, self._preferences = host, files, preferences
         self.known: dict[Path, Node] = {}
-        """The latest node of each file, whether it still runs or not; our partner by `key_of`."""
+        """The latest node of each file, running or not; partner nodes by their `partner_key`."""
         self._chosen: tuple[Path, Path] | None = None
-        """The node whose log the learner wants, and the file that was shown when they did."""
+        """The node whose log the learner chose, and the file shown at that time."""
         self.latest: Path | None = None
-        """The file that was run last."""
-        self._turns: dict[Path, asyncio.Lock] = {}
-        self._wanted: dict[Path, int] = {}
-        host.register(commands.RUN, self.run, lambda: not self._stoppable)
-        host.register(commands.STOP, self.stop, lambda: bool(self._stoppable))
-        host.register(commands.RESTART, self.restart, lambda: self._alive(host.model.path))
+        """The file (or partner) that was run last."""
+        self._locks: dict[Path, asyncio.Lock] = {}
+        """Held while a node runs, so that the next run of the same file waits for its end."""
+        self._requests: dict[Path, int] = {}
+        """Number of the latest request to run each file; earlier ones still waiting are dropped."""
+        host.register(commands.RUN, self.run, lambda: not self._nodes_to_stop)
+        host.register(commands.STOP, self.stop, lambda: bool(self._nodes_to_stop))
+        host.register(commands.RESTART, self.restart, lambda: self._is_alive(host.model.path))
         host.register(commands.PARTNER, self.partner, lambda: self._partner is not None)
         host.register(commands.OTHER_FILE, self.other_file, lambda: len(host.model.lesson.files) > 1)
         host.register(commands.OPTIONS, self.options)
@@ -41,12 +43,12 @@ class Nodes:
 
     @property
     def running(self) -> list[Node]:
-        """Those that have a process."""
+        """The nodes whose process is alive."""
         return [node for node in self.known.values() if node.state.alive]
 
     @property
     def shown(self) -> Path | None:
-        """The node whose log is to be shown: the one chosen, else that of the file that is looked at, else the last."""
+        """The node whose log to show: the one chosen, else that of the file shown, else the latest."""
         path = self._host.model.path
         if self._chosen is not None and self._chosen[1] == path and self._chosen[0] in self.listed:
             return self._chosen[0]
@@ -54,55 +56,56 @@ class Nodes:
 
     @property
     def listed(self) -> list[Path]:
-        """The nodes whose logs can be chosen: those of the lesson, and all that run."""
-        own = self._own(self._host.model.lesson)
+        """The nodes whose logs can be chosen: those of the lesson, and any others that are running."""
+        own = self._paths_of(self._host.model.lesson)
         return [path for path, node in self.known.items() if path in own or node.state.alive]
 
     def choose(self, path: Path) -> None:
         """Show the log of this node."""
         self._chosen = (path, self._host.model.path)
-        self._tell(path)
+        self._post_changed(path)
 
     def stop_key(self, path: Path) -> str:
-        """The key that stops this node."""
+        """Return the key that stops this node."""
         model = self._host.model
-        if path == model.path or path not in self._own(model.lesson):
+        if path == model.path or path not in self._paths_of(model.lesson):
             return commands.STOP.keys[0]
         return commands.OTHER_FILE.keys[0] if path in model.paths else commands.PARTNER.keys[0]
 
-    def _tell(self, path: Path, *, first: bool = False, unasked: bool = False) -> None:
+    def _post_changed(self, path: Path, *, started: bool = False, automatic: bool = False) -> None:
         state = self.known[path].state
-        self._host.post_message(messages.NodeChanged(path, state, first=first, unasked=unasked))
+        self._host.post_message(messages.NodeChanged(path, state, started=started, automatic=automatic))
 
-    def _own(self, lesson: Lesson) -> set[Path]:
+    def _paths_of(self, lesson: Lesson) -> set[Path]:
+        """Return the keys in `known` of a lesson's nodes, its partners included."""
         files = {self._host.model.session.path(file) for file in lesson.files}
-        return files | {key_of(partner) for partner in lesson.live.partners}
+        return files | {partner_key(partner) for partner in lesson.live.partners}
 
     @property
     def _partner(self) -> Partner | None:
         model = self._host.model
         return model.lesson.live.partner_of(model.file.name)
 
-    def _alive(self, path: Path) -> bool:
+    def _is_alive(self, path: Path) -> bool:
         return path in self.known and self.known[path].state.alive
 
     @property
-    def _stoppable(self) -> list[Node]:
-        """What Stop stops: the node of the file that is shown; where another lesson is read, what runs."""
+    def _nodes_to_stop(self) -> list[Node]:
+        """What Stop acts on: the node of the file shown or, if this lesson has run none, those of another lesson."""
         model = self._host.model
-        if self._alive(model.path):
+        if self._is_alive(model.path):
             return [self.known[model.path]]
         if any(path in self.known for path in model.paths):
             return []
-        own = self._own(model.lesson)
+        own = self._paths_of(model.lesson)
         return [node for path, node in self.known.items() if node.state.alive and path not in own]
 
     # --- run and stop ---
 
     def run(self) -> None:
-        """Run the file that is shown."""
+        """Run the file shown."""
         model = self._host.model
-        if self._files.needed_for("run"):
+        if self._files.offer_start_if_missing("run"):
             return
         if not model.path.exists():
             self._host.show_error(f"{model.file.name} is not in your workspace yet.")
@@ -110,17 +113,17 @@ class Nodes:
         self._start(model.lesson, model.file)
 
     def stop(self) -> None:
-        """Press Ctrl+C."""
-        for node in self._stoppable:
+        """Stop the node, as Ctrl+C would."""
+        for node in self._nodes_to_stop:
             node.stop()
 
     def other_file(self) -> None:
-        """Run the lesson's other file beside the one that is shown, or stop it."""
+        """Run the lesson's other file beside the one shown, or stop it."""
         model = self._host.model
         files = model.lesson.files
         file = files[(model.file_index + 1) % len(files)]
         path = model.session.path(file)
-        if self._alive(path):
+        if self._is_alive(path):
             self.known[path].stop()
         elif not path.exists():
             self._host.show_error(f"{file.name} is not in your workspace yet.")
@@ -128,72 +131,74 @@ class Nodes:
             self._start(model.lesson, file)
 
     def partner(self) -> None:
-        """Start our node that goes with the file that is shown, or stop it."""
+        """Run our partner node for the file shown, or stop it."""
         model, partner = self._host.model, self._partner
         if partner is None:
             return
-        key = key_of(partner)
-        if self._alive(key):
+        key = partner_key(partner)
+        if self._is_alive(key):
             self.known[key].stop()
             return
-        twin = [path for path in model.paths if partner.file and path.name == partner.file.name and self._alive(path)]
-        if twin:
-            self._host.show_error(f"Your {twin[0].name} runs already, and does what ours would: j stops it.")
+        own = [path for path in model.paths if partner.file and path.name == partner.file.name and self._is_alive(path)]
+        if own:
+            self._host.show_error(f"Your {own[0].name} is already running, and does what ours would: j stops it.")
             return
         session = model.session
-        self._begin(model.lesson, key, lambda: session.partner_command(partner))
+        self._request_run(model.lesson, key, lambda: session.partner_command(partner))
 
     def restart(self) -> None:
-        """Stop the node of the file that is shown, and run it again."""
+        """Stop the node of the file shown, and run it again."""
         self._start(self._host.model.lesson, self._host.model.file)
 
     def saved(self, message: messages.FileSaved) -> None:
-        """A file was saved: run its lesson's nodes again, where that is wanted."""
+        """Handle a saved file: restart its lesson's running nodes, if restarting on save is on."""
         model = self._host.model
         if not model.state.restart_on_save or message.path not in model.paths:
             return
         for file in model.lesson.files:
-            if self._alive(model.session.path(file)):
-                self._start(model.lesson, file, unasked=message.outside)
+            if self._is_alive(model.session.path(file)):
+                self._start(model.lesson, file, automatic=message.outside)
 
     def switch_restart(self) -> None:
-        """Switch restarting on save."""
+        """Toggle restarting on save."""
         on = not self._host.model.state.restart_on_save
         self._preferences.update(restart_on_save=on)
         self._host.say("Each save now restarts your node." if on else "A save no longer restarts your node.")
         self._host.refresh_bindings()
 
-    def _start(self, lesson: Lesson, file: LessonFile, *, unasked: bool = False) -> None:
+    def _start(self, lesson: Lesson, file: LessonFile, *, automatic: bool = False) -> None:
         session = self._host.model.session
 
         def command() -> NodeCommand:
             return session.node_command(file, self._host.model.state.run_of(lesson.id))
 
-        self._begin(lesson, session.path(file), command, unasked=unasked)
+        self._request_run(lesson, session.path(file), command, automatic=automatic)
 
-    def _begin(self, lesson: Lesson, path: Path, command: Callable[[], NodeCommand], *, unasked: bool = False) -> None:
-        self._wanted[path] = self._wanted.get(path, 0) + 1
-        self._host.work(self._run, lesson, path, command, self._wanted[path], unasked, group="node")
+    def _request_run(
+        self, lesson: Lesson, path: Path, command: Callable[[], NodeCommand], *, automatic: bool = False
+    ) -> None:
+        self._requests[path] = self._requests.get(path, 0) + 1
+        self._host.work(self._run, lesson, path, command, self._requests[path], automatic, group="node")
 
     async def _run(
-        self, lesson: Lesson, path: Path, make: Callable[[], NodeCommand], number: int, unasked: bool
+        self, lesson: Lesson, path: Path, make_command: Callable[[], NodeCommand], request: int, automatic: bool
     ) -> None:
-        own = self._own(lesson)
+        own = self._paths_of(lesson)
         others = [node for other, node in self.known.items() if node.state.alive and other not in own]
         for node in others:
             node.stop()
-        if self._alive(path):
+        if self._is_alive(path):
             self.known[path].stop()
         await self._files.save_all()
-        async with self._turns.setdefault(path, asyncio.Lock()):
+        async with self._locks.setdefault(path, asyncio.Lock()):
             for node in others:
                 await node.over.wait()
-            if self._wanted[path] != number:
-                return  # asked again meanwhile: the last one counts
+            if self._requests[path] != request:
+                return  # requested again meanwhile: the last request wins
             from tutor.errors import CommandError
 
             try:
-                command = await asyncio.to_thread(make)
+                command = await asyncio.to_thread(make_command)
             except CommandError as error:
                 self._host.show_error(f"The node cannot be started: {error}")
                 return
@@ -202,15 +207,15 @@ class Nodes:
                 return
             node = Node(command, lambda state: self._host.post_message(messages.NodeChanged(path, state)))
             self.known[path], self.latest = node, path
-            if not unasked:
+            if not automatic:
                 self._chosen = (path, self._host.model.path)
-            self._tell(path, first=True, unasked=unasked)
+            self._post_changed(path, started=True, automatic=automatic)
             await node.run()
 
-    # --- how it is run ---
+    # --- options ---
 
     def options(self) -> None:
-        """Ask for parameters and remaps."""
+        """Ask for parameters and remaps, and run if asked to."""
         from tutor.tui.dialogs.run_options import RunOptionsScreen
 
         model = self._host.model
@@ -222,21 +227,21 @@ class Nodes:
             options, run = answer
             self._preferences.replace(model.state.with_run(lesson.id, options))
             if run and model.lesson is lesson:
-                (self.restart if self._alive(model.path) else self.run)()
+                (self.restart if self._is_alive(model.path) else self.run)()
 
         self._host.app.push_screen(
             RunOptionsScreen(file, model.run_options, lambda options: model.session.command_line(file, options)),
             answered,
         )
 
-    def leave(self) -> None:
-        """End all of them."""
-        for path in self._wanted:
-            self._wanted[path] += 1
+    def shut_down(self) -> None:
+        """Stop all nodes, and drop the requests that are still waiting."""
+        for path in self._requests:
+            self._requests[path] += 1
         for node in self.known.values():
             node.stop()
 
 
-def key_of(partner: Partner) -> Path:
-    """What our partner node is known by among the learner's files."""
+def partner_key(partner: Partner) -> Path:
+    """Return the key of a partner node in `Nodes.known`, where learners' nodes are keyed by file."""
     return partner.file or Path(*partner.run)

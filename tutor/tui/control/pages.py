@@ -1,4 +1,4 @@
-"""Which page is shown, and where the panels are."""
+"""Switches pages, and arranges the panels."""
 
 from __future__ import annotations
 
@@ -22,21 +22,21 @@ from tutor.tui.widgets.lesson_list import LessonList
 from tutor.tui.widgets.lesson_view import LessonView
 from tutor.tui.widgets.log_pane import LogPane
 
-SIDE_BY_SIDE_FROM = 112
-"""From this many columns on there is room for the log beside Live."""
+SIDE_BY_SIDE_MIN_WIDTH = 112
+"""Minimum screen width, in columns, for showing the log beside Live."""
 
 
 class Pages:
-    """Turns pages and folds panels. Criteria have a page of their own only where there is no room beside it."""
+    """Switches pages and folds panels. The criteria have a page of their own only if there is no room beside it."""
 
-    def __init__(self, host: HostScreen, preferences: Preferences, node_runs: Callable[[], bool]) -> None:
-        self._host, self._preferences, self._node_runs = host, preferences, node_runs
+    def __init__(self, host: HostScreen, preferences: Preferences, node_is_running: Callable[[], bool]) -> None:
+        self._host, self._preferences, self._node_is_running = host, preferences, node_is_running
         self.current = "lesson"
         self.live: LivePane | None = None
-        """The live page, if it has been opened."""
+        """The live page, once it has been opened."""
         self.terminal: TerminalPane | None = None
-        """The terminal page, if it has been opened."""
-        self._shape: Layout | None = None
+        """The terminal page, once it has been opened."""
+        self._layout: Layout | None = None
         for name, command in commands.PAGES.items():
             host.register(command, partial(self.show, name))
         for name, command in commands.LIVE_TABS.items():
@@ -48,39 +48,39 @@ class Pages:
 
     @property
     def folded(self) -> bool:
-        """Whether the criteria are behind a tab."""
+        """Whether the criteria are behind a tab, for lack of room."""
         return self._host.has_class("-folded")
 
     def show(self, name: str) -> None:
-        """Turn to a page, and focus what is on it."""
+        """Show a page, and focus its content."""
         if name == "criteria" and not self.folded:
             self._host.remove_class("-zoomed")
             self._host.query_one(CriteriaPanel).open()
             return
-        self._turn(name)
+        self._switch_to(name)
         self._host.query_one(Tabs).active = f"tab-{name}"
         self._focus(name)
 
     def show_live(self, tab: str) -> None:
-        """Turn to the live page, and to one of its tabs."""
+        """Show the live page, with one of its tabs."""
         self.show("live")
         self._open_live().open_tab(tab)
 
     def publish(self) -> None:
-        """Turn to the live page, and publish a message from there."""
+        """Show the live page, and publish a message from there."""
         self.show("live")
         live = self._open_live()
         live.call_after_refresh(live.publish)
 
     def tab_chosen(self, name: str) -> None:
-        """A tab was activated, by us or by the learner."""
+        """Handle an activated tab, be it by the app or by the learner."""
         if name == self.current:
             return
-        self._turn(name)
+        self._switch_to(name)
         if not isinstance(self._host.focused, Tabs | LessonList):
             self._focus(name)
 
-    def _turn(self, name: str) -> None:
+    def _switch_to(self, name: str) -> None:
         self.current = name
         self._host.set_class(name == "criteria", "-criteria")
         if name == "live":
@@ -106,31 +106,31 @@ class Pages:
             self._host.set_focus(self._host.query_one(target), scroll_visible=False)
 
     def _open_live(self) -> LivePane:
-        """The live page, which watches from the first time on that it is opened."""
-        if not (found := self.live):
-            self.live = found = LivePane(id="live-pane")
-            self._host.query_one("#live", Container).mount(found)
-            found.show_for(self._host.model.lesson)
-            found.nodes_run(self._node_runs())
+        """Return the live page; the first call creates it and starts its watcher."""
+        if not (pane := self.live):
+            self.live = pane = LivePane(id="live-pane")
+            self._host.query_one("#live", Container).mount(pane)
+            pane.show_for(self._host.model.lesson)
+            pane.nodes_run(self._node_is_running())
             session = self._host.model.session
-            found.call_after_refresh(found.start_watching, lambda: watcher_command(session.domain))
-        return found
+            pane.call_after_refresh(pane.start_watching, lambda: watcher_command(session.domain))
+        return pane
 
     def open_terminal(self) -> TerminalPane:
-        """The terminal page, made the first time that it is asked for."""
-        if not (found := self.terminal):
+        """Return the terminal page; the first call creates it."""
+        if not (pane := self.terminal):
             session = self._host.model.session
-            self.terminal = found = TerminalPane(session.shell, History(session.typed_commands()), id="terminal-pane")
-            self._host.query_one("#terminal", Container).mount(found)
-        return found
+            self.terminal = pane = TerminalPane(session.shell, History(session.typed_commands()), id="terminal-pane")
+            self._host.query_one("#terminal", Container).mount(pane)
+        return pane
 
     # --- log and Live side by side ---
 
     def arrange_side_by_side(self) -> None:
-        """Show the log beside Live, where there is something in both, and room; else the page alone."""
+        """Show the log beside Live if that is on, both have content, and there is room; else show one page."""
         host, log, live = self._host, self._host.query_one(LogPane), self._host.query_one("#live", Container)
-        full = self.live is not None and log.has_class("-filled")
-        wanted = host.model.state.side_by_side and full and host.size.width >= SIDE_BY_SIDE_FROM
+        filled = self.live is not None and log.has_class("-filled")
+        wanted = host.model.state.side_by_side and filled and host.size.width >= SIDE_BY_SIDE_MIN_WIDTH
         both = wanted and self.current in ("log", "live")
         if not both and not host.has_class("-split"):
             return
@@ -139,38 +139,38 @@ class Pages:
             page.display = both or self.current == name
 
     def switch_side_by_side(self) -> None:
-        """Show the log beside Live from now on, or not."""
+        """Toggle showing the log beside Live."""
         on = not self._host.model.state.side_by_side
         self._preferences.update(side_by_side=on)
         self.arrange_side_by_side()
-        room = self._host.size.width >= SIDE_BY_SIDE_FROM
+        fits = self._host.size.width >= SIDE_BY_SIDE_MIN_WIDTH
         text = "Log and Live are shown side by side." if on else "Log and Live are shown one at a time."
-        needs = "" if room or not on else f" That takes {SIDE_BY_SIDE_FROM} columns."
-        self._host.say(text + needs)
+        caveat = "" if fits or not on else f" That takes {SIDE_BY_SIDE_MIN_WIDTH} columns."
+        self._host.say(text + caveat)
 
     # --- the panels ---
 
     def arrange(self, width: int, height: int) -> None:
-        """Lay the panels out for a size."""
+        """Lay out the panels for a screen of this size."""
         self.arrange_side_by_side()
-        shape = layout_for(width, height)
-        if shape == self._shape:
+        layout = layout_for(width, height)
+        if layout == self._layout:
             return
-        self._shape = shape
+        self._layout = layout
         host, state = self._host, self._host.model.state
         for place in Criteria:
-            host.set_class(shape.criteria is place, f"-{place}", update=False)
-        host.set_class(not shape.lessons, "-no-lessons", update=False)
+            host.set_class(layout.criteria is place, f"-{place}", update=False)
+        host.set_class(not layout.lessons, "-no-lessons", update=False)
         host.set_class(not state.lessons_shown, "-lessons-away", update=False)
         host.set_class(state.zoomed, "-zoomed", update=False)
         host.remove_class("-drawer", update=False)
-        host.update_node_styles()  # once for all of them: it restyles the whole screen
+        host.update_node_styles()  # once for all classes: it restyles the whole screen
         tabs = host.query_one(Tabs)
-        if shape.criteria is Criteria.FOLDED:
+        if layout.criteria is Criteria.FOLDED:
             tabs.show("tab-criteria")
             return
         if self.current == "criteria":
-            self._turn("lesson")
+            self._switch_to("lesson")
             tabs.active = "tab-lesson"
         tabs.hide("tab-criteria")
 
@@ -191,6 +191,6 @@ class Pages:
             host.set_focus(host.query_one(LessonView))
 
     def zoom(self) -> None:
-        """Give the page all the room, or show the panels again."""
+        """Maximize the page, or show the panels again."""
         self._host.toggle_class("-zoomed")
         self._preferences.update(zoomed=self._host.has_class("-zoomed"))

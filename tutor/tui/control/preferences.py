@@ -1,4 +1,4 @@
-"""Keeps in the workspace what the learner chose: written soon after each change, and when they leave."""
+"""Saves the learner's preferences in the workspace: shortly after each change, and on shutdown."""
 
 from __future__ import annotations
 
@@ -12,45 +12,46 @@ from tutor.errors import StorageError
 from tutor.tui.control.host import HostScreen
 from tutor.workspace import AppState
 
-WRITE_AFTER_S = 0.3
+WRITE_DELAY_S = 0.3
+"""Debounce: changes within this time are written together."""
 
 
 class Preferences:
-    """The only one that changes `model.state`."""
+    """The only place that changes `model.state`."""
 
     def __init__(self, host: HostScreen) -> None:
         self._host = host
         self._timer: Timer | None = None
-        self._writing = asyncio.Lock()
-        self._kept = host.model.state
+        self._write_lock = asyncio.Lock()
+        self._saved = host.model.state
 
     def update(self, **changes: Any) -> None:
-        """Remember these fields of `AppState`."""
+        """Change these fields of `AppState`."""
         self.replace(dataclasses.replace(self._host.model.state, **changes))
 
     def replace(self, state: AppState) -> None:
-        """Remember this state."""
+        """Replace the whole state."""
         model = self._host.model
         if state != model.state:
             model.state = state
             self._host.preferences_changed()
             if self._timer is None:
-                self._timer = self._host.set_timer(WRITE_AFTER_S, self._due)
+                self._timer = self._host.set_timer(WRITE_DELAY_S, self._write_due)
 
-    def _due(self) -> None:
+    def _write_due(self) -> None:
         self._timer = None
         self._host.work(self.flush, group="state")
 
     async def flush(self) -> None:
-        """Write it now, if anything has changed."""
+        """Write the state now, if it has changed."""
         model = self._host.model
-        async with self._writing:  # two writes at once would take each other's temporary file away
+        async with self._write_lock:  # concurrent writes would remove each other's temporary file
             state = model.state
-            if state == self._kept:
+            if state == self._saved:
                 return
             try:
                 await asyncio.to_thread(model.session.keep, state)
-                self._kept = state
+                self._saved = state
             except StorageError as error:
-                self._kept = state  # reported once, not at every change
-                self._host.show_error(f"The app cannot remember this: {error}")
+                self._saved = state  # report the error once, not on every change
+                self._host.show_error(f"Your preferences could not be saved: {error}")

@@ -17,30 +17,30 @@ from tutor.workspace import Progress
 
 
 class Records:
-    """Tells each new state of the progress by `ProgressRead`."""
+    """Reads and changes the progress on disk, and posts `ProgressRead` after each."""
 
     def __init__(self, host: HostScreen) -> None:
         self._host = host
-        self._lane = asyncio.Lock()
+        self._lock = asyncio.Lock()
         host.register(commands.HINT, self.hint)
         host.register(commands.ATTEMPTS, self.attempts)
 
     def read(self) -> None:
-        """Read it from the disk."""
-        self._work(self._host.model.session.progress)
+        """Read the progress from disk."""
+        self._start_change(self._host.model.session.progress)
 
     def add(self, result: ExerciseResult) -> None:
-        """Keep one attempt."""
-        self._work(self._host.model.session.record, result)
+        """Record one attempt."""
+        self._start_change(self._host.model.session.record, result)
 
     def hint(self) -> None:
-        """Show the hint for what has failed, and the general ones that were shown before; else the first of these."""
+        """Show the hint for the failed criterion, if any, and the general hints seen so far (else the first)."""
         model = self._host.model
         failed = self._failed()
         self._show_hints(max(0 if failed else 1, model.progress.of(model.lesson.id).hints), failed)
 
     def _failed(self) -> CriterionText | None:
-        """The criterion that is chosen, if it has failed; else the first that has."""
+        """Return the chosen criterion if it has failed, else the first that has; None if there is no hint for it."""
         model = self._host.model
         failed = [
             finding.id
@@ -54,7 +54,7 @@ class Records:
         model = self._host.model
         lesson = model.lesson
         if count > model.progress.of(lesson.id).hints:
-            self._work(model.session.show_hint, lesson)
+            self._start_change(model.session.show_hint, lesson)
 
         def answered(more: bool | None) -> None:
             if more:
@@ -63,24 +63,24 @@ class Records:
         self._host.app.push_screen(HintScreen(lesson, count, failed), answered)
 
     def attempts(self) -> None:
-        """Show the attempts at this exercise."""
+        """Show the attempts at the current exercise."""
         from tutor.tui.dialogs.attempts import AttemptsScreen
 
         model = self._host.model
         self._host.app.push_screen(AttemptsScreen(model.lesson, model.progress.of(model.lesson.id)))
 
-    def _work(self, change: Callable[..., Progress], *given: Any) -> None:
-        self._host.work(self.change, change, *given, group="progress")
+    def _start_change(self, change: Callable[..., Progress], *args: Any) -> None:
+        self._host.work(self.change, change, *args, group="progress")
 
-    async def change(self, change: Callable[..., Progress], *given: Any) -> None:
-        """Change the progress on the disk, and tell what it is then; where that fails, what it was."""
+    async def change(self, change: Callable[..., Progress], *args: Any) -> None:
+        """Change the progress on disk, and post the result or, if that fails, the progress as it was."""
         try:
-            self._host.post_message(messages.ProgressRead(await self.run_in_order(change, *given)))
+            self._host.post_message(messages.ProgressRead(await self.run_in_order(change, *args)))
         except StorageError as error:
-            self._host.show_error(f"Your progress is not kept: {error}")
+            self._host.show_error(f"Your progress could not be saved: {error}")
             self._host.post_message(messages.ProgressRead(self._host.model.progress))
 
-    async def run_in_order[T](self, work: Callable[..., T], *given: Any) -> T:
-        """Do this in a thread, after what was asked for before it: what is reported last is then the latest."""
-        async with self._lane:
-            return await asyncio.to_thread(work, *given)
+    async def run_in_order[T](self, work: Callable[..., T], *args: Any) -> T:
+        """Run `work(*args)` in a thread, one call at a time, so that results arrive in the order of the calls."""
+        async with self._lock:
+            return await asyncio.to_thread(work, *args)

@@ -1,4 +1,4 @@
-"""What the learner does with the terminal page from elsewhere: a command of the lesson's text, run there."""
+"""Runs commands from the lesson's text on the terminal page."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from tutor.tui.lesson_commands import commands_in
 
 
 class Terminal:
-    """Runs the lesson's commands."""
+    """Runs the current lesson's commands."""
 
     def __init__(self, host: HostScreen, pages: Pages) -> None:
         self._host, self._pages = host, pages
@@ -20,7 +20,7 @@ class Terminal:
         return commands_in(self._host.model.lesson.body)
 
     def choose(self) -> None:
-        """Ask which of the lesson's commands to run, and run it."""
+        """Let the learner choose one of the lesson's commands, and run it."""
         from tutor.tui.dialogs.choose_command import ChooseCommandScreen
 
         def chosen(command: str | None) -> None:
@@ -30,7 +30,7 @@ class Terminal:
         self._host.app.push_screen(ChooseCommandScreen(self._commands), chosen)
 
     def run(self, command: str) -> None:
-        """Turn to the terminal page, and run a command there."""
+        """Show the terminal page, and run a command there."""
         self._host.show_page("terminal")
         pane = self._pages.open_terminal()
         pane.call_after_refresh(pane.run_line, command)

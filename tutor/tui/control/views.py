@@ -1,4 +1,4 @@
-"""Other looks at the learner's file: the skeleton, the solution, and what differs."""
+"""Other views of the code page: the skeleton, the solution, and diffs against them."""
 
 from __future__ import annotations
 
@@ -22,43 +22,39 @@ class View(StrEnum):
 
 
 class Views:
-    """One view at a time; asking for it again shows the learner's own file."""
+    """Shows one view at a time; requesting it again goes back to the learner's own file."""
 
     def __init__(self, host: HostScreen, pane: CodePane, files: Files) -> None:
         self._host, self._pane, self._files = host, pane, files
-        self._unveiled: set[str] = set()
-        """Exercises whose solution was asked for."""
+        self._revealed: set[str] = set()
+        """Ids of the exercises whose solution the learner has asked for."""
         host.register(commands.SKELETON, partial(self.show, View.SKELETON))
         host.register(commands.CHANGES, partial(self.show, View.CHANGES))
         host.register(commands.SOLUTION, partial(self.show, View.SOLUTION))
         host.register(commands.AGAINST, partial(self.show, View.AGAINST))
 
-    def back(self) -> None:
-        """Show the learner's own file."""
-        self._pane.show_own()
-
     def show(self, view: View) -> None:
-        """Show it; the solution only after a pass, or a question."""
+        """Show a view; those with the solution only once the exercise is passed, or after asking for confirmation."""
         if self._host.page == "code" and self._pane.view == view:
-            self.back()
+            self._pane.show_own()
             return
         lesson = self._host.model.lesson
         passed = self._host.model.progress.of(lesson.id).is_passed
-        if view in (View.SKELETON, View.CHANGES) or passed or lesson.id in self._unveiled:
+        if view in (View.SKELETON, View.CHANGES) or passed or lesson.id in self._revealed:
             self._show(view)
             return
 
-        def unveil() -> None:
-            self._unveiled.add(lesson.id)
+        def reveal() -> None:
+            self._revealed.add(lesson.id)
             self._show(view)
 
         text = "The exercise teaches most when you find the way yourself.\n\nShow our solution all the same?"
-        self._host.ask(f"Solution of {wording.label(lesson)}", text, "Show it", unveil)
+        self._host.ask(f"Solution of {wording.label(lesson)}", text, "Show it", reveal)
 
     def _show(self, view: View) -> None:
-        self._host.work(self._show_now, view, group="view", exclusive=True)
+        self._host.work(self._load_and_show, view, group="view", exclusive=True)
 
-    async def _show_now(self, view: View) -> None:
+    async def _load_and_show(self, view: View) -> None:
         from tutor.tui.widgets.diffing import count, difference
 
         file = self._host.model.file
@@ -66,13 +62,13 @@ class Views:
         try:
             other = (file.skeleton if view in (View.SKELETON, View.CHANGES) else file.solution).read_text("utf-8")
         except OSError as error:
-            self._host.show_error(f"It cannot be read: {error.strerror}")
+            self._host.show_error(f"The file cannot be read: {error.strerror}")
             return
         await self._files.look(path)
         self._host.show_page("code")
         if view in (View.SKELETON, View.SOLUTION):
             self._pane.show_other(
-                view, f"{'Our solution' if view is View.SOLUTION else 'The skeleton'}, to read", other
+                view, f"{'Our solution' if view is View.SOLUTION else 'The skeleton'}, read-only", other
             )
             return
         if not self._pane.knows(path):
@@ -81,11 +77,11 @@ class Views:
         mine = self._pane.text(path)
         against = view is View.AGAINST
         rows, margins = difference(mine, other) if against else difference(other, mine)
-        came, went = count(rows)
+        added, removed = count(rows)
         title = (
-            f"From yours to our solution: {went} lines of yours (-), {came} of ours (+)"
+            f"From yours to our solution: {removed} lines of yours (-), {added} of ours (+)"
             if against
-            else f"Your changes in the skeleton: {came} lines came (+), {went} went (-)"
+            else f"Your changes to the skeleton: {added} lines added (+), {removed} removed (-)"
         )
         if not rows:
             title = f"No difference: your file is {'our solution' if against else 'still the skeleton'}"

@@ -1,1 +1,1 @@
-"""What opens over the main screen: a module for each dialog, and one .tcss file for all but the checklist."""
+"""The dialogs over the main screen, one module each; all but the checklist share one .tcss file."""

@@ -1,4 +1,4 @@
-"""The learner's attempts at an exercise."""
+"""Shows the learner's attempts at an exercise."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from tutor.workspace import ExerciseProgress
 
 
 class AttemptsScreen(Dialog[None]):
-    """All of them, the latest first."""
+    """The attempts at one exercise, latest first."""
 
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("a", "close", show=False),

@@ -1,4 +1,4 @@
-"""The self-assessment checklist: what the learner can do by now, in their own judgement."""
+"""The self-assessment checklist, in which learners tick what they can do by now."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ from tutor.report.assessment import Assessment
 from tutor.tui.widgets.checklist import GroupCard, ItemRow, bar
 from tutor.tui.widgets.key_footer import KeyFooter
 
-TWO_COLUMNS = 110
-"""From this width on the cards are in two columns."""
+TWO_COLUMNS_MIN_WIDTH = 110
+"""Minimum screen width, in columns, for two columns of cards."""
 
 
 class ChecklistScreen(Screen[None]):
-    """Four cards of items. `tick` keeps a tick, `export` asks where to write the checklist."""
+    """Four cards of items. `tick` is called to save a tick, `export` to ask where to write the checklist."""
 
     CSS_PATH = Path(__file__).with_name("checklist.tcss")
     BINDINGS: ClassVar[list[BindingType]] = [
@@ -62,74 +62,78 @@ class ChecklistScreen(Screen[None]):
         self._show()
 
     def on_resize(self, event: events.Resize) -> None:
-        """Two columns where there is room."""
-        self.set_class(event.size.width >= TWO_COLUMNS, "-two")
+        """Adapt the layout to the size."""
+        self.set_class(event.size.width >= TWO_COLUMNS_MIN_WIDTH, "-two")
         self.set_class(event.size.height < 30, "-low")
         self.set_class(event.size.height >= 44, "-tall")
 
     @property
     def cards(self) -> list[GroupCard]:
-        """The cards, in order."""
+        """All cards, in order."""
         return list(self.query(GroupCard))
 
     @property
     def rows(self) -> list[ItemRow]:
-        """Every item, in order."""
+        """All items, in order."""
         return [row for card in self.cards for row in card.rows]
 
     def show(self, assessment: Assessment) -> None:
-        """Show how it stands now: a check has passed, or another window has ticked something."""
+        """Show a new state: a check has passed, or something was ticked in another window."""
         self._assessment = assessment
-        if self.is_mounted:  # else it is shown when it is
+        if self.is_mounted:  # else on_mount shows it
             self._show()
 
     def _show(self) -> None:
         for card, group in zip(self.cards, self._assessment.groups, strict=True):
             card.show(group)
-        self._count()
+        self._show_totals()
 
     @on(ItemRow.Toggled)
     def _toggled(self, event: ItemRow.Toggled) -> None:
         for card in self.cards:
             card.count()
-        self._count()
+        self._show_totals()
         self._tick(event.item, event.ticked)
 
-    def _count(self) -> None:
+    def _show_totals(self) -> None:
         rows = self.rows
         ticked, total = sum(row.ticked for row in rows), len(rows)
-        shown = sum(bool(row.item.evidence) for row in rows)
+        with_evidence = sum(bool(row.item.evidence) for row in rows)
         self.query_one("#checklist-head", Static).update(
             Content.assemble(
                 ("Self-assessment  ", "bold $primary"),
                 bar(ticked, total),
                 (f"  {ticked} of {total} ticked", "bold"),
-                (f" · {shown} shown by your checks", "$quiet"),
+                (f" · {with_evidence} shown by your checks", "$quiet"),
             ),
             layout=False,
         )
-        self._welcome_on(ticked == total > 0)
+        self._show_banner(ticked == total > 0)
 
-    def _welcome_on(self, ready: bool) -> None:
-        """Anyone who has ticked everything sees what comes next."""
+    def _show_banner(self, ready: bool) -> None:
+        """Show the banner that says what comes next, if everything has been ticked."""
         found, banner = self._assessment, self.query_one("#checklist-ready", Static)
         banner.display = ready and bool(found.ready_text)
         if banner.display:
             banner.border_title = Content(found.ready_title)
-            banner.update(Content.assemble(("✓ ", "bold $good"), found.ready_text, "\n", (_rest(found), "$quiet")))
-            if (row := self.focused) is not None:  # the banner takes room from below
+            banner.update(
+                Content.assemble(
+                    ("✓ ", "bold $good"), found.ready_text, "\n", (_describe_exercises_left(found), "$quiet")
+                )
+            )
+            if (row := self.focused) is not None:  # the banner takes up room at the bottom
                 self.call_after_refresh(row.scroll_visible, animate=False)
 
     # --- moving ---
 
     def action_go(self, by: int) -> None:
-        """To the item this many further down (or up), and no further than the last."""
+        """Move the focus down (or up) by this many items, stopping at the last (or first)."""
         rows = self.rows
-        at = next((n for n, row in enumerate(rows) if row.has_focus), 0)
-        rows[max(0, min(len(rows) - 1, at + by))].focus()
+        current = next((n for n, row in enumerate(rows) if row.has_focus), 0)
+        rows[max(0, min(len(rows) - 1, current + by))].focus()
 
     def action_across(self) -> None:
-        """To the card beside this one, where there are two columns."""
+        """Move the focus to the card beside this one, if there are two columns."""
         cards = self.cards
         at = next((n for n, card in enumerate(cards) if card.has_focus_within), 0)
         if not self.has_class("-two") or at ^ 1 >= len(cards):
@@ -141,20 +145,20 @@ class ChecklistScreen(Screen[None]):
     # --- actions ---
 
     def action_export(self) -> None:
-        """Ask for format and file, and write it."""
+        """Ask for format and file, and export."""
         self._export()
 
     def action_theme(self) -> None:
-        """Dark to light and back."""
+        """Switch between the dark and the light theme."""
         self._theme()
 
     def action_close(self) -> None:
-        """Back to the lessons."""
+        """Go back to the lessons."""
         self.dismiss(None)
 
 
-def _rest(assessment: Assessment) -> str:
-    """How the exercises stand, for anyone who has ticked everything."""
+def _describe_exercises_left(assessment: Assessment) -> str:
+    """Say which exercises are left, for a learner who has ticked everything."""
     left = len(assessment.exercises) - assessment.passed
     if not left:
         return f"All {len(assessment.exercises)} exercises are passed, too."

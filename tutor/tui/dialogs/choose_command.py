@@ -1,4 +1,4 @@
-"""The commands of a lesson, one of which is to be run."""
+"""Lets the learner choose one of a lesson's commands to run."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from tutor.tui.dialogs.dialog import Dialog
 
 
 class ChooseCommandScreen(Dialog[str]):
-    """Gives the command that was chosen."""
+    """Returns the command chosen."""
 
     DEFAULT_CSS = """
     ChooseCommandScreen OptionList { height: auto; max-height: 20; border: none; background: $surface; }

@@ -1,4 +1,4 @@
-"""A question with yes and no."""
+"""A yes-or-no question."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from tutor.tui.dialogs.dialog import Dialog
 
 
 class ConfirmScreen(Dialog[bool]):
-    """Gives True for yes. Enter says yes, Escape says no."""
+    """Returns True for yes. Enter means yes; Escape means no and returns None."""
 
     def __init__(self, title: str, text: str, yes: str, no: str = "Not now") -> None:
         super().__init__()

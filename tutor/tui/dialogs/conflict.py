@@ -1,4 +1,4 @@
-"""A file was changed here and outside at once: which version goes on."""
+"""Resolves a conflict: a file was changed both here and outside."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from tutor.tui.widgets.diffing import difference
 
 
 class ConflictScreen(Dialog[bool]):
-    """Gives True for the learner's own version, False (or None, for Esc) for the file's. Nothing is lost either way."""
+    """Returns True for the learner's version, False (or None, on Esc) for the file's. Nothing is lost either way."""
 
     BINDINGS: ClassVar[list[BindingType]] = [Binding("d", "difference", "Difference")]
 
@@ -29,8 +29,8 @@ class ConflictScreen(Dialog[bool]):
         with Vertical(classes="window") as window:
             window.border_title = Content(f"{self._name_text} was changed outside")
             text = (
-                "The file has changed on the disk while you had changes here that were not saved yet.\n\n"
-                f"Both are safe: yours is kept as {self._backup}.\nWith which one do you go on?"
+                "The file has changed on disk while you had unsaved changes here.\n\n"
+                f"Both versions are safe: yours is kept as {self._backup}.\nWhich one do you want to continue with?"
             )
             yield Static(text, classes="dialog-text", markup=False)
             yield CodeView(id="conflict-difference")
@@ -45,7 +45,7 @@ class ConflictScreen(Dialog[bool]):
 
     @on(Button.Pressed, "#difference")
     def action_difference(self) -> None:
-        """Show the file's version (-) against ours (+), or hide it."""
+        """Show or hide the diff from the file's version (-) to the learner's (+)."""
         view = self.query_one(CodeView)
         view.show_rows(*difference(self._theirs, self._ours))
         view.display = not view.display

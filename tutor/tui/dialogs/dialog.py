@@ -1,4 +1,4 @@
-"""A small window over the screen: the base of every question and note."""
+"""The base class of all dialogs: a small window over the screen."""
 
 from __future__ import annotations
 
@@ -10,17 +10,17 @@ from textual.screen import ModalScreen
 
 
 class Dialog[Answer](ModalScreen[Answer]):
-    """Escape closes it, and so does a click beside it; either way the answer is None."""
+    """Escape closes it, as does a click outside it; either way the answer is None."""
 
     CSS_PATH = Path(__file__).with_name("dialog.tcss")
     BINDINGS: ClassVar[list[BindingType]] = [Binding("escape", "close", "Close", key_display="Esc")]
 
     def action_close(self) -> None:
-        """Leave without an answer."""
+        """Close without an answer."""
         self.dismiss(None)
 
     def on_click(self, event: object) -> None:
-        """A click beside the window closes it."""
+        """Close on a click outside the window."""
         from textual.events import Click
 
         if isinstance(event, Click) and event.widget is self:

@@ -1,4 +1,4 @@
-"""Where the checklist is written to, and in which format."""
+"""Asks in which format and to which file to export the checklist."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _ABOUT = {
 
 
 class ExportScreen(Dialog[tuple[str, Path]]):
-    """Gives the format and the file; the file may exist: the caller asks before it overwrites one."""
+    """Returns the format and the file; the caller must ask before overwriting an existing one."""
 
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("up", "format(-1)", show=False),
@@ -37,8 +37,8 @@ class ExportScreen(Dialog[tuple[str, Path]]):
     def __init__(self, folder: Path, format: str = FORMATS[0], file: Path | None = None) -> None:
         super().__init__()
         self._folder, self._format = folder, format
-        name = file or folder / f"checklist{SUFFIXES[format]}"
-        self._name_text = str(name.relative_to(folder)) if name.is_relative_to(folder) else short_path(name)
+        path = file or folder / f"checklist{SUFFIXES[format]}"
+        self._path_text = str(path.relative_to(folder)) if path.is_relative_to(folder) else short_path(path)
 
     def compose(self) -> ComposeResult:
         with Vertical(classes="window") as window:
@@ -48,7 +48,7 @@ class ExportScreen(Dialog[tuple[str, Path]]):
                 for format in FORMATS:
                     yield Button(NAMES[format], id=f"format-{format}")
             yield Static(id="export-about")
-            yield Input(self._name_text, id="export-file")
+            yield Input(self._path_text, id="export-file")
             yield Static(id="export-place")
             with Horizontal(classes="dialog-buttons"):
                 yield Button("Not now", id="no")
@@ -61,15 +61,15 @@ class ExportScreen(Dialog[tuple[str, Path]]):
 
     @property
     def path(self) -> Path:
-        """What the field says; a relative path is in the workspace."""
+        """The file typed; a relative path is relative to the workspace."""
         text = self.query_one(Input).value.strip()
         try:
             return self._folder / Path(text).expanduser()
-        except RuntimeError:  # "~somebody", where there is no such user
+        except RuntimeError:  # "~somebody", but there is no such user
             return self._folder / text
 
     def action_format(self, by: int) -> None:
-        """The next format, or the one before."""
+        """Choose the next format (1) or the previous one (-1)."""
         self._choose(FORMATS[(FORMATS.index(self._format) + by) % len(FORMATS)])
 
     @on(Button.Pressed, "#export-formats Button")
@@ -105,11 +105,11 @@ class ExportScreen(Dialog[tuple[str, Path]]):
         self.query_one("#export-place", Static).update(text)
 
     def _problem(self) -> str:
-        """What is wrong with the file, or nothing."""
+        """Return what is wrong with the file, or ""."""
         path = self.path
-        # Not Path.is_dir and its kin: they raise where a folder may not be looked into.
+        # Not Path.is_dir and the like: they raise PermissionError if a parent folder may not be searched.
         if not self.query_one(Input).value.strip() or os.path.isdir(path):
-            return "Give the name of a file."
+            return "Enter a file name."
         if not os.path.isdir(path.parent):
             return f"There is no folder {short_path(path.parent)}."
         return ""

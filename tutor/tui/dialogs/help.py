@@ -1,4 +1,4 @@
-"""All keys, and how an exercise goes."""
+"""The help: how to work on an exercise, and all keys."""
 
 from __future__ import annotations
 
@@ -18,11 +18,10 @@ from textual.widgets import Static
 from tutor.tui.commands import EDITOR_KEYS, GROUPS, Command
 from tutor.tui.dialogs.dialog import Dialog
 
-_HOW = (
+_INTRODUCTION = (
     "Read the lesson, start, edit, run, check. A failure tells you the next step.\n"
-    "In the editor letters type: leave it with Esc. The F keys work everywhere."
+    "In the editor, letters type text: leave it with Esc. The F keys work everywhere."
 )
-
 
 _EVERYWHERE = (
     ("Ctrl+P", "Find any action, lesson, or text"),
@@ -30,20 +29,20 @@ _EVERYWHERE = (
 )
 
 KeyGroup = tuple[str, Sequence[tuple[str, str]]]
-"""A title, and keys with what they do."""
+"""A title, and (keys, what they do) pairs."""
 
-KEYS = 10
-"""Columns of the keys."""
+KEYS_WIDTH = 10
+"""Width of the column of keys, in cells."""
 
-HALF = 3
-"""This many groups are in the left column."""
+LEFT_GROUPS = 3
+"""Number of command groups in the left column."""
 
-TWO_COLUMNS = 116
-"""From this width on there are two."""
+TWO_COLUMNS_MIN_WIDTH = 116
+"""Minimum screen width, in columns, for two columns of groups."""
 
 
 class KeyTable(Widget):
-    """Groups of keys and what they do; what does not fit into a line goes on below its beginning."""
+    """Groups of keys and what they do, with long descriptions wrapped and indented."""
 
     DEFAULT_CSS = "KeyTable { height: auto; }"
 
@@ -52,11 +51,11 @@ class KeyTable(Widget):
         self._groups = groups
 
     def render(self) -> Content:
-        """For the width that there is."""
+        """Render for the current width."""
         return self._text(self.content_size.width)
 
     def get_content_height(self, container: Size, viewport: Size, width: int) -> int:
-        """As many lines as it takes."""
+        """Return the number of lines at this width."""
         return self._text(width).plain.count("\n") + 1
 
     def _text(self, width: int) -> Content:
@@ -64,14 +63,14 @@ class KeyTable(Widget):
         for title, keys in self._groups:
             parts += ["\n\n" if parts else "", (title, "bold $primary")]
             for key, text in keys:
-                first, *rest = wrap(text, max(20, width - KEYS)) or [""]
-                parts += ["\n", (f"{key:<{KEYS - 1}} ", "bold $accent"), first]
-                parts += [f"\n{' ' * KEYS}{line}" for line in rest]
+                first, *rest = wrap(text, max(20, width - KEYS_WIDTH)) or [""]
+                parts += ["\n", (f"{key:<{KEYS_WIDTH - 1}} ", "bold $accent"), first]
+                parts += [f"\n{' ' * KEYS_WIDTH}{line}" for line in rest]
         return Content.assemble(*parts)
 
 
 class HelpScreen(Dialog[None]):
-    """Made from the table of commands, so it is never out of date."""
+    """Generated from the table of commands, so it is never out of date."""
 
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("question_mark", "close", show=False),
@@ -82,18 +81,18 @@ class HelpScreen(Dialog[None]):
         with VerticalScroll(classes="window") as window:
             window.border_title = "Help"
             window.border_subtitle = "Esc closes"
-            yield Static(_HOW, classes="dialog-text")
+            yield Static(_INTRODUCTION, classes="dialog-text")
             with Container(id="help-columns"):
-                yield KeyTable(*_merged(GROUPS[:HALF]), ("In the editor", EDITOR_KEYS))
-                yield KeyTable(("Everywhere", _EVERYWHERE), *_merged(GROUPS[HALF:]))
+                yield KeyTable(*_merge_keys(GROUPS[:LEFT_GROUPS]), ("In the editor", EDITOR_KEYS))
+                yield KeyTable(("Everywhere", _EVERYWHERE), *_merge_keys(GROUPS[LEFT_GROUPS:]))
 
     def on_resize(self, event: events.Resize) -> None:
-        """Two columns where there is room."""
-        self.set_class(event.size.width >= TWO_COLUMNS, "-two")
+        """Use two columns if there is room."""
+        self.set_class(event.size.width >= TWO_COLUMNS_MIN_WIDTH, "-two")
 
 
-def _merged(groups: Sequence[tuple[str, tuple[Command, ...]]]) -> list[KeyGroup]:
-    """One line for each action; its keys together."""
+def _merge_keys(groups: Sequence[tuple[str, tuple[Command, ...]]]) -> list[KeyGroup]:
+    """Merge commands with the same help text into one line, with all their keys."""
     merged: list[KeyGroup] = []
     for title, group in groups:
         lines: dict[str, list[str]] = {}

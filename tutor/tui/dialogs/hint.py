@@ -1,4 +1,4 @@
-"""The hints of a lesson: that of the criterion that has failed, then the general ones, as many as were asked for."""
+"""Shows a lesson's hints: the one for the failed criterion, then as many general ones as were asked for."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from tutor.tui.dialogs.dialog import Dialog
 
 
 class HintScreen(Dialog[bool]):
-    """Gives True where the next general hint is wanted; `failed` is the criterion to begin with, if there is one."""
+    """Shows the hint for `failed` (if any) and the first `shown` general hints; returns True to ask for another."""
 
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("h", "another", "Next hint"),
@@ -48,6 +48,6 @@ class HintScreen(Dialog[bool]):
             yield Static(Content.assemble(*parts), classes="dialog-text")
 
     def action_another(self) -> None:
-        """Ask for the next one, if there is one."""
+        """Ask for the next hint, if there is one."""
         if self._shown < len(self._lesson.hints):
             self.dismiss(True)

@@ -1,4 +1,4 @@
-"""A form for parameters and remaps, with the command that it comes to."""
+"""A form for parameters and remaps, with a preview of the resulting command line."""
 
 from __future__ import annotations
 
@@ -20,25 +20,25 @@ from tutor.workspace import RunOptions
 
 
 class RunOptionsScreen(Dialog[tuple[RunOptions, bool]]):
-    """Gives the options, and whether to run now."""
+    """Returns the options, and whether to run now. `format_command` gives the command line for a set of options."""
 
     BINDINGS: ClassVar[list[BindingType]] = [Binding("f5", "run", "Run"), Binding("ctrl+s", "keep", "Keep")]
 
-    def __init__(self, file: LessonFile, options: RunOptions, typed: Callable[[RunOptions], str]) -> None:
+    def __init__(self, file: LessonFile, options: RunOptions, format_command: Callable[[RunOptions], str]) -> None:
         super().__init__()
-        self._file, self._options, self._typed = file, options, typed
-        self._launch = is_launch_file(file.skeleton)
+        self._file, self._options, self._format_command = file, options, format_command
+        self._is_launch = is_launch_file(file.skeleton)
 
     def compose(self) -> ComposeResult:
         with Vertical(classes="window") as window:
             window.border_title = Content(f"Run {self._file.name} with")
-            window.border_subtitle = "F5 runs · Ctrl+S keeps · Esc leaves it"
-            kind = "Launch arguments" if self._launch else "Parameters"
-            example = "topic:=/news" if self._launch else "publish_rate:=2.0"
-            yield Static(_label(kind, f"one a line, as in {example}"))
+            window.border_subtitle = "F5 runs · Ctrl+S keeps · Esc cancels"
+            kind = "Launch arguments" if self._is_launch else "Parameters"
+            example = "topic:=/news" if self._is_launch else "publish_rate:=2.0"
+            yield Static(_label(kind, f"one per line, as in {example}"))
             yield TextArea("\n".join(self._options.parameters), id="run-parameters", classes="dialog-lines")
-            if not self._launch:
-                yield Static(_label("Remaps", "one a line, as in chatter:=/news or __ns:=/robot1"))
+            if not self._is_launch:
+                yield Static(_label("Remaps", "one per line, as in chatter:=/news or __ns:=/robot1"))
                 yield TextArea("\n".join(self._options.remaps), id="run-remaps", classes="dialog-lines")
             yield Static(id="run-typed")
             with Horizontal(classes="dialog-buttons"):
@@ -51,31 +51,31 @@ class RunOptionsScreen(Dialog[tuple[RunOptions, bool]]):
 
     @property
     def options(self) -> RunOptions:
-        """What the form says."""
-        remaps = () if self._launch else run_options.lines(self.query_one("#run-remaps", TextArea).text)
+        """The options entered."""
+        remaps = () if self._is_launch else run_options.lines(self.query_one("#run-remaps", TextArea).text)
         return RunOptions(run_options.lines(self.query_one("#run-parameters", TextArea).text), remaps)
 
     @on(TextArea.Changed)
     def _show(self) -> None:
         options = self.options
-        if wrong := run_options.problem(options, launch=self._launch):
-            text = Content.assemble(("! ", "bold $bad"), (wrong, "$bad"))
+        if problem := run_options.problem(options, launch=self._is_launch):
+            text = Content.assemble(("! ", "bold $bad"), (problem, "$bad"))
         else:
-            text = Content.assemble(("As you would type it:\n", "$quiet"), (self._typed(options), "$good"))
+            text = Content.assemble(("As you would type it:\n", "$quiet"), (self._format_command(options), "$good"))
         self.query_one("#run-typed", Static).update(text)
 
     @on(Button.Pressed, "#run")
     def action_run(self) -> None:
-        """Keep the options and run."""
-        self._leave(run=True)
+        """Save the options and run."""
+        self._finish(run=True)
 
     @on(Button.Pressed, "#keep")
     def action_keep(self) -> None:
-        """Keep the options."""
-        self._leave(run=False)
+        """Save the options."""
+        self._finish(run=False)
 
-    def _leave(self, *, run: bool) -> None:
-        if not run_options.problem(self.options, launch=self._launch):
+    def _finish(self, *, run: bool) -> None:
+        if not run_options.problem(self.options, launch=self._is_launch):
             self.dismiss((self.options, run))
 
 

@@ -1,1 +1,1 @@
-"""Live panels: topics, parameters, services and the graph of the user's own domain, as a child process reports them."""
+"""The live page: topics, parameters, services and the graph of the user's own domain, from a child process."""

@@ -1,4 +1,4 @@
-"""The graph as a drawing: nodes in boxes at the left and the right, topics between them, and arrows. Pure.
+"""Draw the graph: nodes in boxes at the left and the right, topics between them, and arrows. Pure.
 
 ╭─────────╮   ┏━━━━━━━━━━━━━━━━━━━┓   ╭────────────────╮
 │ /talker ├──▶┃ /chatter          ┃─┬▶│ /listener      │
@@ -20,16 +20,22 @@ from tutor.ros_model import Topic, connections
 from tutor.tui.live.wording import short_type
 from tutor.tui.widgets.line_view import Piece, Row
 
-_BOX = 3
-"""This many rows a node or a topic takes."""
+_BOX_ROWS = 3
+"""The height of a node's or a topic's box, in rows."""
 
-_ARROW = 4
-_NARROWEST = 14
+_ARROW_CELLS = 4
+"""The width of an arrow."""
+
+_MIN_COLUMN_CELLS = 14
+"""No column gets narrower than this."""
+
+_NOBODY = "nobody publishes"
+_NO_LISTENERS = "nobody listens"
 
 
 @dataclass(frozen=True, slots=True)
 class DrawnTopic:
-    """One topic, drawn. `connected`: whether messages get from a publisher to each of `listeners`."""
+    """What to draw of one topic. `listeners`: node names, each with whether any publisher is connected to it."""
 
     publishers: tuple[str, ...]
     name: str
@@ -38,7 +44,7 @@ class DrawnTopic:
 
 
 def _drawn_topic(topic: Topic) -> DrawnTopic:
-    """What is to be drawn of a topic; a listener that no publisher matches is not connected."""
+    """Return what to draw of a topic. A listener is connected unless there are publishers and none of them matches."""
     pairs = list(connections(topic))
     nodes = dict.fromkeys(end.node for end in topic.subscriptions)
     listeners = tuple(
@@ -50,52 +56,50 @@ def _drawn_topic(topic: Topic) -> DrawnTopic:
 
 
 def draw_graph(topics: Sequence[Topic], width: int) -> list[Row]:
-    """All topics; those that one node publishes alone hang on one box of it."""
-    every = sorted(map(_drawn_topic, topics), key=lambda each: (each.publishers, each.name))
-    widths = _widths(every, width)
+    """Draw the topics; those that only one node publishes share one box of that node."""
+    drawn = sorted(map(_drawn_topic, topics), key=lambda each: (each.publishers, each.name))
+    widths = _column_widths(drawn, width)
     rows: list[Row] = []
-    for publishers, group in itertools.groupby(every, key=lambda each: each.publishers):
+    for publishers, group in itertools.groupby(drawn, key=lambda each: each.publishers):
         rows += _block(publishers, list(group), widths)
     return rows
 
 
-def _widths(every: Sequence[DrawnTopic], width: int) -> tuple[int, int, int]:
-    """What the three columns take, borders and all; the widest gives way where there is no room."""
-    lefts = [cell_len(name) + 4 for each in every for name in each.publishers or (_NOBODY,)]
-    middles = [max(cell_len(each.name) + 4, cell_len(each.type) + 7) for each in every]
-    rights = [cell_len(name) + 4 for each in every for name, _ in each.listeners] or [cell_len(_NO_EARS)]
-    columns = [max(some, default=_NARROWEST) for some in (lefts, middles, rights)]
-    while sum(columns) + 2 * _ARROW + 2 > width and max(columns) > _NARROWEST:
+def _column_widths(drawn: Sequence[DrawnTopic], width: int) -> tuple[int, int, int]:
+    """Return the widths of the three columns, borders included; the widest shrinks first if there is no room."""
+    lefts = [cell_len(name) + 4 for each in drawn for name in each.publishers or (_NOBODY,)]
+    middles = [max(cell_len(each.name) + 4, cell_len(each.type) + 7) for each in drawn]
+    rights = [cell_len(name) + 4 for each in drawn for name, _ in each.listeners] or [cell_len(_NO_LISTENERS)]
+    columns = [max(widths, default=_MIN_COLUMN_CELLS) for widths in (lefts, middles, rights)]
+    while sum(columns) + 2 * _ARROW_CELLS + 2 > width and max(columns) > _MIN_COLUMN_CELLS:
         columns[columns.index(max(columns))] -= 1
     return columns[0], columns[1], columns[2]
 
 
-_NOBODY = "nobody publishes"
-_NO_EARS = "nobody listens"
-
-
 def _block(publishers: tuple[str, ...], group: Sequence[DrawnTopic], widths: tuple[int, int, int]) -> Iterator[Row]:
-    """Topics with the same publishers: one box for one node, or a stack of boxes for each topic."""
+    """Draw topics with the same publishers: one box for a single node, or a stack of boxes per topic."""
     left, _, _ = widths
     if len(publishers) > 1:
         for each in group:
-            rights = list(_right(each, widths))
-            height = max(len(rights), _BOX * len(publishers))
-            yield from _beside(_stack(publishers, left, height), rights, height)
+            rights = list(_topic_rows(each, widths))
+            height = max(len(rights), _BOX_ROWS * len(publishers))
+            yield from _join_columns(_publisher_stack(publishers, left, height), rights, height)
         return
-    rights = [row for each in group for row in _right(each, widths)]
-    outlets = list(itertools.accumulate((len(list(_right(each, widths))) for each in group), initial=0))[:-1]
-    yield from _beside(_box(publishers, left, [at + 1 for at in outlets], len(rights)), rights, len(rights))
+    rights = [row for each in group for row in _topic_rows(each, widths)]
+    outlets = list(itertools.accumulate((len(list(_topic_rows(each, widths))) for each in group), initial=0))[:-1]
+    yield from _join_columns(
+        _publisher_box(publishers, left, [at + 1 for at in outlets], len(rights)), rights, len(rights)
+    )
 
 
-def _beside(lefts: list[Row], rights: list[Row], height: int) -> Iterator[Row]:
+def _join_columns(lefts: list[Row], rights: list[Row], height: int) -> Iterator[Row]:
     empty: Row = ()
     for one, other in itertools.islice(itertools.zip_longest(lefts, rights, fillvalue=empty), height):
         yield (*one, *other)
 
 
-def _box(publishers: tuple[str, ...], width: int, outlets: Sequence[int], height: int) -> list[Row]:
-    """One node's box down to its last outlet, with an arrow at each."""
+def _publisher_box(publishers: tuple[str, ...], width: int, outlets: Sequence[int], height: int) -> list[Row]:
+    """Draw one node's box, from the top to its last outlet, with an arrow at each outlet."""
     name = publishers[0] if publishers else ""
     last = outlets[-1] + 1
     rows: list[Row] = []
@@ -103,7 +107,7 @@ def _box(publishers: tuple[str, ...], width: int, outlets: Sequence[int], height
         out = y in outlets
         if not publishers:
             text = _fit(f" {_NOBODY}" if out else "", width)
-            rows.append(((text, "warn"), (" " * _ARROW, "")))
+            rows.append(((text, "warn"), (" " * _ARROW_CELLS, "")))
             continue
         if y == 0:
             box = "╭" + "─" * (width - 2) + "╮"
@@ -113,39 +117,47 @@ def _box(publishers: tuple[str, ...], width: int, outlets: Sequence[int], height
             box = f"│ {_fit(name if y == 1 else '', width - 4)} " + ("├" if out else "│")
         else:
             box = " " * width
-        rows.append(((box, "name" if y == 1 else "node"), ("───▶" if out else " " * _ARROW, "arrow")))
+        rows.append(((box, "name" if y == 1 else "node"), ("───▶" if out else " " * _ARROW_CELLS, "arrow")))
     return rows
 
 
-def _stack(publishers: tuple[str, ...], width: int, height: int) -> list[Row]:
-    """Boxes one below the other, whose arrows meet at the topic's row."""
+def _publisher_stack(publishers: tuple[str, ...], width: int, height: int) -> list[Row]:
+    """Draw boxes one below the other, whose arrows join at the topic's row."""
     rows: list[Row] = []
-    final = _BOX * (len(publishers) - 1) + 1
+    last_joint = _BOX_ROWS * (len(publishers) - 1) + 1
     for y in range(height):
-        place, line = divmod(y, _BOX)
-        if place >= len(publishers):
-            rows.append(((" " * (width + _ARROW), ""),))
+        index, line = divmod(y, _BOX_ROWS)
+        if index >= len(publishers):
+            rows.append(((" " * (width + _ARROW_CELLS), ""),))
             continue
         box = (
             "╭" + "─" * (width - 2) + "╮",
-            f"│ {_fit(publishers[place], width - 4)} ├",
+            f"│ {_fit(publishers[index], width - 4)} ├",
             "╰" + "─" * (width - 2) + "╯",
         )[line]
         joint = (
-            "─┬─▶" if y == 1 else "─╯  " if y == final else "─┤  " if line == 1 else " │  " if 1 < y < final else "    "
+            "─┬─▶"
+            if y == 1
+            else "─╯  "
+            if y == last_joint
+            else "─┤  "
+            if line == 1
+            else " │  "
+            if 1 < y < last_joint
+            else "    "
         )
         rows.append(((box, "name" if line == 1 else "node"), (joint, "arrow")))
     return rows
 
 
-def _right(each: DrawnTopic, widths: tuple[int, int, int]) -> Iterator[Row]:
-    """A topic and who listens to it."""
+def _topic_rows(each: DrawnTopic, widths: tuple[int, int, int]) -> Iterator[Row]:
+    """Draw a topic and its listeners."""
     _, middle, right = widths
-    final = _BOX * (len(each.listeners) - 1) + 1
-    for y in range(max(_BOX, _BOX * len(each.listeners))):
-        place, line = divmod(y, _BOX)
+    last_joint = _BOX_ROWS * (len(each.listeners) - 1) + 1
+    for y in range(max(_BOX_ROWS, _BOX_ROWS * len(each.listeners))):
+        index, line = divmod(y, _BOX_ROWS)
         topic = " " * middle
-        if y < _BOX:
+        if y < _BOX_ROWS:
             kind = f" {_fit(each.type, middle - 7).rstrip()} "
             topic = (
                 "┏" + "━" * (middle - 2) + "┓",
@@ -154,34 +166,34 @@ def _right(each: DrawnTopic, widths: tuple[int, int, int]) -> Iterator[Row]:
             )[y]
         head: Piece = (topic, "topic")
         if not each.listeners:
-            yield (head, (f"  {_NO_EARS}" if y == 1 else "", "quiet"))
+            yield (head, (f"  {_NO_LISTENERS}" if y == 1 else "", "quiet"))
             continue
-        node, connected = each.listeners[place]
+        node, connected = each.listeners[index]
         box = (
             "╭" + "─" * (right - 2) + "╮",
             f"│ {_fit(node, right - 4)} │",
             "╰" + "─" * (right - 2) + "╯",
         )[line]
-        yield (head, *_split(y, line, final, connected), (box, "name" if line == 1 else "node"))
+        yield (head, *_listener_arrow(y, line, last_joint, connected), (box, "name" if line == 1 else "node"))
 
 
-def _split(y: int, line: int, final: int, connected: bool) -> Iterator[Piece]:
-    """The piece of an arrow from a topic to one of its listeners that is in row `y`."""
+def _listener_arrow(y: int, line: int, last_joint: int, connected: bool) -> Iterator[Piece]:
+    """Yield row `y` of the arrows from a topic to its listeners; `line` is the row within a listener's box."""
     tip = "▶" if connected else "✗"
     kind = "arrow" if connected else "bad"
     if line != 1:
-        yield ("  │ " if 1 < y < final else "    ", "arrow")
+        yield ("  │ " if 1 < y < last_joint else "    ", "arrow")
     elif y == 1:
-        yield ("──", "arrow" if connected or final > 1 else "bad")
-        yield ("┬" if final > 1 else "─", "arrow" if connected or final > 1 else "bad")
+        yield ("──", "arrow" if connected or last_joint > 1 else "bad")
+        yield ("┬" if last_joint > 1 else "─", "arrow" if connected or last_joint > 1 else "bad")
         yield (tip, kind)
     else:
-        yield ("  ╰" if y == final else "  ├", "arrow")
+        yield ("  ╰" if y == last_joint else "  ├", "arrow")
         yield (tip, kind)
 
 
 def _fit(text: str, width: int) -> str:
-    """A text in this many cells, its middle left out where it is too long."""
+    """Fit a text into this many cells: padded, or with its middle left out."""
     if cell_len(text) <= width:
         return text + " " * (width - cell_len(text))
     head = max(1, (width - 1) // 3)

@@ -1,4 +1,4 @@
-"""The graph: who talks to whom, and why some do not."""
+"""The graph panel: which nodes talk to each other, and why some do not."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from tutor.tui.widgets.strip import ActionBar
 
 
 class GraphView(LineView):
-    """Lines of the graph, wrapped to the width."""
+    """The rows of the graph, fitted to the width."""
 
     COMPONENT_CLASSES: ClassVar[set[str]] = {
         f"line--{kind}" for kind in ("quiet", "title", "name", "bad", "warn", "node", "topic", "arrow")
@@ -36,14 +36,14 @@ class GraphView(LineView):
 
 
 class GraphPanel(Vertical):
-    """Nodes and topics as a drawing, what keeps two from being connected, and every node with what it offers."""
+    """A drawing of nodes and topics, why endpoints are not connected, and what each node offers."""
 
     BINDINGS: ClassVar[list[BindingType]] = [Binding("u", "all", "All", show=False)]
 
     def __init__(self, state: LiveState, id: str | None = None) -> None:
         super().__init__(id=id)
         self.state = state
-        self.everything = False
+        self.show_all = False
 
     def compose(self) -> ComposeResult:
         yield GraphView(id="graph-view")
@@ -53,19 +53,19 @@ class GraphPanel(Vertical):
         self.show_list()
 
     def show_list(self) -> None:
-        """The graph has changed, or the width."""
+        """Show the current graph at the current width."""
         view = self.query_one(GraphView)
         width = max(40, view.scrollable_content_region.width)
         graph = self.state.graph
-        view.show_rows(rows_of_graph(graph, width, self.everything) if graph else [])
-        word = "Without /rosout and the like" if self.everything else "All (/rosout and parameter services, too)"
-        self.query_one(ActionBar).actions = (("u", word, "all"),)
+        view.show_rows(rows_of_graph(graph, width, self.show_all) if graph else [])
+        label = "Hide /rosout and the like" if self.show_all else "All (including /rosout and parameter services)"
+        self.query_one(ActionBar).actions = (("u", label, "all"),)
 
     def on_resize(self, event: events.Resize) -> None:
-        """Wrap again."""
+        """Fit the graph to the new width."""
         self.show_list()
 
     def action_all(self) -> None:
-        """Show what every node has, too, or hide it."""
-        self.everything = not self.everything
+        """Show or hide the topics and services that every node has."""
+        self.show_all = not self.show_all
         self.show_list()

@@ -1,4 +1,4 @@
-"""The graph: a drawing of it, and in words what keeps some from being connected and what each node offers. Pure."""
+"""The graph as rows: the drawing, then in words why endpoints are not connected and what each node offers. Pure."""
 
 from __future__ import annotations
 
@@ -13,28 +13,28 @@ from tutor.tui.widgets.line_view import Row
 _INDENT = "  "
 
 
-def rows_of_graph(graph: Graph, width: int, everything: bool) -> list[Row]:
-    """The whole graph; without `everything` the topics and services that every node has are left out."""
-    topics = [topic for topic in graph.topics if everything or not topic.is_standard]
+def rows_of_graph(graph: Graph, width: int, include_standard: bool) -> list[Row]:
+    """Return the rows of the graph; topics and services that every node has only with `include_standard`."""
+    topics = [topic for topic in graph.topics if include_standard or not topic.is_standard]
     rows = list(_problems(graph, width))
     rows += draw_graph(topics, width)
     if topics:
         rows.append(())
     for topic in topics:
         rows += _unconnected(topic, width)
-    rows += _nodes(graph, width, everything)
+    rows += _nodes(graph, width, include_standard)
     return rows
 
 
 def _problems(graph: Graph, width: int) -> Iterator[Row]:
     broken = sum(bool(pair.problems) for topic in graph.topics for pair in connections(topic))
-    twice = [name for name, times in Counter(graph.nodes).items() if times > 1]
+    duplicates = [name for name, count in Counter(graph.nodes).items() if count > 1]
     if broken:
         yield ((f"✗ {broken} connection{'s do' if broken > 1 else ' does'} not work: see below", "bad"),)
-    for name in twice:
-        text = f"! {graph.nodes.count(name)} nodes are named {name}: each name should be there once."
+    for name in duplicates:
+        text = f"! {graph.nodes.count(name)} nodes are named {name}: each name should be unique."
         yield from _wrapped(text, width, "warn", "")
-    if broken or twice:
+    if broken or duplicates:
         yield ()
 
 
@@ -47,30 +47,30 @@ def _unconnected(topic: Topic, width: int) -> Iterator[Row]:
             yield ()
 
 
-def _nodes(graph: Graph, width: int, everything: bool) -> Iterator[Row]:
+def _nodes(graph: Graph, width: int, include_standard: bool) -> Iterator[Row]:
     if graph.nodes:
         yield (("Nodes", "title"),)
     for node in dict.fromkeys(graph.nodes):
         yield ((f"  {node}", "name"),)
-        shown = [topic for topic in graph.topics if everything or not topic.is_standard]
+        shown = [topic for topic in graph.topics if include_standard or not topic.is_standard]
         publishes = [topic.name for topic in shown if any(end.node == node for end in topic.publishers)]
-        listens = [topic.name for topic in shown if any(end.node == node for end in topic.subscriptions)]
+        subscribes = [topic.name for topic in shown if any(end.node == node for end in topic.subscriptions)]
         serves = [
             service.name
             for service in graph.services
-            if node in service.nodes and (everything or not service.is_standard)
+            if node in service.nodes and (include_standard or not service.is_standard)
         ]
-        if everything:
+        if include_standard:
             yield from _qos(shown, node)
-        for word, names in (("publishes", publishes), ("listens to", listens), ("serves", serves)):
+        for word, names in (("publishes", publishes), ("listens to", subscribes), ("serves", serves)):
             if names:
                 yield from _wrapped(f"{word:<11}{', '.join(names)}", width, "", "    ", hang=11)
-        if not (publishes or listens or serves):
+        if not (publishes or subscribes or serves):
             yield (("    no topic or service of its own", "quiet"),)
 
 
 def _qos(topics: Sequence[Topic], node: str) -> Iterator[Row]:
-    """What the node offers and asks for on each of its topics."""
+    """Yield the QoS of the node's publishers and subscriptions, one row per endpoint."""
     for topic in topics:
         for arrow, ends in (("──▶", topic.publishers), ("◀──", topic.subscriptions)):
             for end in ends:

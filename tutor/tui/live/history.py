@@ -1,4 +1,4 @@
-"""What was done and what became of it, newest first."""
+"""The history of parameter sets and service calls with their outcomes, newest first."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from tutor.ros_model.values import format_value
 from tutor.tui.live.wording import period
 from tutor.tui.widgets.line_view import LineView, Row
 
-_LONGEST_VALUE = 60
+_MAX_VALUE_CHARS = 60
 
 
 class HistoryView(LineView):
-    """Lines of outcomes: a mark, a word and a time each; colour is never the only sign."""
+    """Rows of outcomes, each with a mark, a word and a time; colour is never the only sign."""
 
     COMPONENT_CLASSES: ClassVar[set[str]] = {f"line--{kind}" for kind in ("quiet", "good", "bad", "busy", "name")}
     DEFAULT_CSS = """
@@ -36,18 +36,18 @@ class HistoryView(LineView):
         self._unwrapped: Sequence[Row] = ()
 
     def show_outcomes(self, rows: Sequence[Row]) -> None:
-        """Show these rows, folded to the width; the place that is looked at stays."""
+        """Show these rows, wrapped to the width; the scroll position stays."""
         self._unwrapped = rows
         width = max(24, self.scrollable_content_region.width)
-        self.show_rows([folded for row in rows for folded in _folded(row, width)])
+        self.show_rows([wrapped for row in rows for wrapped in _wrapped(row, width)])
 
     def on_resize(self, event: events.Resize) -> None:
-        """Fold again."""
+        """Wrap to the new width."""
         self.show_outcomes(self._unwrapped)
 
 
-def _folded(row: Row, width: int) -> Iterable[Row]:
-    """A row in as many as it takes: its last piece goes on below, set in as far as the row's first one."""
+def _wrapped(row: Row, width: int) -> Iterable[Row]:
+    """Wrap a row: its last piece continues below, indented by the width of the row's first piece."""
     if not row or sum(cell_len(text) for text, _ in row) <= width:
         return [row]
     *head, (last, kind) = row
@@ -67,7 +67,7 @@ def _folded(row: Row, width: int) -> Iterable[Row]:
 
 
 def _cut(text: str, room: int) -> tuple[str, str]:
-    """As many words as there is room for (at least one cell of one), and the rest."""
+    """Split a text into as many words as fit (at least one cell of one) and the rest."""
     if cell_len(text) <= room:
         return text, ""
     head = chop_cells(text, max(1, room))[0]
@@ -77,23 +77,23 @@ def _cut(text: str, room: int) -> tuple[str, str]:
 
 
 def set_rows(outcome: SetOutcome) -> Iterable[Row]:
-    """One set of a parameter."""
-    what = f"{outcome.node} {outcome.name} = {_value(outcome.value)}"
+    """Return the rows of one parameter set."""
+    assignment = f"{outcome.node} {outcome.name} = {_value(outcome.value)}"
     if not outcome.answered:
         mark, word, kind = "!", f"no answer within {period(outcome.took_s)}: does the node spin?", "bad"
     elif outcome.accepted:
         mark, word, kind = "✓", f"accepted, {period(outcome.took_s)}", "good"
     else:
         mark, word, kind = "✗", "rejected", "bad"
-    yield ((f" {mark} ", kind), (_clock(outcome.at), "quiet"), (f"  {what}  ", ""), (word, kind))
+    yield ((f" {mark} ", kind), (_clock(outcome.at), "quiet"), (f"  {assignment}  ", ""), (word, kind))
     if outcome.answered and (outcome.reason or not outcome.accepted):
         yield ((" " * 13, ""), (outcome.reason or "the node gave no reason", "quiet" if outcome.accepted else "bad"))
 
 
 def call_rows(outcome: CallOutcome) -> Iterable[Row]:
-    """One call of a service, with its answer."""
-    asked = ", ".join(f"{path}={_value(value)}" for path, value in outcome.request.items())
-    head: Row = ((_clock(outcome.at), "quiet"), (f"  {outcome.service} ", ""), (asked, "quiet"))
+    """Return the rows of one service call and its answer."""
+    arguments = ", ".join(f"{path}={_value(value)}" for path, value in outcome.request.items())
+    head: Row = ((_clock(outcome.at), "quiet"), (f"  {outcome.service} ", ""), (arguments, "quiet"))
     if outcome.text is not None:
         yield ((" ✓ ", "good"), *head)
         yield ((f"   answered in {period(outcome.took_s)}", "good"),)
@@ -106,7 +106,7 @@ def call_rows(outcome: CallOutcome) -> Iterable[Row]:
 
 
 def waiting_row(service: str, since: float, now: float) -> Row:
-    """A call under way."""
+    """Return the row of a call that is still waiting for its answer."""
     return ((" ◐ ", "busy"), (_clock(since), "quiet"), (f"  {service}  ", ""), (f"waiting {now - since:.1f} s", "busy"))
 
 
@@ -118,4 +118,4 @@ def _value(value: object) -> str:
     text = format_value(value)
     if isinstance(value, str) and (not text or text != text.strip()):
         text = f"'{text}'"
-    return text if len(text) <= _LONGEST_VALUE else f"{text[:_LONGEST_VALUE]}..."
+    return text if len(text) <= _MAX_VALUE_CHARS else f"{text[:_MAX_VALUE_CHARS]}..."

@@ -1,4 +1,4 @@
-"""How the watching child process is started."""
+"""How to start the watcher process."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from tutor import interpreter
 
 @dataclass(frozen=True, slots=True)
 class WatcherCommand:
-    """The command and the whole environment of the child; `domain` is the ROS domain that it watches."""
+    """The child's command and complete environment; `domain` is the ROS domain that it watches."""
 
     argv: tuple[str, ...]
     env: Mapping[str, str]
@@ -19,8 +19,8 @@ class WatcherCommand:
 
 
 def watcher_command(domain: int, environ: Mapping[str, str] = os.environ) -> WatcherCommand:
-    """Watch the domain with this id as a node of the user's would, with their settings of discovery. Reads the disk."""
-    from tutor.ros.environment import detect, tutor_env  # late: the first paint does not wait for it
+    """Return the command to watch a domain, with the discovery settings of the user's own nodes. Reads the disk."""
+    from tutor.ros.environment import detect, tutor_env  # late import: keeps the first paint fast
 
     env = tutor_env(detect(environ), isolated=False, environ=environ)
     return WatcherCommand(interpreter.module_command("tutor.live"), {**env, "ROS_DOMAIN_ID": str(domain)}, domain)

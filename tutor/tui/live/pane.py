@@ -1,4 +1,4 @@
-"""The live page: what the nodes on the user's own domain really do."""
+"""The live page: what the nodes on the user's own domain are really doing."""
 
 from __future__ import annotations
 
@@ -21,8 +21,17 @@ from textual.worker import Worker
 
 from tutor.content import Lesson
 from tutor.content.near_miss import near_misses
-from tutor.live.protocol import Follow, Plot, Publish, SetVisible, StopPublishing, Unfollow, Update, WatcherRequest
-from tutor.live.protocol import WatcherError as ChildTrouble
+from tutor.live.protocol import (
+    Follow,
+    Plot,
+    Publish,
+    SetVisible,
+    StopPublishing,
+    Unfollow,
+    Update,
+    WatcherError,
+    WatcherRequest,
+)
 from tutor.live.updates import CallOutcome, NodeParameters, PublishStatus, RequestForm, SetOutcome, TopicUpdate
 from tutor.ros_model import Graph
 from tutor.tui import messages
@@ -38,14 +47,14 @@ from tutor.tui.live.topics_panel import TopicsPanel, WatcherRequested
 from tutor.tui.widgets.steady_static import SteadyStatic
 from tutor.tui.widgets.strip import TabStrip
 
-MOST_MISSES = 3
-"""This many near-miss names are shown at once at most."""
+_MAX_NEAR_MISSES = 3
+"""At most this many near misses of names are shown at once."""
 
-MOST_OFFERED = 8
-"""This many topics of the learner's nodes are followed unasked at most."""
+_MAX_AUTO_FOLLOWED = 8
+"""At most this many topics of the learner's own nodes are followed automatically."""
 
-SWITCH_S = 0.0005
-"""How long a thread of the app may keep the others waiting."""
+_SWITCH_INTERVAL_S = 0.0005
+"""Python's thread switch interval for the app, in seconds."""
 
 TABS = {"topics": "Topics", "parameters": "Parameters", "services": "Services", "graph": "Graph"}
 
@@ -53,22 +62,22 @@ TABS = {"topics": "Topics", "parameters": "Parameters", "services": "Services", 
 class LivePane(Vertical):
     """Topics, parameters, services and the graph, fed from real DDS by a child process.
 
-    Mount `LivePane(id="live")` anywhere; it costs nothing until it watches. The screen around it calls
+    Mount `LivePane(id="live")` anywhere; it costs nothing until it watches. The screen that contains it calls
 
-    - `start_watching(command)` when the page is first opened, or a node of the learner runs. Returns at once; asked
-      again, it does nothing while it watches. `command` is called in a worker thread.
-    - `stop_watching()` to end it; returns at once, and the child ends for certain. `await close_down()` does the same
-      and waits (well under two seconds). A pane that is unmounted, or whose app is killed, ends its child as well.
+    - `start_watching(command)` when the page is first opened, or a node of the learner's runs. Returns at once; does
+      nothing if it is watching already. `command` is called in a worker thread.
+    - `stop_watching()` to stop; returns at once, and the child is certain to end. `await close_down()` does the same
+      and waits (well under two seconds). The child also ends when the pane is unmounted or the app is killed.
     - `show_for(lesson)` when another lesson is shown: its topic, node and service are chosen as soon as they appear,
-      unless the learner has chosen others; topics of the one before go as soon as nobody publishes on them.
-    - `nodes_run(whether)` when a node of the learner's runs, and when none does any more: while one does, what is newly
-      published is followed, and shown where nothing comes on the topic that is shown.
-    - `turn_to(tab)` to show one of `TABS`.
-    - `focus_content()` to put the focus where the arrow keys are of use.
+      unless the learner has chosen others; topics of the previous lesson go once they have no publisher.
+    - `nodes_run(running)` when the first of the learner's nodes starts, and when the last one ends: while any runs,
+      newly published topics are followed, and shown if the shown topic has no publisher.
+    - `open_tab(tab)` to show one of `TABS`.
+    - `focus_content()` to focus the widget that the arrow keys are useful in.
 
-    It posts `tutor.tui.messages.ErrorOccurred` (bubbles up to the screen, for a toast). Keys in it: [ and ] turn its
-    own tabs, Enter chooses, Space pauses, x, y, u, + and -: each panel shows those that go in its last line. Other keys
-    of the screen go on working, except in the inputs of its forms.
+    It posts `tutor.tui.messages.ErrorOccurred`, which bubbles up to the screen for a toast. Its keys: [ and ] turn its
+    tabs, Enter chooses, Space pauses, and x, y, u, + and -: each panel shows the available ones on its last line. Other
+    keys of the screen keep working, except in the inputs of its forms.
     """
 
     DEFAULT_CSS = Path(__file__).with_name("pane.tcss").read_text("utf-8")
@@ -78,7 +87,7 @@ class LivePane(Vertical):
     ]
 
     class Arrived(Message):
-        """The watching process has sent an update."""
+        """The watcher process has sent an update."""
 
         def __init__(self, update: Update) -> None:
             super().__init__()
@@ -90,11 +99,11 @@ class LivePane(Vertical):
         self._child: LiveChild | None = None
         self._worker: Worker[None] | None = None
         self._command: Callable[[], WatcherCommand] | None = None
-        self._broken = ""
-        self._left: set[str] = set()
-        self._own_nodes = False
-        self._offered: set[str] = set()
-        self._seen = False
+        self._failure = ""
+        self._stale_topics: set[str] = set()
+        self._own_nodes_running = False
+        self._auto_followed: set[str] = set()
+        self._page_visible = False
         self._composed = False
         self._wants_focus = False
         self._wanted_tab = ""
@@ -116,69 +125,69 @@ class LivePane(Vertical):
     def on_mount(self) -> None:
         self._composed = True
         self._show_status()
-        self._choose()
+        self._choose_lesson_topics()
         if self._wanted_tab:
             self.open_tab(self._wanted_tab)
         if self._wants_focus:
             self.focus_content()
 
-    # --- the watching process ---
+    # --- the watcher process ---
 
     def start_watching(self, command: Callable[[], WatcherCommand]) -> None:
-        """Start the child process that watches, unless it runs."""
+        """Start the watcher process, unless it is running."""
         if self._worker is None:
-            self._command, self._broken = command, ""
-            _answer_keys_sooner()
+            self._command, self._failure = command, ""
+            _reduce_key_latency()
             watch: Callable[[], Any] = partial(self._watch, command)
             self._worker = self.run_worker(watch, group="live", exit_on_error=False)
             if self._composed:
                 self._show_status()
 
     def stop_watching(self) -> None:
-        """End the child process."""
+        """Stop the watcher process without waiting."""
         if self._worker is not None:
             self._worker.cancel()
 
     async def close_down(self) -> None:
-        """End the child process, and wait until it is gone."""
+        """Stop the watcher process, and wait until it is gone."""
         if (child := self._child) is not None:
             self.stop_watching()
             await child.stop()
 
     async def on_unmount(self) -> None:
-        """End it with the pane."""
+        """Stop the watcher process with the pane."""
         await self.close_down()
 
     async def _watch(self, command: Callable[[], WatcherCommand]) -> None:
         child: LiveChild | None = None
-        fault = "ended by itself"
+        failure = "ended by itself"
         try:
             found = await asyncio.to_thread(command)
             self.state.domain = found.domain
             self._child = child = await LiveChild.start(found)
-            child.send(SetVisible(self._seen))
+            child.send(SetVisible(self._page_visible))
             for view in self.state.topics.values():
                 child.send(Follow(view.topic))
                 if view.path:
                     child.send(Plot(view.topic, view.path))
             async for update in child.updates():
                 self.post_message(self.Arrived(update))
-            fault = child.last_error_line or fault
+            failure = child.last_error_line or failure
         except asyncio.CancelledError:
-            fault = ""
+            failure = ""
             raise
         except (OSError, ValueError) as error:
-            fault = str(error)
+            failure = str(error)
         finally:
             if child is not None:
                 child.detach()
             self._child = self._worker = None
-            self.state.lost()
+            self.state.reset_domain()
             if self.is_attached:
-                self._broken = fault
+                self._failure = failure
                 self._show_all()
-                if fault:
-                    self.post_message(messages.ErrorOccurred(f"The live page no longer watches: {fault}"))
+                if failure:
+                    self.post_message(messages.ErrorOccurred(f"The live page has stopped watching: {failure}"))
             if child is not None:
                 await child.stop()
 
@@ -193,7 +202,7 @@ class LivePane(Vertical):
         if self._child is not None:
             self._child.send(command)
 
-    # --- what it tells ---
+    # --- updates ---
 
     @on(Arrived)
     async def _arrived(self, message: Arrived) -> None:
@@ -204,10 +213,10 @@ class LivePane(Vertical):
             case TopicUpdate(topic):
                 self.query_one(TopicsPanel).show_update(topic)
             case Graph():
-                self._drop_left()
-                self._follow_own()
+                self._unfollow_stale_topics()
+                self._follow_own_topics()
                 self._show_all()
-                await self._choose_service()
+                await self._choose_lesson_service()
             case NodeParameters():
                 self.query_one(ParametersPanel).show_list()
                 self._show_status()
@@ -221,7 +230,7 @@ class LivePane(Vertical):
                     await self.app.screen.show_form(update)
             case PublishStatus():
                 self._show_publishing()
-            case ChildTrouble(text):
+            case WatcherError(text):
                 self.post_message(messages.ErrorOccurred(text))
             case _:
                 self._show_status()
@@ -236,12 +245,12 @@ class LivePane(Vertical):
         self._show_status()
 
     def _show_status(self) -> None:
-        """The tabs' counts, what is watched, and what to do where there is nothing to see."""
+        """Show the counts on the tabs, what is watched, and what to do if there is nothing to see."""
         state = self.state
         graph = state.graph or Graph()
         counts = {
             "topics": sum(not topic.is_standard for topic in graph.topics),
-            "parameters": len(state.listed_parameters(everything=False)),
+            "parameters": len(state.listed_parameters(include_standard=False)),
             "services": sum(not service.is_standard for service in graph.services),
             "graph": 0,
         }
@@ -251,27 +260,27 @@ class LivePane(Vertical):
         self.query_one(TabStrip).labels = labels
         nodes = len(state.nodes)
         domain = f"domain {state.domain}"
-        word = f"● {nodes} node{'' if nodes == 1 else 's'} · {domain}" if state.ready else "◐ starting"
+        status = f"● {nodes} node{'' if nodes == 1 else 's'} · {domain}" if state.ready else "◐ starting"
         if self._worker is None:
-            word = "! not watching" if self._broken else "not watching"
-        self.query_one("#live-status", Static).update(word)
-        came = any(view.update is not None and view.update.count for view in state.topics.values())
-        text = self._nothing(short=came)
+            status = "! not watching" if self._failure else "not watching"
+        self.query_one("#live-status", Static).update(status)
+        has_messages = any(view.update is not None and view.update.count for view in state.topics.values())
+        text = self._empty_text(short=has_messages)
         was_empty = self.has_class("-empty")
-        self.set_class(bool(text) and not came, "-empty")
+        self.set_class(bool(text) and not has_messages, "-empty")
         if was_empty and not self.has_class("-empty") and self.query_one(TabStrip).has_focus:
-            self.focus_content()  # which could only focus the tabs before
-        self.set_class(bool(text) and came, "-note")
-        misses = [str(miss) for miss in near_misses(graph, state.asked)]
+            self.focus_content()  # until now, only the tabs could have the focus
+        self.set_class(bool(text) and has_messages, "-note")
+        misses = [str(miss) for miss in near_misses(graph, state.lesson_view)]
         self.set_class(bool(misses), "-miss")
-        self.query_one("#live-miss", Static).update("\n".join(f"≈ {miss}" for miss in misses[:MOST_MISSES]))
-        self.query_one("#live-empty" if not came else "#live-note", Static).update(text)
+        self.query_one("#live-miss", Static).update("\n".join(f"≈ {miss}" for miss in misses[:_MAX_NEAR_MISSES]))
+        self.query_one("#live-empty" if not has_messages else "#live-note", Static).update(text)
 
-    def _nothing(self, short: bool) -> Content:
-        """Why nothing can be seen, and what to do; empty where there is a node."""
+    def _empty_text(self, short: bool) -> Content:
+        """Return why there is nothing to see and what to do about it; empty if any node runs."""
         domain = self.state.domain
-        if self._broken:
-            return _advice("Nothing is watched", f"{self._broken}\nTurn to another page and back to watch again.")
+        if self._failure:
+            return _advice("Nothing is watched", f"{self._failure}\nTurn to another page and back to watch again.")
         if self._worker is None:
             return _advice("Nothing is watched yet", "")
         if self.state.graph is None and not self.state.ready:
@@ -282,96 +291,101 @@ class LivePane(Vertical):
             (f"No node runs in domain {domain}", "bold $foreground"),
             ": press ",
             ("r", "bold $accent"),
-            " to run yours." if short else " to run yours.\nTopics, parameters, services and the graph come here.",
+            " to run yours." if short else " to run yours.\nTopics, parameters, services and the graph appear here.",
         )
 
     # --- publishing by hand ---
 
     def publish(self) -> None:
-        """Ask what to publish; where something is published on the topic that is shown, stop that."""
+        """Stop publishing at a rate, on the shown topic first; if nothing is being published, ask what to publish."""
         topic = self.query_one(TopicsPanel).chosen if self._composed else ""
-        going = [held.topic for held in self.state.published.values() if held.rate_hz and not held.over]
-        if going:
-            self._send(StopPublishing(topic if topic in going else going[0]))
+        active = [held.topic for held in self.state.published.values() if held.rate_hz and not held.over]
+        if active:
+            self._send(StopPublishing(topic if topic in active else active[0]))
             return
 
         def answered(request: Publish | None) -> None:
             if request is not None:
                 panel = self.query_one(TopicsPanel)
                 panel.follow(request.topic)
-                panel.post_message(WatcherRequested(request))  # after the request to follow
+                panel.post_message(WatcherRequested(request))  # posted after the request to follow
 
         self.app.push_screen(PublishScreen(topic, self._type_of, self._send), answered)
 
     def _type_of(self, topic: str) -> str:
         found = self.state.graph.topic(topic) if self.state.graph else None
-        asked = (known.type for known in self.state.asked.topics if known.name == topic)
-        return found.types[0] if found is not None else next(asked, "")
+        lesson_types = (known.type for known in self.state.lesson_view.topics if known.name == topic)
+        return found.types[0] if found is not None else next(lesson_types, "")
 
     def _show_publishing(self) -> None:
         text = "\n".join(wording.publishing(held) for held in self.state.published.values())
         self.set_class(bool(text), "-publishing")
         self.query_one("#live-publishing", Static).update(text)
 
-    # --- what is chosen ---
+    # --- selection ---
 
     def show_for(self, lesson: Lesson) -> None:
-        """Choose what this lesson is about, once it appears."""
-        if lesson.live is self.state.asked:
+        """Choose this lesson's topics and service as soon as they appear."""
+        if lesson.live is self.state.lesson_view:
             return
-        self.state.asked = lesson.live
-        self._left = {name for name in self.state.topics if not self.state.is_asked(name)}
-        self._offered.clear()
+        self.state.lesson_view = lesson.live
+        self._stale_topics = {name for name in self.state.topics if not self.state.is_lesson_topic(name)}
+        self._auto_followed.clear()
         if self._composed:
-            self._drop_left()
+            self._unfollow_stale_topics()
             self.query_one(TopicsPanel).chosen_by_learner = False
             self.query_one(ServicesPanel).chosen_by_learner = False
-            self._choose()
+            self._choose_lesson_topics()
             self._show_status()
 
-    def nodes_run(self, whether: bool) -> None:
-        """Whether a node of the learner's runs."""
-        self._own_nodes = whether
+    def nodes_run(self, running: bool) -> None:
+        """Note whether any of the learner's own nodes is running."""
+        self._own_nodes_running = running
         if self._composed:
-            self._follow_own()
+            self._follow_own_topics()
 
-    def _choose(self) -> None:
+    def _choose_lesson_topics(self) -> None:
         topics = self.query_one(TopicsPanel)
-        for topic in reversed(self.state.asked.topics):
+        for topic in reversed(self.state.lesson_view.topics):
             topics.follow(topic.name)
         topics.show_list()
-        self.call_later(self._choose_service)
+        self.call_later(self._choose_lesson_service)
 
-    def _drop_left(self) -> None:
-        """Topics of a lesson that was left go once nobody publishes on them any more."""
-        for name in [each for each in self._left if not self.state.is_published(each)]:
-            self._left.discard(name)
-            self.query_one(TopicsPanel).forget(name)
+    def _unfollow_stale_topics(self) -> None:
+        """Unfollow topics of earlier lessons that no longer have a publisher."""
+        for name in [each for each in self._stale_topics if not self.state.is_published(each)]:
+            self._stale_topics.discard(name)
+            self.query_one(TopicsPanel).unfollow(name)
 
-    def _follow_own(self) -> None:
-        """Follow what a node of the learner's has begun to publish, each topic once: unfollowed, it stays so."""
-        if not self._own_nodes or self.state.graph is None:
+    def _follow_own_topics(self) -> None:
+        """Follow new topics while a node of the learner's runs, each only once: if unfollowed, it stays unfollowed."""
+        if not self._own_nodes_running or self.state.graph is None:
             return
         panel = self.query_one(TopicsPanel)
         for topic in self.state.graph.topics:
             name = topic.name
-            if topic.is_standard or not topic.publishers or name in self._offered or len(self._offered) >= MOST_OFFERED:
+            if (
+                topic.is_standard
+                or not topic.publishers
+                or name in self._auto_followed
+                or len(self._auto_followed) >= _MAX_AUTO_FOLLOWED
+            ):
                 continue
-            self._offered.add(name)
+            self._auto_followed.add(name)
             if name not in self.state.topics:
                 idle = not self.state.is_published(panel.chosen)
                 panel.follow(name, show=idle and not panel.chosen_by_learner)
 
-    async def _choose_service(self) -> None:
+    async def _choose_lesson_service(self) -> None:
         panel = self.query_one(ServicesPanel)
         if panel.chosen_by_learner or self.state.graph is None:
             return
         for service in self.state.graph.services:
-            if service.name in self.state.asked.services[:1] and service != panel.chosen:
+            if service.name in self.state.lesson_view.services[:1] and service != panel.chosen:
                 await panel.choose(service, focus=False)
 
     def focus_content(self) -> None:
-        """Focus what the arrow keys move in; where there is nothing yet, as soon as there is."""
+        """Focus the widget that the arrow keys move in, as soon as there is one."""
         if not self._composed:
             self._wants_focus = True
             return
@@ -382,13 +396,13 @@ class LivePane(Vertical):
         self.query_one(target.get(self.query_one(TabStrip).active, "#graph-view")).focus()
 
     def open_tab(self, tab: str) -> None:
-        """Show one of `TABS`."""
+        """Show one of `TABS`, as soon as the pane is composed."""
         self._wanted_tab = tab
         if self._composed:
             self.query_one(TabStrip).active = tab
 
     def action_step(self, by: int) -> None:
-        """To the next tab, or the one before."""
+        """Turn to the next tab, or with a negative `by` to the previous one."""
         self.query_one(TabStrip).action_step(by)
 
     @on(TabStrip.Turned)
@@ -399,34 +413,34 @@ class LivePane(Vertical):
         if self.has_focus_within and not self.query_one(TabStrip).has_focus:
             self.focus_content()
 
-    # --- whether anyone looks ---
+    # --- visibility ---
 
     def on_show(self, event: events.Show) -> None:
-        """The page is turned to."""
-        self._attend(True)
-        if self._broken and self._command is not None:
+        """Report that the page is visible; watch again if the watcher process had failed."""
+        self._set_page_visible(True)
+        if self._failure and self._command is not None:
             self.start_watching(self._command)
 
     def on_hide(self, event: events.Hide) -> None:
-        """Another page is."""
-        self._attend(False)
+        """Report that the page is hidden."""
+        self._set_page_visible(False)
 
-    def _attend(self, seen: bool) -> None:
-        self._seen = seen
-        self._send(SetVisible(seen))
+    def _set_page_visible(self, visible: bool) -> None:
+        self._page_visible = visible
+        self._send(SetVisible(visible))
 
 
-def _answer_keys_sooner() -> None:
-    """Keep Python's own affairs out of the way between a key and the screen, for as long as much is painted.
+def _reduce_key_latency() -> None:
+    """Keep the interpreter from delaying key presses while much is being painted.
 
-    What is there now is left out of garbage collections, each of which would go through all of it; what becomes garbage
-    of it is found the next time that this is called. The thread that writes to the terminal need not wait for the one
-    that paints for the default 5 ms.
+    Objects alive now are excluded from garbage collection, which would scan them all each time; those that become
+    garbage are collected at the next call. A short switch interval lets the thread that writes to the terminal run
+    without waiting for the painting thread for the default 5 ms.
     """
     gc.unfreeze()
     gc.collect()
     gc.freeze()
-    sys.setswitchinterval(SWITCH_S)
+    sys.setswitchinterval(_SWITCH_INTERVAL_S)
 
 
 def _advice(head: str, text: str) -> Content:

@@ -1,4 +1,4 @@
-"""The parameters of all nodes: a table to set them in, and what became of every set."""
+"""The parameters of all nodes: a table to set them in, and the outcome of every set."""
 
 from __future__ import annotations
 
@@ -24,26 +24,26 @@ from tutor.tui.widgets.steady_static import SteadyStatic
 from tutor.tui.widgets.strip import ActionBar
 
 _COLUMNS = ("Node", "Parameter", "Value", "Type", "Allowed")
-_LONGEST_VALUE = 40
-_EDITING = (("Enter", "Set", "set"), ("Esc", "Leave it", "leave"))
+_MAX_VALUE_CHARS = 40
+_EDITING_ACTIONS = (("Enter", "Set", "set"), ("Esc", "Cancel", "leave"))
 
-_numbers = itertools.count(1)
+_request_ids = itertools.count(1)
 
 
 class ParametersPanel(Vertical):
-    """Enter opens the value under the cursor; Enter again sets it, and the node's answer is kept below."""
+    """Enter opens the value under the cursor; Enter again sets it, and the node's answer is listed below."""
 
     BINDINGS: ClassVar[list[BindingType]] = [
-        Binding("R", "refresh", "Ask again", show=False),
+        Binding("R", "refresh", "Refresh", show=False),
         Binding("u", "all", "All", show=False),
-        Binding("escape", "leave", "Leave it", show=False),
+        Binding("escape", "leave", "Cancel", show=False),
     ]
 
     def __init__(self, state: LiveState, id: str | None = None) -> None:
         super().__init__(id=id)
         self.state = state
         self.editing: Parameter | None = None
-        self.everything = False
+        self.show_all = False
         self._listed: tuple[Parameter, ...] = ()
 
     def compose(self) -> ComposeResult:
@@ -67,19 +67,19 @@ class ParametersPanel(Vertical):
         """The table of parameters."""
         return self.query_one("#parameters-table", RowTable)
 
-    # --- what is shown ---
+    # --- display ---
 
     def show_list(self) -> None:
-        """A node's parameters have changed, or there is another node."""
-        listed = tuple(self.state.listed_parameters(self.everything))
+        """Show the current parameters of all nodes."""
+        listed = tuple(self.state.listed_parameters(self.show_all))
         table = self.table
         if [_key(each) for each in listed] != [_key(each) for each in self._listed]:
-            chosen = self._under_cursor()
+            selected = self._parameter_under_cursor()
             table.clear()
             for each in listed:
                 table.add_row(*self._cells(each), key=_key(each))
-            if chosen is not None and _key(chosen) in table.rows:
-                table.move_cursor(row=table.get_row_index(_key(chosen)))
+            if selected is not None and _key(selected) in table.rows:
+                table.move_cursor(row=table.get_row_index(_key(selected)))
         elif listed != self._listed:
             for each in listed:
                 for name, cell in zip(_COLUMNS, self._cells(each), strict=True):
@@ -89,56 +89,54 @@ class ParametersPanel(Vertical):
         if self.editing is not None and _key(self.editing) not in table.rows:
             self.action_leave()
         silent = sorted(node for node, held in self.state.parameters.items() if not held.answered)
-        text = (
-            f"! {', '.join(silent)} does not answer: does it spin? (Asked again every few seconds.)" if silent else ""
-        )
+        text = f"! {', '.join(silent)} does not answer: does it spin? (Retried every few seconds.)" if silent else ""
         self.query_one("#parameters-silent", Static).update(text)
         self.set_class(bool(silent), "-silent")
 
     def show_history(self) -> None:
-        """A set has an outcome."""
+        """Show the outcomes so far."""
         rows = [row for outcome in self.state.sets for row in set_rows(outcome)]
-        nothing = (((" What you set, and what the node says to it, is listed here.", "quiet"),),)
-        self.query_one("#parameter-history", HistoryView).show_outcomes(rows or nothing)
+        placeholder = (((" What you set, and how the node answers, is listed here.", "quiet"),),)
+        self.query_one("#parameter-history", HistoryView).show_outcomes(rows or placeholder)
 
     def _show_actions(self) -> None:
-        more = ("u", "Only its own" if self.everything else "All (use_sim_time, too)", "all")
-        at_rest = (("Enter", "Set", "edit"), ("R", "Ask again", "refresh"), more)
-        self.query_one("#parameter-actions", ActionBar).actions = at_rest if self.editing is None else _EDITING
+        toggle = ("u", "Hide the standard ones" if self.show_all else "All (including use_sim_time)", "all")
+        idle = (("Enter", "Set", "edit"), ("R", "Refresh", "refresh"), toggle)
+        self.query_one("#parameter-actions", ActionBar).actions = idle if self.editing is None else _EDITING_ACTIONS
 
     def _cells(self, each: Parameter) -> tuple[Text, ...]:
         value = format_value(each.value) if each.value is not None else "(not set)"
-        if len(value) > _LONGEST_VALUE:
-            value = f"{value[:_LONGEST_VALUE]}..."
+        if len(value) > _MAX_VALUE_CHARS:
+            value = f"{value[:_MAX_VALUE_CHARS]}..."
         return (Text(each.node), Text(each.name), Text(value), Text(each.type), Text(wording.allowed(each)))
 
-    def _under_cursor(self) -> Parameter | None:
+    def _parameter_under_cursor(self) -> Parameter | None:
         row = self.table.cursor_row
         return self._listed[row] if 0 <= row < len(self._listed) else None
 
-    # --- what is done ---
+    # --- actions ---
 
     def action_refresh(self) -> None:
         self.post_message(WatcherRequested(Refresh()))
 
     def action_all(self) -> None:
-        """Show what every node has, too, or hide it."""
-        self.everything = not self.everything
+        """Show or hide the parameters that every node has."""
+        self.show_all = not self.show_all
         self.show_list()
         self._show_actions()
 
     @on(DataTable.RowSelected, "#parameters-table")
     def action_edit(self) -> None:
         """Open the value under the cursor."""
-        if (chosen := self._under_cursor()) is None:
+        if (selected := self._parameter_under_cursor()) is None:
             return
-        if chosen.read_only:
-            self.notify(f"{chosen.name} is read-only: it is set when the node starts.")
+        if selected.read_only:
+            self.notify(f"{selected.name} is read-only: it is set when the node starts.")
             return
-        self.editing = chosen
-        self.query_one("#parameter-name", Static).update(f"Set {chosen.node} {chosen.name} ({chosen.type})")
+        self.editing = selected
+        self.query_one("#parameter-name", Static).update(f"Set {selected.node} {selected.name} ({selected.type})")
         field = self.query_one("#parameter-value", Input)
-        field.value = format_value(chosen.value)
+        field.value = format_value(selected.value)
         self.query_one("#parameter-problem", Static).update("")
         self.add_class("-editing")
         self._show_actions()
@@ -146,7 +144,7 @@ class ParametersPanel(Vertical):
 
     @on(Input.Submitted, "#parameter-value")
     def action_set(self) -> None:
-        """Set it to what was typed."""
+        """Set the parameter to what was typed."""
         if self.editing is None:
             return
         try:
@@ -155,7 +153,7 @@ class ParametersPanel(Vertical):
             self.query_one("#parameter-problem", Static).update(f"✗ {error}")
             self.add_class("-problem")
             return
-        request = SetParameter(next(_numbers), self.editing.node, self.editing.name, kind, value)
+        request = SetParameter(next(_request_ids), self.editing.node, self.editing.name, kind, value)
         self.post_message(WatcherRequested(request))
         self.action_leave()
 
@@ -164,7 +162,7 @@ class ParametersPanel(Vertical):
         self.remove_class("-problem")
 
     def action_leave(self) -> None:
-        """Back to the table."""
+        """Stop editing, and go back to the table."""
         if self.editing is None:
             return
         self.editing = None

@@ -1,4 +1,4 @@
-"""A form made from what a service asks for: a typed input for each field, errors in plain words."""
+"""A form for a service request or a message: one typed input per field, errors in plain words."""
 
 from __future__ import annotations
 
@@ -31,11 +31,11 @@ class FieldRow(Vertical):
 
     @property
     def input(self) -> Input:
-        """Where the value is typed."""
+        """The input for the value."""
         return self.query_one(Input)
 
     def read(self) -> Any:
-        """The value. Raises ValueError where the text is none; then the row says so."""
+        """Parse the value. If the text is invalid, show why and raise ValueError."""
         try:
             value = parse_value(self.field.type, self.input.value)
         except ValueError as error:
@@ -51,17 +51,17 @@ class FieldRow(Vertical):
 
 
 class ServiceForm(VerticalScroll, can_focus=False):
-    """The fields of one service's request, with their defaults."""
+    """The fields of one request or message, with their defaults."""
 
     class Sent(Message):
-        """The learner wants the call to be made."""
+        """The learner has submitted the form."""
 
     def __init__(self, id: str | None = None) -> None:
         super().__init__(id=id)
         self.form: RequestForm | None = None
 
     async def show(self, form: RequestForm) -> None:
-        """Show another form."""
+        """Show the fields of a form."""
         self.form = form
         await self.remove_children()
         if form.problem:
@@ -71,27 +71,27 @@ class ServiceForm(VerticalScroll, can_focus=False):
         else:
             await self.mount(*(FieldRow(field) for field in form.fields))
 
-    async def forget(self) -> None:
-        """Show none."""
+    async def clear(self) -> None:
+        """Show no form."""
         self.form = None
         await self.remove_children()
 
     def values(self) -> dict[str, Any] | None:
-        """What was typed, by the fields' paths; None where something is wrong, which is then shown."""
+        """Return the typed values by field path; None, with the problems shown, if any is invalid."""
         values: dict[str, Any] = {}
-        wrong: list[FieldRow] = []
+        invalid: list[FieldRow] = []
         for row in self.query(FieldRow):
             try:
                 values[row.field.path] = row.read()
             except ValueError:
-                wrong.append(row)
-        if wrong:
-            wrong[0].input.focus()
+                invalid.append(row)
+        if invalid:
+            invalid[0].input.focus()
             return None
         return values
 
     def focus_first(self) -> bool:
-        """Focus the first input; whether there is one."""
+        """Focus the first input. Return whether there is one."""
         for row in self.query(FieldRow):
             row.input.focus()
             return True

@@ -1,4 +1,4 @@
-"""The lists of the live page."""
+"""The table used for the lists of the live page."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from textual.widgets import DataTable
 class RowTable(DataTable[Text]):
     """A table whose cursor is a whole row.
 
-    The cursor takes the colours of the focus a frame later, and only where the table can be seen: a table has many
-    styles, and new ones make it redraw every cell. What a key shows need not wait for them.
+    The cursor takes on its focus colours one frame late, and only while the table is visible: new styles make a table
+    redraw every cell, and the effect of a key press should not wait for that.
     """
 
     def __init__(self, id: str) -> None:
@@ -19,11 +19,11 @@ class RowTable(DataTable[Text]):
         self._styled_for_focus = False
 
     def watch_has_focus(self, _has_focus: bool) -> None:
-        """Take other colours, soon."""
+        """Restyle after the next frame."""
         self.call_after_refresh(self._style_for_focus)
 
     def on_show(self, _event: events.Show) -> None:
-        """Take those that it could not take unseen."""
+        """Catch up on a restyle that was skipped while hidden."""
         self.call_after_refresh(self._style_for_focus)
 
     def _style_for_focus(self) -> None:

@@ -1,4 +1,4 @@
-"""The services: a list, a form to call one, and the answers."""
+"""The services: a list, a form to call one of them, and the answers."""
 
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ from tutor.tui.live.topics_panel import WatcherRequested
 from tutor.tui.widgets.strip import Action, ActionBar
 
 LIMIT_S = 30.0
-"""How long an answer is waited for, in seconds."""
+"""How long to wait for the answer to a call, in seconds."""
 
 _COLUMNS = ("Service", "Type", "Node")
-_EVERY_S = 0.1
+_TICK_S = 0.1
 
-_numbers = itertools.count(1)
+_request_ids = itertools.count(1)
 
 
 class ServicesPanel(Vertical):
@@ -60,7 +60,7 @@ class ServicesPanel(Vertical):
     def on_mount(self) -> None:
         for name in _COLUMNS:
             self.table.add_column(name, key=name)
-        self._clock = self.set_interval(_EVERY_S, self.show_history, pause=True)
+        self._ticker = self.set_interval(_TICK_S, self.show_history, pause=True)
         self.show_history()
         self._show_actions()
 
@@ -69,10 +69,10 @@ class ServicesPanel(Vertical):
         """The list of services."""
         return self.query_one("#services-table", RowTable)
 
-    # --- what is shown ---
+    # --- display ---
 
     def show_list(self) -> None:
-        """The graph has changed."""
+        """Show the services in the current graph."""
         services = self.state.graph.services if self.state.graph else ()
         listed = tuple(each for each in services if self.show_all or not each.is_standard)
         if listed == self._listed:
@@ -89,7 +89,7 @@ class ServicesPanel(Vertical):
         self._show_actions()
 
     async def show_form(self) -> None:
-        """The form that was asked for has come."""
+        """Show the form of the chosen service, if it has arrived."""
         if self.chosen is None or (form := self.state.forms.get(self.chosen.types[0])) is None:
             return
         shown = self.query_one(ServiceForm)
@@ -101,16 +101,16 @@ class ServicesPanel(Vertical):
         self._show_actions()
 
     def show_history(self) -> None:
-        """A call has begun or ended, or time goes by while one is under way."""
+        """Show the calls and answers so far, with the time elapsed for pending calls."""
         now = time.time()
         rows = [waiting_row(service, since, now) for service, since in self.state.waiting.values()]
         rows += [row for outcome in self.state.calls for row in call_rows(outcome)]
         nothing = (((" The answers are listed here, with their times.", "quiet"),),)
         self.query_one("#service-history", HistoryView).show_outcomes(rows or nothing)
         if self.state.waiting:
-            self._clock.resume()
+            self._ticker.resume()
         else:
-            self._clock.pause()
+            self._ticker.pause()
             self._show_actions()
 
     def _show_actions(self) -> None:
@@ -121,18 +121,18 @@ class ServicesPanel(Vertical):
             actions.append(("Enter", "Call", "call"))
         elif self._listed:
             actions.append(("Enter", "Choose", "choose"))
-        actions.append(("u", "Fewer" if self.show_all else "All (those for parameters, too)", "all"))
+        actions.append(("u", "Fewer" if self.show_all else "All (including parameter services)", "all"))
         bar = self.query_one("#service-actions", ActionBar)
         bar.actions = tuple(actions)
         head = self.query_one("#service-head", Static)
         if self.chosen is None:
-            nothing = "The nodes here offer no services but those that every node has."
-            head.update("Choose a service, and press Enter: its form comes here." if self._listed else nothing)
+            nothing = "These nodes offer only the services that every node has."
+            head.update("Choose a service and press Enter: its form opens here." if self._listed else nothing)
         else:
             types = " and ".join(wording.short_type(name) for name in self.chosen.types)
             head.update(Content.assemble((self.chosen.name, "bold"), (f"  {types}", "$quiet")))
 
-    # --- what is done ---
+    # --- actions ---
 
     @on(DataTable.RowSelected, "#services-table")
     async def action_choose(self) -> None:
@@ -143,15 +143,15 @@ class ServicesPanel(Vertical):
             await self.choose(self._listed[row])
 
     async def choose(self, service: Service, focus: bool = True) -> None:
-        """Open the form of this service."""
-        again = self.chosen == service and self.query_one(ServiceForm).form is not None
+        """Open the form of a service, and focus it if `focus`."""
+        already_open = self.chosen == service and self.query_one(ServiceForm).form is not None
         self.chosen = service
         if service.name in self.table.rows:
             self.table.move_cursor(row=self.table.get_row_index(service.name))
-        if again:
+        if already_open:
             self.query_one(ServiceForm).focus_first()
             return
-        await self.query_one(ServiceForm).forget()
+        await self.query_one(ServiceForm).clear()
         self.set_class(focus, "-asked")
         self._show_actions()
         if service.types[0] in self.state.forms:
@@ -167,21 +167,21 @@ class ServicesPanel(Vertical):
             return
         if (request := form.values()) is None:
             return
-        id = next(_numbers)
+        id = next(_request_ids)
         self.state.waiting[id] = (self.chosen.name, time.time())
         self.post_message(WatcherRequested(Call(id, self.chosen.name, self.chosen.types[0], request, LIMIT_S)))
         self.show_history()
         self._show_actions()
 
     def action_leave(self) -> None:
-        """Cancel what is under way; else back to the list."""
+        """Cancel the latest pending call; if there is none, go back to the list."""
         if self.state.waiting:
             self.post_message(WatcherRequested(Cancel(next(reversed(self.state.waiting)))))
         else:
             self.table.focus()
 
     def action_all(self) -> None:
-        """Show those that every node has, too, or hide them."""
+        """Show or hide the services that every node has."""
         self.show_all = not self.show_all
         self.show_list()
         self._show_actions()

@@ -1,4 +1,4 @@
-"""The topics: a list of all, and what comes on the one that is chosen."""
+"""The topics: a list of all, and the messages on the chosen one."""
 
 from __future__ import annotations
 
@@ -25,13 +25,15 @@ from tutor.tui.live.state import LiveState, TopicView
 from tutor.tui.widgets.strip import Action, ActionBar
 
 _COLUMNS = ("", "Topic", "Rate", "Count", "Pub", "Sub", "Type")
-_LIST_EVERY_S = 0.45
+_LIST_REFRESH_S = 0.45
+"""Updates of topics refresh the list at most this often: it costs more to paint than the chosen topic."""
+
 _PUBLISH: Action = ("M", "Publish", "screen.do('publish')")
 _OTHER_FIELD = ("y", "Field", "next_field")
 
 
 class WatcherRequested(Message):
-    """A panel has a request for the watching process."""
+    """A panel has a request for the watcher process."""
 
     def __init__(self, command: WatcherRequest) -> None:
         super().__init__()
@@ -39,7 +41,7 @@ class WatcherRequested(Message):
 
 
 class TopicsPanel(Vertical):
-    """Enter follows the topic under the cursor; it is shown below, as `ros2 topic echo` writes it, with a plot."""
+    """Enter follows the topic under the cursor; its messages are shown below as by `ros2 topic echo`, with a plot."""
 
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("space", "pause", "Pause", show=False),
@@ -56,7 +58,7 @@ class TopicsPanel(Vertical):
         self.chosen = ""
         self.chosen_by_learner = False
         self._listed: tuple[Topic, ...] = ()
-        self._list_again_at = 0.0
+        self._next_list_refresh = 0.0
 
     def compose(self) -> ComposeResult:
         yield RowTable(id="topics-table")
@@ -72,10 +74,10 @@ class TopicsPanel(Vertical):
         table = self.table
         for name in _COLUMNS:
             table.add_column(name, key=name or "mark")
-        self.set_interval(1.0, self._tick)  # silence shows by the clock, not by updates
+        self.set_interval(1.0, self._tick)  # silence raises no updates
 
     def on_show(self, _event: events.Show) -> None:
-        """Follow what has come meanwhile, a frame later: what is painted already is shown at once."""
+        """Catch up with updates missed while hidden, one frame later, so that the page itself appears at once."""
         self.call_after_refresh(self._tick)
 
     @property
@@ -85,13 +87,13 @@ class TopicsPanel(Vertical):
 
     @property
     def view(self) -> TopicView | None:
-        """The chosen topic, where it is followed."""
+        """The chosen topic, if it is followed."""
         return self.state.topics.get(self.chosen)
 
-    # --- what is shown ---
+    # --- display ---
 
     def show_list(self) -> None:
-        """The graph has changed, or what is followed has."""
+        """Show the current graph and the followed topics."""
         listed = tuple(self.state.listed_topics())
         table = self.table
         if [topic.name for topic in listed] != [topic.name for topic in self._listed]:
@@ -105,15 +107,15 @@ class TopicsPanel(Vertical):
                     table.move_cursor(row=names.index(chosen) if chosen in names else 0)
                     self.chosen = chosen if chosen in names else names[0]
         self._listed = listed
-        self._update_all()
+        self._update_rows()
         self.show_chosen()
 
     def show_update(self, name: str) -> None:
-        """Something has come on a topic. Where much comes, the list follows now and then: it costs more to paint."""
+        """Show an update of a topic. If updates are frequent, the list is refreshed only now and then."""
         if not self.display:
             return
-        if time.monotonic() >= self._list_again_at:
-            self._update_all()
+        if time.monotonic() >= self._next_list_refresh:
+            self._update_rows()
         if name == self.chosen:
             self.show_chosen()
 
@@ -128,25 +130,25 @@ class TopicsPanel(Vertical):
         if view is None:
             echo.show_lines(self.chosen, (), 0)
             return
-        points, held = view.points, view.held
-        band = self.state.asked.band_of(view.topic)
-        if held is not None:
-            now = held.at
-            plot.show(held.points, now, "paused", band)
-            echo.show_lines(view.topic, held.lines, held.came)
+        points, snapshot = view.points, view.snapshot
+        band = self.state.lesson_view.band_of(view.topic)
+        if snapshot is not None:
+            now = snapshot.at
+            plot.show(snapshot.points, now, "paused", band)
+            echo.show_lines(view.topic, snapshot.lines, snapshot.line_count)
         else:
             if points and view.update and wording.is_silent(view.update, max(0.0, now - view.updated_at)):
                 plot.show(tuple(points), points[-1][0], "the last one", band)
             else:
                 plot.show(tuple(points), max(now, points[-1][0]) if points else now, band=band)
-            echo.show_lines(view.topic, view.lines, view.came)
+            echo.show_lines(view.topic, view.lines, view.line_count)
         self.query_one("#plot-head", Static).update(self._plot_head(view, band), layout=False)
 
     def _plot_head(self, view: TopicView, band: tuple[float, float] | None) -> Content:
-        place = view.fields.index(view.path) + 1 if view.path in view.fields else 1
-        last = view.points[-1][1] if view.points and view.held is None else None
+        index = view.fields.index(view.path) + 1 if view.path in view.fields else 1
+        last = view.points[-1][1] if view.points and view.snapshot is None else None
         value = "" if last is None else f" = {last:g}"
-        more = f"  {place} of {len(view.fields)}" if len(view.fields) > 1 else ""
+        more = f"  {index} of {len(view.fields)}" if len(view.fields) > 1 else ""
         asked: tuple[str, str] = ("", "")
         if band is not None:
             low, high = band
@@ -161,7 +163,7 @@ class TopicsPanel(Vertical):
         name = Content.styled(self.chosen, "bold")
         if view is None:
             return Content.assemble(name, ("\nNot followed: press Enter to see what comes.", "$quiet"))
-        update = view.held.update if view.held is not None else view.update
+        update = view.snapshot.update if view.snapshot is not None else view.update
         if update is None:
             return Content.assemble(name, ("\n◐ subscribing", "$quiet"))
         facts = f"  {wording.short_type(update.type)} · {update.qos}" if update.type else ""
@@ -170,14 +172,16 @@ class TopicsPanel(Vertical):
             return Content.assemble(first, (f"\n✗ {update.problem}", "$bad"))
         if not update.count:
             topic = self.state.graph.topic(self.chosen) if self.state.graph else None
-            nobody = topic is None or not topic.publishers
-            said = (
-                "nobody publishes on it: run the node that does, or press M to publish" if nobody else "no message yet"
+            no_publisher = topic is None or not topic.publishers
+            reason = (
+                "nobody publishes on it: run the node that does, or press M to publish"
+                if no_publisher
+                else "no message yet"
             )
-            return Content.assemble(first, (f"\n◐ {said}", "$warn" if nobody else "$quiet"))
-        since = 0.0 if view.held is not None else max(0.0, now - view.updated_at)
+            return Content.assemble(first, (f"\n◐ {reason}", "$warn" if no_publisher else "$quiet"))
+        since = 0.0 if view.snapshot is not None else max(0.0, now - view.updated_at)
         numbers = wording.numbers(update, since)
-        if view.held is not None and view.update is not None:
+        if view.snapshot is not None and view.update is not None:
             more = view.update.count - update.count
             return Content.assemble(first, (f"\n▮▮ paused (+{more:,}) ", "bold $warn"), numbers)
         mark, ink = ("■", "$quiet") if wording.is_silent(update, since) else ("●", "$good")
@@ -188,12 +192,12 @@ class TopicsPanel(Vertical):
             return (_PUBLISH,)
         if view is None:
             return (("Enter", "Follow", "follow"), _PUBLISH)
-        several = (_OTHER_FIELD,) if len(view.fields) > 1 else ()
+        field_action = (_OTHER_FIELD,) if len(view.fields) > 1 else ()
         zoom: tuple[Action, ...] = (("+", "Longer", "zoom(1)"), ("-", "Shorter", "zoom(-1)")) if view.fields else ()
         return (
             ("Space", "Go on" if view.paused else "Pause", "pause"),
             ("x", "Clear", "clear"),
-            *several,
+            *field_action,
             *zoom,
             ("Del", "Unfollow", "unfollow"),
             _PUBLISH,
@@ -209,12 +213,12 @@ class TopicsPanel(Vertical):
         )
         timing = update.timing if update and not silent else None
         types = [wording.short_type(name) for name in topic.types]
-        if topic.is_standard:  # their types are long, and known to anyone who looks for them
+        if topic.is_standard:  # their types are long, and well known
             types = [name.rpartition("/")[2] for name in types]
         pub, sub = len(topic.publishers), len(topic.subscriptions)
         return (
             Text("●" if view else " "),
-            Text(topic.name, style="bold" if self.state.is_asked(topic.name) else ""),
+            Text(topic.name, style="bold" if self.state.is_lesson_topic(topic.name) else ""),
             Text(wording.rate(timing.rate_hz) if timing else "silent" if silent else "", justify="right"),
             Text(f"{update.count:,}" if update else "", justify="right"),
             Text(str(pub), justify="right"),
@@ -222,34 +226,34 @@ class TopicsPanel(Vertical):
             Text("✗ " + " and ".join(types) if len(types) > 1 else "".join(types)),
         )
 
-    def _update(self, topic: Topic) -> None:
+    def _update_row(self, topic: Topic) -> None:
         table = self.table
         if topic.name not in table.rows:
             return
         for name, cell in zip(_COLUMNS, self._cells(topic), strict=True):
             key = name or "mark"
             if table.get_cell(topic.name, key) != cell:
-                # A new width lays the whole page out again: only where it must.
+                # A change of width lays out the whole page again, so only if needed.
                 wider = cell.cell_len > table.columns[ColumnKey(key)].content_width
                 table.update_cell(topic.name, key, cell, update_width=wider)
 
     def _tick(self) -> None:
         if self.display:
-            self._update_all()
+            self._update_rows()
             if self.view is not None:
                 self.show_chosen()
 
-    def _update_all(self) -> None:
-        self._list_again_at = time.monotonic() + _LIST_EVERY_S
+    def _update_rows(self) -> None:
+        self._next_list_refresh = time.monotonic() + _LIST_REFRESH_S
         for topic in self._listed:
-            self._update(topic)
+            self._update_row(topic)
 
-    # --- what is done ---
+    # --- actions ---
 
-    def follow(self, topic: str, *, by_hand: bool = False, show: bool = True) -> None:
-        """Follow a topic, now or when it appears, and show it."""
+    def follow(self, topic: str, *, show: bool = True) -> None:
+        """Follow a topic, now or when it appears; choose it if `show`."""
         if topic not in self.state.topics:
-            self.state.topics[topic] = TopicView(topic, by_hand)
+            self.state.topics[topic] = TopicView(topic)
             self.post_message(WatcherRequested(Follow(topic)))
         if not show:
             self.show_list()
@@ -259,8 +263,8 @@ class TopicsPanel(Vertical):
         if topic in self.table.rows:
             self.table.move_cursor(row=self.table.get_row_index(topic))
 
-    def forget(self, topic: str) -> None:
-        """Follow a topic no longer."""
+    def unfollow(self, topic: str) -> None:
+        """Stop following a topic."""
         if self.state.topics.pop(topic, None) is not None:
             self.post_message(WatcherRequested(Unfollow(topic)))
             self.show_list()
@@ -276,15 +280,15 @@ class TopicsPanel(Vertical):
     def _selected(self, event: DataTable.RowSelected) -> None:
         if event.row_key.value:
             self.chosen_by_learner = True
-            self.follow(event.row_key.value, by_hand=True)
+            self.follow(event.row_key.value)
 
     def action_follow(self) -> None:
         if self.chosen:
             self.chosen_by_learner = True
-            self.follow(self.chosen, by_hand=True)
+            self.follow(self.chosen)
 
     def action_unfollow(self) -> None:
-        self.forget(self.chosen)
+        self.unfollow(self.chosen)
 
     def action_pause(self) -> None:
         if self.view is not None:
@@ -295,15 +299,15 @@ class TopicsPanel(Vertical):
         if self.view is not None:
             self.view.clear()
             self.post_message(WatcherRequested(Clear(self.chosen)))
-            self._update_all()
+            self._update_rows()
             self.show_chosen()
 
     def action_next_field(self) -> None:
         view = self.view
         if view is None or len(view.fields) < 2:
             return
-        place = view.fields.index(view.path) if view.path in view.fields else -1
-        view.plot(view.fields[(place + 1) % len(view.fields)])
+        index = view.fields.index(view.path) if view.path in view.fields else -1
+        view.plot(view.fields[(index + 1) % len(view.fields)])
         self.post_message(WatcherRequested(Plot(self.chosen, view.path)))
         self.show_chosen()
 

@@ -7,33 +7,33 @@ from tutor.ros_model import Parameter
 
 
 def short_type(name: str) -> str:
-    """A type without `msg` or `srv` in its middle, as it is written in interface files."""
+    """Return a type without `msg` or `srv` in its middle, as interface files write it."""
     parts = name.split("/")
     return f"{parts[0]}/{parts[-1]}" if len(parts) == 3 else name
 
 
 def rate(hz: float) -> str:
-    """A rate with three or four digits."""
+    """Return a rate with three or four digits."""
     if hz >= 1000:
         return f"{hz:,.0f} Hz"
     return f"{hz:.1f} Hz" if hz >= 10 else f"{hz:.2f} Hz"
 
 
 def period(seconds: float) -> str:
-    """A period with three digits, in the unit that suits it."""
+    """Return a period with three digits, in s or ms."""
     if seconds >= 100:
         return f"{seconds:.0f} s"
     return f"{seconds:.3g} s" if seconds >= 0.9995 else f"{seconds * 1000:.3g} ms"
 
 
 def periods(shortest_s: float, longest_s: float) -> str:
-    """From the shortest to the longest, the unit once where they share it."""
+    """Return a range of periods, the unit only once if both share it."""
     first, last = period(shortest_s), period(longest_s)
     return f"{first.split()[0] if first.split()[1] == last.split()[1] else first} to {last}"
 
 
 def is_silent(update: TopicUpdate, since_update_s: float = 0.0) -> bool:
-    """Whether a topic has stopped: silent for much longer than its period."""
+    """Return whether a topic has gone silent: no message for much longer than its period."""
     if update.silent_s is None:
         return False
     usual = update.timing.mean_s if update.timing else 1.0
@@ -41,7 +41,7 @@ def is_silent(update: TopicUpdate, since_update_s: float = 0.0) -> bool:
 
 
 def numbers(update: TopicUpdate, since_update_s: float = 0.0) -> str:
-    """Count, rate and jitter in one line; `since_update_s` is how long ago that update came, in seconds."""
+    """Return count, rate and jitter on one line; `since_update_s` is the age of the update in seconds."""
     parts = [f"{update.count:,} message{'' if update.count == 1 else 's'}"]
     timing = update.timing
     if timing and is_silent(update, since_update_s):
@@ -56,7 +56,7 @@ def numbers(update: TopicUpdate, since_update_s: float = 0.0) -> str:
 
 
 def allowed(parameter: Parameter) -> str:
-    """What a parameter may be set to."""
+    """Return which values a parameter may be set to."""
     if parameter.read_only:
         return "read-only"
     if parameter.minimum is None or parameter.maximum is None:
@@ -64,14 +64,16 @@ def allowed(parameter: Parameter) -> str:
     return f"{parameter.minimum:g} to {parameter.maximum:g}"
 
 
-def publishing(held: PublishStatus) -> str:
-    """What the learner publishes from here, and whether anybody listens."""
-    if held.problem:
-        return f"✗ not published on {held.topic}: {held.problem}"
-    ears = "nobody listens" if not held.listeners else f"{held.listeners} listen{'s' if held.listeners == 1 else ''}"
-    if not held.rate_hz:
-        return f"✓ published once on {held.topic}: {ears}"
-    sent = f"{held.sent:,} sent, {ears}"
-    if held.over:
-        return f"■ published on {held.topic}: {sent}"
-    return f"▶ you publish on {held.topic} at {held.rate_hz:g} Hz: {sent} · M stops it"
+def publishing(status: PublishStatus) -> str:
+    """Return what the learner publishes from this page, and how many subscriptions receive it."""
+    if status.problem:
+        return f"✗ not published on {status.topic}: {status.problem}"
+    audience = (
+        "nobody listens" if not status.listeners else f"{status.listeners} listen{'s' if status.listeners == 1 else ''}"
+    )
+    if not status.rate_hz:
+        return f"✓ published once on {status.topic}: {audience}"
+    sent = f"{status.sent:,} sent, {audience}"
+    if status.over:
+        return f"■ published on {status.topic}: {sent}"
+    return f"▶ you publish on {status.topic} at {status.rate_hz:g} Hz: {sent} · M stops it"

@@ -1,1 +1,1 @@
-"""What fills the terminal: a module for each screen, with its .tcss file beside it."""
+"""The full screens, one module each, with its .tcss file (if any) beside it."""

@@ -1,4 +1,4 @@
-"""The main screen: lessons; the text, code, log and live data of one; and its criteria."""
+"""The main screen: the lesson list, and the current lesson's pages (text, code, log, live, terminal) and criteria."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ from tutor.workspace import AppState
 
 
 class MainScreen(HostScreen):
-    """What is shown, and where. What is done is in the controllers; messages come here and are handed on to them."""
+    """Composes the widgets, and passes messages on to the controllers, which do the work."""
 
     CSS_PATH = Path(__file__).with_name("main.tcss")
     BINDINGS: ClassVar[list[BindingType]] = commands.bindings()
@@ -71,11 +71,11 @@ class MainScreen(HostScreen):
         self.terminal = Terminal(self, self.pages)
         self.register(commands.NEXT, partial(self._step, 1))
         self.register(commands.PREVIOUS, partial(self._step, -1))
-        self.register(commands.THEME, self._theme)
-        self.register(commands.HELP, self._help)
+        self.register(commands.THEME, self._switch_theme)
+        self.register(commands.HELP, self._show_help)
         self.register(commands.QUIT, lambda: self.app.run_action("quit"))
-        self.register(commands.EVIDENCE, self._evidence)
-        self._framed: tuple[Widget, ...] = ()
+        self.register(commands.EVIDENCE, self._toggle_evidence)
+        self._framed_panels: tuple[Widget, ...] = ()
         self._phases: list[tuple[str, Phase]] = []
 
     def compose(self) -> ComposeResult:
@@ -95,7 +95,7 @@ class MainScreen(HostScreen):
         yield KeyFooter(compact=True)
 
     async def on_mount(self) -> None:
-        self._framed = (self.query_one("#pages"), self.query_one(CriteriaPanel))
+        self._framed_panels = (self.query_one("#pages"), self.query_one(CriteriaPanel))
         self.watch_focused(self.focused)
         self.query_one(LessonList).border_title = "Lessons"
         self.query_one(StatusBar).show_nodes((), self.model.session.domain)
@@ -109,19 +109,19 @@ class MainScreen(HostScreen):
     # --- commands ---
 
     def action_show_file(self, index: int) -> None:
-        """Show another file of the lesson."""
+        """Show the lesson's file at this index."""
         self.files.show(index)
 
-    def _theme(self) -> None:
+    def _switch_theme(self) -> None:
         self.app.theme = "ros-tutor-light" if self.app.current_theme.dark else "ros-tutor-dark"
         self.preferences.update(theme=self.app.theme)
 
-    def _help(self) -> None:
+    def _show_help(self) -> None:
         from tutor.tui.dialogs.help import HelpScreen
 
         self.app.push_screen(HelpScreen())
 
-    def _evidence(self) -> None:
+    def _toggle_evidence(self) -> None:
         diagnosis = self.query_one(Diagnosis)
         if not diagnosis.has_evidence:
             self.say("There is no evidence here: choose a criterion that was checked.")
@@ -130,10 +130,10 @@ class MainScreen(HostScreen):
             self.show_page("criteria")
         diagnosis.fold()
 
-    # --- which lesson ---
+    # --- lessons ---
 
     async def go_to(self, lesson: Lesson, page: str = "lesson") -> None:
-        """Show a lesson."""
+        """Go to a lesson, and show the given page of it."""
         model, lessons = self.model, self.model.session.lessons
         model.lesson = lesson
         self.preferences.update(lesson=lesson.id)
@@ -157,12 +157,12 @@ class MainScreen(HostScreen):
         lessons = model.session.lessons
         passed = {each.id for each in lessons if model.progress.of(each.id).is_passed}
         others = len(lessons) - len(passed | {model.lesson.id})
-        # The last pass leads to the checklist, where the course has one.
+        # After the last pass the panel points to the checklist, if the course has one.
         self.query_one(CriteriaPanel).others_open = others if self.can(commands.CHECKLIST) else max(1, others)
         self.query_one(StatusBar).show_progress(len(passed), len(lessons))
 
     async def go_to_line(self, lesson: Lesson, line: int) -> None:
-        """Show a line of a lesson's text, counted from 0."""
+        """Go to a line (from 0) of a lesson's text."""
         await self.go_to(lesson)
         view = self.query_one(LessonView)
         view.call_after_refresh(view.go_to_line, line)
@@ -201,15 +201,15 @@ class MainScreen(HostScreen):
     def watch_focused(self, focused: Widget | None) -> None:
         """Frame the panel that has the focus.
 
-        `:focus-within` would say the same; with it, each step of the focus styles every widget in the panel again, and
-        a lesson's text has hundreds.
+        `:focus-within` would do the same, but each change of focus would restyle every widget in the panel, and a
+        lesson's text has hundreds.
         """
         around = focused.ancestors if focused is not None else []
-        if self._framed:
+        if self._framed_panels:
             criteria = self.query_one(CriteriaPanel)
             criteria.show_typing(isinstance(focused, CodeEditor))
             criteria.show_entered(criteria in around)
-        for panel in self._framed:
+        for panel in self._framed_panels:
             if panel.has_class("-focused") != (panel in around):
                 panel.set_class(panel in around, "-focused", update=False)
                 self.app.stylesheet.update_nodes([panel])
@@ -218,14 +218,14 @@ class MainScreen(HostScreen):
         """Lay the panels out for the new size."""
         self.pages.arrange(event.size.width, event.size.height)
 
-    # --- what the workers tell ---
+    # --- messages from workers and widgets ---
 
     @on(messages.ProgressRead)
     def _progress_read(self, message: messages.ProgressRead) -> None:
         model = self.model
         model.progress = message.progress
-        for known in model.session.lessons:
-            model.findings[known.id] = model.findings[known.id].with_last_check(message.progress.of(known.id))
+        for each in model.session.lessons:
+            model.findings[each.id] = model.findings[each.id].with_last_check(message.progress.of(each.id))
         self.query_one(CriteriaPanel).show_findings(model.findings[model.lesson.id])
         self._count_passed()
         self.query_one(LessonList).show_states(model.session.states(message.progress))
@@ -267,7 +267,7 @@ class MainScreen(HostScreen):
     @on(messages.NodeChanged)
     def _node_changed(self, message: messages.NodeChanged) -> None:
         typing = isinstance(self.focused, CodeEditor)
-        if message.first and not (message.unasked and typing):  # a learner who is typing keeps their line
+        if message.started and not (message.automatic and typing):  # do not take the focus from a learner who is typing
             self.show_page("log")
         if message.path == self.nodes.shown:
             key = self.nodes.stop_key(message.path)
@@ -279,7 +279,8 @@ class MainScreen(HostScreen):
         if (live := self.pages.live) is not None:
             live.nodes_run(bool(self.nodes.running))
         if (phases := [(state.file, state.phase) for state in states]) != self._phases:
-            self._phases = phases  # the footer is composed again: not for each line of a log, it would flicker
+            # Only on a new phase: refreshing recomposes the footer, which would flicker with each log line.
+            self._phases = phases
             self.refresh_bindings()
 
     @on(messages.NodeChosen)
@@ -292,10 +293,10 @@ class MainScreen(HostScreen):
 
     @on(messages.CheckOver)
     def _check_over(self, message: messages.CheckOver) -> None:
-        self.checks.over(message.how)
+        self.checks.over(message.ended)
 
     @on(messages.ErrorOccurred)
-    def _trouble(self, message: messages.ErrorOccurred) -> None:
+    def _error_occurred(self, message: messages.ErrorOccurred) -> None:
         self.say(message.text, warn=True)
 
     def _show_findings(self, found: Findings) -> None:
@@ -308,15 +309,15 @@ class MainScreen(HostScreen):
         state = self.model.state
         self.query_one(StatusBar).show_toggles(check=state.check_on_save, restart=state.restart_on_save)
 
-    # --- leaving ---
+    # --- shutdown ---
 
     @property
     def busy(self) -> bool:
-        """Whether a check or a node runs."""
+        """Whether a check, a node or a command in the terminal is running."""
         terminal = self.pages.terminal
-        commands = terminal is not None and bool(terminal.running)
-        return self.checks.running is not None or bool(self.nodes.running) or commands
+        terminal_busy = terminal is not None and bool(terminal.running)
+        return self.checks.running is not None or bool(self.nodes.running) or terminal_busy
 
     async def close_down(self) -> None:
-        """Save, end the check and the nodes, and wait until nothing of them is left."""
+        """Save, stop the check, the nodes and the terminal's commands, and wait until they are all gone."""
         await close_down(self, self.files, self.nodes, self.checks, self.preferences, self.pages)

@@ -1,4 +1,4 @@
-"""The first paint: drawn at once, before the widgets, the editor and the Markdown are loaded."""
+"""The first paint: drawn at once, before the modules of widgets, editor and Markdown are imported."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from tutor.tui import wording
 
 
 class OpeningScreen(Screen[None]):
-    """The bar at the top as the main screen has it, and what is being opened."""
+    """The top bar, as on the main screen, and the name of the lesson being opened."""
 
     CSS = """
     OpeningScreen {
@@ -23,7 +23,7 @@ class OpeningScreen(Screen[None]):
     """
 
     def __init__(self, lesson: Lesson | None) -> None:
-        """`lesson` is the one that will be opened; None before the first start."""
+        """`lesson` is the one being opened; None if there is no workspace yet."""
         super().__init__()
         self._lesson = lesson
 

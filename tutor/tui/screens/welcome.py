@@ -1,4 +1,4 @@
-"""The first thing a new learner sees: what this is, and where their work will be."""
+"""The first screen for a new learner: what this is, and where their work will be."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ _BANNER = """\
 
 
 class WelcomeScreen(Screen[bool]):
-    """Gives True when the learner wants to begin, and the workspace is there."""
+    """Returns True once the learner has begun and the workspace has been created."""
 
     CSS_PATH = Path(__file__).with_name("welcome.tcss")
     BINDINGS: ClassVar[list[BindingType]] = [
@@ -44,7 +44,7 @@ class WelcomeScreen(Screen[bool]):
     def __init__(self, session: Session) -> None:
         super().__init__()
         self._session = session
-        self._making = False
+        self._creating = False
 
     def compose(self) -> ComposeResult:
         count = len(self._session.lessons)
@@ -64,30 +64,30 @@ class WelcomeScreen(Screen[bool]):
 
     @property
     def root(self) -> Path | None:
-        """The folder that is named; None where none is."""
+        """The folder typed, as an absolute path; None if the field is empty."""
         text = self.query_one("#welcome-folder", Input).value.strip()
         return Path(os.path.abspath(Path(text).expanduser())) if text else None
 
     def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
-        """Letters type while the folder is being changed."""
+        """Disable the letter keys while the folder is being edited."""
         typing = isinstance(self.focused, Input)
         return typing if action == "keep" else not typing or action == "begin"
 
     def action_change(self) -> None:
-        """Type another folder."""
+        """Edit the folder."""
         self.query_one("#welcome-folder", Input).focus()
 
     def action_keep(self) -> None:
-        """Leave the folder as it is typed."""
+        """Finish editing the folder."""
         self.query_one("#begin", Button).focus()
 
     @on(Input.Changed)
     def _show_about(self) -> None:
-        about, problem = _about(self.root, self._session.workspace.root)
-        self._tell(Content.styled(f"✗ {about}", "$bad") if problem else Content.styled(about, "$quiet"))
+        about, problem = _describe_folder(self.root, self._session.workspace.root)
+        self._show_status(Content.styled(f"✗ {about}", "$bad") if problem else Content.styled(about, "$quiet"))
         self.query_one("#begin", Button).disabled = problem
 
-    def _tell(self, text: Content) -> None:
+    def _show_status(self, text: Content) -> None:
         self.query_one("#welcome-about", Static).update(text)
 
     @on(Button.Pressed, "#begin")
@@ -95,35 +95,35 @@ class WelcomeScreen(Screen[bool]):
     def action_begin(self) -> None:
         """Create the workspace and go on to the first lesson."""
         root = self.root
-        if root is not None and not self._making and not _about(root, root)[1]:
-            self._making = True
-            self.query_one("#begin", Button).label = "Making your workspace …"
-            # Given a coroutine, run_worker leaves it behind, never awaited, where the screen closes before it begins.
-            begun: Callable[[], Any] = partial(self._begin, root)
-            self.run_worker(begun)
+        if root is not None and not self._creating and not _describe_folder(root, root)[1]:
+            self._creating = True
+            self.query_one("#begin", Button).label = "Creating your workspace …"
+            # Not a coroutine: run_worker would never await it if the screen closed before the worker starts.
+            create: Callable[[], Any] = partial(self._create, root)
+            self.run_worker(create)
 
-    async def _begin(self, root: Path) -> None:
+    async def _create(self, root: Path) -> None:
         try:
             await asyncio.to_thread(self._session.create_workspace, root)
         except (WorkspaceError, StorageError) as error:
-            self._making = False
+            self._creating = False
             self.query_one("#begin", Button).label = "Press Enter to try again"
-            self._tell(Content.styled(f"✗ {error}", "$bad"))
+            self._show_status(Content.styled(f"✗ {error}", "$bad"))
             return
         self.dismiss(True)
 
 
-def _about(root: Path | None, usual: Path) -> tuple[str, bool]:
-    """What will be in the folder, and whether it cannot be there."""
+def _describe_folder(root: Path | None, default: Path) -> tuple[str, bool]:
+    """Return what the folder will be, or what is wrong with it, and whether there is a problem."""
     if root is None:
         return "Name a folder: it need not exist yet.", True
     if Workspace(root).exists:
-        return "a workspace of yours is there: it is opened, with its progress", False
-    there = next(folder for folder in (root, *root.parents) if folder.exists())
-    if not there.is_dir():
-        return f"{short_path(there)} is a file, not a folder", True
-    if not os.access(there, os.W_OK):
-        return f"you may not write to {short_path(there)}", True
-    if root != usual:
-        return f"an ordinary ROS 2 workspace; {short_path(usual)} will lead to it", False
+        return "your existing workspace: it will be opened, with its progress", False
+    existing = next(folder for folder in (root, *root.parents) if folder.exists())
+    if not existing.is_dir():
+        return f"{short_path(existing)} is a file, not a folder", True
+    if not os.access(existing, os.W_OK):
+        return f"no permission to write to {short_path(existing)}", True
+    if root != default:
+        return f"an ordinary ROS 2 workspace; {short_path(default)} will lead to it", False
     return "an ordinary ROS 2 workspace, yours to keep", False

@@ -1,4 +1,4 @@
-"""What Tab offers at the prompt: `ros2` and `ros-tutor` complete themselves, everything else is a path or a program."""
+"""Tab completion at the prompt: `ros2` and `ros-tutor` complete themselves; anything else is a program or a path."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ from pathlib import Path
 
 from tutor import private_folders
 
-LIMIT_S = 5.0
-"""How long a program may take to say what it offers: topics and nodes are looked up."""
+TIMEOUT_S = 5.0
+"""Timeout for a program to complete itself, which may involve discovery of topics and nodes."""
 
 PROGRAMS = ("cd", "clear", "export", "python3", "ros-tutor", "ros2")
-_OWN_COMPLETION = ("ros2", "ros-tutor")
+_ARGCOMPLETE_PROGRAMS = ("ros2", "ros-tutor")
 _SEPARATOR = "\013"
 
 
 @dataclass(frozen=True, slots=True)
 class Completion:
-    """The line as completed so far, where the cursor goes in it, and what to choose from where it is not yet clear."""
+    """The line as completed so far, its cursor position, and the candidates to choose from if it is ambiguous."""
 
     line: str
     cursor: int
@@ -37,53 +37,53 @@ async def complete(line: str, cursor: int, env: Mapping[str, str], cwd: Path) ->
     words = command.split()
     if len(words) < 1 or (len(words) == 1 and typed):
         offers = [program for program in PROGRAMS if program.startswith(typed)]
-    elif words[0] in _OWN_COMPLETION:
-        offers = await _ask(words[0], command, env, cwd)
+    elif words[0] in _ARGCOMPLETE_PROGRAMS:
+        offers = await _run_argcomplete(words[0], command, env, cwd)
     else:
-        offers = paths(typed, cwd)
+        offers = complete_path(typed, cwd)
     return merge(before, after, typed, offers)
 
 
 def merge(before: str, after: str, typed: str, offers: Sequence[str]) -> Completion:
-    """Put in what all offers have in common; a single one whole, with a space after it."""
+    """Insert the common prefix of all fitting offers; a single one is followed by a space."""
     fitting = tuple(dict.fromkeys(offer for offer in offers if offer.startswith(typed)))
     if not fitting:
         return Completion(before + after, len(before))
-    common = _common(fitting)
+    common = _common_prefix(fitting)
     if len(fitting) == 1 and not common.endswith(("/", ":=", " ", "=")):
         common += " "
-    done = before[: len(before) - len(typed)] + common
-    return Completion(done + after, len(done), () if len(fitting) == 1 else fitting)
+    completed = before[: len(before) - len(typed)] + common
+    return Completion(completed + after, len(completed), () if len(fitting) == 1 else fitting)
 
 
-def _common(texts: Sequence[str]) -> str:
-    """What all begin with."""
+def _common_prefix(texts: Sequence[str]) -> str:
+    """Return the longest common prefix."""
     first, last = min(texts), max(texts)
     return first[: next((at for at, (a, b) in enumerate(zip(first, last, strict=False)) if a != b), len(first))]
 
 
-def paths(typed: str, cwd: Path) -> list[str]:
-    """The files and folders that begin so; a folder ends with a slash."""
-    folder, _, begin = typed.rpartition("/")
+def complete_path(typed: str, cwd: Path) -> list[str]:
+    """Return the files and folders that complete a path; folders end with a slash, hidden ones need a typed dot."""
+    folder, _, prefix = typed.rpartition("/")
     place = cwd / Path(folder + "/" if "/" in typed else ".").expanduser()
     try:
         entries = sorted(os.scandir(place), key=lambda entry: entry.name)
     except OSError:
         return []
-    head = typed[: len(typed) - len(begin)]
+    head = typed[: len(typed) - len(prefix)]
     return [
         f"{head}{entry.name}{'/' if entry.is_dir() else ''}"
         for entry in entries
-        if entry.name.startswith(begin) and (begin.startswith(".") or not entry.name.startswith("."))
+        if entry.name.startswith(prefix) and (prefix.startswith(".") or not entry.name.startswith("."))
     ]
 
 
-async def _ask(program: str, command: str, env: Mapping[str, str], cwd: Path) -> list[str]:
-    """Ask a program that completes itself, in the way in which a shell does (argcomplete's)."""
+async def _run_argcomplete(program: str, command: str, env: Mapping[str, str], cwd: Path) -> list[str]:
+    """Have a program complete its own command line through argcomplete, as bash would."""
     with private_folders.temporary("complete") as folder:
         answer = folder / "answer"
         answer.touch()
-        asked = {
+        request_env = {
             **env,
             "_ARGCOMPLETE": "1",
             "_ARGCOMPLETE_IFS": _SEPARATOR,
@@ -96,13 +96,13 @@ async def _ask(program: str, command: str, env: Mapping[str, str], cwd: Path) ->
         }
         try:
             process = await asyncio.create_subprocess_exec(
-                "/bin/sh", "-c", program, env=asked, cwd=cwd,
+                "/bin/sh", "-c", program, env=request_env, cwd=cwd,
                 stdin=asyncio.subprocess.DEVNULL, stdout=asyncio.subprocess.DEVNULL, stderr=asyncio.subprocess.DEVNULL,
             )  # fmt: skip
         except OSError:
             return []
         try:
-            await asyncio.wait_for(process.wait(), LIMIT_S)
+            await asyncio.wait_for(process.wait(), TIMEOUT_S)
         except TimeoutError:
             return []
         finally:

@@ -4,33 +4,33 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-LONGEST = 500
+MAX_ENTRIES = 500
 
 
 class History:
-    """Steps through earlier commands; what was being typed comes back below the newest one."""
+    """Steps through earlier commands; the unfinished line (draft) comes back after the newest one."""
 
     def __init__(self, entries: Iterable[str] = ()) -> None:
-        self.entries = list(entries)[-LONGEST:]
-        self._place = len(self.entries)
+        self.entries = list(entries)[-MAX_ENTRIES:]
+        self._index = len(self.entries)
         self._draft = ""
 
     def add(self, command: str) -> None:
-        """Remember a command; one that was just typed before is not kept twice."""
+        """Append a command, unless it repeats the last one, and step back to the end."""
         if self.entries[-1:] != [command]:
-            self.entries = [*self.entries, command][-LONGEST:]
-        self._place, self._draft = len(self.entries), ""
+            self.entries = [*self.entries, command][-MAX_ENTRIES:]
+        self._index, self._draft = len(self.entries), ""
 
     def older(self, shown: str) -> str:
-        """The command before the one that is shown."""
-        if self._place == len(self.entries):
+        """Return the command before the one shown."""
+        if self._index == len(self.entries):
             self._draft = shown
-        self._place = max(0, self._place - 1)
-        return self.entries[self._place] if self.entries else shown
+        self._index = max(0, self._index - 1)
+        return self.entries[self._index] if self.entries else shown
 
     def newer(self, shown: str) -> str:
-        """The command after the one that is shown; at the end, what was being typed."""
-        if self._place >= len(self.entries):
+        """Return the command after the one shown or, at the end, the draft."""
+        if self._index >= len(self.entries):
             return shown
-        self._place += 1
-        return self.entries[self._place] if self._place < len(self.entries) else self._draft
+        self._index += 1
+        return self.entries[self._index] if self._index < len(self.entries) else self._draft

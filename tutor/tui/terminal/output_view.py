@@ -1,4 +1,4 @@
-"""What one command has printed, wrapped to the width; it follows the end unless the learner has scrolled up."""
+"""The output of one command, wrapped to the width; follows the end unless the learner has scrolled up."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _LEVELS = {"[WARN]": "warn", "[ERROR]": "error", "[FATAL]": "error"}
 
 
 class OutputView(LineView):
-    """The command, what it printed, and how it ended."""
+    """Shows a command, its output, and how it ended."""
 
     BINDINGS: ClassVar[list[BindingType]] = []
     COMPONENT_CLASSES: ClassVar[set[str]] = {f"line--{kind}" for kind in ("quiet", "name", "warn", "error")}
@@ -37,12 +37,12 @@ class OutputView(LineView):
         self._error = ""
 
     def show_state(self, state: NodeState | None, *, new: bool = False) -> None:
-        """Show a command as it is now; `new`: another one than before, from its end."""
+        """Show a command's current state; `new`: a different command, so scroll to its end."""
         self._state, self._error = state, ""
         self._lay_out(to_end=new)
 
     def show_error(self, text: str) -> None:
-        """Show one line about something that could not be done."""
+        """Show one line that says what could not be done."""
         self._error = text
         self._lay_out(to_end=True)
 
@@ -54,34 +54,32 @@ class OutputView(LineView):
         follow = to_end or self.is_vertical_scroll_end or not self.rows
         width = max(20, self.scrollable_content_region.width)
         rows: list[Row] = []
-        for pieces in (*_described(self._state), *(((self._error, "error"),),) * bool(self._error)):
+        for pieces in (*_rows_of(self._state), *(((self._error, "error"),),) * bool(self._error)):
             rows += _wrapped(pieces, width)
         self.show_rows(rows)
         if follow:
             self.scroll_end(animate=False, immediate=True, force=True, x_axis=False)
 
 
-def _described(state: NodeState | None) -> Sequence[Row]:
+def _rows_of(state: NodeState | None) -> Sequence[Row]:
     if state is None:
         return ()
     rows: list[Row] = [(("$ ", "quiet"), (state.command, "name"))]
     if state.dropped:
         rows.append(((f"({state.dropped} lines of a flood are not shown)", "quiet"),))
     rows += [_line(line) for line in state.lines]
-    if state.phase is Phase.ENDED and (ending := ended(state)):
-        rows.append(((ending, "error"),))
+    if state.phase is Phase.ENDED and (failure := _describe_failure(state)):
+        rows.append(((failure, "error"),))
     return rows
 
 
-def ended(state: NodeState) -> str:
-    """How a command ended, as far as it is worth a word: nothing where it simply did."""
-    if broke(state):
-        return f"[{state.note.removeprefix('ended by itself with ')}]"
-    return ""
+def _describe_failure(state: NodeState) -> str:
+    """Return how a command failed, or "" if it ended normally."""
+    return f"[{state.note.removeprefix('ended by itself with ')}]" if failed_by_itself(state) else ""
 
 
-def broke(state: NodeState) -> bool:
-    """Whether a command has ended badly by itself; after Ctrl+C, any exit code is as it should be."""
+def failed_by_itself(state: NodeState) -> bool:
+    """Return whether a command failed by itself; after Ctrl+C, any exit code is fine."""
     return state.failed and not state.note.startswith("stopped")
 
 

@@ -1,4 +1,4 @@
-"""The terminal page: a prompt, the commands that were typed at it, and what the chosen one printed."""
+"""The terminal page: a prompt, a tab for each command that was run, and the output of the selected one."""
 
 from __future__ import annotations
 
@@ -22,19 +22,19 @@ from tutor.terminal_text import strip_ansi
 from tutor.tui import messages
 from tutor.tui.terminal.completion import complete
 from tutor.tui.terminal.history import History
-from tutor.tui.terminal.output_view import OutputView, broke
+from tutor.tui.terminal.output_view import OutputView, failed_by_itself
 from tutor.tui.terminal.prompt import Prompt
 from tutor.tui.widgets.strip import TabStrip
 
-KEPT = 8
-"""How many commands that have ended are kept."""
+MAX_ENDED_JOBS = 8
+"""Number of ended commands whose output is kept."""
 
-LABEL = 26
-"""The length of a command's label, in cells."""
+LABEL_WIDTH = 26
+"""Maximum length of the command in a tab's label, in characters."""
 
 
 class TerminalPane(Vertical):
-    """Runs each line as a process of its own, so that a node, an echo and a rate can be watched at once."""
+    """Runs each line in a separate process, so that a node, `topic echo` and `topic hz` can be watched at once."""
 
     DEFAULT_CSS = Path(__file__).with_name("pane.tcss").read_text(encoding="utf-8")
     BINDINGS: ClassVar[list[BindingType]] = [
@@ -45,14 +45,14 @@ class TerminalPane(Vertical):
     ]
 
     def __init__(self, make_shell: Callable[[], Shell], history: History, id: str | None = None) -> None:
-        """Make it; `make_shell` may take a moment, and raise OSError or ValueError with a reason."""
+        """`make_shell` is called in a thread; it may take a moment, and raise OSError or ValueError with a reason."""
         super().__init__(id=id)
         self._make_shell = make_shell
         self._shell: Shell | None = None
         self._history = history
         self._numbers = count(1)
         self._jobs: dict[str, Node] = {}
-        self._waiting: list[str] = []
+        self._pending_lines: list[str] = []
         self._ready = False
 
     def compose(self) -> ComposeResult:
@@ -63,11 +63,11 @@ class TerminalPane(Vertical):
         yield Static(id="terminal-offers", markup=False)
         yield TabStrip({"": ""}, id="terminal-jobs")
         yield OutputView(id="terminal-output")
-        yield Static(_NOTHING, id="terminal-empty")
+        yield Static(_EMPTY_TEXT, id="terminal-empty")
 
     def on_mount(self) -> None:
         self._ready = True
-        self._work(self._open)
+        self._start_worker(self._open)
 
     async def _open(self) -> None:
         try:
@@ -76,12 +76,12 @@ class TerminalPane(Vertical):
             self.post_message(messages.ErrorOccurred(f"No command can be run: {error}"))
             return
         self._show_place()
-        waiting, self._waiting = self._waiting, []
-        for line in waiting:
+        pending, self._pending_lines = self._pending_lines, []
+        for line in pending:
             self.run_line(line)
 
     def focus_content(self) -> None:
-        """Put the cursor where commands are typed."""
+        """Focus the prompt."""
         if self._ready:
             self.query_one(Prompt).focus(scroll_visible=False)
         else:
@@ -98,12 +98,12 @@ class TerminalPane(Vertical):
             self.run_line(line)
 
     def run_line(self, line: str) -> None:
-        """Run a command as if it had been typed."""
+        """Run a command as if it had been typed, or as soon as the shell is ready."""
         if self._shell is None:
-            self._waiting.append(line)
+            self._pending_lines.append(line)
             return
         self._history.add(line)
-        self._offer("")
+        self._show_offers("")
         if line in ("clear", "exit"):
             self._clear()
             return
@@ -111,23 +111,23 @@ class TerminalPane(Vertical):
             case Shell() as changed:
                 self._shell = changed
                 self._show_place()
-            case str() as wrong:
-                self.query_one(OutputView).show_error(wrong)
+            case str() as error:
+                self.query_one(OutputView).show_error(error)
                 self.add_class("-filled")
             case None:
                 self._start(self._shell, line)
 
     def _start(self, shell: Shell, line: str) -> None:
         name = str(next(self._numbers))
-        node = Node(shell.command(line), partial(self._changed, name))
+        node = Node(shell.command(line), partial(self._job_changed, name))
         self._jobs[name] = node
-        for old in [key for key, job in self._jobs.items() if not job.state.alive][:-KEPT]:
+        for old in [key for key, job in self._jobs.items() if not job.state.alive][:-MAX_ENDED_JOBS]:
             del self._jobs[old]
         self.add_class("-filled")
-        self._choose(name)
-        self._work(node.run)
+        self._show_jobs(select=name)
+        self._start_worker(node.run)
 
-    def _changed(self, name: str, state: NodeState) -> None:
+    def _job_changed(self, name: str, state: NodeState) -> None:
         if name not in self._jobs or not self.is_attached:
             return
         self._show_jobs()
@@ -135,7 +135,7 @@ class TerminalPane(Vertical):
             self.query_one(OutputView).show_state(state)
 
     def action_interrupt(self) -> None:
-        """Press Ctrl+C: for the command that is shown, else for the one that was started last."""
+        """Send Ctrl+C to the command shown if it is running, else to the running one that was started last."""
         shown = self._jobs.get(self._shown)
         alive = [job for job in self._jobs.values() if job.state.alive]
         job = shown if shown is not None and shown.state.alive else next(reversed(alive), None)
@@ -144,20 +144,20 @@ class TerminalPane(Vertical):
 
     @property
     def running(self) -> list[Node]:
-        """The commands that have not ended."""
+        """The commands that are still running."""
         return [job for job in self._jobs.values() if job.state.alive]
 
-    def leave(self) -> None:
-        """End all of them."""
+    def stop_all(self) -> None:
+        """Stop all commands."""
         for job in self._jobs.values():
             job.stop()
 
     @property
     def typed_commands(self) -> list[str]:
-        """What was typed so far, the oldest first."""
+        """All commands typed so far, oldest first."""
         return self._history.entries
 
-    def _work(self, work: Callable[[], Any]) -> None:
+    def _start_worker(self, work: Callable[[], Any]) -> None:
         self.run_worker(work, group="terminal")
 
     # --- what is shown ---
@@ -166,14 +166,11 @@ class TerminalPane(Vertical):
     def _shown(self) -> str:
         return self.query_one("#terminal-jobs", TabStrip).active
 
-    def _choose(self, name: str) -> None:
-        self._show_jobs(name)
-
-    def _show_jobs(self, choose: str | None = None) -> None:
+    def _show_jobs(self, select: str | None = None) -> None:
         strip = self.query_one("#terminal-jobs", TabStrip)
         strip.labels = {name: _label(name, job.state) for name, job in reversed(self._jobs.items())} or {"": ""}
-        if choose is not None and choose != strip.active:
-            strip.active = choose
+        if select is not None and select != strip.active:
+            strip.active = select
 
     @on(TabStrip.Turned)
     def _turned(self, message: TabStrip.Turned) -> None:
@@ -188,12 +185,12 @@ class TerminalPane(Vertical):
         self.action_turn(message.by)
 
     def action_turn(self, by: int) -> None:
-        """To the output of another command."""
+        """Show the output of the next (1) or previous (-1) command."""
         if self._jobs:
             self.query_one("#terminal-jobs", TabStrip).action_step(by)
 
     def action_prompt(self) -> None:
-        """Back to the prompt."""
+        """Go back to the prompt."""
         self.focus_content()
 
     @on(Prompt.Interrupted)
@@ -216,10 +213,10 @@ class TerminalPane(Vertical):
         self._clear()
 
     def _clear(self) -> None:
-        """Forget the commands that have ended."""
+        """Remove the commands that have ended."""
         self._jobs = {name: job for name, job in self._jobs.items() if job.state.alive}
         names = list(self._jobs)
-        self._show_jobs(names[-1] if names else "")
+        self._show_jobs(select=names[-1] if names else "")
         self.query_one(OutputView).show_state(self._jobs[names[-1]].state if names else None, new=True)
         self.set_class(bool(names), "-filled")
 
@@ -243,17 +240,17 @@ class TerminalPane(Vertical):
         line, cursor = prompt.value, prompt.cursor_position
         found = await complete(line, cursor, shell.env, shell.cwd)
         if (prompt.value, prompt.cursor_position) != (line, cursor):
-            return  # typed on meanwhile
+            return  # the line has been edited meanwhile
         prompt.value = found.line
         prompt.cursor_position = found.cursor
-        self._offer("  ".join(strip_ansi(offer) for offer in found.offers))
+        self._show_offers("  ".join(strip_ansi(offer) for offer in found.offers))
 
     @on(Input.Changed, "#terminal-prompt")
     def _typing(self, event: Input.Changed) -> None:
         event.stop()
-        self._offer("")
+        self._show_offers("")
 
-    def _offer(self, text: str) -> None:
+    def _show_offers(self, text: str) -> None:
         offers = self.query_one("#terminal-offers", Static)
         offers.update(text)
         offers.display = bool(text)
@@ -261,20 +258,20 @@ class TerminalPane(Vertical):
 
 def _label(name: str, state: NodeState) -> str:
     command = strip_ansi(state.command).replace("\n", " ")
-    short = command if len(command) <= LABEL else command[: LABEL - 1] + "…"
-    mark = "●" if state.alive else ("!" if broke(state) else "■")
+    short = command if len(command) <= LABEL_WIDTH else command[: LABEL_WIDTH - 1] + "…"
+    mark = "●" if state.alive else ("!" if failed_by_itself(state) else "■")
     return f"{mark} {name} {short}"
 
 
-_NOTHING = Content.assemble(
+_EMPTY_TEXT = Content.assemble(
     ("Your terminal\n\n", "bold $foreground"),
     "Type a command and press ",
     ("Enter", "bold $accent"),
     ": ",
     ("ros2 topic list", "$code-type"),
-    " works here, with or without an installed ROS 2.\nIts output comes here. The next command runs beside it; ",
+    " works here, with or without an installed ROS 2.\nIts output appears here. The next command runs beside it; ",
     ("Ctrl+C", "bold $accent"),
-    " stops the one that is shown.\n",
+    " stops the one shown.\n",
     ("R", "bold $accent"),
     " offers the commands of the lesson; ",
     ("Tab", "bold $accent"),

@@ -1,4 +1,4 @@
-"""The line in which commands are typed."""
+"""The input line of the terminal page."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from tutor.tui.terminal.history import History
 
 
 class Prompt(Input, inherit_bindings=False):
-    """An input with a shell's keys.
+    """An input with the keys of a shell.
 
-    All of them are handled where the printable ones are, in the order in which they were pressed: an action of a
-    binding would overtake the letters that still wait to be put in.
+    All keys are handled in `_on_key`, like the printable ones, and so in the order in which they were pressed: the
+    action of a binding could overtake letters that are still queued.
     """
 
-    # For the footer, and for a click there; the keys themselves come to `_on_key` first.
+    # For the footer and for clicks on it; the keys themselves reach `_on_key` first.
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("tab", "complete", "Complete", key_display="Tab"),
         Binding("up", "older", "History", key_display="↑"),
@@ -28,19 +28,19 @@ class Prompt(Input, inherit_bindings=False):
     ]
 
     class Interrupted(Message):
-        """Ctrl+C."""
+        """Ctrl+C was pressed."""
 
     class Completed(Message):
-        """Tab."""
+        """Tab was pressed."""
 
     class Cleared(Message):
-        """Ctrl+L."""
+        """Ctrl+L was pressed."""
 
     class Left(Message):
-        """Esc."""
+        """Esc was pressed."""
 
     class Turned(Message):
-        """To another command's output: -1 or 1."""
+        """Request to show the previous (-1) or next (1) command's output."""
 
         def __init__(self, by: int) -> None:
             super().__init__()
@@ -89,15 +89,15 @@ class Prompt(Input, inherit_bindings=False):
             await result
 
     def action_complete(self) -> None:
-        """Ask for what the word before the cursor may become."""
+        """Ask for completion of the word before the cursor."""
         self.post_message(self.Completed())
 
     def action_older(self) -> None:
-        """The command before."""
+        """Recall the previous command."""
         self._recall(self.history.older(self.value))
 
     def action_leave(self) -> None:
-        """Let the keys of the app work again."""
+        """Leave the prompt, so that the app's keys work again."""
         self.post_message(self.Left())
 
     def _recall(self, text: str) -> None:

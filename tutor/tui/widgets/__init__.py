@@ -1,1 +1,1 @@
-"""The parts of the screens."""
+"""The widgets that the screens are made of."""

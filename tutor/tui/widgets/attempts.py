@@ -1,4 +1,4 @@
-"""Attempts over time: when, what the verdict was, how much had passed."""
+"""The history of attempts at an exercise: when, which verdict, how many criteria passed."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ from tutor.judge.verdict import Status
 from tutor.tui import wording
 from tutor.workspace import Attempt, ExerciseProgress
 
-BAR = 10
-"""Cells of the bar of passed criteria."""
+_BAR_CELLS = 10
+"""Width in cells of the bar of passed criteria."""
 
 
 def history(lesson: Lesson, progress: ExerciseProgress, *, most: int) -> Content:
-    """The latest attempts, the latest first, one in a line."""
+    """Return the latest `most` attempts, newest first, one per line."""
     if not progress.attempts:
         return Content.styled("No attempts yet. F9 checks your node.", "$quiet")
     required = [c.id for c in lesson.criteria if not c.bonus]
@@ -28,20 +28,20 @@ def history(lesson: Lesson, progress: ExerciseProgress, *, most: int) -> Content
 
 
 def _line(attempt: Attempt, required: list[str]) -> Content:
-    asked = attempt.judged_of(required)
-    met = sum(id in attempt.passed for id in asked)
-    full = round(BAR * met / max(1, len(asked)))
+    judged_ids = attempt.judged_of(required)
+    met = sum(id in attempt.passed for id in judged_ids)
+    filled = round(_BAR_CELLS * met / max(1, len(judged_ids)))
     passed = attempt.verdict is Status.PASSED
     ink = wording.INKS[attempt.verdict]
-    missed = [id for id in asked if id not in attempt.passed]
-    about = "" if passed or not missed else f"  not yet: {', '.join(missed)}"
+    missed = [id for id in judged_ids if id not in attempt.passed]
+    note = "" if passed or not missed else f"  not yet: {', '.join(missed)}"
     if not attempt.whole:
-        about += f"  (only {', '.join(attempt.judged or asked)})"
+        note += f"  (only {', '.join(attempt.judged or judged_ids)})"
     return Content.assemble(
         (f"{wording.when(attempt.at)}  ", "$quiet"),
         (f"{wording.MARKS[attempt.verdict]} ", f"bold {ink}"),
-        ("━" * full, ink),
-        ("━" * (BAR - full), "$line"),
-        f" {met} of {len(asked)}",
-        (about, "$quiet"),
+        ("━" * filled, ink),
+        ("━" * (_BAR_CELLS - filled), "$line"),
+        f" {met} of {len(judged_ids)}",
+        (note, "$quiet"),
     )

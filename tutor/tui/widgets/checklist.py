@@ -1,4 +1,4 @@
-"""The items of the checklist in cards, one for each subject."""
+"""The items of the checklist, in one card per subject."""
 
 from __future__ import annotations
 
@@ -14,30 +14,30 @@ from textual.widget import Widget
 from tutor.report.assessment import AssessedGroup, AssessedItem
 from tutor.report.phrases import describe_evidence, describe_sources, near_day
 
-MOST = 2
-"""This many exercises are named as evidence, or as what could give it."""
+_MAX_EXERCISES = 2
+"""At most this many exercises are named as evidence, or as possible sources of it."""
 
-_BAR = 12
-
-
-def bar(ticked: int, total: int, width: int = _BAR) -> Content:
-    """How much is ticked, as a bar; the numbers belong beside it."""
-    full = round(width * ticked / max(1, total))
-    return Content.assemble(("━" * full, "$good"), ("━" * (width - full), "$line"))
+_BAR_CELLS = 12
 
 
-def about(item: AssessedItem) -> str:
-    """What the checks have shown of an item; else what would show it."""
-    if said := describe_evidence(item.evidence, near_day, most=MOST):
-        return f"✓ {' · '.join(said)}"
-    if sources := describe_sources(item.sources[:MOST]):
-        more = ["others"] if len(item.sources) > MOST else []
+def bar(ticked: int, total: int, width: int = _BAR_CELLS) -> Content:
+    """Return a bar of the ticked share; the caller puts the numbers beside it."""
+    filled = round(width * ticked / max(1, total))
+    return Content.assemble(("━" * filled, "$good"), ("━" * (width - filled), "$line"))
+
+
+def _evidence_line(item: AssessedItem) -> str:
+    """Return the evidence that checks have given for an item; else the exercises that would give it."""
+    if shown := describe_evidence(item.evidence, near_day, most=_MAX_EXERCISES):
+        return f"✓ {' · '.join(shown)}"
+    if sources := describe_sources(item.sources[:_MAX_EXERCISES]):
+        more = ["others"] if len(item.sources) > _MAX_EXERCISES else []
         return f"○ not yet shown by {' or '.join([*sources, *more])}"
     return "○ no check shows this: you are the judge"
 
 
 class ItemRow(Widget, can_focus=True):
-    """One item: its box, its text, and below it what the checks have shown."""
+    """One item: a check box and the text, with the evidence from checks below."""
 
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("space,enter", "tick", "Tick", key_display="Space"),
@@ -71,52 +71,52 @@ class ItemRow(Widget, can_focus=True):
         self.ticked = item.ticked
 
     def show(self, item: AssessedItem) -> None:
-        """Show how it stands now."""
+        """Show the item's current state."""
         if item != self.item or item.ticked != self.ticked:
-            grown = about(item) != about(self.item)
+            evidence_changed = _evidence_line(item) != _evidence_line(self.item)
             self.item, self.ticked = item, item.ticked
-            self.refresh(layout=grown)
+            self.refresh(layout=evidence_changed)
 
     def render(self) -> Content:
-        """The box, and beside it text and evidence, wrapped."""
+        """The box, with the wrapped text and evidence to its right."""
         width = self.content_size.width
         return Content("\n").join(self._lines(width)) if width else Content()
 
     def get_content_height(self, container: Size, viewport: Size, width: int) -> int:
-        """As many lines as it takes."""
+        """The number of lines after wrapping."""
         return len(self._lines(width))
 
     def _lines(self, width: int) -> list[Content]:
         box = Content.styled("[✓] ", "bold $good") if self.ticked else Content("[ ] ")
         room = max(1, width - box.cell_length)
-        known = "$good" if self.item.evidence else "$quiet"
+        evidence_ink = "$good" if self.item.evidence else "$quiet"
         focused = "$block-cursor-foreground" if self.has_focus else ""
         text = Content.styled(self.item.text, f"bold {focused}" if focused else "").wrap(room)
-        shown = Content.styled(about(self.item), focused or known).wrap(room)
-        beside = Content(" " * box.cell_length)
-        return [Content.assemble(beside if n else box, line) for n, line in enumerate([*text, *shown])]
+        shown = Content.styled(_evidence_line(self.item), focused or evidence_ink).wrap(room)
+        indent = Content(" " * box.cell_length)
+        return [Content.assemble(indent if n else box, line) for n, line in enumerate([*text, *shown])]
 
     def on_focus(self) -> None:
-        """Its colours change."""
+        """Repaint in the colours of the focus."""
         self.refresh()
 
     def on_blur(self) -> None:
-        """Its colours change."""
+        """Repaint in the usual colours."""
         self.refresh()
 
     def action_tick(self) -> None:
-        """Tick it, or take the tick away."""
+        """Tick or untick the item."""
         self.ticked = not self.ticked
         self.refresh()
         self.post_message(self.Toggled(self.item.id, self.ticked))
 
     def on_click(self) -> None:
-        """A click does the same."""
+        """Tick or untick the item."""
         self.action_tick()
 
 
 class GroupCard(Vertical):
-    """The items of one subject, with how many are ticked."""
+    """The items of one subject, with the number of ticked ones."""
 
     DEFAULT_CSS = """
     GroupCard {
@@ -138,23 +138,23 @@ class GroupCard(Vertical):
 
     @property
     def rows(self) -> list[ItemRow]:
-        """The rows, in order."""
+        """All rows, in order."""
         return list(self.query(ItemRow))
 
     def on_mount(self) -> None:
         self.count()
 
     def show(self, group: AssessedGroup) -> None:
-        """Show how the items stand now."""
+        """Show the current state of the items."""
         for row, item in zip(self.rows, group.items, strict=True):
             row.show(item)
         self.count()
 
     def count(self) -> None:
-        """Show how many are ticked."""
+        """Show how many items are ticked."""
         rows = self.rows
         ticked = sum(row.ticked for row in rows)
-        full, rest = "━" * 2 * ticked, "━" * 2 * (len(rows) - ticked)
+        filled, rest = "━" * 2 * ticked, "━" * 2 * (len(rows) - ticked)
         mark = "✓ " if ticked == len(rows) else ""
-        self.border_subtitle = f"[$good]{full}[/][$line]{rest}[/] {mark}{ticked} of {len(rows)}"
+        self.border_subtitle = f"[$good]{filled}[/][$line]{rest}[/] {mark}{ticked} of {len(rows)}"
         self.set_class(ticked == len(rows), "-done")

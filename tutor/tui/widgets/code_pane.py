@@ -1,4 +1,4 @@
-"""The learner's file: which one, where it is, and its editor; or how to get it; or another look at it."""
+"""The pane of the learner's files: the editor, read-only views such as the solution, or how to get a missing file."""
 
 from __future__ import annotations
 
@@ -21,51 +21,52 @@ from tutor.tui.widgets.line_view import Piece, Row
 if TYPE_CHECKING:
     from tutor.tui.widgets.editor import CodeEditor
 
-OWN = "mine"
-"""The view of the learner's own file."""
+OWN_FILE_VIEW = "mine"
+"""The name of the view in which the learner edits their own file."""
 
-LOOKS = (
+_READ_ONLY_VIEWS = (
     ("skeleton", "k", "Skeleton"),
     ("changes", "d", "Changes"),
     ("solution", "v", "Solution"),
     ("against", "V", "Compare"),
 )
+"""Name, key and label of each read-only view."""
 
 
 class CodeBody(Container, can_focus=True):
-    """Holds the editors. Has the focus while single keys are commands: the arrows scroll, Enter begins to type."""
+    """Container of the editors. It has the focus while single keys are commands: arrows scroll, Enter starts typing."""
 
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("enter", "screen.do('edit')", "Edit", show=False),
-        Binding("up", "by(-1)", show=False),
-        Binding("down", "by(1)", show=False),
-        Binding("pageup", "pages(-1)", show=False),
-        Binding("pagedown", "pages(1)", show=False),
-        Binding("home", "end(False)", show=False),
-        Binding("end", "end(True)", show=False),
+        Binding("up", "scroll_lines(-1)", show=False),
+        Binding("down", "scroll_lines(1)", show=False),
+        Binding("pageup", "scroll_pages(-1)", show=False),
+        Binding("pagedown", "scroll_pages(1)", show=False),
+        Binding("home", "scroll_edge(False)", show=False),
+        Binding("end", "scroll_edge(True)", show=False),
     ]
 
     @property
     def _editor(self) -> Widget | None:
         return next((child for child in self.children if child.display), None)
 
-    def action_by(self, lines: int) -> None:
-        """Scroll by lines."""
+    def action_scroll_lines(self, lines: int) -> None:
+        """Scroll by this many lines, down if positive."""
         if self._editor is not None:
             self._editor.scroll_relative(y=lines, animate=False)
 
-    def action_pages(self, pages: int) -> None:
-        """Scroll by pages."""
-        self.action_by(pages * max(1, self.size.height - 1))
+    def action_scroll_pages(self, pages: int) -> None:
+        """Scroll by this many pages, down if positive."""
+        self.action_scroll_lines(pages * max(1, self.size.height - 1))
 
-    def action_end(self, down: bool) -> None:
+    def action_scroll_edge(self, down: bool) -> None:
         """Scroll to the top or the bottom."""
         if self._editor is not None:
             (self._editor.scroll_end if down else self._editor.scroll_home)(animate=False)
 
 
 class CodePane(Vertical):
-    """A line that names the files, a line with the looks at them, and what is shown."""
+    """A line with the file names, a line with links to the views, and below them the editor or another view."""
 
     BINDINGS: ClassVar[list[BindingType]] = [Binding("escape", "back", "Your file", show=True, key_display="Esc")]
     DEFAULT_CSS = """
@@ -91,7 +92,7 @@ class CodePane(Vertical):
 
     def __init__(self, id: str) -> None:
         super().__init__(id=id)
-        self.view = OWN
+        self.view = OWN_FILE_VIEW
         self._editors: dict[Path, CodeEditor] = {}
         self._paths: Sequence[Path] = ()
         self._chosen = 0
@@ -106,63 +107,63 @@ class CodePane(Vertical):
         yield FindBar(id="code-find")
 
     def on_descendant_focus(self) -> None:
-        """Other keys are named while letters type."""
+        """Name other keys while the editor has the focus."""
         self.show_saved()
 
     def on_descendant_blur(self) -> None:
-        """The keys of commands work again."""
+        """Name the command keys, which work again."""
         self.show_saved()
 
-    # --- finding ---
+    # --- find ---
 
     def find(self, *, again: bool = False) -> None:
-        """Ask what to find in the learner's file; or go on to the next place (`again`)."""
+        """Ask for a text to find in the learner's file; with `again`, go to the next match of the last one."""
         if self.editor is None:
             return
-        if self.view != OWN:
-            self._turn(OWN, "")
+        if self.view != OWN_FILE_VIEW:
+            self._switch_view(OWN_FILE_VIEW, "")
         bar = self.query_one(FindBar)
         if not again or not bar.again(self.editor):
             bar.begin(self.editor, typing=self.editor.has_focus)
 
-    # --- what the editors hold ---
+    # --- the editors ---
 
     @property
     def editor(self) -> CodeEditor | None:
-        """The editor of the chosen file, if the file is there."""
+        """The editor of the chosen file, or None while that file does not exist."""
         return self._editors.get(self._paths[self._chosen]) if self._paths else None
 
     def knows(self, path: Path) -> bool:
-        """Whether the file has been read."""
+        """Return whether this file has an editor."""
         return path in self._editors
 
     def text(self, path: Path) -> str:
-        """What the editor of a known file holds."""
+        """Return the text in the editor of a file that has one."""
         return self._editors[path].text
 
     def changed(self) -> list[Path]:
-        """The files that have something to save."""
+        """Return the files with unsaved edits."""
         return [path for path, editor in self._editors.items() if editor.changed]
 
     def is_changed(self, path: Path) -> bool:
-        """Whether this file has something to save."""
+        """Return whether this file has unsaved edits."""
         return path in self._editors and self._editors[path].changed
 
     def mark_saved(self, path: Path, text: str) -> None:
-        """The file holds this text now."""
+        """Note that this text is now on disk."""
         self._editors[path].saved_text = text
         self.show_saved()
 
     def go_to(self, path: Path, line: int) -> None:
-        """Put the cursor on a line, and the focus into the editor."""
+        """Move the cursor to a line (from 1) and focus the editor."""
         if path in self._editors:
             self._editors[path].go_to(line)
             self.focus_content(typing=True)
 
-    # --- what is shown ---
+    # --- the views ---
 
     def show_names(self, paths: Sequence[Path], chosen: int) -> None:
-        """Name the files of the lesson; a click chooses one."""
+        """Show the names of the lesson's files; a click chooses one."""
         self._paths, self._chosen = paths, chosen
         self.remove_class("-missing")
         for path, editor in self._editors.items():
@@ -170,11 +171,11 @@ class CodePane(Vertical):
         self.show_own()
 
     async def show_source(self, path: Path, text: str, *, visible: bool) -> None:
-        """The file is there, and this is its text."""
+        """Show a file's text, in a new editor if it has none yet; `visible` if it is the chosen file."""
         if path in self._editors:
             self._editors[path].take(text)
         else:
-            from tutor.tui.widgets.editor import CodeEditor  # late: the first paint does not wait for it
+            from tutor.tui.widgets.editor import CodeEditor  # late import: keeps the first paint fast
 
             editor = self._editors[path] = CodeEditor(path, text)
             editor.display = visible
@@ -183,14 +184,14 @@ class CodePane(Vertical):
             self.show_found(path)
 
     def show_found(self, path: Path) -> None:
-        """A known file is there."""
+        """Show the editor of a file that exists, in place of the notice that it is missing."""
         if self._paths and path == self._paths[self._chosen]:
             self.remove_class("-missing")
             self._editors[path].display = True
         self.show_saved()
 
     def show_missing(self, path: Path, problem: str = "") -> None:
-        """Say that there is no such file, and how to get it."""
+        """Say that the file does not exist yet, and how to get it; or with which `problem` it cannot be read."""
         self.add_class("-missing")
         if path in self._editors and not problem:
             self._editors.pop(path).remove()
@@ -209,15 +210,15 @@ class CodePane(Vertical):
         self.show_saved()
 
     def show_other(self, view: str, title: str, source: str) -> None:
-        """Show a text to read in the place of the editor."""
-        self._turn(view, title)
+        """Show Python source read-only in place of the editor."""
+        self._switch_view(view, title)
         self.query_one(CodeView).show_source(source)
         self.query_one(CodeView).scroll_home(animate=False, immediate=True)
         self.focus_content()
 
     def show_rows(self, view: str, title: str, rows: Sequence[Row], margins: Sequence[Piece]) -> None:
-        """Show rows in the place of the editor."""
-        self._turn(view, title)
+        """Show rows, such as a diff, in place of the editor."""
+        self._switch_view(view, title)
         self.query_one(CodeView).show_rows(rows, margins)
         self.query_one(CodeView).scroll_home(animate=False, immediate=True)
         self.focus_content()
@@ -225,30 +226,30 @@ class CodePane(Vertical):
     def show_own(self) -> None:
         """Show the learner's own file again."""
         had_focus = self.query_one(CodeView).has_focus
-        self._turn(OWN, "")
+        self._switch_view(OWN_FILE_VIEW, "")
         if had_focus:
             self.focus_content()
 
     def edit(self) -> None:
-        """Show the learner's own file, to type in."""
-        self._turn(OWN, "")
+        """Show the learner's own file for editing."""
+        self._switch_view(OWN_FILE_VIEW, "")
 
-    def _turn(self, view: str, title: str) -> None:
+    def _switch_view(self, view: str, title: str) -> None:
         self.view, self._title = view, title
-        self.set_class(view != OWN, "-other")
+        self.set_class(view != OWN_FILE_VIEW, "-other")
         self.show_saved()
 
     def focus_content(self, *, typing: bool = False) -> None:
-        """Focus what the arrow keys move in; the editor itself only where the learner wants to type."""
+        """Focus the widget that the arrow keys scroll; the editor itself only if the learner is typing."""
         target: Widget = self.query_one(CodeBody)
-        if self.view != OWN:
+        if self.view != OWN_FILE_VIEW:
             target = self.query_one(CodeView)
         elif self.editor is not None and (typing or self.editor.has_focus):
             target = self.editor
         self.screen.set_focus(target, scroll_visible=False)
 
     def leave_editor(self) -> None:
-        """Make single keys commands again."""
+        """Move the focus out of the editor, so that single keys are commands again."""
         self.screen.set_focus(self.query_one(CodeBody), scroll_visible=False)
 
     def action_back(self) -> None:
@@ -256,11 +257,11 @@ class CodePane(Vertical):
         self.show_own()
 
     def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
-        """There is only a way back from another look."""
-        return self.view != OWN if action == "back" else True
+        """Enable `back` only in a read-only view."""
+        return self.view != OWN_FILE_VIEW if action == "back" else True
 
     def show_saved(self) -> None:
-        """Say whether all is saved, and which look is shown."""
+        """Update the two head lines: file names, whether all is saved, and the view that is shown."""
         if not self._paths:
             return
         path = self._paths[self._chosen]
@@ -281,21 +282,21 @@ class CodePane(Vertical):
             parts.append(("not saved yet  ", "$warn") if self.editor.changed else ("✓ saved  ", "$good"))
         parts.append((short_path(path.parent), "$quiet"))
         self.query_one("#code-head", Static).update(Content.assemble(*parts), layout=False)
-        self.query_one("#code-looks", Static).update(self._looks(), layout=False)
+        self.query_one("#code-looks", Static).update(self._view_links(), layout=False)
 
     @property
     def _typing(self) -> bool:
         return self.editor is not None and self.editor.has_focus
 
-    def _looks(self) -> Content:
+    def _view_links(self) -> Content:
         parts: list[Content | str | tuple[str, str]] = []
-        if self.view != OWN:
+        if self.view != OWN_FILE_VIEW:
             parts += [(self._title, "bold"), "  ", Content.from_markup("[@click=back]Esc: your file[/]")]
             return Content.assemble(*parts)
         if self._typing:
             parts.append(("Esc, then  ", "$quiet"))
         elif self.editor is not None:
             parts += [("e", "bold $accent"), (" edit  ", "$quiet")]
-        for view, key, name in LOOKS:
+        for view, key, name in _READ_ONLY_VIEWS:
             parts += [(key, "bold $accent"), " ", Content.from_markup(f"[@click=screen.do('{view}')]{name}[/]"), "  "]
         return Content.assemble(*parts)

@@ -1,4 +1,4 @@
-"""Python source with line numbers, to read."""
+"""A read-only view of Python source, highlighted and with line numbers."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class CodeView(LineView):
 
     COMPONENT_CLASSES: ClassVar[set[str]] = {
         f"line--{kind}"
-        for kind in ("gutter", "keyword", "string", "number", "comment", "name", "type", "gone", "come", "same")
+        for kind in ("gutter", "keyword", "string", "number", "comment", "name", "type", "removed", "added", "same")
     }
     DEFAULT_CSS = """
     CodeView {
@@ -46,21 +46,21 @@ class CodeView(LineView):
         & > .line--comment { color: $code-comment; text-style: italic; }
         & > .line--name { color: $code-name; }
         & > .line--type { color: $code-type; }
-        & > .line--gone { color: $bad; }
-        & > .line--come { color: $good; }
+        & > .line--removed { color: $bad; }
+        & > .line--added { color: $good; }
         & > .line--same { color: $quiet; }
     }
     """
 
     def show_source(self, source: str) -> None:
         """Show this source text."""
-        rows = highlighted(source)
+        rows = highlight(source)
         width = max(3, len(str(len(rows))))
         self.show_rows(rows, [(f" {number:>{width}}  ", "gutter") for number in range(1, len(rows) + 1)])
 
 
-def highlighted(source: str) -> list[Row]:
-    """Source text as rows of coloured pieces, tabs expanded. Whatever the text is, this gives its lines."""
+def highlight(source: str) -> list[Row]:
+    """Return source text as rows of coloured pieces, tabs expanded. Invalid Python keeps all its lines, too."""
     rows: list[list[tuple[str, str]]] = [[]]
     for token, text in PythonLexer(stripnl=False, ensurenl=False).get_tokens(source.expandtabs(4)):
         first, *more = text.split("\n")
@@ -72,12 +72,12 @@ def highlighted(source: str) -> list[Row]:
 
 
 def _kind(token: Any) -> str:
-    """The kind of a token type, or of the nearest one that it is a special case of."""
+    """Return the kind of a token type, or of its nearest ancestor that has one."""
     while token is not None and token not in _KINDS:
         token = token.parent
     return _KINDS[token] if token is not None else ""
 
 
 def _printable(text: str) -> str:
-    """Control characters would move the cursor of the terminal."""
+    """Replace unprintable characters: control characters would move the terminal's cursor."""
     return "".join(c if c.isprintable() else "·" for c in text)

@@ -1,4 +1,4 @@
-"""The criteria of a lesson: what is being checked right now, what was found, and the diagnosis of the chosen one."""
+"""The criteria of a lesson: progress of a running check, verdicts, and the diagnosis of the chosen criterion."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from tutor.workspace import ExerciseProgress
 
 
 class CriterionRow(ListItem):
-    """One criterion in one line: at rest, being checked (a bar, and what is done to the node), or judged."""
+    """One criterion on one line: idle, being checked (a progress bar and the current step), or judged."""
 
     def __init__(self, finding: Finding, name_width: int) -> None:
         super().__init__()
@@ -30,62 +30,62 @@ class CriterionRow(ListItem):
         self._outdated = False
 
     def show(self, finding: Finding, *, outdated: bool) -> None:
-        """Show what is known now; a verdict on a former version of the code is pale."""
+        """Show this finding; a verdict on an earlier version of the code (`outdated`) is dimmed."""
         if (finding, outdated) != (self.finding, self._outdated):
             self.finding, self._outdated = finding, outdated
             self.refresh()
 
     def render(self) -> Content:
-        """One line, made for the width that there is."""
+        """One line, fitted to the width."""
         found, width = self.finding, self.content_size.width
         name = Content.assemble(found.id, (" bonus", "$quiet") if found.bonus else "")
         name = name.pad_right(max(0, self._name_width - name.cell_length))
-        word, said, ink = Content(""), found.text, "$quiet"
+        progress, text, ink = Content(""), found.text, "$quiet"
         if found.verdict is not None:
-            mark, shade = wording.MARKS[found.verdict.status], wording.INKS[found.verdict.status]
+            mark, status_ink = wording.MARKS[found.verdict.status], wording.INKS[found.verdict.status]
             if self._outdated:
-                mark, shade, name = mark, "$quiet", name.stylize("$quiet")
-            head = Content.assemble((f"{mark} ", f"bold {shade}"), name, " ")
+                status_ink, name = "$quiet", name.stylize("$quiet")
+            head = Content.assemble((f"{mark} ", f"bold {status_ink}"), name, " ")
         elif found.checking:
             head = Content.assemble(("◐ ", "$busy"), name, " ")
-            full = 14 if width > 50 else 8
-            narrow = width - head.cell_length < full + _PERCENT or (found.so_far and width <= 100)
-            word = _bar(found.fraction, 0 if narrow else full)
-            left = width - head.cell_length - word.cell_length - 2
-            said = describe_waiting(found.doing, found.so_far, left) or "waiting"
+            bar_cells = 14 if width > 50 else 8
+            narrow = width - head.cell_length < bar_cells + _PERCENT or (found.so_far and width <= 100)
+            progress = _bar(found.fraction, 0 if narrow else bar_cells)
+            room = width - head.cell_length - progress.cell_length - 2
+            text = describe_waiting(found.doing, found.so_far, room) or "waiting"
             ink = "$busy" if found.doing or found.so_far else "$quiet"
         else:
             head = Content.assemble((f"{wording.MARKS[Status.PASSED] if found.before else '○'} ", "$quiet"), name, " ")
-        gap = "  " if word else ""
-        left = width - head.cell_length - word.cell_length - len(gap)
-        if left < 12:  # a stump of a sentence says nothing
-            gap, said = "", ""
-        said = said if found.so_far else wording.fitted(said, left)
-        return Content.assemble(head, word, gap, (said, ink)).truncate(width, ellipsis=True)
+        gap = "  " if progress else ""
+        room = width - head.cell_length - progress.cell_length - len(gap)
+        if room < 12:  # too short a piece of a sentence says nothing
+            gap, text = "", ""
+        text = text if found.so_far else wording.fitted(text, room)
+        return Content.assemble(head, progress, gap, (text, ink)).truncate(width, ellipsis=True)
 
 
 _PERCENT = len(" 100%")
 
 
 def _bar(fraction: float, width: int) -> Content:
-    full = round(max(0.0, min(1.0, fraction)) * width)
-    return Content.assemble(("━" * full, "$busy"), ("━" * (width - full), "$line"), f" {fraction:4.0%}")
+    filled = round(max(0.0, min(1.0, fraction)) * width)
+    return Content.assemble(("━" * filled, "$busy"), ("━" * (width - filled), "$line"), f" {fraction:4.0%}")
 
 
 class BriefLine(Widget, can_focus=True):
-    """The criteria in one line, while the lesson is read and there is no verdict. The focus opens them."""
+    """The criteria on one line, while the lesson is being read and there is no verdict. Focusing it opens the panel."""
 
     def __init__(self, id: str) -> None:
         super().__init__(id=id)
         self._findings: Findings | None = None
 
     def show(self, findings: Findings) -> None:
-        """Name them."""
+        """Show the criteria of these findings."""
         self._findings = findings
         self.refresh()
 
     def render(self) -> Content:
-        """Their names, or how many they are where there is no room, and the key that opens them."""
+        """The criteria's ids, or only their number in a narrow terminal, and the key that opens the panel."""
         found = self._findings.criteria if self._findings else ()
         required, bonus = [each for each in found if not each.bonus], sum(each.bonus for each in found)
         more = [f"{bonus} bonus"] if bonus else []
@@ -98,7 +98,7 @@ class BriefLine(Widget, can_focus=True):
 
 
 class CriteriaPanel(Container):
-    """The list, and beside or below it the diagnosis of the criterion that is chosen."""
+    """The list of criteria, and beside or below it the diagnosis of the chosen one."""
 
     DEFAULT_CSS = """
     CriteriaPanel {
@@ -133,12 +133,12 @@ class CriteriaPanel(Container):
         self._following: Lesson | None = None
         self._typing = False
         self._reading = self._entered = False
-        self._told: Finding | None = None
+        self._shown_finding: Finding | None = None
         self.others_open = 0
         """How many other exercises are not passed yet."""
 
     async def show_lesson(self, findings: Findings, following: Lesson | None) -> None:
-        """Show another lesson's criteria, and its first failure if it has one; `following` is the lesson after it."""
+        """Show a lesson's criteria, and its first failure if there is one; `following` is the next lesson."""
         self._findings = None
         self._following = following
         listed = self.query_one("#criteria-list", ListView)
@@ -146,51 +146,51 @@ class CriteriaPanel(Container):
         widest = max(len(finding.id) + len(" bonus") * finding.bonus for finding in findings.criteria)
         await listed.extend(CriterionRow(finding, max(17, widest + 1)) for finding in findings.criteria)
         self._show(findings)
-        self._turn_to_result()
+        self._show_result()
 
     def show_findings(self, findings: Findings) -> None:
-        """Show what the check has found by now."""
+        """Show what the check has found so far."""
         before = self._findings
         self._show(findings)
         if findings.checking and not (before and before.checking):
             self.remove_class("-detail")
         if findings.checking:
-            self._follow()
+            self._show_first_failure()
         if before and before.checking and not findings.checking:
-            self._turn_to_result()
+            self._show_result()
 
-    def _follow(self) -> None:
-        """During a check: the first failure as soon as it is final, unless another criterion was chosen."""
+    def _show_first_failure(self) -> None:
+        """During a check, show the first failure as soon as it is final, unless the learner has chosen a criterion."""
         found = self._findings
         if found is None:
             return
         if self.has_class("-detail"):
-            if (chosen := self.chosen) is not None and chosen != self._told:
-                self._tell(chosen)
+            if (chosen := self.chosen) is not None and chosen != self._shown_finding:
+                self._show_diagnosis(chosen)
             return
-        failed = [n for n, f in enumerate(found.criteria) if _has_failed(f) and not f.bonus]
+        failed = [n for n, f in enumerate(found.criteria) if _is_failed(f) and not f.bonus]
         if failed:
             self.query_one("#criteria-list", ListView).index = failed[0]
-            self._tell(found.criteria[failed[0]])
+            self._show_diagnosis(found.criteria[failed[0]])
 
-    def _tell(self, finding: Finding) -> None:
-        """Show the diagnosis of this criterion."""
+    def _show_diagnosis(self, finding: Finding) -> None:
+        """Show the diagnosis of a criterion."""
         assert self._findings is not None
-        self._told = finding
+        self._shown_finding = finding
         self.query_one(Diagnosis).show_finding(finding, self._findings)
         self.add_class("-detail")
 
     def show_attempts(self, lesson: Lesson, progress: ExerciseProgress) -> None:
-        """Show the latest attempts, where there is room for them."""
+        """Update the latest attempts, which only a large enough terminal displays."""
         self.query_one("#attempts", Static).update(history(lesson, progress, most=6))
 
     def show_reading(self, reading: bool) -> None:
-        """Fold to a line while the lesson is read, where there is no verdict to show."""
+        """Fold to one line while the lesson is being read and there is no verdict to show."""
         self._reading = reading
         self._show_brief()
 
     def show_entered(self, entered: bool) -> None:
-        """Unfold while the focus is in here."""
+        """Stay unfolded while the focus is inside."""
         self._entered = entered
         self._show_brief()
 
@@ -205,12 +205,12 @@ class CriteriaPanel(Container):
             self.open()
 
     def open(self) -> None:
-        """Unfold, and put the focus into the list."""
+        """Unfold, and focus the list."""
         self.show_entered(True)
         self.screen.set_focus(self.query_one("#criteria-list"), scroll_visible=False)
 
     def show_typing(self, typing: bool) -> None:
-        """Name the keys that work now: letters type while the editor has the focus."""
+        """Name the keys that work now: letters are typed while the editor has the focus."""
         if typing != self._typing:
             self._typing = typing
             self.query_one(Diagnosis).show_typing(typing)
@@ -225,7 +225,7 @@ class CriteriaPanel(Container):
 
     @property
     def rows(self) -> list[CriterionRow]:
-        """The rows, in order."""
+        """All rows, in order."""
         return list(self.query(CriterionRow))
 
     def _show(self, findings: Findings) -> None:
@@ -241,10 +241,10 @@ class CriteriaPanel(Container):
         self._show_brief()
         self.set_class(bool(findings.result and findings.result.verdict is Status.PASSED), "-passed")
 
-    def _turn_to_result(self) -> None:
-        """After a check: the first failure, or, where all is well, the good news. A failure that is read is left."""
+    def _show_result(self) -> None:
+        """After a check, show the first failure, or the good news if all passed; a failure being read stays."""
         found = self._findings
-        if found is not None and self.has_class("-detail") and (chosen := self.chosen) and _has_failed(chosen):
+        if found is not None and self.has_class("-detail") and (chosen := self.chosen) and _is_failed(chosen):
             return
         listed = self.query_one("#criteria-list", ListView)
         listed.index = None
@@ -270,12 +270,12 @@ class CriteriaPanel(Container):
         if checking and not selected and not self.has_class("-detail"):
             return
         if row.finding.verdict is not None or selected or checking:
-            self._tell(row.finding)
+            self._show_diagnosis(row.finding)
         elif not self._findings.judged:
             self.remove_class("-detail")
 
 
-def _has_failed(finding: Finding) -> bool:
+def _is_failed(finding: Finding) -> bool:
     return finding.verdict is not None and finding.verdict.status is Status.FAILED
 
 

@@ -19,7 +19,7 @@ from tutor.tui import wording
 
 
 class Part(Horizontal):
-    """A name and its text, side by side; hidden where there is no text."""
+    """A name and its text, side by side; hidden while there is no text."""
 
     DEFAULT_CSS = """
     Part {
@@ -48,7 +48,7 @@ class Part(Horizontal):
 
 
 class Diagnosis(VerticalScroll):
-    """Everything that is known of one criterion."""
+    """Everything known about one criterion, or the good news once all are met."""
 
     DEFAULT_CSS = """
     Diagnosis {
@@ -89,28 +89,28 @@ class Diagnosis(VerticalScroll):
         self._unfolded = False
         self._typing = False
         self._head = partial(Content)
-        """Makes the head again, which names other keys while the editor has the focus."""
+        """Rebuilds the head, which names other keys while the editor has the focus."""
 
     @property
     def has_evidence(self) -> bool:
-        """Whether there is any for the criterion that is shown."""
+        """Whether the shown criterion has evidence."""
         return bool(self._evidence)
 
     def fold(self) -> None:
-        """Show the evidence, or hide it."""
+        """Show or hide the evidence."""
         self._unfolded = not self._unfolded
         self._show_evidence()
         if self._unfolded:
             self.query_one("#part-evidence").scroll_visible(animate=False)
 
     def show_typing(self, typing: bool) -> None:
-        """Name the keys that work now: letters type while the editor has the focus."""
+        """Name the keys that work now: letters are typed while the editor has the focus."""
         self._typing = typing
         self.query_one("#diagnosis-head", Static).update(self._head())
         self._show_evidence()
 
     def show_finding(self, finding: Finding, findings: Findings) -> None:
-        """Show one criterion; its evidence is folded."""
+        """Show one criterion, its evidence folded."""
         verdict = finding.verdict
         self._unfolded = False
         self._fill(
@@ -126,25 +126,28 @@ class Diagnosis(VerticalScroll):
         verdict = finding.verdict
         if verdict is not None:
             mark, ink = wording.MARKS[verdict.status], wording.INKS[verdict.status]
-            said = " error" if verdict.status is Status.ERROR else ""  # of ours: no mark that a learner knows says that
+            # An error is the tutor's own, and learners know no mark for that: add the word.
+            status = " error" if verdict.status is Status.ERROR else ""
         else:
-            mark, ink, said = "○", "$quiet", " being checked" if finding.checking else ""
+            mark, ink, status = "○", "$quiet", " being checked" if finding.checking else ""
             if finding.before is not None and not finding.checking:
                 mark = wording.MARKS[Status.PASSED] if finding.before else "○"
-        name = Content.assemble((f"{mark}{said} ", f"bold {ink}"), (finding.id, "bold"), "  ", (finding.text, "$quiet"))
-        more = "  bonus: never changes the verdict" if finding.bonus else ""
+        name = Content.assemble(
+            (f"{mark}{status} ", f"bold {ink}"), (finding.id, "bold"), "  ", (finding.text, "$quiet")
+        )
+        details = "  bonus: never changes the verdict" if finding.bonus else ""
         if verdict is None and finding.so_far:
-            more += f"\n\n{finding.doing}\n\nSo far, and not final: {one_line(finding.so_far)}"
+            details += f"\n\n{finding.doing}\n\nSo far, and not final: {one_line(finding.so_far)}"
         if verdict is None and not finding.checking:
             met = "Met" if finding.before else "Not met"
-            known = (
+            last_result = (
                 f"{met} at the last check, {wording.when(findings.before)}" if findings.before else "Not checked yet"
             )
-            more += f"\n\n{known}. Press {'F9' if self._typing else 'c'} to check."
-        return Content.assemble(name, (more, "$quiet"))
+            details += f"\n\n{last_result}. Press {'F9' if self._typing else 'c'} to check."
+        return Content.assemble(name, (details, "$quiet"))
 
     def show_passed(self, result: ExerciseResult, following: Lesson | None, *, all_passed: bool) -> None:
-        """The good news, and where to go from here; `all_passed`: every exercise of the course is."""
+        """Show the good news and what comes next; `all_passed` if every exercise of the course is passed."""
         self._unfolded = False
         self._fill(partial(self._passed_head, result, following, all_passed))
 
@@ -176,9 +179,9 @@ class Diagnosis(VerticalScroll):
     def _fill(self, head: partial[Content], *, step: str = "", evidence: tuple[str, ...] = (), **texts: str) -> None:
         self._head = head
         self.query_one("#diagnosis-head", Static).update(head())
-        shown = self.query_one("#diagnosis-step", Static)
-        shown.set_class(bool(step), "-filled")
-        shown.update(Content.assemble(("Next step  ", "bold $accent"), step))
+        step_box = self.query_one("#diagnosis-step", Static)
+        step_box.set_class(bool(step), "-filled")
+        step_box.update(Content.assemble(("Next step  ", "bold $accent"), step))
         for key, _ in self.PARTS[:-1]:
             self.query_one(f"#part-{key}", Part).show(Content(texts.get(key, "")))
         self._evidence = evidence

@@ -1,4 +1,4 @@
-"""Two texts side by side in one: lines that went (-), lines that came (+), and what is around them."""
+"""A unified diff of two texts: removed lines (-), added lines (+) and their context."""
 
 from __future__ import annotations
 
@@ -6,12 +6,12 @@ import difflib
 
 from tutor.tui.widgets.line_view import Piece, Row
 
-AROUND = 3
-"""This many unchanged lines are shown around a change."""
+_CONTEXT_LINES = 3
+"""Lines of context around each change."""
 
 
 def difference(before: str, after: str) -> tuple[list[Row], list[Piece]]:
-    """The rows and their margins (line numbers of `before` and `after`); both empty where nothing differs."""
+    """Return the rows of the diff and their margins (line numbers in both texts); both empty for equal texts."""
     old, new = before.expandtabs(4).splitlines(), after.expandtabs(4).splitlines()
     rows: list[Row] = []
     margins: list[Piece] = []
@@ -21,7 +21,9 @@ def difference(before: str, after: str) -> tuple[list[Row], list[Piece]]:
         margins.append((numbers, "gutter"))
         rows.append(((f"{mark} {text}", kind),))
 
-    for number, group in enumerate(difflib.SequenceMatcher(None, old, new, autojunk=False).get_grouped_opcodes(AROUND)):
+    for number, group in enumerate(
+        difflib.SequenceMatcher(None, old, new, autojunk=False).get_grouped_opcodes(_CONTEXT_LINES)
+    ):
         if number:
             margins.append((" " * 12, "gutter"))
             rows.append((("⋯", "gutter"),))
@@ -31,14 +33,14 @@ def difference(before: str, after: str) -> tuple[list[Row], list[Piece]]:
                     add(a + step, b + step, " ", old[a + step], "same")
                 continue
             for line in range(a, a_end):
-                add(line, None, "-", old[line], "gone")
+                add(line, None, "-", old[line], "removed")
             for line in range(b, b_end):
-                add(None, line, "+", new[line], "come")
+                add(None, line, "+", new[line], "added")
     return rows, margins
 
 
 def same_line(before: str, after: str, row: int) -> int:
-    """Where the line number `row` (from 0) of `before` is in `after`; where it is gone, the place it was at."""
+    """Return where line `row` (from 0) of `before` is in `after`; for a removed line, the place it had."""
     matcher = difflib.SequenceMatcher(None, before.splitlines(), after.splitlines(), autojunk=False)
     for tag, a, a_end, b, b_end in matcher.get_opcodes():
         if a <= row < a_end:
@@ -47,6 +49,6 @@ def same_line(before: str, after: str, row: int) -> int:
 
 
 def count(rows: list[Row]) -> tuple[int, int]:
-    """How many lines came, and how many went."""
+    """Return the number of added and of removed lines in a diff."""
     kinds = [row[0][1] for row in rows if row]
-    return kinds.count("come"), kinds.count("gone")
+    return kinds.count("added"), kinds.count("removed")

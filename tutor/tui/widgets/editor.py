@@ -19,9 +19,9 @@ from tutor.tui.messages import EditorLeft
 from tutor.tui.themes import DARK, LIGHT
 from tutor.tui.widgets.diffing import same_line
 
-INDENT = 4
+_INDENT = 4
 
-_INKS = {
+_CAPTURES = {
     "keyword": "keyword keyword.function keyword.return keyword.operator include conditional repeat exception",
     "string": "string string.special",
     "number": "number float boolean constant.builtin",
@@ -29,25 +29,26 @@ _INKS = {
     "name": "function function.call method method.call attribute",
     "type": "type type.class type.builtin constructor function.builtin",
 }
+"""The tree-sitter captures that each colour of the theme is for."""
 
 
-def _look(theme: Theme) -> TextAreaTheme:
-    colours = {ink: theme.variables[f"code-{ink}"] for ink in _INKS}
+def _editor_theme(theme: Theme) -> TextAreaTheme:
+    colours = {ink: theme.variables[f"code-{ink}"] for ink in _CAPTURES}
     styles = {
         name: Style(color=colours[ink], italic=ink == "comment" or None)
-        for ink, names in _INKS.items()
+        for ink, names in _CAPTURES.items()
         for name in names.split()
     }
     return TextAreaTheme(name=theme.name, syntax_styles=styles)
 
 
 class CodeEditor(TextArea):
-    """Letters type; Esc gives the focus back to the page, so that single keys are commands again."""
+    """Esc leaves the editor, so that single keys are commands again instead of text."""
 
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("escape", "leave", "Commands", show=True, key_display="Esc"),
         *panel_bindings(SAVE, FIND, RUN, RESTART, STOP, CHECK, CANCEL, HELP, shown_key=1),
-        *panel_bindings(FIND_NEXT, PAGE_LIVE, shown_key=1, show=False),  # F7 is another key of TextArea's
+        *panel_bindings(FIND_NEXT, PAGE_LIVE, shown_key=1, show=False),  # F7 is bound differently in TextArea
         Binding("ctrl+a", "select_all", "Select all", show=False),
         Binding("ctrl+home", "go_to_start", "To the beginning", show=False),
         Binding("ctrl+end", "go_to_end", "To the end", show=False),
@@ -82,11 +83,11 @@ class CodeEditor(TextArea):
         )
         self.path = path
         self.saved_text = self.text
-        """The editor's text when it was the same as the file."""
+        """The editor's text when it last equalled the file."""
 
     def on_mount(self) -> None:
         for theme in (DARK, LIGHT):
-            self.register_theme(_look(theme))
+            self.register_theme(_editor_theme(theme))
         self._follow_theme()
         self.watch(self.app, "theme", self._follow_theme, init=False)
 
@@ -95,11 +96,11 @@ class CodeEditor(TextArea):
 
     @property
     def changed(self) -> bool:
-        """Whether there is something to save."""
+        """Whether there are unsaved edits."""
         return self.text != self.saved_text
 
     def take(self, text: str) -> None:
-        """Show another version of the file; the cursor stays, and undo brings the former one back."""
+        """Load a new version of the file; the cursor stays on its line, and undo brings the old version back."""
         if text != self.text:
             row, column = self.cursor_location
             row, top = same_line(self.text, text, row), self.scroll_offset
@@ -112,17 +113,17 @@ class CodeEditor(TextArea):
         self.saved_text = self.text
 
     def go_to(self, line: int) -> None:
-        """Put the cursor at the first character of a line, from 1."""
+        """Move the cursor to the first character of a line (from 1) that is not blank."""
         row = max(0, min(line, self.document.line_count) - 1)
         text = self.document[row]
         self.move_cursor((row, len(text) - len(text.lstrip())), center=True)
 
     def render_line(self, y: int) -> Strip:
-        """A line; empty once the editor is removed: it may be painted until the next layout, without its styles."""
+        """Return a line; blank once the editor is removed: it may be painted until the next layout, without styles."""
         return super().render_line(y) if self.is_attached else Strip.blank(self.size.width)
 
     def on_key(self, event: events.Key) -> None:
-        """Indentation, as Python wants it; Esc leaves."""
+        """Indent as Python code needs it; leave on Esc."""
         if event.key == "escape":
             self.action_leave()
         elif event.key == "enter":
@@ -136,15 +137,15 @@ class CodeEditor(TextArea):
         event.prevent_default()
 
     def action_leave(self) -> None:
-        """Give the focus back."""
+        """Ask the page to take the focus back."""
         self.post_message(EditorLeft())
 
     def action_go_to_start(self, select: bool = False) -> None:
-        """To the beginning of the file."""
+        """Move to the beginning of the file."""
         self.move_cursor((0, 0), select=select)
 
     def action_go_to_end(self, select: bool = False) -> None:
-        """To the end of the file."""
+        """Move to the end of the file."""
         self.move_cursor(self.document.end, select=select)
 
     def _insert(self, text: str) -> None:
@@ -152,21 +153,21 @@ class CodeEditor(TextArea):
         self._replace_via_keyboard(text, start, end)
 
     def _indentation(self) -> str:
-        """What the next line begins with."""
+        """Return the next line's indentation: deeper after `:` or an open bracket, less after `return` and the like."""
         row, column = min(self.selection.start, self.selection.end)
         before = self.document[row][:column]
         indent = before[: len(before) - len(before.lstrip())]
         code = before.split("#")[0].rstrip()
         if code.endswith((":", "(", "[", "{")):
-            return indent + " " * INDENT
-        if re.match(r"\s*(return|pass|break|continue|raise)\b", code) and len(indent) >= INDENT:
-            return indent[:-INDENT]
+            return indent + " " * _INDENT
+        if re.match(r"\s*(return|pass|break|continue|raise)\b", code) and len(indent) >= _INDENT:
+            return indent[:-_INDENT]
         return indent
 
     def _indent_before(self) -> int:
-        """How many blanks Backspace removes at once: to the last stop, where only blanks are before the cursor."""
+        """Return how many spaces Backspace removes: back to the tab stop if only spaces precede the cursor, else 0."""
         row, column = self.cursor_location
         before = self.document[row][:column]
         if not self.selection.is_empty or not before or before.strip(" "):
             return 0
-        return (column - 1) % INDENT + 1
+        return (column - 1) % _INDENT + 1

@@ -1,4 +1,4 @@
-"""The line below the editor that asks for a text and goes to where it is."""
+"""The search line below the editor."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from tutor.tui.widgets.editor import CodeEditor
 
 
 class FindBar(Horizontal):
-    """Selects in the editor what is found. Esc ends it, and leaves the cursor there."""
+    """Selects each match in the editor. Esc closes the bar and leaves the cursor at the match."""
 
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("enter,down,ctrl+g,ctrl+f", "go(1)", "Next", key_display="Enter"),
@@ -49,11 +49,11 @@ class FindBar(Horizontal):
 
     def compose(self) -> ComposeResult:
         yield Static("Find")
-        yield Input(placeholder="a text in your code", id="find-text")
+        yield Input(placeholder="text to find in your code", id="find-text")
         yield Static(id="find-count")
 
     def begin(self, editor: CodeEditor, *, typing: bool) -> None:
-        """Ask what to find in this editor, from its cursor on; `typing`: the learner comes from typing there."""
+        """Start a search from the editor's cursor; `typing` if the editor has the focus, and is to get it back."""
         self._editor, self._typing = editor, typing
         self._origin = min(editor.selection.start, editor.selection.end)
         self.display = True
@@ -65,7 +65,7 @@ class FindBar(Horizontal):
         self._show()
 
     def again(self, editor: CodeEditor) -> bool:
-        """Go to the next place of what was found last; False where nothing was looked for yet."""
+        """Go to the next match of the last search. Return False if there was none yet."""
         self._editor = editor
         if self.query_one(Input).value:
             self.action_go(1)
@@ -84,13 +84,13 @@ class FindBar(Horizontal):
         self.action_go(1)
 
     def action_go(self, by: int) -> None:
-        """To the next one, or the one before."""
+        """Go to the next match, or with a negative `by` to the previous one."""
         if self._editor is not None:
             self._origin = self._editor.selection.start
             self._show(by)
 
     def action_end(self) -> None:
-        """Give the focus back."""
+        """Close the bar and give the focus back."""
         self.display = False
         if self._editor is not None:
             target = self._editor if self._typing else self._editor.parent

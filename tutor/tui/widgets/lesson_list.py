@@ -1,4 +1,4 @@
-"""The lessons at the left, each with its difficulty and how it stands."""
+"""The list of lessons at the left, each with its difficulty and the learner's progress."""
 
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ class UnitRow(ListItem):
         self.unit = unit
 
     def render(self) -> Content:
-        """Its words, none of them cut."""
+        """The full name, wrapped if need be."""
         return Content(self.unit)
 
 
 class LessonRow(ListItem):
-    """One lesson: its title, as many lines as that takes, and a line on it."""
+    """One lesson: its wrapped title, and a line with difficulty and progress."""
 
     def __init__(self, lesson: Lesson) -> None:
         super().__init__()
@@ -41,11 +41,11 @@ class LessonRow(ListItem):
         return wrap(f"{wording.label(self.lesson)} {self.lesson.title}", max(10, width - 2))
 
     def get_content_height(self, container: Size, viewport: Size, width: int) -> int:
-        """The title's lines, and one."""
+        """The lines of the title, plus one."""
         return len(self._title(width)) + 1
 
     def render(self) -> Content:
-        """The mark, the title; below it the difficulty, and how it stands in words."""
+        """The mark and the title; below them difficulty and progress in words."""
         mark, words = wording.progress_label(self.state)
         width = self.content_size.width
         title = "\n  ".join(self._title(width))
@@ -56,7 +56,7 @@ class LessonRow(ListItem):
 
 
 class LessonList(RowList):
-    """All lessons, under the names of their units."""
+    """All lessons, grouped by unit."""
 
     DEFAULT_CSS = """
     LessonList {
@@ -82,21 +82,21 @@ class LessonList(RowList):
 
     @property
     def lesson_rows(self) -> list[LessonRow]:
-        """The rows of the lessons, in order."""
+        """The rows of lessons, in order."""
         return list(self.query(LessonRow))
 
     def show_lesson(self, lesson: Lesson) -> None:
-        """Mark the lesson that is shown."""
+        """Mark the row of the lesson that is shown."""
         for index, row in enumerate(self.children):
             if isinstance(row, LessonRow):
                 row.set_class(row.lesson is lesson, "-shown")
                 if row.lesson is lesson:
                     self.index = index
 
-    def show_states(self, known: Mapping[str, ExerciseState]) -> None:
-        """Show how each lesson stands, by its id."""
+    def show_states(self, states: Mapping[str, ExerciseState]) -> None:
+        """Show the learner's progress in each lesson, given by lesson id."""
         for row in self.lesson_rows:
-            row.state = known[row.lesson.id]
+            row.state = states[row.lesson.id]
             row.refresh()
         passed = sum(row.state.is_passed for row in self.lesson_rows)
         self.border_subtitle = f"{passed} of {len(self.lesson_rows)} passed"

@@ -42,11 +42,11 @@ class LessonView(VerticalScroll):
         yield Markdown(id="lesson-body", open_links=False)
 
     def watch_has_focus(self, _has_focus: bool) -> None:
-        """Style itself again, not its hundreds of children: the focus changes nothing of the text."""
+        """Restyle only this widget, not its hundreds of children: the focus does not change how the text looks."""
         self.app.stylesheet.update_nodes([self])
 
     async def show_lesson(self, lesson: Lesson) -> None:
-        """Show another lesson from its top."""
+        """Show a lesson, scrolled to its top."""
         files = ", ".join(file.name for file in lesson.files)
         head = Content.assemble(
             (f"{wording.label(lesson)}  {lesson.title}", "bold $primary"),
@@ -59,7 +59,7 @@ class LessonView(VerticalScroll):
         await self.query_one(Markdown).update(lesson.body)
 
     def on_click(self, event: events.Click) -> None:
-        """A command in an example is run in the terminal."""
+        """Run a clicked command of an example in the terminal."""
         above = self.screen.get_widget_at(*event.screen_offset)[0].ancestors_with_self
         fence = next((each for each in above if isinstance(each, MarkdownFence)), None)
         if fence is None or fence.lexer.partition(" ")[0] not in LANGUAGES:
@@ -70,7 +70,7 @@ class LessonView(VerticalScroll):
             self.post_message(messages.RunCommand(command))
 
     def go_to_line(self, line: int) -> None:
-        """Scroll to the block that holds a line of the body, counted from 0."""
+        """Scroll to and highlight the block with this line of the body (from 0)."""
         for block in self.query(MarkdownBlock):
             first, end = block.source_range
             if first <= line < end and not block.query(MarkdownBlock):

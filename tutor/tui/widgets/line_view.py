@@ -1,4 +1,4 @@
-"""A view of many lines of coloured text: the base of the code and the log."""
+"""A scrolling view of many lines of coloured text; the base of the code view and the log."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ Row = tuple[Piece, ...]
 
 
 class LineView(ScrollView, can_focus=True):
-    """Shows rows of pieces. A subclass names its kinds as component classes, `line--KIND`; so they follow the theme."""
+    """Shows rows of pieces. Subclasses declare the kinds as component classes `line--KIND`, which follow the theme."""
 
     DEFAULT_CSS = """
     LineView {
@@ -35,15 +35,15 @@ class LineView(ScrollView, can_focus=True):
         super().__init__(id=id)
         self.rows: Sequence[Row] = ()
         self.margins: Sequence[Piece] = ()
-        """What stands at the left of each row, whatever is scrolled sideways; all of one width, or none at all."""
+        """One margin per row, fixed at the left while the row scrolls sideways; all of one width. Empty for none."""
         self._base = Style()
 
     def show_rows(self, rows: Sequence[Row], margins: Sequence[Piece] = ()) -> None:
-        """Show other rows; the place that is looked at stays."""
+        """Replace the rows; the scroll position stays."""
         changed = [y for y, (old, new) in enumerate(zip_longest(self.rows, rows)) if old != new]
         if margins != self.margins:
             self.refresh()
-        elif changed:  # the rest need not be painted again, which is most of it where values come fast
+        elif changed:  # repaint no others: most rows stay the same while values arrive fast
             self.refresh_lines(changed[0], changed[-1] - changed[0] + 1)
         self.rows, self.margins = rows, margins
         widest = max((sum(cell_len(text) for text, _ in row) for row in rows), default=0)
@@ -51,7 +51,7 @@ class LineView(ScrollView, can_focus=True):
 
     @property
     def plain(self) -> str:
-        """The text, without the gutter."""
+        """The text without margins."""
         return "\n".join("".join(text for text, _ in row) for row in self.rows)
 
     @property
@@ -59,12 +59,12 @@ class LineView(ScrollView, can_focus=True):
         return cell_len(self.margins[0][0]) if self.margins else 0
 
     def render_lines(self, crop: Region) -> list[Strip]:
-        """Some rows of the screen. Their common style is worked out once: it takes longer than a row."""
+        """Render some rows, computing their common style once: it takes longer than rendering a row."""
         self._base = self.rich_style
         return super().render_lines(crop)
 
     def render_line(self, y: int) -> Strip:
-        """One row of the screen."""
+        """Render one row of the screen."""
         left, top = self.scroll_offset
         width, line = self.size.width, top + y
         base = self._base
@@ -98,5 +98,5 @@ class LineView(ScrollView, can_focus=True):
         return selection.extract(self.plain), "\n"
 
     def selection_updated(self, selection: Selection | None) -> None:
-        """Show what is selected."""
+        """Repaint with the new selection."""
         self.refresh()

@@ -1,4 +1,4 @@
-"""The log of the learner's node, what of it is shown, or how to get one."""
+"""The pane with the log of the learner's node and its filters; before the first run, how to start one."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ LEVELS = (Level.DEBUG, Level.INFO, Level.WARN, Level.ERROR)
 
 
 class LogPane(Vertical):
-    """A line on the node, a line on what is shown, and the log below."""
+    """A status line for the node, a line of filters, and the log below."""
 
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("escape", "end_filter", "All lines", show=True, key_display="Esc"),
@@ -65,9 +65,8 @@ class LogPane(Vertical):
         self.text = ""
         self.paused = False
         self._cleared_at = 0.0
-        self._shown = self._every = 0
+        self._shown_count = self._total_count = 0
         self._state: NodeState | None = None
-        self._lines: list[loglines.LogLine] = []
         self._frozen: NodeState | None = None
 
     def compose(self) -> ComposeResult:
@@ -77,19 +76,19 @@ class LogPane(Vertical):
         yield Input(placeholder="only lines with this text; Enter keeps it, Esc ends it", id="log-filter")
         yield Static(
             Content.assemble(
-                ("Nothing runs yet\n\n", "bold $foreground"),
+                ("Nothing is running yet\n\n", "bold $foreground"),
                 "Press ",
                 ("r", "bold $accent"),
-                " to run your node; what it logs and prints comes here.\n",
+                " to run your node; what it logs and prints appears here.\n",
                 ("o", "bold $accent"),
-                " sets parameters and remaps for it.",
+                " sets its parameters and remaps.",
             ),
             id="log-empty",
         )
         yield LogView(id="log-view")
 
     def show_nodes(self, states: Mapping[Path, NodeState], shown: Path | None) -> None:
-        """Name the nodes whose logs there are; with [ and ], or a click, another is chosen."""
+        """Show a tab for each node that has a log, if there are several; [ and ], or a click, choose another."""
         self.set_class(len(states) > 1, "-several")
         strip = self.query_one(TabStrip)
         with self.prevent(TabStrip.Turned):
@@ -98,18 +97,18 @@ class LogPane(Vertical):
         strip.refresh()
 
     def action_step(self, by: int) -> None:
-        """To the log of the next node, or the one before."""
+        """Show the log of the next node, or with a negative `by` of the previous one."""
         if self.has_class("-several"):
             self.query_one(TabStrip).action_step(by)
 
     @on(TabStrip.Turned)
-    def _turned(self, message: TabStrip.Turned) -> None:
+    def _tab_turned(self, message: TabStrip.Turned) -> None:
         message.stop()
         if message.tab:
             self.post_message(messages.NodeChosen(Path(message.tab)))
 
     def show(self, state: NodeState, domain: int, own: Sequence[Path], key: str = "r") -> None:
-        """Show a node and its log; `own` are the files whose traceback lines can be clicked, `key` stops it."""
+        """Show a node and its log. `own`: files whose lines in tracebacks can be clicked; `key` stops the node."""
         self.add_class("-filled")
         if self._state is not None and state.since > self._state.since and state.phase is Phase.STARTING:
             self.paused = False
@@ -124,27 +123,27 @@ class LogPane(Vertical):
         if not self.paused:
             self._show()
 
-    # --- what of it is shown ---
+    # --- filters ---
 
     def next_level(self) -> None:
-        """Show from the next level on."""
+        """Raise the lowest level that is shown; after the highest, start over."""
         self.level = LEVELS[(LEVELS.index(self.level) + 1) % len(LEVELS)]
         self._show()
 
     def pause(self) -> None:
-        """Stop or go on following."""
+        """Pause or resume."""
         self.paused = not self.paused
         self._show()
         if not self.paused:
             self.query_one(LogView).scroll_end(animate=False)
 
     def clear(self) -> None:
-        """Hide what has come so far."""
+        """Hide all lines so far."""
         self._cleared_at = time.time()
         self._show()
 
     def filter(self) -> None:
-        """Ask for the text that lines must hold."""
+        """Ask for a text that lines must contain."""
         self.add_class("-filtering")
         self.query_one(Input).focus()
 
@@ -171,12 +170,12 @@ class LogPane(Vertical):
         self.query_one(LogView).focus()
 
     def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
-        """There is only a filter to end where there is one."""
+        """Enable `end_filter` only while there is a filter."""
         return self.has_class("-filtering") if action == "end_filter" else True
 
     @property
     def error_place(self) -> tuple[Path, int] | None:
-        """Where the last traceback points in the learner's own code."""
+        """File and line in the learner's own code where the last traceback points; None without one."""
         lines = [loglines.parse_line(line) for line in self._state.lines] if self._state else []
         return loglines.last_place(lines, self.query_one(LogView).own)
 
@@ -188,8 +187,8 @@ class LogPane(Vertical):
             state = self._frozen = self._frozen or state
         else:
             self._frozen = None
-        every = [loglines.parse_line(line) for line in state.lines]
-        lines = loglines.matching_lines(every, self.level, self.text, self._cleared_at)
+        parsed = [loglines.parse_line(line) for line in state.lines]
+        lines = loglines.matching_lines(parsed, self.level, self.text, self._cleared_at)
         head: list[Row] = []
         if state.command:
             head.append(((" $       ", "quiet"), (state.command, "name")))
@@ -200,14 +199,14 @@ class LogPane(Vertical):
             mark, kind = ("!", "error") if state.failed else ("■", "quiet")
             at = time.strftime("%H:%M:%S", time.localtime(state.ended_at))
             tail = ((f" {mark}      {at}  ", kind), (f"{state.file}: {state.note}", kind))
-        self._shown, self._every = len(lines), len(every)
+        self._shown_count, self._total_count = len(lines), len(parsed)
         self.query_one(LogView).show_log(lines, head, tail)
         self._show_tools()
 
     def _show_tools(self) -> None:
-        self.query_one("#log-tools", Static).update(self._tools(self._shown, self._every))
+        self.query_one("#log-tools", Static).update(self._tools(self._shown_count, self._total_count))
 
-    def _tools(self, shown: int, every: int) -> Content:
+    def _tools(self, shown: int, total: int) -> Content:
         following = "following" if self.query_one(LogView).following else "scrolled up: End follows"
         level = "all levels" if self.level is LEVELS[0] else f"{self.level.name} and above"
         parts: list[Content | str | tuple[str, str]] = []
@@ -220,8 +219,8 @@ class LogPane(Vertical):
             on = (name == "pause" and self.paused) or (name == "filter" and self.text)
             link = Content.from_markup(f"[@click=screen.do('{name}')]$text[/]", text=text)
             parts += [(key, "bold $accent"), " ", link.stylize("bold $warn") if on else link, "   "]
-        if shown != every:
-            parts.append((f"{shown} of {every} lines", "$warn"))
+        if shown != total:
+            parts.append((f"{shown} of {total} lines", "$warn"))
         return Content.assemble(*parts)
 
 

@@ -1,4 +1,4 @@
-"""The log of the running node, its levels coloured, wrapped to the width; lines of tracebacks lead into the code."""
+"""The log of the running node: coloured by level, wrapped to the width, with links from tracebacks to the code."""
 
 from __future__ import annotations
 
@@ -19,19 +19,18 @@ from tutor.tui.loglines import LogLine
 from tutor.tui.messages import GoToLine
 from tutor.tui.widgets.line_view import LineView, Piece, Row
 
-UNBROKEN = 16
-"""A piece of a line that is not longer than this (cells) is not broken where the line is folded."""
+_MAX_UNBROKEN_CELLS = 16
+"""A piece of a line of at most this many cells is moved to the next row whole instead of being broken."""
 
-
-NAMED_FROM = 64
-"""From this many columns on a line names its node, also where all are of one."""
+_NAMES_MIN_WIDTH = 64
+"""From this many columns on, each line names its node, even if all lines are from the same one."""
 
 
 class LogView(LineView):
-    """Follows the end of the log, also while it is hidden, unless the learner has scrolled up or has paused it."""
+    """Follows the end of the log, even while hidden, unless the learner has scrolled up or paused it."""
 
     class Followed(Message):
-        """It follows the end now, or does no longer."""
+        """The view has begun or stopped following the end."""
 
     BINDINGS: ClassVar[list[BindingType]] = panel_bindings(commands.RUN, commands.STOP)
     COMPONENT_CLASSES: ClassVar[set[str]] = {
@@ -54,30 +53,30 @@ class LogView(LineView):
         super().__init__(id=id)
         self.following = True
         self.own: Sequence[Path] = ()
-        """The learner's own files: lines that name them can be clicked."""
+        """The learner's own files: lines that name one of them can be clicked."""
         self._lines: Sequence[LogLine] = ()
         self._head: Sequence[Row] = ()
         self._tail: Row = ()
         self._places: list[tuple[Path, int] | None] = []
 
     def show_log(self, lines: Sequence[LogLine], head: Sequence[Row] = (), tail: Row = ()) -> None:
-        """Show these lines; `head` and `tail` are our own words before and after them."""
+        """Show these lines; `head` and `tail` are rows of the tutor's own before and after them."""
         self._lines, self._head, self._tail = lines, head, tail
         self._lay_out()
 
     def watch_scroll_y(self, old_value: float, new_value: float) -> None:
-        """Stay where the learner has scrolled to; at the end, follow again."""
+        """Stop following when the learner scrolls up; follow again once they are at the end."""
         super().watch_scroll_y(old_value, new_value)
         if self.following != (at_end := self.is_vertical_scroll_end):
             self.following = at_end
             self.post_message(self.Followed())
 
     def on_resize(self, event: events.Resize) -> None:
-        """Wrap it for the new width."""
+        """Wrap the log to the new width."""
         self._lay_out()
 
     def on_click(self, event: events.Click) -> None:
-        """A line of a traceback leads to its place in the code."""
+        """Go from a line of a traceback to its place in the code."""
         row = event.y + self.scroll_offset.y
         if 0 <= row < len(self._places) and (place := self._places[row]) is not None:
             event.stop()
@@ -95,8 +94,8 @@ class LogView(LineView):
 
         for row in self._head:
             add(row)
-        # Where there is little room, the name that all lines share is the first to go.
-        named = width >= NAMED_FROM or len({line.name for line in self._lines if line.level is not None}) > 1
+        # In a narrow view, a name that all lines share is the first thing to drop.
+        named = width >= _NAMES_MIN_WIDTH or len({line.name for line in self._lines if line.level is not None}) > 1
         for line in self._lines:
             place = line.place if line.place is not None and line.place[0] in self.own else None
             add(_coloured(line, linked=place is not None, named=named), place)
@@ -105,7 +104,7 @@ class LogView(LineView):
         self._places = places
         self.show_rows(rows)
         if self.following:
-            # Forced: a scrollbar that is not laid out yet would keep it from scrolling at all.
+            # Forced: without a scrollbar laid out, Textual would not scroll at all.
             self.scroll_end(animate=False, immediate=True, force=True, x_axis=False)
 
 
@@ -113,10 +112,10 @@ def _coloured(line: LogLine, *, linked: bool, named: bool) -> Row:
     if line.level is not None:
         at = time.strftime("%H:%M:%S", time.localtime(line.stamp))
         kind = line.level.name.lower()
-        loud = "" if line.level is Level.INFO else kind
+        message_kind = "" if line.level is Level.INFO else kind
         head = (f" {line.level.name:<5} ", kind)
         name = f"{line.name}  " if named else ""
-        return (head, (f" {at}  ", "quiet"), (name, "name"), (line.message, loud))
+        return (head, (f" {at}  ", "quiet"), (name, "name"), (line.message, message_kind))
     if not line.stderr:
         return ((" print  ", "quiet"), (line.text, ""))
     if linked:
@@ -125,7 +124,7 @@ def _coloured(line: LogLine, *, linked: bool, named: bool) -> Row:
 
 
 def _wrapped(pieces: Row, width: int) -> Iterable[Row]:
-    """Fold one line into rows; the second and further ones are set in. A short piece moves on whole."""
+    """Fold one line into rows, the second and later ones indented. A short piece moves to the next row whole."""
     if sum(cell_len(text) for text, _ in pieces) <= width:
         return [pieces]
     indent = 8
@@ -137,8 +136,8 @@ def _wrapped(pieces: Row, width: int) -> Iterable[Row]:
                 rows[-1].append((text, kind))
                 room -= cell_len(text)
                 break
-            whole = room < width - indent and cell_len(text) <= UNBROKEN
-            head = chop_cells(text, room)[0] if room > 1 and not whole else ""
+            moves_whole = room < width - indent and cell_len(text) <= _MAX_UNBROKEN_CELLS
+            head = chop_cells(text, room)[0] if room > 1 and not moves_whole else ""
             if head:
                 rows[-1].append((head, kind))
             text = text[len(head) :]

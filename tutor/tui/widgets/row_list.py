@@ -1,4 +1,4 @@
-"""A list of rows, one of which is chosen with the arrows, Home and End."""
+"""A list whose chosen row moves with the arrows, Home and End."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from textual.widgets import ListView
 
 
 class RowList(ListView):
-    """Home and End choose the first and the last row, where Textual's own only scrolls."""
+    """A ListView in which Home and End choose the first and last row; Textual's own only scrolls."""
 
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("home", "first", show=False),
@@ -17,11 +17,11 @@ class RowList(ListView):
     ]
 
     def action_first(self) -> None:
-        """Choose the first row that can be chosen."""
+        """Choose the first enabled row."""
         self._choose(range(len(self)))
 
     def action_last(self) -> None:
-        """Choose the last one."""
+        """Choose the last enabled row."""
         self._choose(range(len(self) - 1, -1, -1))
 
     def _choose(self, order: range) -> None:

@@ -1,4 +1,4 @@
-"""The line at the top: which lesson, and what is going on right now."""
+"""The line at the top: the lesson, and what is going on right now."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from tutor.session.node import NodeState, Phase
 from tutor.tui import wording
 from tutor.tui.widgets.steady_static import SteadyStatic
 
-WIDE = 100
-"""From this many columns on, what runs is named."""
+_WIDE_COLUMNS = 100
+"""From this many columns on, running nodes are named and progress is drawn as a bar."""
 
 
 class StatusBar(Horizontal):
-    """Name of the program, the lesson, the check and the node."""
+    """The program's name, the lesson, the check and the node."""
 
     DEFAULT_CSS = """
     StatusBar {
@@ -57,17 +57,17 @@ class StatusBar(Horizontal):
         self.query_one("#bar-lesson", Static).update(text)
 
     def show_progress(self, passed: int, total: int) -> None:
-        """Say how many exercises are passed; of the bar, each has two cells."""
+        """Show how many exercises are passed, each as two cells of a bar."""
         self._passed = passed, total
         self._show_progress()
 
     def on_resize(self) -> None:
-        """In a narrow terminal the numbers alone."""
+        """Show only the numbers in a narrow terminal."""
         self._show_progress()
 
     def _show_progress(self) -> None:
         passed, total = self._passed
-        if self.app.size.width >= WIDE:
+        if self.app.size.width >= _WIDE_COLUMNS:
             bar = (("━━" * passed, "$good"), ("━━" * (total - passed), "$line"))
             text = Content.assemble(*bar, f" {passed} of {total} passed")
         else:
@@ -75,32 +75,33 @@ class StatusBar(Horizontal):
         self.query_one("#bar-progress", Static).update(text)
 
     def show_check(self, findings: Findings | None) -> None:
-        """Say how far the running check is; nothing where none runs."""
+        """Show the progress of the running check; nothing if none is running."""
         text = (
             f"checking {findings.exercise.upper()} {findings.fraction:4.0%}" if findings and findings.checking else ""
         )
-        place = self.query_one("#bar-check", Static)
-        place.update(text)
-        place.display = bool(text)
+        static = self.query_one("#bar-check", Static)
+        static.update(text)
+        static.display = bool(text)
 
     def show_nodes(self, states: Sequence[NodeState], domain: int) -> None:
-        """Say which nodes run, and on which domain."""
+        """Show which nodes are running, and on which domain."""
         alive = [state for state in states if state.alive]
         busy = [state for state in alive if state.phase is not Phase.RUNNING]
         if busy:
             text = Content.assemble(("◐ ", "$warn"), (f"{busy[0].phase.value} {busy[0].file}", "$warn"))
         elif alive:
-            wide = self.app.size.width >= WIDE  # else the lesson's title is worth more than the file's name
+            # In a narrow terminal, the lesson's title matters more than the file's name.
+            wide = self.app.size.width >= _WIDE_COLUMNS
             names = " and ".join(state.file for state in alive) if wide or len(alive) > 1 else ""
-            about = f"{names} · domain {domain}" if names else f"· domain {domain}"
-            text = Content.assemble(("● ", "$good"), ("running ", "$good"), (about, "$foreground"))
+            details = f"{names} · domain {domain}" if names else f"· domain {domain}"
+            text = Content.assemble(("● ", "$good"), ("running ", "$good"), (details, "$foreground"))
         else:
             text = Content.assemble(("○ ", "$quiet"), f"domain {domain}")
         self.query_one("#bar-node", Static).update(text)
 
     def show_toggles(self, *, check: bool, restart: bool) -> None:
-        """Say what happens on each save."""
+        """Show what each save triggers."""
         both = " and ".join(word for word, on in (("checks", check), ("restarts", restart)) if on)
-        place = self.query_one("#bar-save", Static)
-        place.update(Content.assemble(("⟳ ", "$accent"), f"a save {both}"))
-        place.display = bool(both)
+        static = self.query_one("#bar-save", Static)
+        static.update(Content.assemble(("⟳ ", "$accent"), f"a save {both}"))
+        static.display = bool(both)

@@ -1,4 +1,4 @@
-"""A Static for text that is updated often and seldom changes."""
+"""A Static for text that is updated often but rarely changes."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from textual.widgets import Static
 
 
 class SteadyStatic(Static):
-    """A Static that skips updates with the text it already shows: each would lay out and paint the whole screen again.
+    """A Static that ignores updates to the text it already shows: each would lay out and repaint the whole screen.
 
     A running node causes such updates with each line of its log and each change of its graph.
     """
 
     def update(self, content: VisualType = "", *, layout: bool = True) -> None:
-        """Show this text."""
+        """Show this text, unless it is shown already."""
         if not _same(content, self.content):
             super().update(content, layout=layout)
 

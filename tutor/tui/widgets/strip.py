@@ -1,4 +1,4 @@
-"""Two one-line widgets: tabs, and the actions that go now with their keys. Both by key and by mouse."""
+"""Two one-line widgets for keyboard and mouse: tabs, and the actions available now with their keys."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from textual.message import Message
 from textual.reactive import reactive
 from textual.widget import Widget
 
-_BETWEEN_TABS = 1
-_BETWEEN_ACTIONS = 3
+_TAB_GAP = 1
+_ACTION_GAP = 3
 
 
 class TabStrip(Widget, can_focus=True):
-    """Tabs in one line. A label may change at any time: it carries counts."""
+    """Tabs on one line. Labels may change at any time, since they can carry counts."""
 
     DEFAULT_CSS = """
     TabStrip { height: 1; width: 1fr; background: $panel; color: $quiet; padding: 0 1; text-wrap: nowrap; }
@@ -28,7 +28,7 @@ class TabStrip(Widget, can_focus=True):
         Binding("right", "step(1)", "Next tab", show=False),
     ]
     active = reactive("", repaint=False)
-    """Repainted by the handler of `Turned`, with the page: a strip that is drawn first makes the page wait a frame."""
+    """The handler of `Turned` repaints the strip with the page: painting it first would delay the page by a frame."""
     labels: reactive[dict[str, str]] = reactive({})
 
     class Turned(Message):
@@ -44,22 +44,22 @@ class TabStrip(Widget, can_focus=True):
         self.set_reactive(TabStrip.active, next(iter(labels)))
 
     def watch_active(self, name: str) -> None:
-        """Tell it."""
+        """Post `Turned`."""
         self.post_message(self.Turned(name))
 
     def action_step(self, by: int) -> None:
-        """To the next one, or the one before."""
+        """Turn to the next tab, or with a negative `by` to the previous one."""
         names = list(self.labels)
         self.active = names[(names.index(self.active) + by) % len(names)]
 
     def on_click(self, event: events.Click) -> None:
-        """To the one under the pointer."""
-        if (name := _at(event, zip(self.labels, self._parts(), strict=True), _BETWEEN_TABS)) is not None:
+        """Turn to the clicked tab."""
+        if (name := _clicked_part(event, zip(self.labels, self._parts(), strict=True), _TAB_GAP)) is not None:
             self.active = name
 
     def render(self) -> Content:
-        """All labels; the active one stands out by more than its colour, and in the others the letter that is a key."""
-        return Content(" " * _BETWEEN_TABS).join(self._parts())
+        """All labels. The active one stands out by more than colour; in the others the key's letter stands out."""
+        return Content(" " * _TAB_GAP).join(self._parts())
 
     def _parts(self) -> list[Content]:
         return [
@@ -75,11 +75,11 @@ class TabStrip(Widget, can_focus=True):
 
 
 Action = tuple[str, str, str]
-"""A key as it is read, what it does, and the action's name on the panel around."""
+"""A key as displayed, a label, and the name of the action on the parent widget."""
 
 
 class ActionBar(Widget):
-    """What can be done now: keys to read, words to click."""
+    """The actions available now: keys to press, labels to click."""
 
     DEFAULT_CSS = """
     ActionBar { height: 1; width: 1fr; color: $quiet; padding: 0 1; background: $surface; text-wrap: nowrap; }
@@ -91,22 +91,22 @@ class ActionBar(Widget):
         self.set_reactive(ActionBar.actions, tuple(actions))
 
     async def on_click(self, event: events.Click) -> None:
-        """Do the one under the pointer, on the panel around."""
+        """Run the clicked action on the parent widget."""
         parts = zip((action for _, _, action in self.actions), self._parts(), strict=True)
-        if (action := _at(event, parts, _BETWEEN_ACTIONS)) is not None and isinstance(self.parent, Widget):
+        if (action := _clicked_part(event, parts, _ACTION_GAP)) is not None and isinstance(self.parent, Widget):
             await self.parent.run_action(action)
 
     def render(self) -> Content:
-        """Key and word of each."""
-        joined = Content(" " * _BETWEEN_ACTIONS).join(self._parts())
+        """Key and label of each action."""
+        joined = Content(" " * _ACTION_GAP).join(self._parts())
         return joined.truncate(self.content_size.width, ellipsis=True)
 
     def _parts(self) -> list[Content]:
         return [Content.assemble((key, "bold $accent"), f" {label}") for key, label, _ in self.actions]
 
 
-def _at(event: events.Click, parts: Iterable[tuple[str, Content]], between: int) -> str | None:
-    """The name of the part that was clicked, where they stand in one line."""
+def _clicked_part(event: events.Click, parts: Iterable[tuple[str, Content]], gap: int) -> str | None:
+    """Return the name of the clicked part; the parts are on one line, `between` cells apart."""
     offset = event.get_content_offset(event.widget) if event.widget is not None else None
     if offset is None:
         return None
@@ -114,5 +114,5 @@ def _at(event: events.Click, parts: Iterable[tuple[str, Content]], between: int)
     for name, part in parts:
         if start <= offset.x < start + part.cell_length:
             return name
-        start += part.cell_length + between
+        start += part.cell_length + gap
     return None
