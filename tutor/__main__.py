@@ -1,4 +1,4 @@
-"""`python -I -m tutor`: what `ros-tutor` runs."""
+"""`python -I -m tutor`, which the `ros-tutor` command runs."""
 
 from __future__ import annotations
 
@@ -12,25 +12,26 @@ if TYPE_CHECKING:
 
     from _typeshed import Unused
 
-_INTERRUPTED = 130
+_SIGINT_EXIT_CODE = 130
 
 
-def _interrupted(*_: Unused) -> NoReturn:
-    os._exit(_INTERRUPTED)
+def _exit_interrupted(*_: Unused) -> NoReturn:
+    os._exit(_SIGINT_EXIT_CODE)
 
 
-def _not_lost(lost: sys.UnraisableHookArgs) -> None:
-    """Where Ctrl+C falls into a destructor or a callback of Python's, it would only be printed."""
-    if lost.exc_type is KeyboardInterrupt:
-        _interrupted()
-    sys.__unraisablehook__(lost)
+def _unraisable_hook(unraisable: sys.UnraisableHookArgs) -> None:
+    """Exit on a Ctrl+C that lands in a destructor or callback, where Python would only print the exception."""
+    if unraisable.exc_type is KeyboardInterrupt:
+        _exit_interrupted()
+    sys.__unraisablehook__(unraisable)
 
 
 if __name__ == "__main__":
-    ours = signal.getsignal(signal.SIGINT) is signal.default_int_handler  # not ignored, as in a job of the background
-    sys.unraisablehook = _not_lost
-    if ours:  # nothing has begun while this is imported
-        signal.signal(signal.SIGINT, _interrupted)
+    # False in a background job, where SIGINT is ignored.
+    handles_sigint = signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    sys.unraisablehook = _unraisable_hook
+    if handles_sigint:  # during the imports there is nothing to clean up
+        signal.signal(signal.SIGINT, _exit_interrupted)
     from tutor.interpreter import answer_ctrl_c, collect_garbage_seldom
 
     answer_ctrl_c()
@@ -38,10 +39,10 @@ if __name__ == "__main__":
     from tutor.cli import main
 
     try:
-        if ours:
+        if handles_sigint:
             signal.signal(signal.SIGINT, signal.default_int_handler)
         code = main()
-        signal.signal(signal.SIGINT, signal.SIG_IGN)  # all is said
+        signal.signal(signal.SIGINT, signal.SIG_IGN)  # nothing is left to interrupt
     except KeyboardInterrupt:
-        _interrupted()
+        _exit_interrupted()
     sys.exit(code)

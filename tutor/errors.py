@@ -1,11 +1,11 @@
-"""Everything that ros-tutor can have to say in place of doing what was asked, as one tree under TutorError.
+"""All errors of ros-tutor, as one hierarchy under TutorError.
 
-- UserError, what was asked for cannot be done as asked: UsageError, UnknownExercise, CommandRefused, CommandError,
+- UserError: the request cannot be carried out as given. UsageError, UnknownExercise, CommandRefused, CommandError,
   EditorError, WorkspaceError (SubmissionError)
-- StorageError, the machine refuses to read or write; ServeError (NoAddress), the app cannot be served
+- StorageError: the machine refuses to read or write; ServeError (NoAddress): the app cannot be served
 - ContentError, TableError: the course is broken
 - UnknownType, ProbeFailed, InterfacesNotBuiltError: this ROS lacks something
-- Fault, a check cannot be carried out, by the tool or the machine: EngineError, NoFreeDomain, MachineTooBusy,
+- Fault: the tool or the machine cannot carry out a check. EngineError, NoFreeDomain, MachineTooBusy,
   NeedsInstalledRos, ProcessError (StartError, EndError)
 """
 
@@ -18,9 +18,9 @@ from tutor.invocation import command
 
 
 class TutorError(Exception):
-    """The message is one line. `hint` says what to do about it; empty where the message itself does.
+    """Base class. The message is one line. `hint` says what to do about it, and is empty if the message does.
 
-    `exit_code` is what a command ends with: 2 for wrong usage, 3 for a fault of the tool or the machine.
+    `exit_code` is the exit code of a command: 2 for wrong usage, 3 for a fault of the tool or the machine.
     """
 
     exit_code = 3
@@ -30,39 +30,39 @@ class TutorError(Exception):
         self.hint = hint
 
 
-# --- what was asked for cannot be done as asked ---
+# --- the request cannot be carried out as given ---
 
 
 class UserError(TutorError):
-    """Something that was asked for cannot be done as asked; the message says what can be."""
+    """The request cannot be carried out as given; the message says what is possible."""
 
     exit_code = 2
 
 
 class UsageError(UserError):
-    """The command line asks for something that there is not."""
+    """The command line is wrong."""
 
 
 class UnknownExercise(UserError):
-    """Nobody knows this exercise. The message names the known ones, and the one that was probably meant."""
+    """There is no such exercise. The message lists all exercises, and the one that was probably meant."""
 
     def __init__(self, text: str, known: Sequence[str]) -> None:
-        from difflib import get_close_matches  # late: every `ros2` command imports this module
+        from difflib import get_close_matches  # imported late: every `ros2` command imports this module
 
         self.text = text
         self.known = tuple(known)
-        near = get_close_matches(text.strip().lower().replace("_", "."), self.known, n=1, cutoff=0.5)
-        self.nearest = near[0] if near else None
+        matches = get_close_matches(text.strip().lower().replace("_", "."), self.known, n=1, cutoff=0.5)
+        self.nearest = matches[0] if matches else None
         guess = f" Did you mean {self.nearest}?" if self.nearest else ""
         super().__init__(f"There is no exercise {text!r}.{guess} The exercises are: {', '.join(self.known)}.")
 
 
 class CommandRefused(UserError):
-    """A command of the plain dialog cannot be done now."""
+    """A command of the plain dialog is not possible at the moment."""
 
 
 class CommandError(UserError):
-    """A command of `ros2` cannot be done; the message goes to stderr as it stands. `code` is the exit code."""
+    """A `ros2` command failed; the message goes to stderr verbatim. `code` is the exit code."""
 
     def __init__(self, text: str, code: int = 1) -> None:
         super().__init__(text)
@@ -74,14 +74,14 @@ class EditorError(UserError):
 
 
 class WorkspaceError(UserError):
-    """A workspace cannot be used as asked."""
+    """A workspace cannot be used as requested."""
 
 
 class SubmissionError(WorkspaceError):
-    """The files to check are not there, or cannot be read."""
+    """The files to check are missing or unreadable."""
 
 
-# --- the machine, the course, and the ROS that is there ---
+# --- the machine, the course, and the ROS in use ---
 
 
 class ServeError(TutorError):
@@ -89,7 +89,7 @@ class ServeError(TutorError):
 
 
 class NoAddress(ServeError):
-    """The host that was asked for is none of this machine's addresses."""
+    """The requested host is not an address of this machine."""
 
     exit_code = 2
 
@@ -104,9 +104,9 @@ class StorageError(TutorError):
 
 
 class ContentError(TutorError):
-    """A course file is broken: its author's mistake, never a learner's.
+    """A course file is broken, which is its author's mistake, never a learner's.
 
-    `line` counts from 1; None means the whole file. `field` is the field's place in it, as in `criteria[2].hint`.
+    `line` counts from 1; None means the whole file. `field` is the path of the field, such as `criteria[2].hint`.
     """
 
     def __init__(self, file: Path, message: str, *, line: int | None = None, field: str = "") -> None:
@@ -119,15 +119,15 @@ class ContentError(TutorError):
 
 
 class TableError(TutorError, ValueError):
-    """A table of known exceptions that cannot be used: says which file and entry, and what is wrong there."""
+    """A table of known exceptions is invalid. The message names the file and entry, and what is wrong there."""
 
 
 class UnknownType(TutorError, LookupError):
-    """A type name that this ROS does not have."""
+    """A type name that is unknown to this ROS."""
 
 
 class ProbeFailed(TutorError):
-    """A probe of the doctor did not do what it should."""
+    """A probe of the doctor failed."""
 
 
 class InterfacesNotBuiltError(TutorError, RuntimeError):
@@ -138,7 +138,7 @@ class InterfacesNotBuiltError(TutorError, RuntimeError):
 
 
 class Fault(TutorError):
-    """A fault of the tool or the machine, never of the learner. Without a hint, the doctor is pointed to."""
+    """A fault of the tool or the machine, never of the learner. The default hint points to the doctor."""
 
     def __init__(self, what: str, hint: str = "") -> None:
         super().__init__(what, hint or f"run `{command('doctor')}` to see what is wrong with this machine")
@@ -149,7 +149,7 @@ class EngineError(Fault):
 
 
 class NoFreeDomain(Fault):
-    """Every domain id is taken."""
+    """All domain ids are in use."""
 
     def __init__(self) -> None:
         super().__init__(
@@ -167,18 +167,18 @@ class StartError(ProcessError):
 
 
 class EndError(ProcessError):
-    """Some process could not be ended, although SIGKILL was sent to it."""
+    """Some process could not be ended, not even by SIGKILL."""
 
 
 class MachineTooBusy(Fault):
-    """The machine ran the learner's node too seldom to tell its own slowness from the node's."""
+    """The machine gave the learner's node so little CPU time that its slowness cannot be told from the node's."""
 
     def __init__(self, what: str) -> None:
         super().__init__(what, "close what keeps this machine busy, then check again")
 
 
 class NeedsInstalledRos(Fault):
-    """The learner uses something of a full ROS 2 that is not there without one: nothing can be said about it here."""
+    """The learner uses a part of ROS 2 that only a full installation has, so the node cannot be judged here."""
 
     def __init__(self, what: str) -> None:
         super().__init__(what, "install ROS 2 Jazzy, source its setup file, and check again")

@@ -1,4 +1,4 @@
-"""How this program was started, so that the commands that its texts name can be typed as they stand."""
+"""How this program was started, so that the commands shown in its texts can be typed verbatim."""
 
 from __future__ import annotations
 
@@ -12,38 +12,38 @@ from pathlib import Path
 
 PROGRAM = "ros-tutor"
 VARIABLE = "ROS_TUTOR_STARTED_AS"
-"""Holds a process id and how that process, or its child, was started. It says nothing to anybody further down: in a
-terminal that was opened from here, the program may have another name."""
+"""Holds a process id and the name by which that process was started. It only counts for that process and its children:
+in a terminal opened from here, the program may have another name."""
 
 _COMMAND_IN_TEXT = re.compile(r"(^|`|\$ )ros-tutor(?=\s|`|$)", re.MULTILINE)
 
 
 def program() -> str:
-    """The word, or path, by which this program was started: `./ros-tutor` in a clone, `ros-tutor` where installed."""
+    """Return the name or path by which this program was started: `./ros-tutor` in a clone, `ros-tutor` if installed."""
     return detect_program_name(os.environ, sys.argv)
 
 
 def command(*words: str | Path) -> str:
-    """A command of this program, as it can be typed: `command("check", "i1.1")`."""
+    """Return a command of this program as the user can type it. Example: `command("check", "i1.1")`."""
     return " ".join([program(), *(shlex.quote(str(word)) for word in words)])
 
 
 def with_program_name(text: str) -> str:
-    """A text in which the commands of this program, written `ros-tutor ...`, are as they can be typed."""
-    word = program()
-    return text if word == PROGRAM else _COMMAND_IN_TEXT.sub(lambda found: found[1] + word, text)
+    """Replace `ros-tutor` in the commands shown in a text with the name that the user can type."""
+    name = program()
+    return text if name == PROGRAM else _COMMAND_IN_TEXT.sub(lambda match: match[1] + name, text)
 
 
 def export_program_name() -> None:
-    """Let the processes that are started from this one (the engine, a served app) name its commands as it does."""
+    """Make the children of this process (the engine, a served app) use the same program name."""
     os.environ[VARIABLE] = f"{os.getpid()} {program()}"
 
 
 def detect_program_name(environ: Mapping[str, str], argv: Sequence[str]) -> str:
-    """What `program` says, from these facts."""
-    process, _, word = environ.get(VARIABLE, "").partition(" ")
-    if word and process in (str(os.getpid()), str(os.getppid())):
-        return word if word == PROGRAM else shlex.quote(word)
+    """Return what `program` does, given an environment and argv."""
+    pid, _, name = environ.get(VARIABLE, "").partition(" ")
+    if name and pid in (str(os.getpid()), str(os.getppid())):
+        return name if name == PROGRAM else shlex.quote(name)
     started = argv[0] if argv else ""
     if os.path.basename(started) != PROGRAM or started in (PROGRAM, shutil.which(PROGRAM)):
         return PROGRAM

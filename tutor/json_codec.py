@@ -1,4 +1,4 @@
-"""JSON by the types of our dataclasses. What is read is checked against them: a ValueError tells what does not fit."""
+"""JSON from and to our dataclasses. Input is validated against their types; a ValueError says what is wrong."""
 
 from __future__ import annotations
 
@@ -8,23 +8,23 @@ from typing import Any
 
 
 class LineCodec[T]:
-    """Objects of several dataclasses, each as one line of JSON; `tag` is the key under which its class is named."""
+    """Encodes objects of several dataclasses as one line of JSON each, with the class name under the key `tag`."""
 
     def __init__(self, tag: str, kinds: Iterable[type[T]]) -> None:
         self._tag = tag
         self._kinds = {kind.__name__: kind for kind in kinds}
 
     def encode(self, value: T) -> str:
-        """Write it, without the line's end.
+        """Encode an object, without a trailing newline.
 
-        In ASCII: the same bytes in every locale, and no character that some reader would take for a line's end.
+        The result is ASCII: the same bytes in any locale, and no character that a reader could take for a line break.
         """
-        import msgspec  # late, as below: the first paint does not wait for it
+        import msgspec  # imported late, as below, so that it does not delay the first paint
 
         return json.dumps({self._tag: type(value).__name__, **msgspec.to_builtins(value)})
 
     def decode(self, line: str) -> T:
-        """Read what `encode` wrote. Raises ValueError for any other line."""
+        """Decode a line from `encode`. Raises ValueError for any other line."""
         import msgspec
 
         try:
@@ -35,14 +35,14 @@ class LineCodec[T]:
 
 
 def write_document(schema: str, **members: Any) -> str:
-    """One of our files as JSON, to be read by people, too: `schema` names its format and version."""
+    """Return the JSON text of one of our files, readable for people too. `schema` names its format and version."""
     import msgspec
 
     return json.dumps({"schema": schema, **msgspec.to_builtins(members)}, ensure_ascii=False, indent=1) + "\n"
 
 
 def read_document(text: str, schema: str) -> dict[str, Any]:
-    """The members of what `write_document` wrote, for `read_member`. Raises ValueError, which says what is wrong."""
+    """Return the members of a document from `write_document`, to be passed to `read_as`. Raises ValueError."""
     try:
         document = json.loads(text)
         found = document["schema"]
@@ -56,7 +56,7 @@ def read_document(text: str, schema: str) -> dict[str, Any]:
 
 
 def read_as[T](kind: type[T], value: Any) -> T:
-    """A value of JSON as this type. Raises ValueError; members that the type does not know are passed over."""
+    """Convert a JSON value to a type, ignoring members that the type does not have. Raises ValueError."""
     import msgspec
 
     try:

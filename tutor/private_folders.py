@@ -1,6 +1,6 @@
-"""Folders for temporary files that nobody else of the machine can have prepared or can look into.
+"""Temporary folders that no other user of the machine can prepare or read.
 
-They lie in one folder of the user's. Making one removes those whose makers were killed: who lives, holds a lock.
+They are inside one folder per user. Creating one removes the leftovers of killed processes: a live one holds a lock.
 """
 
 from __future__ import annotations
@@ -15,18 +15,18 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 
-_FOLDER = os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW | os.O_CLOEXEC
+_FOLDER_FLAGS = os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW | os.O_CLOEXEC
 
 
 def base() -> Path:
-    """The user's own folder, made where it is missing: another one where somebody has taken its name.
+    """Return the user's own folder, created if missing, under another name if someone else has taken the usual one.
 
-    Raises OSError where no temporary file can be written.
+    Raises OSError if no temporary files can be written.
     """
     try:
         temporary = Path(tempfile.gettempdir())
     except FileNotFoundError:
-        text = "no folder for temporary files can be written to; set TMPDIR to one that can: export TMPDIR=$HOME/tmp"
+        text = "no folder for temporary files is writable; set TMPDIR to one that is: export TMPDIR=$HOME/tmp"
         raise OSError(text) from None
     name = f"ros-tutor-{os.getuid()}"
     with contextlib.suppress(OSError):
@@ -38,33 +38,33 @@ def base() -> Path:
 
 
 def logs(environ: Mapping[str, str] = os.environ) -> Path:
-    """Where nodes that the user runs keep their log files: where they say, else in `base`. Raises OSError."""
+    """Return the log folder for nodes that the user runs: ROS_LOG_DIR, else one in `base`. Raises OSError."""
     return Path(environ.get("ROS_LOG_DIR") or base() / "log")
 
 
 def contains(path: Path) -> bool:
-    """Whether a path is in `base`: not a place of the user's own. Raises OSError."""
+    """Return whether a path is in `base`, and so not chosen by the user. Raises OSError."""
     return path.is_relative_to(base())
 
 
 def create(name: str) -> tuple[Path, int]:
-    """A new folder in `base`, and its descriptor, to be kept open for as long as the folder is used. Raises OSError."""
-    around = os.open(base(), _FOLDER)
+    """Create a folder in `base`. Return it with its descriptor, to be kept open while it is in use. Raises OSError."""
+    parent_handle = os.open(base(), _FOLDER_FLAGS)
     try:
-        fcntl.flock(around, fcntl.LOCK_EX)  # a folder that has just been made is not locked yet
-        place = Path(os.readlink(f"/proc/self/fd/{around}"))
-        _sweep(place)
-        path = Path(tempfile.mkdtemp(prefix=f"{name}.", dir=place))
-        handle = os.open(path, _FOLDER)
+        fcntl.flock(parent_handle, fcntl.LOCK_EX)  # or another process could sweep the new folder before it is locked
+        parent = Path(os.readlink(f"/proc/self/fd/{parent_handle}"))
+        _sweep(parent)
+        path = Path(tempfile.mkdtemp(prefix=f"{name}.", dir=parent))
+        handle = os.open(path, _FOLDER_FLAGS)
         fcntl.flock(handle, fcntl.LOCK_EX)
         return path, handle
     finally:
-        os.close(around)
+        os.close(parent_handle)
 
 
 @contextmanager
 def temporary(name: str) -> Iterator[Path]:
-    """A new folder, gone after the block. Raises OSError."""
+    """Create a folder that is removed after the `with` block. Raises OSError."""
     path, handle = create(name)
     try:
         yield path
@@ -74,7 +74,7 @@ def temporary(name: str) -> Iterator[Path]:
 
 
 def until_exit(name: str) -> Path:
-    """A new folder that lasts as long as this process. Raises OSError."""
+    """Create a folder that lasts as long as this process. Raises OSError."""
     path, _ = create(name)
     atexit.register(_remove, path)
     return path
@@ -82,7 +82,7 @@ def until_exit(name: str) -> Path:
 
 def _is_ours(path: Path) -> bool:
     try:
-        handle = os.open(path, _FOLDER)
+        handle = os.open(path, _FOLDER_FLAGS)
     except OSError:
         return False
     try:
@@ -96,10 +96,10 @@ def _is_ours(path: Path) -> bool:
         os.close(handle)
 
 
-def _sweep(place: Path) -> None:
-    for path in place.glob("*.*"):
+def _sweep(parent: Path) -> None:
+    for path in parent.glob("*.*"):
         with contextlib.suppress(OSError):
-            handle = os.open(path, _FOLDER)
+            handle = os.open(path, _FOLDER_FLAGS)
             try:
                 fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
                 _remove(path)

@@ -1,4 +1,4 @@
-"""Foreign text made safe to show: what comes from a node, a file or a name never steers a terminal."""
+"""Makes foreign text safe to show: text from a node, a file or a file name must never control the terminal."""
 
 from __future__ import annotations
 
@@ -6,7 +6,8 @@ import io
 import re
 from typing import TextIO
 
-_UNSAFE = "\x00-\x08\x0b-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069\ufffe\uffff"  # controls, and what turns the direction
+# Control characters and direction overrides.
+_UNSAFE = "\x00-\x08\x0b-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069\ufffe\uffff"
 _CONTROL = re.compile(f"[{_UNSAFE}]")
 _NOT_COLOR = re.compile(rf"(?!\x1b\[[\d;]*m)[{_UNSAFE}]")
 _SEQUENCE = re.compile(r"\x1b(?:\[[0-?]*[ -/]*[@-~]|\][^\x07\x1b]*(?:\x07|\x1b\\)?|[@-Z\\^_])")
@@ -15,37 +16,37 @@ _REPLACEMENT = "\N{REPLACEMENT CHARACTER}"
 
 
 def escape_controls(text: str, *, colors: bool = False) -> str:
-    """Show control characters, and those that turn the direction of text, as escapes; with `colors`, all but colours.
+    """Escape control characters and text direction overrides; with `colors`, keep color sequences.
 
-    Line ends and tabs stay.
+    Newlines and tabs are kept.
     """
     unsafe = _NOT_COLOR if colors else _CONTROL
-    return unsafe.sub(lambda found: found[0].encode("unicode_escape").decode(), text)
+    return unsafe.sub(lambda match: match[0].encode("unicode_escape").decode(), text)
 
 
 def printable(text: str) -> str:
-    """As `escape_controls`, with spaces for tabs; what is not valid Unicode becomes a replacement character."""
+    """Like `escape_controls`, but with tabs as spaces, and a replacement character for invalid Unicode."""
     return escape_controls(_SURROGATE.sub(_REPLACEMENT, text.replace("\r\n", "\n").expandtabs(4)))
 
 
 def strip_ansi(text: str, tab: int = 4) -> str:
-    """One line of a program's output without its colours, titles and moves of the cursor; tabs as spaces."""
+    """Strip colors, titles and cursor movements from one line of a program's output, with tabs as spaces."""
     if text.isprintable():
         return text
     return _replace_controls(_SEQUENCE.sub("", text).rstrip("\r"), _REPLACEMENT).expandtabs(tab)
 
 
 def strip_controls(text: str) -> str:
-    """Text that takes as many cells of a screen as the one given, with nothing in it that a terminal obeys."""
+    """Remove everything that controls a terminal; the result takes up as many screen cells as the original."""
     return text if text.isprintable() else _replace_controls(text.replace("\t", "").replace("\n", ""), "")
 
 
 def guard_terminal(stream: TextIO) -> TextIO:
-    """The stream; where it is a terminal, one in front of it to which nothing but text and colours comes through."""
-    return _ToTerminal(stream) if isinstance(stream, io.TextIOWrapper) and stream.isatty() else stream
+    """Return the stream, wrapped if it is a terminal so that only text and colors get through."""
+    return _SafeTerminal(stream) if isinstance(stream, io.TextIOWrapper) and stream.isatty() else stream
 
 
-class _ToTerminal(io.TextIOWrapper):
+class _SafeTerminal(io.TextIOWrapper):
     def __init__(self, stream: io.TextIOWrapper) -> None:
         super().__init__(stream.buffer, stream.encoding, stream.errors, line_buffering=True)
 

@@ -83,7 +83,7 @@ def test_full_shared_memory_is_told_in_a_sentence(words: tuple[str, ...], code: 
 @pytest.mark.parametrize(
     ("as_here", "said", "works"),
     [
-        (FULL, "/dev/shm is full (1 MB), so that ROS cannot be loaded.", False),
+        (FULL, "/dev/shm is full (1 MB), so ROS cannot be loaded.", False),
         (SMALL, "/dev/shm has 1 MB of 1 MB", True),
     ],
     ids=["full", "small"],

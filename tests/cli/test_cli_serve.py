@@ -145,7 +145,7 @@ async def test_this_machine_alone_gets_a_page_that_needs_no_internet_and_ctrl_c_
             async with asyncio.timeout(LIMIT_S):
                 _, said = await server.communicate()
         assert server.returncode == 130
-        assert said.decode() == "ros-tutor: Ctrl+C ends it\nros-tutor: ending the app, and what was started in it\n"
+        assert said.decode() == "ros-tutor: Ctrl+C ends it\nros-tutor: ending the app and everything that was started in it\n"
         assert processes_with(str(workspace.root)) == {}
 
 

@@ -48,12 +48,12 @@ async def _received(scene: Scene, message: str, *, count: int) -> list[str]:
 
 async def test_a_message_that_is_too_large_to_be_looked_into_is_counted(scene: Scene) -> None:
     texts = await _received(scene, 'String(data="x" * 3_000_000)', count=3)
-    assert set(texts) == {"(a message of 3.0 MB, too large to be looked into)"}
+    assert set(texts) == {"(a message of 3.0 MB, too large to decode)"}
 
 
 async def test_bytes_that_are_no_message_are_no_fault_of_ours(scene: Scene) -> None:
     texts = await _received(scene, "bytes([0, 1, 0, 0, 255, 255, 255, 127])", count=2)
-    assert set(texts) == {"(8 bytes that are no String)"}
+    assert set(texts) == {"(8 bytes that are not a valid String)"}
 
 
 async def test_a_flood_of_what_is_too_large_is_left_and_others_are_heard_on(scene: Scene) -> None:

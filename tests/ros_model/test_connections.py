@@ -27,7 +27,7 @@ def test_compatible_endpoints_have_no_mismatch(offered: QoS, requested: QoS) -> 
     [
         (QoS("best_effort"), QoS(), ("reliability", "best_effort", "reliable")),
         (QoS(), QoS(durability="transient_local"), ("durability", "volatile", "transient_local")),
-        (QoS(), QoS(deadline_s=0.5), ("deadline", "without end", "0.5 s")),
+        (QoS(), QoS(deadline_s=0.5), ("deadline", "infinite", "0.5 s")),
         (QoS(deadline_s=1.0), QoS(deadline_s=0.5), ("deadline", "1 s", "0.5 s")),
         (QoS(lease_s=2.0), QoS(lease_s=1.0), ("liveliness lease duration", "2 s", "1 s")),
         (QoS(), QoS(liveliness="manual_by_topic"), ("liveliness", "automatic", "manual_by_topic")),

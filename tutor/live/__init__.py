@@ -1,5 +1,5 @@
-"""Behind the app's Live page: `python -m tutor.live` watches the user's own ROS domain in a process of its own.
+"""The process behind the app's Live page: `python -m tutor.live` watches the user's own ROS domain.
 
-It reads requests and prints updates, both as JSON lines (`tutor.live.protocol`), at a bounded rate whatever the topics
-do.
+It reads requests and prints updates, both as JSON lines (`tutor.live.protocol`). The rate of updates is bounded,
+whatever the topics do.
 """

@@ -1,6 +1,6 @@
-"""`python -m tutor.live`: watches the user's own domain, for as long as its input is open.
+"""`python -m tutor.live`: watches the user's own domain for as long as stdin is open.
 
-Requests come on stdin, updates go to stdout, a JSON object to a line each (`tutor.live.protocol`).
+Requests come on stdin and updates go to stdout, as one JSON object per line (`tutor.live.protocol`).
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ from tutor.process.prctl import die_with_parent
 from tutor.ros.environment import detect
 from tutor.ros.process_setup import prepare_for_rclpy
 
-FULL = 1 << 20
-"""With this many bytes unread, topic updates are dropped: the next ones supersede them."""
+MOST_UNREAD_BYTES = 1 << 20
+"""With more than this many bytes unread, topic updates are dropped, since later ones supersede them."""
 
 
 def main() -> int:
@@ -28,23 +28,23 @@ def main() -> int:
     collect_garbage_seldom()
     prepare_for_rclpy(detect(), isolated=False)
     die_with_parent()
-    # What libraries print must not get among the updates.
-    pipe_file = os.fdopen(os.dup(sys.stdout.fileno()), "wb", buffering=0)
+    # Anything that libraries print must not get mixed into the updates.
+    updates_pipe = os.fdopen(os.dup(sys.stdout.fileno()), "wb", buffering=0)
     os.dup2(sys.stderr.fileno(), sys.stdout.fileno())
-    asyncio.run(_watch(pipe_file))
-    # Threads of the middleware may take their time; we have nothing left to save.
+    asyncio.run(_watch(updates_pipe))
+    # Do not wait for middleware threads: there is nothing left to save.
     sys.stderr.flush()
     os._exit(0)
 
 
 async def _watch(pipe: BinaryIO) -> None:
-    from tutor.live.watcher import Watcher  # late: rclpy must find the environment prepared
+    from tutor.live.watcher import Watcher  # imported late: rclpy needs the prepared environment
 
     loop = asyncio.get_running_loop()
     transport, _ = await loop.connect_write_pipe(asyncio.BaseProtocol, pipe)
 
     def send(update: Update) -> None:
-        if not (isinstance(update, TopicUpdate) and transport.get_write_buffer_size() > FULL):
+        if not (isinstance(update, TopicUpdate) and transport.get_write_buffer_size() > MOST_UNREAD_BYTES):
             transport.write(encode_update(update).encode() + b"\n")
 
     watcher = Watcher(_domain_id(), send)
@@ -54,7 +54,7 @@ async def _watch(pipe: BinaryIO) -> None:
         loop.call_soon_threadsafe(lambda: watcher.handle(decode_request(line)))
 
     def stop() -> None:
-        with contextlib.suppress(RuntimeError):  # the loop is closed: it is over already
+        with contextlib.suppress(RuntimeError):  # the loop is already closed
             loop.call_soon_threadsafe(running.cancel)
 
     read_lines(sys.stdin.buffer, receive, stop)

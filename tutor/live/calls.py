@@ -1,4 +1,4 @@
-"""Service calls: any number at once, each with a time limit, and cancellable."""
+"""Service calls: any number at a time, each with a timeout and cancellable."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ CANCELLED = "cancelled"
 
 
 def describe(type_name: str) -> RequestForm:
-    """The form of a service type's request, or of a message type."""
+    """Return the form of a message type, or of a service type's request."""
     fields = message_fields if "/msg/" in type_name else request_fields
     try:
         return RequestForm(type_name, fields(type_name))
@@ -28,7 +28,7 @@ def describe(type_name: str) -> RequestForm:
 
 
 class ServiceCalls:
-    """The calls in progress. Each sends a CallOutcome when it ends, however it ends."""
+    """Manages the calls in progress. Each one sends a CallOutcome when it ends, for whatever reason."""
 
     def __init__(self, observer: Observer, send: Callable[[CallOutcome], object]) -> None:
         self._observer = observer
@@ -36,7 +36,7 @@ class ServiceCalls:
         self._running: dict[int, asyncio.Task[None]] = {}
 
     def begin(self, call: Call) -> None:
-        """Call a service."""
+        """Start a service call."""
         self._running[call.id] = asyncio.create_task(self._run(call))
 
     def cancel(self, id: int) -> None:
@@ -53,8 +53,8 @@ class ServiceCalls:
             problem = CANCELLED
         finally:
             del self._running[call.id]
-        took = time.perf_counter() - began
-        self._send(CallOutcome(call.id, call.service, call.request, text, problem, at, took))
+        took_s = time.perf_counter() - began
+        self._send(CallOutcome(call.id, call.service, call.request, text, problem, at, took_s))
 
     async def _call(self, call: Call) -> tuple[str | None, str]:
         try:

@@ -1,4 +1,4 @@
-"""Nodes that have left and that rmw goes on listing."""
+"""Hides nodes that have left, but are still listed by the RMW layer."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from tutor.ros_model import Graph
 
 
 def without_ghosts(graph: Graph, connected: set[str]) -> Graph:
-    """The graph without nodes that have left. `connected` collects the nodes that have had endpoints, over all calls.
+    """Return the graph without nodes that have left.
 
-    On a busy machine, rmw has gone on listing a node whose process had ended. All of that node's endpoints were gone,
-    and a running node never loses all of its own.
+    `connected` collects, across calls, all nodes that have ever had endpoints. On a busy machine, rmw was seen to keep
+    listing a node after its process had ended, but without any endpoints. A running node never loses all its endpoints.
     """
-    now = {end.node for ends in (graph.publishers, graph.subscriptions) for end in ends}
-    now |= {end.node for ends in (graph.servers, graph.clients) for end in ends}
+    now = {endpoint.node for group in (graph.publishers, graph.subscriptions) for endpoint in group}
+    now |= {endpoint.node for group in (graph.servers, graph.clients) for endpoint in group}
     connected |= now
     gone = connected - now
     return replace(graph, nodes=tuple(node for node in graph.nodes if node not in gone))

@@ -1,4 +1,4 @@
-"""The parameters of every node: read when it appears, when it reports a change, and on demand."""
+"""Reads the parameters of every node: when it appears, when it reports a change, and on demand."""
 
 from __future__ import annotations
 
@@ -17,54 +17,54 @@ from tutor.ros.parameters import get_parameters, set_parameters
 from tutor.ros_model import Graph
 
 LIMIT_S = 3.0
-"""How long a node may take to answer, in seconds."""
+"""Timeout for a response of a node."""
 
 RETRY_S = 5.0
-"""A node that did not answer is asked again after this time, in seconds: it may spin by then."""
+"""Delay before retrying a node that did not respond: it may be spinning by then."""
 
 
 class ParameterWatch:
-    """Sends a NodeParameters for each node with parameter services, whenever they may have changed."""
+    """Sends a NodeParameters update for each node with parameter services whenever its parameters may have changed."""
 
     def __init__(self, observer: Observer, send: Callable[[NodeParameters], object]) -> None:
         self._observer = observer
         self._send = send
         self._nodes: frozenset[str] = frozenset()
-        self._asking: dict[str, asyncio.Task[None]] = {}
-        self._changed: set[str] = set()
+        self._refreshing: dict[str, asyncio.Task[None]] = {}
+        self._changed_meanwhile: set[str] = set()
         self._retry_at: dict[str, float] = {}
-        watch_changes(observer, self.ask)
+        watch_changes(observer, self.refresh)
 
     def update_graph(self, graph: Graph) -> None:
-        """Ask nodes that have appeared."""
+        """Read the parameters of new nodes."""
         nodes = frozenset(graph.parameter_nodes)
         new, self._nodes = nodes - self._nodes, nodes
         self._retry_at = {node: due for node, due in self._retry_at.items() if node in nodes}
         for node in new:
-            self.ask(node)
+            self.refresh(node)
 
-    def ask(self, node: str) -> None:
-        """Ask one node; where it is being asked already, once more afterwards."""
+    def refresh(self, node: str) -> None:
+        """Read the parameters of one node. If that is already in progress, read them once more afterwards."""
         if node not in self._nodes:
             return
-        if node in self._asking:
-            self._changed.add(node)
+        if node in self._refreshing:
+            self._changed_meanwhile.add(node)
             return
-        self._asking[node] = asyncio.create_task(self._ask(node))
+        self._refreshing[node] = asyncio.create_task(self._refresh(node))
 
-    def ask_all(self) -> None:
-        """Ask every node."""
+    def refresh_all(self) -> None:
+        """Read the parameters of every node."""
         for node in self._nodes:
-            self.ask(node)
+            self.refresh(node)
 
-    def retry_silent(self) -> None:
-        """Ask nodes again that did not answer `RETRY_S` ago."""
+    def retry_unresponsive(self) -> None:
+        """Retry nodes that did not respond `RETRY_S` ago."""
         for node, due in list(self._retry_at.items()):
             if time.monotonic() >= due:
-                self.ask(node)
+                self.refresh(node)
 
     async def set(self, request: SetParameter) -> SetOutcome:
-        """Set one parameter. Gives the node's answer, or that none came."""
+        """Set one parameter. Return the node's response, or that there was none."""
         answer = await set_parameters(
             self._observer,
             request.node,
@@ -85,23 +85,23 @@ class ParameterWatch:
             took_s=answer.took_s,
         )
 
-    async def _ask(self, node: str) -> None:
+    async def _refresh(self, node: str) -> None:
         try:
             found = await get_parameters(self._observer, [node], LIMIT_S)
             self._retry_at.pop(node, None)
             if found is None:
                 self._retry_at[node] = time.monotonic() + RETRY_S
-            parameters = tuple(replace(each, value=_plain(each.value)) for each in found or ())
+            parameters = tuple(replace(each, value=_to_json(each.value)) for each in found or ())
             self._send(NodeParameters(node, found is not None, parameters))
         finally:
-            del self._asking[node]
-        if node in self._changed:
-            self._changed.discard(node)
-            self.ask(node)
+            del self._refreshing[node]
+        if node in self._changed_meanwhile:
+            self._changed_meanwhile.discard(node)
+            self.refresh(node)
 
 
-def _plain(value: Any) -> Any:
-    """As JSON can hold it."""
+def _to_json(value: Any) -> Any:
+    """Convert a parameter value to JSON types."""
     if isinstance(value, (array.array, list, tuple)):
-        return [_plain(item) for item in value]
+        return [_to_json(item) for item in value]
     return value[0] if isinstance(value, bytes) else value

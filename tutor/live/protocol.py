@@ -1,4 +1,4 @@
-"""What the app and the watcher process exchange: one JSON object per line, named by its class."""
+"""The protocol between the app and the watcher process: one JSON object per line, tagged with its class name."""
 
 from __future__ import annotations
 
@@ -44,19 +44,19 @@ class Plot:
 
 @dataclass(frozen=True, slots=True)
 class SetVisible:
-    """Whether the Live page is on screen. While it is not, messages are counted, but no topic updates are sent."""
+    """Tell whether the Live page is visible. While it is not, messages are counted but no topic updates are sent."""
 
     visible: bool
 
 
 @dataclass(frozen=True, slots=True)
 class Refresh:
-    """Read the graph now, and ask every node for its parameters."""
+    """Read the graph and the parameters of every node now."""
 
 
 @dataclass(frozen=True, slots=True)
 class SetParameter:
-    """Set a parameter; `type` as `ros2 param describe` names it. Answered by a SetOutcome of the same id."""
+    """Set a parameter; `type` is named as in `ros2 param describe`. Answered by a SetOutcome with the same id."""
 
     id: int
     node: str
@@ -67,14 +67,14 @@ class SetParameter:
 
 @dataclass(frozen=True, slots=True)
 class Describe:
-    """Ask for the form of a service type's request, or of a message type. Answered by a RequestForm."""
+    """Get the form of a message type, or of a service type's request. Answered by a RequestForm."""
 
     type: str
 
 
 @dataclass(frozen=True, slots=True)
 class Call:
-    """Call a service; `request` maps field paths to values. Answered by a CallOutcome of the same id."""
+    """Call a service; `request` maps field paths to values. Answered by a CallOutcome with the same id."""
 
     id: int
     service: str
@@ -85,16 +85,16 @@ class Call:
 
 @dataclass(frozen=True, slots=True)
 class Cancel:
-    """Stop waiting for the answer to a call. Answered by its CallOutcome."""
+    """Stop waiting for the response to a call. Answered by its CallOutcome."""
 
     id: int
 
 
 @dataclass(frozen=True, slots=True)
 class Publish:
-    """Publish a message once (`rate_hz` 0) or `rate_hz` times a second, replacing what is published on the topic now.
+    """Publish a message once (`rate_hz` 0) or at `rate_hz`, replacing what we currently publish on the topic.
 
-    `values` maps field paths to values. Answered by PublishStatus, repeatedly while it goes on.
+    `values` maps field paths to values. Answered by repeated PublishStatus updates.
     """
 
     topic: str
@@ -137,7 +137,7 @@ class Ready:
 
 @dataclass(frozen=True, slots=True)
 class WatcherError:
-    """Something went wrong in the watcher; one line."""
+    """An error in the watcher, in one line."""
 
     text: str
 

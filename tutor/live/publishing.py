@@ -1,4 +1,4 @@
-"""Publishing by hand: a message once, or at a rate until it is stopped."""
+"""Publishing by hand: a message once, or at a fixed rate until stopped."""
 
 from __future__ import annotations
 
@@ -12,21 +12,21 @@ from tutor.live.updates import PublishStatus
 from tutor.ros.manual_publisher import ManualPublisher
 
 CONNECT_S = 2.0
-"""How long a new publisher waits for subscriptions to match, in seconds, before it publishes anyway."""
+"""How long a new publisher waits for subscriptions to match before it publishes anyway."""
 
 LINGER_S = 1.0
-"""How long a publisher stays after its only message, in seconds: one that leaves at once may lose it."""
+"""How long a publisher stays after a single message, which may get lost if it leaves at once."""
 
-REPORT_EVERY_S = 0.5
-FASTEST_HZ = 1000.0
+REPORT_INTERVAL_S = 0.5
+MAX_RATE_HZ = 1000.0
 
-_LOOK_EVERY_S = 0.02
+_POLL_S = 0.02
 
 
 class Publishing:
-    """Publishes one message for each topic. `send` gets the state, at most every `REPORT_EVERY_S` seconds.
+    """Publishes one message per topic. `send` receives the status, at most every `REPORT_INTERVAL_S` seconds.
 
-    `expect` is called before with a topic and its type; it returns whether we subscribe to it ourselves.
+    `expect` is called with a topic and its type before publishing; it returns whether we subscribe to the topic too.
     """
 
     def __init__(
@@ -41,12 +41,12 @@ class Publishing:
         self._running: dict[str, asyncio.Task[None]] = {}
 
     async def begin(self, request: Publish) -> None:
-        """Publish this, replacing what is published on the topic."""
+        """Start publishing, replacing what we currently publish on the topic."""
         await self.end(request.topic)
         self._running[request.topic] = asyncio.create_task(self._run(request))
 
     async def end(self, topic: str) -> None:
-        """Stop."""
+        """Stop publishing on a topic."""
         if (task := self._running.pop(topic, None)) is not None:
             task.cancel()
             await asyncio.gather(task, return_exceptions=True)
@@ -68,11 +68,11 @@ class Publishing:
             while sent == 0 or request.rate_hz:
                 self._manual_publisher.publish(request.topic)
                 sent += 1
-                if request.rate_hz and time.perf_counter() >= reported_at + REPORT_EVERY_S:
+                if request.rate_hz and time.perf_counter() >= reported_at + REPORT_INTERVAL_S:
                     reported_at = time.perf_counter()
                     report(over=False)
                 if request.rate_hz:
-                    due = began + sent / min(request.rate_hz, FASTEST_HZ)
+                    due = began + sent / min(request.rate_hz, MAX_RATE_HZ)
                     await asyncio.sleep(max(0.0, due - time.perf_counter()))
             report(over=False)
             await asyncio.sleep(LINGER_S)
@@ -87,4 +87,4 @@ class Publishing:
     async def _connect(self, topic: str, ours: bool) -> None:
         deadline = time.monotonic() + CONNECT_S
         while not self._manual_publisher.is_connected(topic, ours) and time.monotonic() < deadline:
-            await asyncio.sleep(_LOOK_EVERY_S)
+            await asyncio.sleep(_POLL_S)

@@ -1,4 +1,4 @@
-"""Count, rate and jitter of a topic, from the messages' source timestamps and numbers. Pure."""
+"""Count, rate and jitter of a topic, from source timestamps and sequence numbers. Pure."""
 
 from __future__ import annotations
 
@@ -10,19 +10,19 @@ from dataclasses import dataclass
 from tutor.live.updates import Timing
 
 WINDOW_S = 5.0
-"""Rate and jitter are those of the last seconds..."""
+"""Rate and jitter are measured over a window this long..."""
 
 MIN_PERIODS = 10
-"""... or of this many periods, where a topic is slow."""
+"""... or over this many periods, if a topic is slow."""
 
 _BUCKET_S = 0.25
-_PAUSE = 8.0
-"""A period this many times the mean, and longer than the window, is a pause: measuring starts again after it."""
+_PAUSE_FACTOR = 8.0
+"""A period of more than this many times the mean, and longer than the window, is a pause: measuring restarts."""
 
 
 @dataclass(slots=True)
 class _Bucket:
-    """Periods that ended within a quarter of a second: enough to add them up again, however many there were."""
+    """Sums over the periods that ended within `_BUCKET_S`, so that the window needs little memory at any rate."""
 
     begin: float
     end: float
@@ -42,7 +42,7 @@ class _Bucket:
 
 
 class TopicStatistics:
-    """Of one followed topic. `count` is the number of messages, `missing` of those that the numbers skip."""
+    """Statistics of one topic. `count` is the number of messages, `missing` that of skipped sequence numbers."""
 
     def __init__(self) -> None:
         self.count = 0
@@ -52,15 +52,15 @@ class TopicStatistics:
         self._last_number: int | None = None
 
     def add(self, stamps: Sequence[float], numbers: Sequence[int | None]) -> None:
-        """Add messages: their source timestamps (s) and their publisher's sequence numbers, in the order of arrival."""
+        """Add messages by their source timestamps (s) and publisher sequence numbers, in order of arrival."""
         self.count += len(stamps)
         for number in numbers:
-            self._number(number)
-        for stamp in sorted(stamps):  # several publishers' messages arrive a little out of order
-            self._stamp(stamp)
+            self._add_number(number)
+        for stamp in sorted(stamps):  # messages of several publishers may arrive out of order
+            self._add_stamp(stamp)
 
     def timing(self) -> Timing | None:
-        """The periods of the window; None where there is none yet."""
+        """Return the timing over the window; None before the first period."""
         periods = sum(bucket.periods for bucket in self._buckets)
         if periods == 0:
             return None
@@ -74,26 +74,26 @@ class TopicStatistics:
             longest_s=max(bucket.longest for bucket in self._buckets),
         )
 
-    def _number(self, number: int | None) -> None:
-        # A smaller number is another publisher, or one that was restarted: it says nothing about loss.
+    def _add_number(self, number: int | None) -> None:
+        # A smaller number comes from another publisher, or a restarted one: it says nothing about loss.
         if number is not None and self._last_number is not None and number > self._last_number:
             self.missing += number - self._last_number - 1
         self._last_number = number
 
-    def _stamp(self, stamp: float) -> None:
+    def _add_stamp(self, stamp: float) -> None:
         last, self._last_stamp = self._last_stamp, max(stamp, self._last_stamp or stamp)
         if last is None:
             return
         period = max(0.0, stamp - last)
-        if period > WINDOW_S and (known := self.timing()) and period > _PAUSE * known.mean_s:
+        if period > WINDOW_S and (known := self.timing()) and period > _PAUSE_FACTOR * known.mean_s:
             self._buckets.clear()
             return
         if not self._buckets or stamp - self._buckets[-1].begin >= _BUCKET_S:
             self._buckets.append(_Bucket(stamp, stamp))
-            self._forget(stamp)
+            self._drop_old_buckets(stamp)
         self._buckets[-1].add(period, stamp)
 
-    def _forget(self, now: float) -> None:
-        held = sum(bucket.periods for bucket in self._buckets)
-        while self._buckets[0].end < now - WINDOW_S and held - self._buckets[0].periods >= MIN_PERIODS:
-            held -= self._buckets.popleft().periods
+    def _drop_old_buckets(self, now: float) -> None:
+        periods = sum(bucket.periods for bucket in self._buckets)
+        while self._buckets[0].end < now - WINDOW_S and periods - self._buckets[0].periods >= MIN_PERIODS:
+            periods -= self._buckets.popleft().periods

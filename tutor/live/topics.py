@@ -1,4 +1,4 @@
-"""Followed topics: counted in the subscription's thread, reported at a bounded rate."""
+"""Followed topics: messages are counted in the subscription's thread and reported at a bounded rate."""
 
 from __future__ import annotations
 
@@ -16,22 +16,22 @@ from tutor.ros.yaml_format import number_at, numeric_fields, to_yaml
 from tutor.ros_model import Graph, QoS, Topic, TopicEndpoint, echo_qos
 
 POINTS_PER_UPDATE = 10
-"""Values sampled for a plot between two updates: a hundred a second, whatever the topic's rate."""
+"""Most messages sampled for a plot between two updates, whatever the topic's rate."""
 
-BIG = 100_000
-"""Of messages larger than this, in bytes, only the newest is sampled."""
+BIG_BYTES = 100_000
+"""If messages are larger than this, only the newest is sampled."""
 
-BIGGEST = 10_000_000
-"""Messages larger than this, in bytes, are only counted."""
+MOST_BYTES = 10_000_000
+"""Messages larger than this are only counted."""
 
 MOST_TEXT = 100_000
-"""A message's text is cut at this many characters."""
+"""A message's YAML text is cut at this many characters."""
 
-SILENT_EVERY_S = 1.0
-"""How often a silent topic is reported, in seconds."""
+SILENT_INTERVAL_S = 1.0
+"""Interval of updates for a silent topic."""
 
-_SHARE_OF_TEXT = 0.2
-"""At most this share of the time is spent on formatting a topic's messages."""
+_FORMATTING_SHARE = 0.2
+"""At most this share of the time is spent on formatting the messages of a topic."""
 
 
 @dataclass(slots=True)
@@ -54,12 +54,12 @@ class _Followed:
     stale: bool = True
     lock: threading.Lock = field(default_factory=threading.Lock)
 
-    def take(self, batch: Batch) -> None:
+    def add(self, batch: Batch) -> None:
         """Add messages. Called in the subscription's thread."""
         with self.lock:
             self.statistics.add(batch.stamps, batch.numbers)
             self.newest = batch.newest
-            if len(batch.newest) > BIG:
+            if len(batch.newest) > BIG_BYTES:
                 self.samples.clear()
             self.samples.append((batch.stamps[-1], batch.newest))
             self.last_at = time.monotonic()
@@ -67,33 +67,33 @@ class _Followed:
 
 
 class FollowedTopics:
-    """The topics that are followed, with their statistics."""
+    """Manages the followed topics and their statistics."""
 
     def __init__(self, raw_subscription: RawSubscription) -> None:
         self._raw_subscription = raw_subscription
-        self._all: dict[str, _Followed] = {}
+        self._followed: dict[str, _Followed] = {}
 
     def follow(self, topic: str, graph: Graph) -> None:
         """Follow a topic, now or as soon as it appears."""
-        if topic not in self._all:
-            self._all[topic] = _Followed(topic)
-            self._resubscribe(self._all[topic], graph.topic(topic))
+        if topic not in self._followed:
+            self._followed[topic] = _Followed(topic)
+            self._resubscribe(self._followed[topic], graph.topic(topic))
 
     def expect(self, topic: str, type_name: str) -> bool:
-        """Subscribe before a message of this type is published. Returns whether the topic is followed."""
-        followed = self._all.get(topic)
+        """Subscribe before we publish a message of this type, if the topic is followed. Return whether it is."""
+        followed = self._followed.get(topic)
         if followed is not None and followed.subscribed is None:
             self._resubscribe(followed, Topic(topic, (TopicEndpoint(topic, type_name, ""),)))
         return followed is not None
 
     def unfollow(self, topic: str) -> None:
         """Stop following a topic."""
-        if self._all.pop(topic, None) is not None:
+        if self._followed.pop(topic, None) is not None:
             self._raw_subscription.unsubscribe(topic)
 
     def clear(self, topic: str) -> None:
         """Reset a topic's count and statistics."""
-        if followed := self._all.get(topic):
+        if followed := self._followed.get(topic):
             with followed.lock:
                 followed.statistics = TopicStatistics()
                 followed.samples.clear()
@@ -101,28 +101,28 @@ class FollowedTopics:
                 followed.stale = True
 
     def plot(self, topic: str, path: str) -> None:
-        """Sample a field for a plot."""
-        if followed := self._all.get(topic):
+        """Choose the field to sample for a plot."""
+        if followed := self._followed.get(topic):
             followed.path = path
             followed.stale = True
 
     def update_graph(self, graph: Graph) -> None:
-        """Subscribe to topics that have appeared, and again where publishers offer another QoS."""
-        for followed in self._all.values():
+        """Subscribe to topics that have appeared, and resubscribe where type or QoS has changed."""
+        for followed in self._followed.values():
             self._resubscribe(followed, graph.topic(followed.topic))
 
     def updates(self) -> list[TopicUpdate]:
-        """The updates due since the last call."""
+        """Return the updates that are due."""
         now = time.monotonic()
-        return [self._report(followed, now) for followed in self._all.values() if _is_due(followed, now)]
+        return [self._report(followed, now) for followed in self._followed.values() if _is_due(followed, now)]
 
     def _resubscribe(self, followed: _Followed, topic: Topic | None) -> None:
         if topic is None or not topic.publishers:
-            return  # publishers may come back: the subscription stays
+            return  # keep the subscription: publishers may come back
         types = tuple(dict.fromkeys(publisher.type for publisher in topic.publishers))
         followed.many_publishers = followed.many_publishers or len(topic.publishers) > 1
-        before, followed.problem = followed.problem, _problem(types)
-        followed.stale = followed.stale or followed.problem != before
+        old_problem, followed.problem = followed.problem, _problem(types)
+        followed.stale = followed.stale or followed.problem != old_problem
         if followed.problem:
             return
         qos = echo_qos(publisher.qos for publisher in topic.publishers)
@@ -133,7 +133,7 @@ class FollowedTopics:
         followed.type = types[0]
         followed.qos = qos
         followed.stale = True
-        self._raw_subscription.subscribe(followed.topic, types[0], qos, followed.take)
+        self._raw_subscription.subscribe(followed.topic, types[0], qos, followed.add)
 
     def _report(self, followed: _Followed, now: float) -> TopicUpdate:
         with followed.lock:
@@ -144,8 +144,8 @@ class FollowedTopics:
             newest, last_at = followed.newest, followed.last_at
             followed.stale = False
         followed.reported_at = now
-        text, fields = self._text(followed, newest, now)
-        readable = [each for each in samples if followed.path and len(each[1]) <= BIGGEST]
+        text, fields = self._format_newest(followed, newest, now)
+        readable = [each for each in samples if followed.path and len(each[1]) <= MOST_BYTES]
         points = [
             (stamp, value)
             for stamp, raw in readable
@@ -166,12 +166,14 @@ class FollowedTopics:
             problem=followed.problem,
         )
 
-    def _text(self, followed: _Followed, newest: bytes | None, now: float) -> tuple[str | None, tuple[str, ...]]:
+    def _format_newest(
+        self, followed: _Followed, newest: bytes | None, now: float
+    ) -> tuple[str | None, tuple[str, ...]]:
         if newest is None or newest is followed.reported or now < followed.text_after:
             return None, ()
-        if len(newest) > BIGGEST:
+        if len(newest) > MOST_BYTES:
             followed.reported = newest
-            return f"(a message of {len(newest) / 1e6:.0f} MB: too big to be shown here)", ()
+            return f"(a message of {len(newest) / 1e6:.0f} MB: too big to show here)", ()
         began = time.perf_counter()
         message = deserialize(followed.type, newest)
         text = truncate(to_yaml(message), MOST_TEXT)
@@ -179,20 +181,20 @@ class FollowedTopics:
         if not followed.path and fields:
             followed.path = next((path for path in fields if "stamp" not in path.split(".")), fields[0])
         changed, followed.fields, followed.reported = fields != followed.fields, fields, newest
-        followed.text_after = now + (time.perf_counter() - began) * (1 / _SHARE_OF_TEXT - 1)
+        followed.text_after = now + (time.perf_counter() - began) * (1 / _FORMATTING_SHARE - 1)
         return text, fields if changed else ()
 
 
 def _is_due(followed: _Followed, now: float) -> bool:
     if followed.stale or (followed.newest is not followed.reported and now >= followed.text_after):
         return True
-    return followed.last_at is not None and now - followed.reported_at >= SILENT_EVERY_S
+    return followed.last_at is not None and now - followed.reported_at >= SILENT_INTERVAL_S
 
 
 def _problem(types: tuple[str, ...]) -> str:
-    """Why a topic with publishers of these types cannot be shown; empty where it can."""
+    """Return why a topic with publishers of these types cannot be shown; empty if it can."""
     if len(types) > 1:
-        return f"Publishers of different types: {' and '.join(types)}. One topic has one type."
+        return f"Publishers of different types: {' and '.join(types)}. A topic has only one type."
     try:
         interface_class(types[0])
     except UnknownType:

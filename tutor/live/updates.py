@@ -1,4 +1,4 @@
-"""What the watcher reports to the app, as plain data. Times `at` and `t` are seconds since the epoch."""
+"""Updates from the watcher to the app, as plain data. Times `at` and `t` are in seconds since the epoch."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from tutor.ros_model import Field, Parameter, QoS
 
 @dataclass(frozen=True, slots=True)
 class Timing:
-    """The periods between the messages of the last seconds, by their source timestamps; all in seconds."""
+    """Statistics of the periods between recent messages, by source timestamp."""
 
     periods: int
     mean_s: float
@@ -21,7 +21,7 @@ class Timing:
 
     @property
     def rate_hz(self) -> float:
-        """Messages per second; 0 where all came at the same instant."""
+        """Messages per second; 0 if all came at the same instant."""
         return 1 / self.mean_s if self.mean_s > 0 else 0.0
 
 
@@ -29,10 +29,11 @@ class Timing:
 class TopicUpdate:
     """The state of a followed topic.
 
-    `count` is exact: every message received since following began, or the last clear. `lost` counts those sent but
-    never received, by the publisher's sequence numbers (None with several publishers). `silent_s` is the time
-    since the last message. `text` is the newest one as `ros2 topic echo` writes it, None where there is no newer one.
-    `points` are (t, value) of `field`, a sample of what arrived since the last update. `problem`: why nothing can come.
+    `count` is the exact number of messages received since following began or the last clear. `lost` counts messages
+    sent but never received, by the publisher's sequence numbers (None with several publishers). `silent_s` is the time
+    since the last message. `text` is the newest message as `ros2 topic echo` prints it, or None if there is no newer
+    one. `points` holds (t, value) of `field`, sampled from what arrived since the last update. `problem` says why no
+    message can be shown.
     """
 
     topic: str
@@ -51,7 +52,7 @@ class TopicUpdate:
 
 @dataclass(frozen=True, slots=True)
 class NodeParameters:
-    """The parameters of one node; `answered` is False where it did not answer (it does not spin)."""
+    """The parameters of one node; `answered` is False if it did not respond (it does not spin)."""
 
     node: str
     answered: bool
@@ -60,7 +61,7 @@ class NodeParameters:
 
 @dataclass(frozen=True, slots=True)
 class SetOutcome:
-    """The result of setting one parameter. `reason` is the node's own."""
+    """The result of setting one parameter. `reason` comes from the node."""
 
     id: int
     node: str
@@ -75,7 +76,7 @@ class SetOutcome:
 
 @dataclass(frozen=True, slots=True)
 class RequestForm:
-    """The fields of a service's request, or of a message. `problem` says why they are not known."""
+    """The fields of a service's request, or of a message. `problem` says why they are unknown."""
 
     type: str
     fields: tuple[Field, ...] = ()
@@ -84,7 +85,7 @@ class RequestForm:
 
 @dataclass(frozen=True, slots=True)
 class CallOutcome:
-    """The result of a call. `text` is the response as YAML, None where none came; `problem` says why."""
+    """The result of a call. `text` is the response as YAML, or None if there is none; `problem` says why."""
 
     id: int
     service: str
@@ -97,9 +98,10 @@ class CallOutcome:
 
 @dataclass(frozen=True, slots=True)
 class PublishStatus:
-    """The state of publishing on a topic. `rate_hz` is 0 for once. `over`: nothing more is sent; `problem` says why.
+    """The state of publishing on a topic. `rate_hz` is 0 for a single message.
 
-    `listeners` is the number of the learner's subscriptions.
+    `listeners` is the number of the learner's subscriptions. `over`: nothing more is sent; `problem` says why, if it
+    failed.
     """
 
     topic: str

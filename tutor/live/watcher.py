@@ -1,4 +1,4 @@
-"""Watches one domain, and acts on it on request."""
+"""Watches one domain and carries out the app's requests there."""
 
 from __future__ import annotations
 
@@ -36,23 +36,23 @@ from tutor.ros.observer import Observer
 from tutor.ros.raw_subscription import RawSubscription
 from tutor.ros_model import Graph
 
-UPDATE_EVERY_S = 0.2
-"""Topic updates are sent at most this often, in seconds, however fast the topics are."""
+UPDATE_INTERVAL_S = 0.2
+"""Interval of topic updates, however fast the topics are."""
 
-CHECK_GRAPH_EVERY_S = 0.5
-READ_GRAPH_EVERY_S = 2.0
-"""How often the graph is checked for changes, and read in full where the check finds none, in seconds."""
+GRAPH_CHECK_INTERVAL_S = 0.5
+GRAPH_READ_INTERVAL_S = 2.0
+"""Intervals of the cheap check for graph changes, and of a full read even if that check finds none."""
 
 
 class Watcher:
-    """A participant that watches. `send` gets every update, on the event loop's thread."""
+    """Our participant in the domain. `send` receives every update, on the event loop's thread."""
 
     def __init__(self, domain_id: int, send: Callable[[Update], object]) -> None:
         self._send = send
         self._observer = Observer(domain_id, guarded=False)
         self._raw_subscription = RawSubscription(self._observer.node.context)
         self._graph = Graph()
-        self._connected: set[str] = set()  # nodes that have had endpoints
+        self._nodes_with_endpoints: set[str] = set()
         self._topics = FollowedTopics(self._raw_subscription)
         self._parameters = ParameterWatch(self._observer, send)
         self._calls = ServiceCalls(self._observer, send)
@@ -71,18 +71,18 @@ class Watcher:
             now = time.monotonic()
             if now >= check_at:
                 self._read_graph(now)
-                check_at = now + CHECK_GRAPH_EVERY_S
-                self._parameters.retry_silent()
+                check_at = now + GRAPH_CHECK_INTERVAL_S
+                self._parameters.retry_unresponsive()
             if self._visible:
                 for update in self._topics.updates():
                     self._send(update)
             if (fault := self._observer.fault) is not None:
                 self._observer.fault = None
-                self._send(WatcherError(f"Watching broke: {type(fault).__name__}: {fault}"))
-            await asyncio.sleep(UPDATE_EVERY_S)  # the pace of the updates, not a wait for anything
+                self._send(WatcherError(f"Watching failed: {type(fault).__name__}: {fault}"))
+            await asyncio.sleep(UPDATE_INTERVAL_S)  # the update interval; not a wait for any condition
 
     def handle(self, request: WatcherRequest) -> None:
-        """Handle a request of the app; answers are sent as updates."""
+        """Handle a request from the app. Responses are sent as updates."""
         match request:
             case Follow(topic):
                 self._topics.follow(topic, self._graph)
@@ -97,9 +97,9 @@ class Watcher:
             case Refresh():
                 self._read_at = 0.0
                 self._read_graph(time.monotonic())
-                self._parameters.ask_all()
+                self._parameters.refresh_all()
             case SetParameter():
-                self._in_background(self._set(request))
+                self._in_background(self._set_parameter(request))
             case Publish():
                 self._in_background(self._publishing.begin(request))
             case StopPublishing(topic):
@@ -122,16 +122,16 @@ class Watcher:
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
 
-    async def _set(self, request: SetParameter) -> None:
+    async def _set_parameter(self, request: SetParameter) -> None:
         self._send(await self._parameters.set(request))
-        self._parameters.ask(request.node)
+        self._parameters.refresh(request.node)
 
     def _read_graph(self, now: float) -> None:
         fingerprint = graph_fingerprint(self._observer.node)
-        if fingerprint == self._fingerprint and now < self._read_at + READ_GRAPH_EVERY_S:
+        if fingerprint == self._fingerprint and now < self._read_at + GRAPH_READ_INTERVAL_S:
             return
         self._fingerprint, self._read_at = fingerprint, now
-        graph = without_ghosts(read_graph(self._observer.node, standard_topics=True), self._connected)
+        graph = without_ghosts(read_graph(self._observer.node, standard_topics=True), self._nodes_with_endpoints)
         if graph != self._graph:
             self._graph = graph
             self._send(graph)

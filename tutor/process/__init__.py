@@ -1,4 +1,4 @@
-"""Start, watch and end a learner's process; nothing is ever left behind."""
+"""Start, watch and end a learner's process, leaving no orphans."""
 
 from tutor.process.cpu_wait import CpuMeter, CpuTime, own_cpu_time
 from tutor.process.learner import LearnerProcess, Survivor

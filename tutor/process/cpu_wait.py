@@ -1,4 +1,4 @@
-"""What a learner's processes had of the CPU: on a crowded machine, slowness is not theirs."""
+"""CPU time that a learner's processes got and waited for, to tell slow programs from a busy machine."""
 
 from __future__ import annotations
 
@@ -10,23 +10,23 @@ from dataclasses import astuple, dataclass
 
 from tutor.process.supervisor import Process, processes
 
-TABLE_EVERY_S = 0.1
-"""How old the table of processes may be. To read it takes some milliseconds of CPU, and thirty runs ask at once."""
+TABLE_MAX_AGE_S = 0.1
+"""Maximum age of the cached process table. Reading it takes milliseconds of CPU, and thirty runs may ask at once."""
 
-OWN_EVERY_S = 0.05
-"""How old the CPU time of our own process may be: it has hundreds of threads when thirty runs are watched."""
+OWN_MAX_AGE_S = 0.05
+"""Maximum age of our own cached CPU time: while thirty runs are watched, this process has hundreds of threads."""
 
 _process_table: tuple[float, dict[int, Process]] = (0.0, {})
-_own: tuple[float, int, CpuTime] | None = None
+_own_reading: tuple[float, int, CpuTime] | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class CpuTime:
-    """CPU time of one or more processes so far, in seconds.
+    """CPU time of one or more processes so far, in seconds (from `/proc/PID/task/TID/schedstat`).
 
-    `ran_s`: how long they ran; `waited_s`: how long they were able to run, but were not let. Of each process the thread
-    with the most of it counts, since threads wait at the same time (`/proc/PID/task/TID/schedstat`). 0.0 where the
-    kernel does not tell. `main_waited_s`: the same of their main threads only, which do not wait while they sleep.
+    `ran_s` is the time spent running, `waited_s` the time spent runnable but waiting for a CPU. Each process counts
+    with its highest thread, since threads wait at the same time. `main_waited_s` is the wait of the main threads alone;
+    a sleeping thread does not count as waiting. All are 0.0 where the kernel does not report them.
     """
 
     ran_s: float = 0.0
@@ -35,10 +35,9 @@ class CpuTime:
 
 
 class CpuMeter:
-    """Reads what the processes of a session had of the CPU.
+    """Measures the CPU time of all processes in a session.
 
-    Those that have ended since it first saw them go on counting: what one of several waited is not given back when it
-    is gone.
+    Processes that were seen once and have ended still count: the time one of them waited is not undone by its exit.
     """
 
     def __init__(self, session: int) -> None:
@@ -46,33 +45,39 @@ class CpuMeter:
         self._per_process: dict[int, CpuTime] = {}
 
     def read(self) -> CpuTime:
-        """The sum of all processes so far."""
+        """Return the sum over all processes seen so far."""
         for process in recent_processes(self._session).values():
-            if process.session == self._session and (had := _read_cpu_time(process.pid)) != CpuTime():
-                self._per_process[process.pid] = had
+            if process.session == self._session and (cpu_time := _read_cpu_time(process.pid)) != CpuTime():
+                self._per_process[process.pid] = cpu_time
         return CpuTime(*(sum(values) for values in zip(*map(astuple, self._per_process.values()), strict=True)))
 
 
 def own_cpu_time() -> CpuTime:
-    """The same for our own process, read again where it is old."""
-    global _own
+    """Return the CPU time of our own process, at most `OWN_MAX_AGE_S` old."""
+    global _own_reading
     now, pid = time.monotonic(), os.getpid()
-    if _own is None or _own[1] != pid or now - _own[0] >= OWN_EVERY_S:
-        _own = (now, pid, _read_cpu_time(pid))
-    return _own[2]
+    if _own_reading is None or _own_reading[1] != pid or now - _own_reading[0] >= OWN_MAX_AGE_S:
+        _own_reading = (now, pid, _read_cpu_time(pid))
+    return _own_reading[2]
 
 
 def free_s(of_s: float, late_s: Iterable[float]) -> float:
-    """For how much of `of_s` seconds nobody was kept waiting; each was for so long, whatever the others did then."""
+    """Estimate for how much of `of_s` seconds nobody waited for a CPU.
+
+    `late_s` holds how long each one waited; their waits are taken as independent of each other.
+    """
     return of_s * math.prod(max(0.0, 1 - each / of_s) for each in late_s) if of_s > 0 else 0.0
 
 
 def recent_processes(pid: int) -> dict[int, Process]:
-    """The table of processes, read again where it is old or lacks `pid`; the numbers of each are never old."""
+    """Return the process table, at most `TABLE_MAX_AGE_S` old and read again if it lacks `pid`.
+
+    Only the list of processes is cached: CPU times and wake times are always read afresh.
+    """
     global _process_table
     read_at, table = _process_table
     now = time.monotonic()
-    if pid not in table or now - read_at >= TABLE_EVERY_S:
+    if pid not in table or now - read_at >= TABLE_MAX_AGE_S:
         _process_table = (now, processes())
     return _process_table[1]
 
@@ -86,6 +91,6 @@ def _read_cpu_time(pid: int) -> CpuTime:
             ran, waited = max(ran, int(fields[0])), max(waited, int(fields[1]))
             if thread == str(pid):
                 main = int(fields[1])
-    except (OSError, IndexError, ValueError):  # it ended while it was read, or this kernel has no such file
+    except (OSError, IndexError, ValueError):  # the process ended meanwhile, or this kernel has no such file
         pass
     return CpuTime(ran * 1e-9, waited * 1e-9, main * 1e-9)

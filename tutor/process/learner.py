@@ -1,4 +1,4 @@
-"""A learner's process: started as from a terminal, watched, sent Ctrl+C, and ended for certain."""
+"""A learner's process: started as from a terminal, watched, interrupted, and reliably ended."""
 
 from __future__ import annotations
 
@@ -29,35 +29,35 @@ _START_LIMIT_S = 20.0
 
 @dataclass(frozen=True, slots=True)
 class Survivor:
-    """A living process that the learner's process started (or that process itself). `command` is its command line."""
+    """A live process of a learner's run: the program itself or a descendant. `command` is its command line."""
 
     pid: int
     command: str
 
 
 class LearnerProcess:
-    """One process of a learner, with everything that it starts. Made by `LearnerProcess.start`.
+    """A learner's program and everything that it starts. Created by `LearnerProcess.start`.
 
-    An asynchronous context manager: leaving it calls `end`.
+    An async context manager that calls `end` on exit.
     """
 
     def __init__(self, on_change: Callable[[], None] | None, terminal: bool) -> None:
-        """Not for callers: use `start`."""
+        """Internal: use `start`."""
         self._loop = asyncio.get_running_loop()
         self._on_change = on_change
-        self._change: asyncio.Handle | None = None
+        self._change_handle: asyncio.Handle | None = None
         self._output = Output()
         self._exit: Exit | None = None
         self._exited: asyncio.Future[None] = self._loop.create_future()
         self._run = uuid.uuid4().hex
-        self._out_of_memory = memory.oom_kills()
+        self._oom_kills_before = memory.oom_kills()
         self._fault = ""
         with contextlib.ExitStack() as made:
             self._stdin = Stdin(terminal=terminal)
             made.callback(self._stdin.close)
-            stdout = PipeReader(lambda data: self._take("stdout", data))
+            stdout = PipeReader(lambda data: self._feed("stdout", data))
             made.callback(stdout.close)
-            stderr = PipeReader(self._take_stderr)
+            stderr = PipeReader(self._feed_stderr)
             made.pop_all()
         self._stdout, self._stderr = stdout, stderr
         self._link = SupervisorLink(self._run, frozenset((stdout.inode, stderr.inode)), self._set_exit)
@@ -74,14 +74,14 @@ class LearnerProcess:
         wrapper: Sequence[str] = (),
         on_change: Callable[[], None] | None = None,
     ) -> Self:
-        """Start `argv` with exactly the environment `env` (and our mark) in the folder `cwd`.
+        """Start `argv` in the folder `cwd` with exactly the environment `env`, plus our marker variable.
 
-        It gets a session and process group of its own, default signal handling, no input, and pipes for its output.
-        `terminal`: its input is a terminal where nobody types. `ros2 launch` looks there whether Ctrl+C reaches the
-        nodes without its help; where it does not, each node would get two.
-        `wrapper`: the command that runs it (see `SupervisorLink.start`).
+        The program gets its own session and process group, default signal handlers, empty stdin, and pipes for output.
+        `terminal`: give it an idle terminal as stdin. `ros2 launch` checks whether stdin is a terminal, where Ctrl+C
+        reaches the nodes by itself; otherwise it forwards the signal, and each node would get it twice.
+        `wrapper`: a command prefix to run it in (see `SupervisorLink.start`).
         `on_change` is called on the event loop after new output and after the exit.
-        Raises StartError if it cannot be started; then nothing is left of the attempt.
+        Raises StartError if the program cannot be started; nothing of the attempt is left then.
         """
         try:
             learner = cls(on_change, terminal)
@@ -104,7 +104,7 @@ class LearnerProcess:
 
     @property
     def pid(self) -> int:
-        """The process id, which is also its session's and its process group's."""
+        """The process id, which is also the id of its session and process group."""
         return self._link.pid
 
     @property
@@ -114,55 +114,55 @@ class LearnerProcess:
 
     @property
     def exit(self) -> Exit | None:
-        """How the process ended; None while it lives. Once set, all that it wrote is in `output`."""
+        """How the process ended, or None while it runs. Once set, everything it wrote is in `output`."""
         return self._exit
 
     @property
     def killed(self) -> bool:
-        """Whether it ended with SIGKILL before it was to `end`: by itself, or by others, which cannot be told apart."""
+        """Whether SIGKILL ended it before `end` was called. It may have been self-inflicted; the sender is unknown."""
         return self._exit is not None and self._exit.signal == signal.SIGKILL and not self._link.ending
 
     @property
     def fault(self) -> str:
-        """Why its exit says nothing about the program: the machine or others ended it. Empty where nothing is known."""
+        """Why the exit is not the program's doing (out of memory, killed from outside). Empty if no reason is known."""
         return self._link.fault or self._fault
 
     @property
     def output(self) -> tuple[OutputLine, ...]:
-        """The lines it wrote so far (bounded, see `dropped_lines`), an unfinished last line included.
+        """The lines written so far (bounded, see `dropped_lines`), including an unfinished last line.
 
-        Decoded again after each change, so look when it is to be shown, not on each `on_change` of a busy process.
+        Decoded again after each change: read it when it is to be shown, not on every `on_change` of a busy process.
         """
         return self._output.lines
 
     @property
     def dropped_lines(self) -> int:
-        """How many lines in the middle of the output were not kept."""
+        """The number of lines dropped from the middle of the output."""
         return self._output.dropped_lines
 
     def interrupt(self) -> None:
-        """Send SIGINT to the process group, as Ctrl+C in a terminal does. Nothing happens if the group is gone."""
+        """Send SIGINT to the process group, as Ctrl+C in a terminal does. Does nothing if the group is gone."""
         self._link.interrupt()
 
     async def wait(self, limit_s: float | None) -> Exit | None:
-        """Wait for the exit, `limit_s` seconds at most (None: as long as it takes). None if it still lives."""
+        """Wait up to `limit_s` seconds for the exit (None: indefinitely). Return None if it is still running."""
         await asyncio.wait({self._exited}, timeout=limit_s)
         return self._exit
 
     def next_wake(self) -> NextWake:
-        """When one of the learner's processes next does something by itself, as far as the kernel tells."""
+        """Return when a thread of the learner's processes next wakes up by itself, as far as the kernel reports it."""
         return self._link.next_wake()
 
     async def survivors(self) -> list[Survivor]:
-        """The living processes of the learner's, the first one included while it lives; zombies do not count."""
+        """Return the learner's live processes, including the program itself. Zombies do not count."""
         known = [Survivor(p.pid, orphans.command_line(p.pid)) for p in self._link.living_processes()]
-        return [survivor for survivor in known if survivor.command]  # one without has ended meanwhile
+        return [survivor for survivor in known if survivor.command]  # one without a command has ended meanwhile
 
     async def end(self) -> None:
-        """Kill every process of the learner's and wait until none is left. May be called more than once.
+        """Kill all of the learner's processes and wait until none is left. Idempotent.
 
-        A cancelled caller gets its CancelledError only when that is done.
-        Raises EndError if something cannot be killed within some seconds.
+        Cancellation is delayed until they are gone.
+        Raises EndError if some process cannot be killed within a few seconds.
         """
         self._link.end()
         gone = self._link.gone
@@ -202,24 +202,24 @@ class LearnerProcess:
         if not ready.done():
             raise StartError(f"The program could not be started within {_START_LIMIT_S:.0f} s.")
         if ready.result():
-            self._drain()  # what a supervisor said that failed itself
-            said = "".join(f": {line.text}" for line in self.output[-1:])
-            raise StartError(f"The program cannot be started: {ready.result()}{said}.")
+            self._drain()  # a supervisor that crashed printed why
+            detail = "".join(f": {line.text}" for line in self.output[-1:])
+            raise StartError(f"The program cannot be started: {ready.result()}{detail}.")
 
-    def _take(self, stream: str, data: bytes) -> None:
+    def _feed(self, stream: str, data: bytes) -> None:
         self._output.feed(stream, data, time.time())
-        self._changed()
+        self._schedule_on_change()
 
-    def _take_stderr(self, data: bytes) -> None:
-        self._stdout.catch_up()  # what was printed before this is in its pipe by now, and is shown above it
-        self._take("stderr", data)
+    def _feed_stderr(self, data: bytes) -> None:
+        self._stdout.catch_up()  # anything printed earlier is in the stdout pipe by now, and belongs above this
+        self._feed("stderr", data)
 
-    def _changed(self) -> None:
-        if self._on_change is not None and self._change is None:
-            self._change = self._loop.call_soon(self._tell)
+    def _schedule_on_change(self) -> None:
+        if self._on_change is not None and self._change_handle is None:
+            self._change_handle = self._loop.call_soon(self._call_on_change)
 
-    def _tell(self) -> None:
-        self._change = None
+    def _call_on_change(self) -> None:
+        self._change_handle = None
         if self._on_change is not None:
             self._on_change()
 
@@ -228,18 +228,18 @@ class LearnerProcess:
         self._stderr.drain()
 
     def _set_exit(self, ended: Exit) -> None:
-        # All that the process itself wrote is in the pipes by now; others may hold them open and go on writing.
+        # Everything the program wrote is in the pipes by now; its children may hold them open and go on writing.
         self._drain()
         self._exit = ended
-        if self.killed and memory.oom_kills() > self._out_of_memory:
+        if self.killed and memory.oom_kills() > self._oom_kills_before:
             self._fault = "the machine ran out of memory, and the system killed the program"
         self._exited.set_result(None)
-        self._changed()
+        self._schedule_on_change()
 
     def _finish(self) -> None:
-        """All is over: read what is left, and close. May be called twice."""
+        """Read the remaining output and close everything. Idempotent."""
         self._drain()
-        if self._exit is None and self.pid:  # the supervisor was killed and took it along
+        if self._exit is None and self.pid:  # the supervisor was killed, and the program with it
             self._set_exit(Exit(None, int(signal.SIGKILL), max(0.0, time.time() - self.started_at)))
         self._stdin.close()
         self._stdout.close()

@@ -1,4 +1,4 @@
-"""One of our programs as a child process that speaks in lines. The app never imports rclpy, and outlives the child."""
+"""Runs one of our own programs as a child that prints lines: the app never imports rclpy, and survives a crash."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ from collections.abc import AsyncIterator, Mapping, Sequence
 from pathlib import Path
 from typing import Self
 
-_LONGEST_LINE = 1 << 24
-_LAST_LINES = 40
+_MAX_LINE_BYTES = 1 << 24
+_STDERR_TAIL_LINES = 40
 
 
 class LineChild:
-    """One run of such a program. What it writes to stderr is kept in part, and never waited for."""
+    """A running child. Its stderr is drained in the background, so that it never blocks there; the tail is kept."""
 
     def __init__(self, process: asyncio.subprocess.Process) -> None:
         self._process = process
-        self._stderr: deque[str] = deque(maxlen=_LAST_LINES)
+        self._stderr: deque[str] = deque(maxlen=_STDERR_TAIL_LINES)
         self._reader = asyncio.create_task(self._read_stderr())
 
     @classmethod
@@ -31,7 +31,7 @@ class LineChild:
         env: Mapping[str, str] | None = None,
         stdin: int = asyncio.subprocess.DEVNULL,
     ) -> Self:
-        """Start it in a process group of its own, so that no Ctrl+C in an editor hits it. Raises OSError."""
+        """Start the child in its own process group, out of reach of a Ctrl+C in the terminal. Raises OSError."""
         process = await asyncio.create_subprocess_exec(
             *argv,
             cwd=cwd,
@@ -39,25 +39,25 @@ class LineChild:
             stdin=stdin,
             stdout=asyncio.subprocess.PIPE,
             stderr=asyncio.subprocess.PIPE,
-            limit=_LONGEST_LINE,
+            limit=_MAX_LINE_BYTES,
             process_group=0,
         )
         return cls(process)
 
     @property
     def pid(self) -> int:
-        """Its process id."""
+        """The child's process id."""
         return self._process.pid
 
     async def lines(self) -> AsyncIterator[str]:
-        """The lines that it prints, without empty ones, until it closes its output."""
+        """Yield the non-blank lines that it prints, until it closes stdout."""
         assert self._process.stdout is not None
         async for line in self._process.stdout:
             if text := line.decode("utf-8", "replace").strip():
                 yield text
 
     def send_signal(self, number: signal.Signals) -> None:
-        """Send it a signal, where it still runs."""
+        """Send a signal if the child is still running."""
         if self._process.returncode is None:
             with contextlib.suppress(ProcessLookupError):
                 self._process.send_signal(number)

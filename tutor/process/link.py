@@ -1,4 +1,4 @@
-"""Our side of a supervisor: starts it, passes requests to it, hears its reports, and makes up for it where it fails."""
+"""Our end of a supervisor: starts it, sends it requests, handles its reports, and takes over if it fails."""
 
 from __future__ import annotations
 
@@ -19,26 +19,26 @@ from tutor.process.supervisor import Process, descendants, descendants_in, kill,
 from tutor.process.wake_time import NextWake, next_wake
 
 _SUPERVISOR = Path(__file__).with_name("supervisor.py")
-# How long the supervisor may take to end everything before we step in, and how long we then may take.
+# How long the supervisor may take to end everything before we take over, and how long we may then take.
 _SUPERVISOR_LIMIT_S = 3.0
 _ORPHANS_LIMIT_S = 5.0
 
-_KILLED = "the process of ros-tutor that looks after the program was killed, and the program with it"
+_KILLED = "the ros-tutor process that looks after the program was killed, and the program with it"
 
 
 class SupervisorLink(asyncio.Protocol):
-    """The link to one supervisor, and through it to one process of a learner and its descendants.
+    """The connection to one supervisor, and so to one learner process and its descendants.
 
-    `ready` is done when the process was started (result: an empty text) or cannot be (why not). `gone` is done when the
-    supervisor and all its processes are gone (an empty text), or could not be ended (which).
+    The future `ready` resolves to "" once the process has started, or to the reason why it cannot. The future `gone`
+    resolves to "" once the supervisor and all its processes are gone, or to a list of those that could not be ended.
     """
 
     def __init__(self, run: str, pipes: frozenset[int], on_exit: Callable[[Exit], None]) -> None:
-        """`run` and `pipes` are what the processes can be known by (see `orphans.RunMarks`)."""
+        """`run` and `pipes` identify the processes of this run (see `orphans.RunMarks`)."""
         self.pid = 0
         self.started_at = 0.0
         self.fault = ""
-        """Why its end says nothing about the program: the supervisor was ended by others. Empty where it was not."""
+        """Why the exit is not the program's doing: the supervisor was killed from outside. Empty if it was not."""
         self.ending = False
         self._loop = asyncio.get_running_loop()
         self.ready: asyncio.Future[str] = self._loop.create_future()
@@ -51,17 +51,17 @@ class SupervisorLink(asyncio.Protocol):
         self._control: asyncio.Transport | None = None
         self._received = b""
         self._finished = False
-        self._ours: set[int] = set()  # the supervisor, and what is between it and us
+        self._ours: set[int] = set()  # the supervisor, and any wrapper processes around it
         self._wrapped = False
-        self._takeover: asyncio.TimerHandle | None = None
+        self._takeover_timer: asyncio.TimerHandle | None = None
 
     async def start(self, request: bytes, stdin: int, stdout: int, stderr: int, wrapper: Sequence[str]) -> None:
-        """Start the supervisor, with these descriptors for its processes and for itself, and hand it a request.
+        """Start the supervisor and send it a request. It and its processes share the given stdio descriptors.
 
-        `wrapper`: the command in front of its own that puts it into a process namespace of its own, as the child of the
-        first one there; the kernel ends all of them with that one, and that one ends with us.
+        `wrapper`: a command prefix that runs the supervisor in its own PID namespace, as a child of the namespace's
+        init process. The kernel kills the whole namespace when that one exits, and that one dies with us.
 
-        Raises OSError if there can be no supervisor.
+        Raises OSError if the supervisor cannot be started.
         """
         prctl.guard()
         prctl.adopt_orphans(True)
@@ -76,7 +76,7 @@ class SupervisorLink(asyncio.Protocol):
                     stderr=stderr,
                     pass_fds=(theirs.fileno(),),
                     cwd="/",
-                    # The ROS wheels would have the interpreter start twice.
+                    # Otherwise the ROS wheels would make the interpreter start twice.
                     env={**os.environ, "_ROS_WHEELS_BOOTSTRAP_COMPLETE": "1"},
                     start_new_session=True,
                 )
@@ -89,32 +89,32 @@ class SupervisorLink(asyncio.Protocol):
         try:
             self._control, _ = await self._loop.create_unix_connection(lambda: self, sock=ours)
         except BaseException:
-            ours.close()  # tells the supervisor to end
+            ours.close()  # end of stream: the supervisor exits
             self.connection_lost(None)
             raise
         self._control.write(request)
 
     def interrupt(self) -> None:
-        """Have SIGINT sent to the learner's process group."""
+        """Ask the supervisor to send SIGINT to the learner's process group."""
         if self._control is not None and not self.ending and not self._control.is_closing():
             self._control.write(b"interrupt\n")
 
     def living_processes(self) -> list[Process]:
-        """The living processes under the supervisor."""
+        """Return the live processes under the supervisor."""
         if self._supervisor is None or self.gone.done():
             return []
         found = [p for p in descendants(self._supervisor.pid) if p.alive] or orphans.find_orphans(self._marks())
         return [p for p in found if p.pid not in self._ours]
 
     def next_wake(self) -> NextWake:
-        """When one of the processes under the supervisor next does something by itself."""
+        """Return when a thread of the processes under the supervisor next wakes up by itself."""
         if self._supervisor is None or self.gone.done():
             return NextWake()
         found = descendants_in(recent_processes(self._supervisor.pid), self._supervisor.pid)
         return next_wake(p.pid for p in found if p.alive and p.pid not in self._ours)
 
     def end(self) -> None:
-        """Begin to end everything; `gone` tells when that is done. May be called more than once."""
+        """Start ending everything; `gone` resolves when that is done. Idempotent."""
         if self.ending or self.gone.done():
             return
         self.ending = True
@@ -123,11 +123,11 @@ class SupervisorLink(asyncio.Protocol):
         elif self._control is not None and not self._control.is_closing():
             for pid in self._ours:
                 with contextlib.suppress(ProcessLookupError):
-                    os.kill(pid, signal.SIGCONT)  # should a learner's program have stopped it
+                    os.kill(pid, signal.SIGCONT)  # in case a learner's program has stopped it
             self._control.write_eof()
-            self._takeover = self._loop.call_later(_SUPERVISOR_LIMIT_S, self._take_over)
+            self._takeover_timer = self._loop.call_later(_SUPERVISOR_LIMIT_S, self._take_over)
 
-    # --- what the supervisor says (called by asyncio) ---
+    # --- reports from the supervisor (called by asyncio) ---
 
     def data_received(self, data: bytes) -> None:
         *lines, self._received = (self._received + data).split(b"\n")
@@ -136,20 +136,20 @@ class SupervisorLink(asyncio.Protocol):
             self._handle_report(word, rest)
 
     def connection_lost(self, error: Exception | None) -> None:
-        """After the supervisor's last report all is well; else its processes are orphans, and ours."""
+        """Finish if the supervisor has sent its last report; otherwise its processes are orphans, and ours to end."""
         if self.pid and not self.ending:
             self.fault = _KILLED
         if self._finished:
             self._finish("")
         else:
-            self._end_orphans(self._marks(), self._loop.time() + _ORPHANS_LIMIT_S, clean=0)
+            self._end_orphans(self._marks(), self._loop.time() + _ORPHANS_LIMIT_S, clean_scans=0)
 
     def _handle_report(self, word: str, rest: str) -> None:
         if word == "started":
             pid, epoch = rest.split()
             self.pid, self.started_at = int(pid), float(epoch)
             if self._wrapped:
-                self.pid = self._seen_from_here(self.pid)
+                self.pid = self._translate_pid(self.pid)
             self._set_ready("")
         elif word == "failed":
             self._finished = True
@@ -164,62 +164,62 @@ class SupervisorLink(asyncio.Protocol):
         elif word == "ended":
             self._finished = True
 
-    def _seen_from_here(self, pid: int) -> int:
-        """The pid that a process of the supervisor's has here; in a namespace of its own it has another one."""
+    def _translate_pid(self, pid: int) -> int:
+        """Translate a pid reported from inside the supervisor's PID namespace to the one it has in ours."""
         assert self._supervisor is not None
         found = {p.pid: p for p in descendants(self._supervisor.pid)}
-        one = next((p for p in found if namespace_pid(p) == pid), None)
-        if one is None:  # it has ended already, and been reaped
+        outer_pid = next((p for p in found if namespace_pid(p) == pid), None)
+        if outer_pid is None:  # it has already ended and been reaped
             return self._supervisor.pid
-        above = found[one].parent
+        above = found[outer_pid].parent
         while above in found:
             self._ours.add(above)
             above = found[above].parent
-        return one
+        return outer_pid
 
     def _set_ready(self, why_not: str) -> None:
         if not self.ready.done():
             self.ready.set_result(why_not)
 
-    # --- where the supervisor fails ---
+    # --- when the supervisor fails ---
 
     def _take_over(self) -> None:
-        """The supervisor does not manage: do without it. Once it is gone, the orphans are ended."""
+        """Kill a supervisor that takes too long. Once it is gone, the orphans are ended."""
         if self._supervisor is not None and not self.gone.done():
-            # Where /proc cannot be read, say with no descriptor left, the search for orphans tries again.
+            # If /proc cannot be read (no file descriptors left, say), the search for orphans will try again.
             with contextlib.suppress(OSError):
                 kill(descendants(self._supervisor.pid))
             self._supervisor.kill()
 
     def _marks(self) -> orphans.RunMarks:
-        # After the process was reaped, the number of its session may be someone else's.
+        # Once the process has been reaped, its session id may be reused by someone else.
         return orphans.RunMarks(self._run, self.pid if self.pid and not self._exited else None, self._pipes)
 
-    def _end_orphans(self, marks: orphans.RunMarks, until: float, clean: int) -> None:
+    def _end_orphans(self, marks: orphans.RunMarks, until: float, clean_scans: int) -> None:
         try:
             found = [
                 p for p in orphans.find_orphans(marks) if self._supervisor is None or p.pid != self._supervisor.pid
             ]
             left = ", ".join(f"{p.pid} ({orphans.command_line(p.pid)})" for p in found)
         except OSError as error:
-            found, left = [], f"those there may be, since the system does not show them ({error})"
+            found, left = [], f"any that are left, since the system does not list them ({error})"
         kill(found)
-        clean = 0 if left else clean + 1
-        if clean >= 2:  # one look alone could miss a child whose parent ended during the look
+        clean_scans = 0 if left else clean_scans + 1
+        if clean_scans >= 2:  # a single scan could miss a child whose parent ended during it
             self._finish("")
         elif self._loop.time() > until:
             self._finish(f"Some processes of the program could not be ended: {left}.")
         else:
-            self._loop.call_later(0.005, self._end_orphans, marks, until, clean)
+            self._loop.call_later(0.005, self._end_orphans, marks, until, clean_scans)
 
     def _finish(self, left: str) -> None:
         if self._supervisor is not None and self._supervisor.poll() is None:
-            self._loop.call_later(0.001, self._finish, left)  # it has closed its files, so it is about to be gone
+            self._loop.call_later(0.001, self._finish, left)  # it has closed its socket and is about to exit
             return
         if self._supervisor is not None:
             orphans.supervisors.discard(self._supervisor.pid)
-        if self._takeover is not None:
-            self._takeover.cancel()
+        if self._takeover_timer is not None:
+            self._takeover_timer.cancel()
         if not self.gone.done():
             self.gone.set_result(left)
         self._set_ready("our helper process ended at once")

@@ -1,4 +1,4 @@
-"""The folder that a learner's process logs into: kept small while it runs; in a check, gone afterwards."""
+"""The ROS log folder of a learner's process: kept small while it runs and, in a check, removed afterwards."""
 
 from __future__ import annotations
 
@@ -16,73 +16,73 @@ from uuid import uuid4
 from tutor import private_folders
 
 MOST_BYTES = 16_000_000
-"""What the log files may take on the disk in a check, where nobody reads them; they are emptied when it is more."""
+"""Disk usage above which the log files of a check are truncated. Nobody reads them."""
 
-MOST_OF_THE_APP = 256_000_000
-"""The same for all nodes that the app has run, whose log files people may want to read."""
+MOST_APP_BYTES = 256_000_000
+"""The same limit for all nodes that the app has run, whose log files people may want to read."""
 
-LOOK_EVERY_S = 0.2
+CHECK_INTERVAL_S = 0.2
 MOST_ENTRIES, MOST_OPENED = 10_000, 100
 
-_FOLDER = os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW | os.O_CLOEXEC
-_FILE = os.O_WRONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_NOCTTY | os.O_CLOEXEC
+_FOLDER_FLAGS = os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW | os.O_CLOEXEC
+_FILE_FLAGS = os.O_WRONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_NOCTTY | os.O_CLOEXEC
 
 
 @contextmanager
 def temporary_log_folder() -> Iterator[Path]:
-    """A new folder. The processes that use it must have ended when it is left; no error comes of what they did to it.
+    """Create a log folder, keep it small, and remove it on exit, whatever the processes have done to it.
 
-    Needs a running event loop.
+    Those processes must have ended by then. Needs a running event loop.
     """
     loop = asyncio.get_running_loop()
-    path, folder = private_folders.create("check")  # it stays the folder that we made, whatever takes its place
+    path, folder = private_folders.create("check")  # the descriptor stays valid even if the path is replaced
 
-    next_look = loop.call_later(LOOK_EVERY_S, lambda: look())
+    next_check = loop.call_later(CHECK_INTERVAL_S, lambda: check())
 
-    def look() -> None:
-        nonlocal next_look
+    def check() -> None:
+        nonlocal next_check
         keep_small(folder)
-        next_look = loop.call_later(LOOK_EVERY_S, look)
+        next_check = loop.call_later(CHECK_INTERVAL_S, check)
 
     try:
         yield path
     finally:
-        next_look.cancel()
+        next_check.cancel()
         _remove(folder, path)
         os.close(folder)
 
 
-async def limit(path: Path, most: int = MOST_OF_THE_APP) -> None:
-    """Keep the log files in a folder small until this is cancelled. The folder may come into being later."""
+async def limit(path: Path, most: int = MOST_APP_BYTES) -> None:
+    """Keep the log files in a folder small until cancelled. The folder need not exist yet."""
     while True:
         with contextlib.suppress(OSError):
-            folder = os.open(path, _FOLDER)
+            folder = os.open(path, _FOLDER_FLAGS)
             try:
                 keep_small(folder, most)
             finally:
                 os.close(folder)
-        await asyncio.sleep(LOOK_EVERY_S)
+        await asyncio.sleep(CHECK_INTERVAL_S)
 
 
 def keep_small(folder: int, most: int = MOST_BYTES) -> None:
-    """Empty the log files in an open folder, and in the folders in it, if they take more than `most` bytes of disk."""
+    """Truncate the log files in an open folder and its direct subfolders if they use more than `most` bytes of disk."""
     with contextlib.ExitStack() as opened, contextlib.suppress(OSError):
-        folders = [folder, *_opened(folder, _largest(folder, folders=True), _FOLDER, opened)]
+        folders = [folder, *_open_all(folder, _largest(folder, folders=True), _FOLDER_FLAGS, opened)]
         logs = [(each, _largest(each)) for each in folders]
-        if _bytes(blocks for _, found in logs for blocks, _ in found) <= most:  # as nearly always: nothing is opened
+        if _disk_bytes(blocks for _, found in logs for blocks, _ in found) <= most:  # the usual case: no file is opened
             return
-        files = [file for each, found in logs for file in _opened(each, found, _FILE, opened)]
-        if _bytes(os.fstat(file).st_blocks for file in files) > most:
+        files = [file for each, found in logs for file in _open_all(each, found, _FILE_FLAGS, opened)]
+        if _disk_bytes(os.fstat(file).st_blocks for file in files) > most:
             for file in files:
-                os.ftruncate(file, 0)  # loggers open it for appending, and go on at its new end
+                os.ftruncate(file, 0)  # loggers open it for appending, so they continue at the new end
 
 
-def _bytes(blocks: Iterable[int]) -> int:
+def _disk_bytes(blocks: Iterable[int]) -> int:
     return 512 * sum(blocks)
 
 
 def _largest(folder: int, *, folders: bool = False) -> list[tuple[int, str]]:
-    """The log files in an open folder, or the folders in it, with the disk blocks of each; the largest of many."""
+    """Return (disk blocks, name) of the largest log files, or subfolders, of an open folder."""
     with os.scandir(folder) as entries:
         found = [
             (_blocks(entry), entry.name)
@@ -92,14 +92,14 @@ def _largest(folder: int, *, folders: bool = False) -> list[tuple[int, str]]:
     return heapq.nlargest(MOST_OPENED, found)
 
 
-def _opened(folder: int, found: Iterable[tuple[int, str]], flags: int, opened: contextlib.ExitStack) -> Iterator[int]:
-    """Of what was found in a folder, opened: no links, and no file with another name elsewhere."""
+def _open_all(folder: int, found: Iterable[tuple[int, str]], flags: int, opened: contextlib.ExitStack) -> Iterator[int]:
+    """Open the entries found in a folder, skipping symbolic links and files with further hard links."""
     for _, name in found:
         with contextlib.suppress(OSError):
             handle = os.open(name, flags, dir_fd=folder)
             opened.callback(os.close, handle)
             status = os.fstat(handle)
-            if flags == _FOLDER or (stat.S_ISREG(status.st_mode) and status.st_nlink == 1):
+            if flags == _FOLDER_FLAGS or (stat.S_ISREG(status.st_mode) and status.st_nlink == 1):
                 yield handle
 
 
@@ -111,7 +111,7 @@ def _blocks(entry: os.DirEntry[str]) -> int:
 
 
 def _remove(folder: int, path: Path) -> None:
-    """Remove the folder, wherever it is now, and what stands in its place."""
+    """Remove the folder, even if it was moved, and whatever has taken its place."""
     place = os.readlink(f"/proc/self/fd/{folder}")
     _empty(folder)
     with contextlib.suppress(OSError):
@@ -119,20 +119,20 @@ def _remove(folder: int, path: Path) -> None:
     with contextlib.suppress(OSError):
         path.unlink()
     with contextlib.suppress(OSError):
-        other = os.open(path, _FOLDER)
+        other = os.open(path, _FOLDER_FLAGS)
         _empty(other)
         os.close(other)
         path.rmdir()
 
 
 def _empty(folder: int) -> None:
-    """Remove what is in an open folder. Folders within folders come up level by level: their depth may be any."""
+    """Remove the contents of an open folder. Nested folders are moved up level by level, so any depth works."""
     before: set[str] = set()
     while True:
         with contextlib.suppress(OSError):
             os.fchmod(folder, 0o700)
         names = set(os.listdir(folder))
-        if names == before:  # nothing, or what cannot be removed
+        if names == before:  # nothing left, or nothing that can be removed
             return
         before = names
         for name in names:
@@ -145,7 +145,7 @@ def _remove_one(name: str, folder: int) -> None:
         os.unlink(name, dir_fd=folder)
         return
     os.chmod(name, 0o700, dir_fd=folder)
-    inner = os.open(name, _FOLDER, dir_fd=folder)
+    inner = os.open(name, _FOLDER_FLAGS, dir_fd=folder)
     try:
         for each in os.listdir(inner):
             if stat.S_ISDIR(os.stat(each, dir_fd=inner, follow_symlinks=False).st_mode):

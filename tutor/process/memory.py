@@ -1,4 +1,4 @@
-"""Whether the system has killed processes because it ran out of memory."""
+"""Detects out-of-memory kills by the kernel."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ _VMSTAT = Path("/proc/vmstat")
 
 
 def oom_kills() -> int:
-    """How many processes it has killed so since it was started, by a container's own limit too; 0 where unknown."""
+    """Return the number of OOM kills since boot, including those by a container's own limit; 0 if unknown."""
     try:
         counts = dict(line.split() for line in _VMSTAT.read_text().splitlines())
         return int(counts.get("oom_kill", 0))

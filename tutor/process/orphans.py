@@ -1,4 +1,4 @@
-"""Finds what is left of a run whose supervisor is gone: orphans, whose subreaper we are, and what has a mark."""
+"""Finds what is left of a run whose supervisor is gone: orphans adopted by us as subreaper, and marked processes."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ from tutor.process.supervisor import Process, kill, processes
 MARK = "ROS_TUTOR_RUN"
 
 supervisors: set[int] = set()
-"""Our supervisors, from their start until they are reaped: our children that have a session of their own."""
+"""Pids of our supervisors until they are reaped. They are children with their own session, as orphans are."""
 
 
 @dataclass(frozen=True, slots=True)
 class RunMarks:
-    """What tells a run's processes from all others.
+    """The marks by which a run's processes are recognized.
 
-    `run` is the value of `MARK` in their environment; `session` the learner's session (None where its number may have
-    been given to someone else since); `pipes` the inodes of the pipes that they write to.
+    `run` is the value of `MARK` in their environment, `session` the learner's session id (None once it may have been
+    reused), `pipes` the inodes of the pipes that they write to.
     """
 
     run: str
@@ -30,9 +30,9 @@ class RunMarks:
 
 
 def find_orphans(marks: RunMarks) -> list[Process]:
-    """The living processes that have one of the marks, orphans of any supervisor, and the descendants of both.
+    """Return live processes with one of the marks, orphans of any supervisor, and the descendants of both.
 
-    Never ourselves or our ancestors. Orphans that have ended are reaped.
+    Never includes this process or its ancestors. Reaps orphans that have ended.
     """
     table = processes()
     spared = set(_ancestors(os.getpid(), table))
@@ -41,16 +41,13 @@ def find_orphans(marks: RunMarks) -> list[Process]:
         with contextlib.suppress(ChildProcessError):
             os.waitpid(pid, os.WNOHANG)
     chosen = orphans | {p.pid for p in table.values() if p.pid not in spared and _has_mark(p, marks)}
-    grew = True
-    while grew:
-        more = {p.pid for p in table.values() if p.parent in chosen and p.pid not in spared} - chosen
+    while more := {p.pid for p in table.values() if p.parent in chosen and p.pid not in spared} - chosen:
         chosen |= more
-        grew = bool(more)
     return [table[pid] for pid in sorted(chosen) if table[pid].alive]
 
 
 def end_orphans(limit_s: float = 1.0) -> None:
-    """Kill what has come to us since the process that looked after it has died, and all that it started."""
+    """Kill orphans adopted from dead supervisors, and their descendants. Gives up after `limit_s` seconds."""
     until = time.monotonic() + limit_s
     while (found := find_orphans(RunMarks("", None, frozenset()))) and time.monotonic() < until:
         kill(found)
@@ -58,7 +55,7 @@ def end_orphans(limit_s: float = 1.0) -> None:
 
 
 def command_line(pid: int) -> str:
-    """The command line of a process, its words separated by spaces; its short name where it has none."""
+    """Return the command line of a process, joined by spaces, or its short name if it has none; "" if it has ended."""
     for file in ("cmdline", "comm"):
         try:
             with open(f"/proc/{pid}/{file}", "rb") as opened:
@@ -71,9 +68,9 @@ def command_line(pid: int) -> str:
 
 
 def _is_orphan(process: Process) -> bool:
-    """Whether a supervisor was its parent: what we have started ourselves is in our own session, or a supervisor."""
-    ours = process.parent == os.getpid() and process.pid not in supervisors
-    return ours and process.session != os.getsid(0)
+    """Whether we adopted it from a supervisor: our own children share our session, or are supervisors."""
+    is_child = process.parent == os.getpid() and process.pid not in supervisors
+    return is_child and process.session != os.getsid(0)
 
 
 def _ancestors(pid: int, table: dict[int, Process]) -> Iterable[int]:
@@ -99,7 +96,7 @@ def _writes_to(pid: int, pipes: frozenset[int]) -> bool:
     try:
         for name in os.listdir(folder):
             kind, _, inode = os.readlink(f"{folder}/{name}").partition(":[")
-            # Our own side holds the same pipes open, but only to read.
+            # We hold the same pipes open too, but only for reading.
             if kind == "pipe" and int(inode[:-1]) in pipes and os.lstat(f"{folder}/{name}").st_mode & 0o200:
                 return True
     except OSError:

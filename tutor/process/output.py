@@ -1,4 +1,4 @@
-"""What a process writes, kept within bounds: the first lines and the last lines of each stream."""
+"""Bounded storage for the output of a process: the first and last lines of each stream."""
 
 from __future__ import annotations
 
@@ -29,9 +29,9 @@ class _Stream:
 class Output:
     """The output of one process.
 
-    Of each stream the first `FIRST_LINES` and the last `LAST_LINES` lines are kept, so that a flood on one never drives
-    out a traceback on the other. A line is cut at `LINE_CHARACTERS`. Lines are kept undecoded: a flood costs the search
-    for a few line ends, and decoding is done for those who look.
+    Each stream keeps its first `FIRST_LINES` and last `LAST_LINES` lines, so that a flood on one never drives out a
+    traceback on the other. A line is cut at `LINE_CHARACTERS`. Lines are stored as bytes and decoded only when read, so
+    a flood costs no more than finding a few line ends.
     """
 
     def __init__(self) -> None:
@@ -40,7 +40,7 @@ class Output:
         self._lines: tuple[OutputLine, ...] | None = ()
 
     def feed(self, stream: str, data: bytes, at: float) -> None:
-        """Take what was read from `stream` ("stdout" or "stderr") at the time `at` (seconds since the epoch)."""
+        """Add data read from `stream` ("stdout" or "stderr") at the time `at` (seconds since the epoch)."""
         if not data:
             return
         s = self._streams[stream]
@@ -51,39 +51,39 @@ class Output:
             end = data.find(b"\n", start)
             if end < 0:
                 break
-            s.first.append(self._finish(s, data[start:end], at))
+            s.first.append(self._finish_line(s, data[start:end], at))
             start = end + 1
         *lines, rest = data[start:].rsplit(b"\n", LAST_LINES + 1)
-        if len(lines) > LAST_LINES:  # the first piece is all the rest, of which only the number of lines is of interest
+        if len(lines) > LAST_LINES:  # the first piece holds all earlier lines, which are only counted
             s.complete += lines.pop(0).count(b"\n") + 1
             s.partial = b""
         for line in lines:
-            s.last.append(self._finish(s, line, at))
+            s.last.append(self._finish_line(s, line, at))
         if rest:
             if not s.partial:
                 s.partial_at, s.partial_order = at, self._order
             s.partial = (s.partial + rest[:_LINE_BYTES])[:_LINE_BYTES]
 
-    def _finish(self, s: _Stream, line: bytes, at: float) -> _Raw:
+    def _finish_line(self, s: _Stream, line: bytes, at: float) -> _Raw:
         line = (s.partial + line[:_LINE_BYTES])[:_LINE_BYTES]
         if len(line) > LINE_CHARACTERS:
-            line = _text(line).encode()
+            line = _decode(line).encode()
         s.partial = b""
         s.complete += 1
         return (self._order, line, at)
 
     @property
     def lines(self) -> tuple[OutputLine, ...]:
-        """The lines that are kept, in the order they were read; an unfinished last line is included."""
+        """The stored lines in the order they were read, including an unfinished last line."""
         if self._lines is None:
             found = [(raw, name) for name, s in self._streams.items() for raw in _kept(s)]
             found.sort(key=lambda item: item[0][0])
-            self._lines = tuple(OutputLine(name, _text(line), at) for (_, line, at), name in found)
+            self._lines = tuple(OutputLine(name, _decode(line), at) for (_, line, at), name in found)
         return self._lines
 
     @property
     def dropped_lines(self) -> int:
-        """How many lines in the middle were not kept."""
+        """The number of lines dropped from the middle."""
         return sum(s.complete - len(s.first) - len(s.last) for s in self._streams.values())
 
 
@@ -92,5 +92,5 @@ def _kept(s: _Stream) -> list[_Raw]:
     return [*s.first, *s.last, *partial]
 
 
-def _text(line: bytes) -> str:
+def _decode(line: bytes) -> str:
     return line.removesuffix(b"\r").decode("utf-8", "replace")[:LINE_CHARACTERS]

@@ -1,4 +1,4 @@
-"""Reading a pipe on the event loop at a bounded cost, whatever is written to it."""
+"""Reads a pipe on the event loop at a bounded cost, whatever is written to it."""
 
 from __future__ import annotations
 
@@ -13,31 +13,31 @@ PIPE_BYTES = 1 << 20
 
 MOST_PER_S = 2_000_000
 LINE_BYTES = 100
-"""What is read of a pipe in the long run, in bytes per second, where each line counts for `LINE_BYTES` more: 20,000
-short lines, or 2 MB in long ones. A writer that has more waits, as a slow terminal makes it wait.
+"""Sustained read rate of a pipe in bytes per second, with each line counted as `LINE_BYTES` extra: about 20,000 short
+lines or 2 MB of long ones. A faster writer blocks, as it does on a slow terminal.
 
-A node that logs as fast as rclpy can, some 10,000 lines in a second, stays below and is never slowed. One that prints
-without end sleeps most of the time: ten starts of it, each with a core's worth of printing, would keep the machine so
-busy that nothing could be said of any.
+A node that logs as fast as rclpy can, some 10,000 lines per second, stays below this and is never slowed down. One that
+prints in an endless loop sleeps most of the time. Otherwise ten runs of it, each printing with a full core, would keep
+the machine too busy to judge any of them.
 """
 
 BURST_BYTES = 5_000_000
-"""What may be read beyond that after a quiet time, counted in the same way: a large table may be printed at once."""
+"""Burst allowance after a quiet period, counted in the same way: a large table may be printed at once."""
 
 _PAUSE_S = 0.01
-"""After each read a pipe is left alone: tiny writes cost a hundred reads a second at most. A line is seen this late."""
+"""Pause after each read, and so the latency of a line: tiny writes cost at most a hundred reads per second."""
 
 _LONGEST_PAUSE_S = 0.5
 _FLOOD_PIPE_BYTES = 1 << 16
 _FLOOD_READ_BYTES = 20_000
-"""Of a flood, little waits in the pipe, and little is read at once, so that what is seen of it is not seconds old."""
+"""Pipe and read size during a flood, small so that the output shown is not seconds old."""
 
 
 class PipeReader:
-    """Reads from one pipe and hands each chunk to `feed`, until all writers are gone or it is closed."""
+    """Reads from one pipe and passes each chunk to `feed`, until all writers are gone or the reader is closed."""
 
     def __init__(self, feed: Callable[[bytes], None]) -> None:
-        """Make the pipe. Its other end is `writer`, to be given to a process and then closed by `close_writer`."""
+        """Create the pipe. Pass its write end `writer` to a process, then call `close_writer`."""
         self._loop = asyncio.get_running_loop()
         self._feed = feed
         self._pause: asyncio.TimerHandle | None = None
@@ -46,7 +46,7 @@ class PipeReader:
         self._is_flood = False
         self._fd, self.writer = os.pipe()
         os.set_blocking(self._fd, False)
-        # Where this is beyond what the system allows one user, a smaller pipe only makes a flood slower.
+        # If this exceeds the per-user limit, the pipe stays smaller, which only slows down a flood.
         with contextlib.suppress(OSError):
             fcntl.fcntl(self._fd, fcntl.F_SETPIPE_SZ, PIPE_BYTES)
         self._capacity = fcntl.fcntl(self._fd, fcntl.F_GETPIPE_SZ)
@@ -54,24 +54,24 @@ class PipeReader:
         self._loop.add_reader(self._fd, self._on_readable)
 
     def close_writer(self) -> None:
-        """Close our copy of the writers' end."""
+        """Close our copy of the write end."""
         if self.writer >= 0:
             os.close(self.writer)
             self.writer = -1
 
     def drain(self) -> None:
-        """Read what is in the pipe right now, and no more: a process that goes on writing holds nothing up."""
+        """Read what is in the pipe now, at most its capacity: a process that keeps writing cannot hold us up."""
         left = self._capacity
         while left > 0 and (count := self._read(PIPE_BYTES)):
             left -= count
 
     def catch_up(self) -> None:
-        """Read what is in the pipe right now, unless its writer is being slowed."""
-        if self._owed_s() <= 0:
+        """Read what is in the pipe now, unless its writer is being throttled."""
+        if self._delay_s() <= 0:
             self.drain()
 
     def close(self) -> None:
-        """Stop reading. May be called twice."""
+        """Stop reading. Idempotent."""
         self.close_writer()
         if self._pause is not None:
             self._pause.cancel()
@@ -80,8 +80,8 @@ class PipeReader:
             os.close(self._fd)
             self._fd = -1
 
-    def _owed_s(self) -> float:
-        """How many seconds nothing is to be read, so that its writer is no faster than it may be; below 0: none."""
+    def _delay_s(self) -> float:
+        """Return how many seconds to wait before the next read to hold the rate limit; 0 or less if none."""
         now = time.monotonic()
         self._credit = min(BURST_BYTES, self._credit + (now - self._credit_at) * MOST_PER_S)
         self._credit_at = now
@@ -104,20 +104,20 @@ class PipeReader:
     def _on_readable(self) -> None:
         if self._read(_FLOOD_READ_BYTES if self._is_flood else PIPE_BYTES) and self._fd >= 0:
             self._loop.remove_reader(self._fd)
-            owed_s = self._owed_s()
-            if owed_s > 0 and not self._is_flood:
+            delay_s = self._delay_s()
+            if delay_s > 0 and not self._is_flood:
                 self._is_flood = True
                 self.drain()
-                with contextlib.suppress(OSError):  # where it has been filled again already
+                with contextlib.suppress(OSError):  # the pipe has already been filled again
                     fcntl.fcntl(self._fd, fcntl.F_SETPIPE_SZ, _FLOOD_PIPE_BYTES)
-                if self._fd < 0:  # its end was drained
+                if self._fd < 0:  # end of file was reached while draining
                     return
-            self._pause = self._loop.call_later(max(_PAUSE_S, owed_s), self._resume)
+            self._pause = self._loop.call_later(max(_PAUSE_S, delay_s), self._resume)
 
     def _resume(self) -> None:
         if self._fd < 0:
             return
-        if (owed_s := self._owed_s()) > 0:  # for what was drained meanwhile
-            self._pause = self._loop.call_later(owed_s, self._resume)
+        if (delay_s := self._delay_s()) > 0:  # `drain` was called meanwhile
+            self._pause = self._loop.call_later(delay_s, self._resume)
         else:
             self._loop.add_reader(self._fd, self._on_readable)

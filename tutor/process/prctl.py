@@ -1,4 +1,4 @@
-"""What we ask of the kernel for our own processes. Linux only; elsewhere nothing is asked."""
+"""Kernel settings for our own processes through prctl(2). Does nothing outside Linux."""
 
 from __future__ import annotations
 
@@ -12,22 +12,22 @@ _PR_SET_CHILD_SUBREAPER = 36
 
 
 def die_with_parent(number: signal.Signals = signal.SIGKILL) -> None:
-    """Get this signal when the parent dies: its pipes may be held open by others."""
+    """Get this signal when the parent dies. Waiting for end of file would not do: others may hold its pipes open."""
     parent = os.getppid()
     if _prctl(_PR_SET_PDEATHSIG, number) and os.getppid() != parent:
         os._exit(0)
 
 
 def guard() -> None:
-    """Keep other programs of the user out of this process, until an exec: no debugger, no opening of its descriptors.
+    """Protect this process from the user's other programs until an exec: no debugger, no access to its descriptors.
 
-    What is in its /proc folder and not for everyone belongs to root then, its environment too.
+    The private files in its /proc folder, such as its environment, then belong to root.
     """
     _prctl(_PR_SET_DUMPABLE, 0)
 
 
 def adopt_orphans(adopt: bool) -> None:
-    """Become the parent of every descendant whose own parents have died, or leave them to those above again."""
+    """Become the subreaper, so that orphaned descendants become our children; or stop being it."""
     _prctl(_PR_SET_CHILD_SUBREAPER, adopt)
 
 

@@ -1,4 +1,4 @@
-"""What a process has as its standard input: nothing, or a terminal where nobody types."""
+"""The standard input of a process: /dev/null, or a terminal where nobody types."""
 
 from __future__ import annotations
 
@@ -6,26 +6,26 @@ import os
 
 
 class Stdin:
-    """The end that a process reads is `reader`, to be given to it and then closed by `close_reader`."""
+    """Pass the read end `reader` to a process, then call `close_reader`."""
 
     def __init__(self, *, terminal: bool) -> None:
         """Raises OSError."""
-        self._kept = -1
+        self._master = -1
         if terminal:
-            # Held open by us, and nobody's controlling terminal: it sends no signals, and lasts until `close`.
-            self._kept, self.reader = os.openpty()
+            # We keep the other end open until `close`. As nobody's controlling terminal, it sends no signals.
+            self._master, self.reader = os.openpty()
         else:
             self.reader = os.open(os.devnull, os.O_RDONLY)
 
     def close_reader(self) -> None:
-        """Close our copy of the process's end."""
+        """Close our copy of the read end."""
         if self.reader >= 0:
             os.close(self.reader)
             self.reader = -1
 
     def close(self) -> None:
-        """Hang up. May be called twice."""
+        """Hang up. Idempotent."""
         self.close_reader()
-        if self._kept >= 0:
-            os.close(self._kept)
-            self._kept = -1
+        if self._master >= 0:
+            os.close(self._master)
+            self._master = -1

@@ -1,17 +1,17 @@
-"""The supervisor: a small process that starts one learner's process and sees to it that nothing of it outlives us.
+"""The supervisor: a small process that starts one learner's process and ensures that nothing of it outlives us.
 
-Run by file path with `python -I -S`, so it uses a few standard modules only and must start fast. It is the subreaper of
-everything it starts: whatever a descendant does (setsid, double fork, a cleared environment), its parents lead back
+Run by file path with `python -I -S`, it must start fast and uses only a few standard modules. It is the subreaper of
+everything it starts: whatever a descendant does (setsid, double fork, a cleared environment), its ancestry leads back
 here, so "the supervisor has no child left" means that nothing is left.
 
-It talks over one socket, whose file descriptor is its only argument beside our pid:
+It communicates over one socket; its arguments are that socket's file descriptor and the pid of its owner:
 
-    us to it       a request (see `pack_request`), then `interrupt` lines; the end of the stream means: end everything.
-                   The stream ends by itself when our process dies, SIGKILL included.
-    it to us       lines: `started PID EPOCH`, or `failed SENTENCE`; `exit WAITSTATUS AFTER_S`; `terminated`, where a
-                   SIGTERM has it end everything; and `ended` as the last.
+    owner to supervisor   a request (see `pack_request`), then `interrupt` lines. End of stream means: end everything.
+                          The stream also ends by itself when the owner dies, even by SIGKILL.
+    supervisor to owner   lines: `started PID EPOCH` or `failed SENTENCE`; `exit WAITSTATUS AFTER_S`; `terminated` if a
+                          SIGTERM makes it end everything; and finally `ended`.
 
-The functions that read /proc are used on our side too.
+The owner uses the functions that read /proc, too.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ class Process:
 
 
 def processes() -> dict[int, Process]:
-    """All processes that can be seen, by pid. Not a snapshot of one moment: a process may move while it is read."""
+    """Return all visible processes by pid. Not an atomic snapshot: a process may change parents during the scan."""
     table: dict[int, Process] = {}
     for name in os.listdir("/proc"):
         if not name.isdecimal():
@@ -64,7 +64,7 @@ def processes() -> dict[int, Process]:
                 stat = file.read(4096)
         except OSError:
             continue
-        # The command's name is in parentheses and may hold anything, parentheses included.
+        # The command name is in parentheses and may contain anything, even parentheses.
         fields = stat[stat.rfind(b")") + 2 :].split(None, 4)
         if len(fields) == 5:
             pid = int(name)
@@ -73,9 +73,9 @@ def processes() -> dict[int, Process]:
 
 
 def descendants(root: int) -> list[Process]:
-    """The descendants of `root`, parents before children, zombies included.
+    """Return the descendants of `root`, parents before children, zombies included.
 
-    A process whose parent ended during the reading has no known parent; then it is read again.
+    If a parent ended during the scan, its children have no known parent, and the table is read again.
     """
     for _ in range(5):
         table = processes()
@@ -85,7 +85,7 @@ def descendants(root: int) -> list[Process]:
 
 
 def descendants_in(table: dict[int, Process], root: int) -> list[Process]:
-    """The descendants of `root` in a table of processes, parents before children."""
+    """Return the descendants of `root` in a process table, parents before children."""
     children: dict[int, list[Process]] = {}
     for process in table.values():
         children.setdefault(process.parent, []).append(process)
@@ -99,7 +99,7 @@ def descendants_in(table: dict[int, Process], root: int) -> list[Process]:
 
 
 def namespace_pid(pid: int) -> int:
-    """The number of a process in the namespace that it is in; 0 where it has gone."""
+    """Return the pid of a process inside its own PID namespace; 0 if it is gone."""
     try:
         with open(f"/proc/{pid}/status", "rb") as file:
             return next((int(line.split()[-1]) for line in file if line.startswith(b"NSpid:")), pid)
@@ -108,29 +108,29 @@ def namespace_pid(pid: int) -> int:
 
 
 def kill(found: list[Process]) -> None:
-    """SIGKILL to each of the processes. One that has gone, or is not ours to kill, is passed over."""
+    """Send SIGKILL to each process, skipping those that are gone or not ours to kill."""
     for process in found:
         with contextlib.suppress(ProcessLookupError, PermissionError):
             os.kill(process.pid, signal.SIGKILL)
 
 
 def pack_request(argv: list[bytes], environment: list[bytes], cwd: bytes) -> bytes:
-    """Write a request to start `argv`: its length in 8 digits, then its parts between NULs (no part can hold one)."""
+    """Encode a request to start `argv`: its length in 8 digits, then NUL-separated parts (no part may hold one)."""
     body = b"\0".join([cwd, str(len(argv)).encode(), *argv, *environment])
     return b"%08d" % len(body) + body
 
 
 class Supervisor:
-    """Starts the learner's process, reports on it, and in the end kills and reaps everything that descends from it."""
+    """Starts the learner's process, reports on it, and finally kills and reaps all its descendants."""
 
     def __init__(self, control: int, owner: int) -> None:
         self._control = control
-        os.set_inheritable(control, False)  # as all our other descriptors are, so that an exec closes them
-        self._main = 0
-        self._started = 0.0
+        os.set_inheritable(control, False)  # like all our other descriptors, so that an exec closes it
+        self._main_pid = 0
+        self._started_at = 0.0
         self._exited = False
         self._prctl = ctypes.CDLL(None, use_errno=True).prctl
-        # The stream's end says that our owner died; a fork of the owner may hold the stream open, its pidfd cannot lie.
+        # End of stream tells us that the owner died, unless a fork of it holds the stream open. Its pidfd is reliable.
         self._owner: int | None = None
         with contextlib.suppress(OSError):
             self._owner = os.pidfd_open(owner)
@@ -149,8 +149,8 @@ class Supervisor:
         self._orphaned = True
 
     def run(self) -> None:
-        """Do one request from start to end."""
-        self._prctl(PR_SET_DUMPABLE, 0, 0, 0, 0)  # no debugger; the exec of the learner's process takes it back
+        """Handle one request from start to end."""
+        self._prctl(PR_SET_DUMPABLE, 0, 0, 0, 0)  # no debugger; undone by the exec of the learner's process
         if self._prctl(PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0) != 0:
             return self._report(f"failed the system refused a subreaper: {os.strerror(ctypes.get_errno())}")
         request = self._read_request()
@@ -169,7 +169,7 @@ class Supervisor:
         return None
 
     def _report(self, line: str) -> None:
-        with contextlib.suppress(OSError):  # where nobody is left to hear it
+        with contextlib.suppress(OSError):  # nobody is left to read it
             os.write(self._control, (line + "\n").encode("utf-8", "replace"))
 
     def _read_request(self) -> list[bytes] | None:
@@ -183,20 +183,20 @@ class Supervisor:
         return data[8:].split(b"\0")
 
     def _start(self, argv: list[bytes], environment: dict[bytes, bytes], cwd: bytes) -> bool:
-        failure, report = os.pipe()  # closed by a successful exec; both ends are close-on-exec
-        self._started = time.monotonic()
+        failure, report = os.pipe()  # both ends are close-on-exec, so a successful exec closes them
+        self._started_at = time.monotonic()
         epoch = time.time()
         supervisor = os.getpid()
         try:
-            self._main = os.fork()
+            self._main_pid = os.fork()
         except OSError as error:
             self._report(f"failed cannot start a process: {error.strerror}")
             return False
-        if self._main == 0:
+        if self._main_pid == 0:
             self._exec(argv, environment, cwd, supervisor, report)
         os.close(report)
         null = os.open(os.devnull, os.O_RDWR)
-        for output in (1, 2):  # only the learner's processes hold the pipes open from here on
+        for output in (1, 2):  # from here on, only the learner's processes hold the pipes open
             os.dup2(null, output)
         os.close(null)
         why = b""
@@ -204,16 +204,16 @@ class Supervisor:
             why += chunk
         os.close(failure)
         if why:
-            os.waitpid(self._main, 0)
+            os.waitpid(self._main_pid, 0)
             self._report(f"failed {why.decode('utf-8', 'replace')}")
             return False
-        self._report(f"started {self._main} {epoch!r}")
+        self._report(f"started {self._main_pid} {epoch!r}")
         return True
 
     def _exec(
         self, argv: list[bytes], environment: dict[bytes, bytes], cwd: bytes, supervisor: int, report: int
     ) -> None:
-        """Turn this fresh child into the learner's process, as a terminal would start it."""
+        """Turn this forked child into the learner's process, as a shell in a terminal would start it."""
         try:
             os.setsid()
             self._prctl(PR_SET_PDEATHSIG, int(signal.SIGKILL), 0, 0, 0)
@@ -235,7 +235,7 @@ class Supervisor:
             os._exit(127)
 
     def _watch(self) -> None:
-        """Serve until the stream or our owner ends, reaping what ends meanwhile."""
+        """Handle commands and reap children until the stream or the owner ends."""
         poll = select.poll()
         for source in (self._control, self._wake, self._owner):
             if source is not None:
@@ -256,14 +256,14 @@ class Supervisor:
                     self._interrupt()
 
     def _interrupt(self) -> None:
-        """SIGINT to the learner's process group, as a terminal sends it on Ctrl+C."""
-        # Once the leader is reaped, its group's number is only safe while a descendant still is in that group.
-        if not self._exited or any(p.group == self._main for p in descendants(os.getpid())):
+        """Send SIGINT to the learner's process group, as a terminal does on Ctrl+C."""
+        # Once the leader is reaped, its group id is only safe to use while a descendant is still in that group.
+        if not self._exited or any(p.group == self._main_pid for p in descendants(os.getpid())):
             with contextlib.suppress(ProcessLookupError, PermissionError):
-                os.killpg(self._main, signal.SIGINT)
+                os.killpg(self._main_pid, signal.SIGINT)
 
     def _reap(self) -> bool:
-        """Reap every child that has ended. Returns whether any child is left, ended or not."""
+        """Reap all children that have ended. Return whether any child is left."""
         try:
             while os.read(self._wake, 4096):
                 pass
@@ -276,25 +276,25 @@ class Supervisor:
                 return False
             if pid == 0:
                 return True
-            if pid == self._main and not self._exited:
+            if pid == self._main_pid and not self._exited:
                 self._exited = True
-                self._report(f"exit {status} {time.monotonic() - self._started!r}")
+                self._report(f"exit {status} {time.monotonic() - self._started_at!r}")
 
     def _end(self) -> None:
-        """Kill until no child is left. The kernel hands us every orphan, so then nothing is left at all."""
+        """Kill until no child is left. As the kernel makes every orphan our child, nothing at all is left then."""
         own = os.getpgrp()
         pause = 0.005
         while self._reap():
             found = descendants(os.getpid())
-            # A group is killed in one step, which a fork cannot outrun; pids are for those outside any known group.
+            # A group is killed in one step, which no fork can outrun; single pids cover those outside any known group.
             for group in dict.fromkeys(p.group for p in found):
                 if group not in (0, 1, own):
                     with contextlib.suppress(ProcessLookupError, PermissionError):
                         os.killpg(group, signal.SIGKILL)
             kill(found)
-            # A child's end wakes us; the limit is for an end that is a grandchild's, which does not.
+            # The exit of a child wakes us; that of a grandchild does not, hence the timeout.
             select.select([self._wake], [], [], pause)
-            pause = min(pause * 1.2, 0.2)  # what cannot be killed yet (it waits in the kernel) is not worth a busy loop
+            pause = min(pause * 1.2, 0.2)  # a process stuck in the kernel is not worth a busy loop
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
-"""When a process will next do something by itself: the kernel tells what each of its threads waits for.
+"""When a process will next wake up by itself, judged by the system call in which each of its threads waits.
 
-A ROS node without a timer waits for messages in a futex without a time-out, one with a timer until that is due, and
-`time.sleep` until it is over (`/proc/PID/task/TID/syscall`, see proc(5)).
+A ROS node without a timer waits for messages in a futex without a timeout; one with a timer waits until that is due,
+and `time.sleep` until it is over (`/proc/PID/task/TID/syscall`, see proc(5)).
 """
 
 from __future__ import annotations
@@ -21,19 +21,20 @@ _FUTEX_COMMAND, _FUTEX_CLOCK_REALTIME = 0x7F, 0x100
 _TIMER_ABSTIME = 1
 _TIMESPEC = struct.Struct("=qq")
 
-_FAST_DDS = b"dds."
-"""How Fast DDS names its threads. They send what others have given them, and keep the connections up."""
+_FAST_DDS_PREFIX = b"dds."
+"""Prefix of Fast DDS thread names. They send queued data and keep connections alive, so their wake-ups do not count."""
 
 _FLUSHING_LIBRARY = b"librcl_logging_spdlog.so"
-_FLUSH_EVERY_S = 5.0
-"""rcl's logging writes its file in a thread of its own, which has no name."""
+_FLUSH_INTERVAL_S = 5.0
+"""rcl's logging flushes its file every 5 s from a dedicated thread, which has no name of its own."""
 
 
 @dataclass(frozen=True, slots=True)
 class NextWake:
-    """Of one or more processes: `at`, when one of their threads wakes up by itself, in seconds since the epoch.
+    """When a thread of one or more processes next wakes up by itself.
 
-    inf: never; 0.0: one may be running, or nothing is known. `timeslices`: how often they have run so far.
+    `at` is in seconds since the epoch: inf means never, 0.0 that one may be running or nothing is known. `timeslices`
+    counts how often their threads have been scheduled so far.
     """
 
     at: float = 0.0
@@ -41,64 +42,64 @@ class NextWake:
 
 
 def next_wake(pids: Iterable[int]) -> NextWake:
-    """Of these processes together; of none, nothing is known."""
-    found = [_of_process(pid) for pid in pids]
+    """Return the earliest wake-up of these processes; unknown (0.0) if there are none."""
+    found = [_process_wake(pid) for pid in pids]
     return NextWake(min((each.at for each in found), default=0.0), sum(each.timeslices for each in found))
 
 
-def _of_process(pid: int) -> NextWake:
+def _process_wake(pid: int) -> NextWake:
     wakes: list[float] = []
     background: list[float] = []
     timeslices = 0
     try:
         for thread in os.listdir(f"/proc/{pid}/task"):
             folder = f"/proc/{pid}/task/{thread}"
-            if _read(f"{folder}/comm").startswith(_FAST_DDS):
+            if _read_file(f"{folder}/comm").startswith(_FAST_DDS_PREFIX):
                 continue
-            (background if thread != str(pid) else wakes).append(_of_thread(pid, _read(f"{folder}/syscall")))
-            timeslices += int(_read(f"{folder}/schedstat").split()[2])
-        return NextWake(min((*wakes, *_without_flushing(pid, background)), default=0.0), timeslices)
-    except (OSError, IndexError, ValueError):  # it is ending, or this kernel does not tell
+            (background if thread != str(pid) else wakes).append(_thread_wake(pid, _read_file(f"{folder}/syscall")))
+            timeslices += int(_read_file(f"{folder}/schedstat").split()[2])
+        return NextWake(min((*wakes, *_drop_flusher(pid, background)), default=0.0), timeslices)
+    except (OSError, IndexError, ValueError):  # the process is ending, or this kernel has no such files
         return NextWake()
 
 
-def _of_thread(pid: int, syscall: bytes) -> float:
-    """When the thread that is in this system call wakes up by itself."""
+def _thread_wake(pid: int, syscall: bytes) -> float:
+    """Return when a thread in this system call wakes up by itself, as in `NextWake.at`."""
     words = syscall.split()
-    if len(words) < 7:  # it is running, or about to
+    if len(words) < 7:  # running or runnable
         return 0.0
     number, arguments = int(words[0]), [int(word, 16) for word in words[1:7]]
     if number == _FUTEX and arguments[1] & _FUTEX_COMMAND in (_FUTEX_WAIT, _FUTEX_WAIT_BITSET):
         if arguments[3] == 0:
             return math.inf
         if arguments[1] & _FUTEX_COMMAND == _FUTEX_WAIT_BITSET:
-            return _time_at(pid, arguments[3], realtime=bool(arguments[1] & _FUTEX_CLOCK_REALTIME))
+            return _read_timeout(pid, arguments[3], realtime=bool(arguments[1] & _FUTEX_CLOCK_REALTIME))
     if number == _CLOCK_NANOSLEEP and arguments[1] & _TIMER_ABSTIME and arguments[0] in (0, 1):
-        return _time_at(pid, arguments[2], realtime=arguments[0] == 0)
+        return _read_timeout(pid, arguments[2], realtime=arguments[0] == 0)
     return 0.0
 
 
-def _time_at(pid: int, address: int, *, realtime: bool) -> float:
-    """The absolute time-out (a timespec) at an address of the process, in seconds since the epoch."""
+def _read_timeout(pid: int, address: int, *, realtime: bool) -> float:
+    """Read an absolute timeout (a timespec) from the memory of a process, in seconds since the epoch."""
     memory = os.open(f"/proc/{pid}/mem", os.O_RDONLY)
     try:
         seconds, nanoseconds = _TIMESPEC.unpack(os.pread(memory, _TIMESPEC.size, address))
     except struct.error as error:
-        raise ValueError("a time-out that cannot be read") from error
+        raise ValueError("a timeout that cannot be read") from error
     finally:
         os.close(memory)
     at = float(seconds + nanoseconds * 1e-9)
     return at if realtime else at - time.monotonic() + time.time()
 
 
-def _without_flushing(pid: int, background: list[float]) -> list[float]:
-    """Without the thread that flushes the log: of those that wait for no longer than it does, whichever wakes last."""
-    due = sorted(at for at in background if 0.0 < at <= time.time() + _FLUSH_EVERY_S)
-    if due and _FLUSHING_LIBRARY in _read(f"/proc/{pid}/maps"):
+def _drop_flusher(pid: int, background: list[float]) -> list[float]:
+    """Drop the log-flushing thread: the last to wake of those that wait no longer than its interval."""
+    due = sorted(at for at in background if 0.0 < at <= time.time() + _FLUSH_INTERVAL_S)
+    if due and _FLUSHING_LIBRARY in _read_file(f"/proc/{pid}/maps"):
         background.remove(due[-1])
     return background
 
 
-def _read(path: str) -> bytes:
+def _read_file(path: str) -> bytes:
     with open(path, "rb") as file:
         return file.read()

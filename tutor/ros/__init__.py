@@ -1,1 +1,1 @@
-"""ROS 2: which one is used, domains, and everything that is seen over DDS. The only importer of rclpy, and late."""
+"""ROS 2: choosing an installation, domains, and everything over DDS. Only this package imports rclpy, and lazily."""

@@ -1,8 +1,8 @@
 """The bundled `example_interfaces` (srv/AddTwoInts), built into an ament prefix in `bundled_ros`.
 
-A process of its own gets at it through its environment: `PYTHONPATH` with `site_packages()`, `AMENT_PREFIX_PATH` with
-`prefix()`, `LD_LIBRARY_PATH` with `library_dir()`. The running process gets at it with `activate()`.
-A real `example_interfaces`, where there is one, always goes first.
+A child process finds it through its environment: `PYTHONPATH` with `site_packages()`, `AMENT_PREFIX_PATH` with
+`prefix()`, `LD_LIBRARY_PATH` with `library_dir()`. The running process uses `activate()`.
+A real `example_interfaces`, if installed, always takes precedence.
 """
 
 import ctypes
@@ -18,25 +18,25 @@ _PACKAGE = "example_interfaces"
 
 
 def prefix() -> Path:
-    """The ament prefix that holds the bundled interfaces."""
+    """Return the ament prefix of the bundled interfaces."""
     return Path(__file__).resolve().parent.parent / "bundled_ros" / "prefix"
 
 
 def site_packages() -> Path:
-    """The folder to put on `PYTHONPATH`."""
+    """Return the folder to put on `PYTHONPATH`."""
     return library_dir() / "python3.12" / "site-packages"
 
 
 def library_dir() -> Path:
-    """The folder to put on `LD_LIBRARY_PATH`."""
+    """Return the folder to put on `LD_LIBRARY_PATH`."""
     return prefix() / "lib"
 
 
 def activate() -> None:
-    """Make `import example_interfaces` work in this process; nothing happens where it works already.
+    """Make `import example_interfaces` work in this process. Does nothing if it already does.
 
-    The ROS wheels' own libraries must be loadable (their start-up hook sees to it). Raises
-    `InterfacesNotBuiltError` where the prefix is missing, `OSError` where a library cannot be loaded.
+    The ROS wheels' own libraries must be loadable, which their start-up hook ensures. Raises
+    `InterfacesNotBuiltError` if the prefix is missing, `OSError` if a library cannot be loaded.
     """
     if importlib.util.find_spec(_PACKAGE) is not None:
         return
@@ -46,8 +46,8 @@ def activate() -> None:
             f"the bundled {_PACKAGE} is not built ({missing} is missing);"
             " in a clone, ./.ci/uv sync --reinstall-package ros-tutor builds it"
         )
-    # LD_LIBRARY_PATH is only read when a process starts. A library that is loaded already is found by its name alone,
-    # which is how the ROS type supports look for one another.
+    # LD_LIBRARY_PATH is only read when a process starts. Once a library is loaded, it is found by name alone, which is
+    # how the ROS type supports look for one another.
     for library in sorted(library_dir().glob("*.so")):
         ctypes.CDLL(str(library), mode=ctypes.RTLD_GLOBAL)
     sys.path.append(str(site_packages()))

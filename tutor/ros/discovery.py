@@ -1,4 +1,4 @@
-"""How a check is kept to this machine, and how its participants find each other at once."""
+"""DDS discovery settings that keep a check on this machine and let its participants find each other at once."""
 
 from __future__ import annotations
 
@@ -13,24 +13,24 @@ from pathlib import Path
 PROFILE = Path(__file__).resolve().with_name("isolated.xml")
 PROMPT_PROFILE = PROFILE.with_name("prompt.xml")
 _GROUP = f"239.{'.'.join(map(str, secrets.token_bytes(3)))}"
-"""The multicast group in which the participants of our checks find each other. Each process that checks has one of its
-own, so that a process that joins another check's domain meets nobody there."""
+"""The multicast group for discovery in our checks. Each checking process picks its own at random, so that a program
+that joins another check's domain finds nobody there."""
 _LOOPBACK = "127.0.0.1"
 PORTS_OF_CHECKS = (2000, 25)
-"""As `DDS_PORTS`, for a check: what isolated.xml says."""
+"""Like `DDS_PORTS`, but for checks, as set in isolated.xml."""
 DDS_PORTS = (7400, 250)
-"""The first UDP port of domain 0 where nothing else is set, and how many ports there are to a domain."""
+"""The default port layout of RTPS: the first UDP port of domain 0, and the number of ports per domain."""
 _PROFILE_VARIABLES = ("FASTRTPS_DEFAULT_PROFILES_FILE", "FASTDDS_DEFAULT_PROFILES_FILE")
 
 
 def isolated_discovery() -> dict[str, str]:
-    """The variables that keep discovery and data on this host, and apart from what other processes check.
+    """Return environment variables that keep discovery and data on this host, separate from other processes' checks.
 
-    Multicast over the loopback interface finds a new participant in milliseconds. Where a machine has none,
-    ROS's own LOCALHOST range (unicast to 127.0.0.1) serves: right, but up to some seconds slower.
+    Multicast over the loopback interface finds a new participant within milliseconds. On a machine without it, we use
+    ROS's LOCALHOST range (unicast to 127.0.0.1), which is just as correct but up to a few seconds slower.
     """
     return {
-        # With LOCALHOST, the RMW layer writes over the profile's transports and group; its ports hold.
+        # With LOCALHOST, the RMW layer overrides the profile's transports and group, but not its ports.
         "ROS_AUTOMATIC_DISCOVERY_RANGE": "SYSTEM_DEFAULT" if loopback_multicast_works() else "LOCALHOST",
         "ROS_TUTOR_GROUP": _GROUP,
         **dict.fromkeys(_PROFILE_VARIABLES, str(PROFILE)),
@@ -38,37 +38,37 @@ def isolated_discovery() -> dict[str, str]:
 
 
 def prompt_discovery() -> dict[str, str]:
-    """The variables with which nodes that are not isolated discover each other faster; they change nothing else."""
+    """Return environment variables that only speed up discovery, for nodes that are not isolated."""
     return dict.fromkeys(_PROFILE_VARIABLES, str(PROMPT_PROFILE))
 
 
 def own_ports(environ: Mapping[str, str] = os.environ) -> tuple[int, int] | None:
-    """As `DDS_PORTS`, for what this process joins; None where a DDS profile of the user's may say otherwise."""
-    named = {environ[name] for name in _PROFILE_VARIABLES if environ.get(name)}
+    """Return the port layout (as `DDS_PORTS`) of this process; None if a DDS profile of the user's may change it."""
+    profiles = {environ[name] for name in _PROFILE_VARIABLES if environ.get(name)}
     if Path("DEFAULT_FASTRTPS_PROFILES.xml").exists():  # Fast DDS reads it from the current folder
         return None
-    if named == {str(PROFILE)}:
+    if profiles == {str(PROFILE)}:
         return PORTS_OF_CHECKS
-    return None if named - {str(PROMPT_PROFILE)} else DDS_PORTS
+    return None if profiles - {str(PROMPT_PROFILE)} else DDS_PORTS
 
 
 def require_loopback() -> None:
-    """Send a datagram to 127.0.0.1. Raises OSError where it does not arrive within a second."""
-    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as own:
-        own.settimeout(1.0)
-        own.bind((_LOOPBACK, 0))
-        own.sendto(b"hello", own.getsockname())
-        own.recv(16)
+    """Send a datagram to 127.0.0.1. Raises OSError if it does not arrive within a second."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sock:
+        sock.settimeout(1.0)
+        sock.bind((_LOOPBACK, 0))
+        sock.sendto(b"hello", sock.getsockname())
+        sock.recv(16)
 
 
 @cache
 def loopback_multicast_works() -> bool:
-    """Whether a multicast datagram sent over the loopback interface comes back; tried once, within half a second."""
+    """Return whether multicast over the loopback interface works. Tried once per process, for up to half a second."""
     return multicast_works(_LOOPBACK)
 
 
 def multicast_works(interface: str, limit_s: float = 0.5) -> bool:
-    """Whether a multicast datagram sent over the interface with this IPv4 address is received on it."""
+    """Return whether a multicast datagram sent over the interface with this IPv4 address arrives on it."""
     token = secrets.token_bytes(16)
     try:
         with (

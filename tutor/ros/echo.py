@@ -1,4 +1,4 @@
-"""What `ros2 topic echo` would show: type and QoS taken from the publishers (as in ros2cli, ros2topic, verb echo)."""
+"""What `ros2 topic echo` would show, with type and QoS taken from the publishers (as ros2topic's echo verb does)."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from tutor.ros_model import QoS, echo_qos
 
 
 async def echo_topic(domain_id: int, topic: str, *, samples: int, limit_s: float, over: asyncio.Event) -> Echo:
-    """Join as a new participant, choose type and QoS, get `samples` messages of `topic` within `limit_s` seconds.
+    """Join as a new participant, choose type and QoS, and collect `samples` messages of `topic` for up to `limit_s`.
 
-    It ends sooner where `over` is set: nothing more is to come.
+    Returns early if `over` is set, since nothing more is to come then.
     """
     changed = asyncio.Event()
     observer = Observer(domain_id, changed.set)

@@ -1,4 +1,4 @@
-"""Which ROS 2 is used, bundled or system, and the environment of every process that uses it. The two are never mixed.
+"""Chooses the bundled or the system ROS 2, and builds the environment of every process that uses it. Never mixes both.
 
 Nothing here imports rclpy.
 """
@@ -20,26 +20,26 @@ __all__ = ["RosEnvironment", "detect", "learner_env", "loopback_multicast_works"
 
 DISTRO = "jazzy"
 RMW = "rmw_fastrtps_cpp"
-# The wheels' start-up hook restarts the interpreter to set LD_LIBRARY_PATH, unless this is set.
+# Unless this is set, the wheels' start-up hook restarts the interpreter to set LD_LIBRARY_PATH.
 BOOTSTRAP_DONE = "_ROS_WHEELS_BOOTSTRAP_COMPLETE"
 NO_LOG_FILES = ("--ros-args", "--disable-external-lib-logs")
-"""What our own processes init rclpy with: they log nothing, and need no home folder for it."""
+"""Arguments for rclpy.init in our own processes: they write no log files, so they need no home folder."""
 
-# What a learner's node must not inherit: it would change its Python, its output or its discovery.
-_ALWAYS_DROPPED = ("RCUTILS_", "PYTEST_", "COV_", "COVERAGE_", "PYTHON", "VIRTUAL_ENV", "__PYVENV_LAUNCHER__")
-_DISCOVERY = ("FASTRTPS_", "FASTDDS_", "CYCLONEDDS_", "ZENOH_", "RMW_")
-_ROS = ("ROS_", "AMENT_", "COLCON_", "CMAKE_PREFIX_PATH", "RCL_")
-_PATHS_OF_ROS = ("CMAKE_PREFIX_PATH", "PKG_CONFIG_PATH")
-_OUR_OWN = ("ROS_TUTOR_",)  # such as ROS_TUTOR_WORKSPACE
-# The user's own settings of discovery, which "run" (unlike a check) leaves alone.
-_USERS_DISCOVERY = (
+# Variables that a learner's node must not inherit, as they would change its Python, output or discovery.
+_DROPPED_PREFIXES = ("RCUTILS_", "PYTEST_", "COV_", "COVERAGE_", "PYTHON", "VIRTUAL_ENV", "__PYVENV_LAUNCHER__")
+_DISCOVERY_PREFIXES = ("FASTRTPS_", "FASTDDS_", "CYCLONEDDS_", "ZENOH_", "RMW_")
+_ROS_PREFIXES = ("ROS_", "AMENT_", "COLCON_", "CMAKE_PREFIX_PATH", "RCL_")
+_ROS_PATH_VARIABLES = ("CMAKE_PREFIX_PATH", "PKG_CONFIG_PATH")
+_OWN_VARIABLES = ("ROS_TUTOR_",)  # such as ROS_TUTOR_WORKSPACE
+# The user's own discovery settings, which "run" keeps, unlike a check.
+_USER_DISCOVERY = (
     "ROS_AUTOMATIC_DISCOVERY_RANGE",
     "ROS_DISCOVERY_SERVER",
     "ROS_LOCALHOST_ONLY",
     "ROS_STATIC_PEERS",
     "ROS_SUPER_CLIENT",
 )
-_SYSTEM_FACTS = (
+_SYSTEM_ROS_VARIABLES = (
     "ROS_DISTRO",
     "ROS_VERSION",
     "ROS_PYTHON_VERSION",
@@ -50,15 +50,15 @@ _SYSTEM_FACTS = (
 )
 UNBUFFERED = "PYTHONUNBUFFERED"
 UNBUFFERED_BY_US = "ros-tutor"
-"""The value of PYTHONUNBUFFERED for what we run ourselves. `ros2` takes it back for what it starts in turn."""
+"""Our value for PYTHONUNBUFFERED, by which `ros2` can tell that we set it, and unset it for its own children."""
 
 
 @dataclass(frozen=True, slots=True)
 class RosEnvironment:
-    """The ROS 2 that is used.
+    """The ROS 2 in use.
 
-    `python` runs the learners' code. `problems` are single sentences about the environment variables around us, such as
-    another distribution that is sourced; they are cleaned away, so that checks work all the same.
+    `python` runs the learners' code. `problems` holds one sentence for each problem with our environment variables,
+    such as another sourced distribution; we remove those variables, so checks work all the same.
     """
 
     kind: Literal["bundled", "system"]
@@ -69,7 +69,7 @@ class RosEnvironment:
 
 
 def detect(environ: Mapping[str, str] = os.environ) -> RosEnvironment:
-    """Choose the ROS 2 to use: a sourced ROS 2 Jazzy that is complete, else the bundled one."""
+    """Choose the ROS 2 to use: a sourced and complete ROS 2 Jazzy, else the bundled one."""
     bundled = Path(sys.executable)
     sourced = [Path(entry) for entry in prefixes.without_bundled(environ, "AMENT_PREFIX_PATH")]
     distro = environ.get("ROS_DISTRO", "")
@@ -93,13 +93,13 @@ def learner_env(
     isolated: bool,
     environ: Mapping[str, str] = os.environ,
 ) -> dict[str, str]:
-    """The environment for a learner's process, to be run with `ros.python`.
+    """Return the environment for a learner's process, which runs with `ros.python`.
 
     `package_root` is a folder to import the learner's package from. `isolated` keeps the process's DDS traffic on this
-    host (a check); otherwise the user's own discovery settings hold (a run that their other terminals see).
+    host (for a check); otherwise the user's own discovery settings apply (for a run, visible to their other terminals).
     """
     env = _ros_env(ros, environ, first_on_path=[] if package_root is None else [package_root])
-    env.update(_discovery(ros, isolated, environ))
+    env.update(_discovery_env(ros, isolated, environ))
     if not isolated:
         env[UNBUFFERED] = environ.get(UNBUFFERED) or UNBUFFERED_BY_US
     env["ROS_DOMAIN_ID"] = str(domain_id)
@@ -108,14 +108,14 @@ def learner_env(
 
 
 def tutor_env(ros: RosEnvironment, *, isolated: bool, environ: Mapping[str, str] = os.environ) -> dict[str, str]:
-    """The environment for our own processes that import rclpy, to be run with `sys.executable`.
+    """Return the environment for our own processes that import rclpy, which run with `sys.executable`.
 
-    A process that is started with it need not restart itself in `tutor.ros.process_setup.prepare_for_rclpy`.
+    A process started with it does not have to restart itself in `tutor.ros.process_setup.prepare_for_rclpy`.
     """
     env = _ros_env(ros, environ, first_on_path=[])
-    env.update(_discovery(ros, isolated, environ))
+    env.update(_discovery_env(ros, isolated, environ))
     if isolated:
-        env["RMW_FASTRTPS_USE_QOS_FROM_XML"] = "1"  # how our own endpoints keep what they receive: see the profile
+        env["RMW_FASTRTPS_USE_QOS_FROM_XML"] = "1"  # the memory policy of our own endpoints, see the profile
     for name in ("ROS_DOMAIN_ID", "ROS_LOG_DIR"):
         if name in environ:
             env[name] = environ[name]
@@ -130,7 +130,7 @@ def _problems(environ: Mapping[str, str], distro: str, sourced: list[Path]) -> t
         return (f"ROS 2 {distro} is sourced (ROS_DISTRO={distro}); the exercises need {DISTRO}.",)
     if not distro:
         left_over = sourced[0] if sourced else foreign_paths[0]
-        return (f"ROS is half sourced: ROS_DISTRO is not set, but {left_over} is in the environment.",)
+        return (f"ROS is only partly sourced: ROS_DISTRO is not set, but {left_over} is in the environment.",)
     others = sorted({name for path in [*sourced, *map(Path, foreign_paths)] if (name := _distro_of(path))} - {DISTRO})
     if others:
         return (f"More than one ROS is sourced: {DISTRO} and {', '.join(others)}.",)
@@ -138,18 +138,18 @@ def _problems(environ: Mapping[str, str], distro: str, sourced: list[Path]) -> t
     if not homes:
         return (f"ROS_DISTRO is {DISTRO}, but no folder of AMENT_PREFIX_PATH holds rclpy for Python 3.12.",)
     site = prefixes.rclpy_site(homes[0])
-    own_python = (homes[0] / "bin" / "python3.12").exists()  # it knows its own folders, as one in a conda environment
+    own_python = (homes[0] / "bin" / "python3.12").exists()  # it finds its own folders, as in a conda environment
     if not own_python and str(site) not in prefixes.entries(environ, "PYTHONPATH"):
-        return (f"ROS is half sourced: {site} is not in PYTHONPATH.",)
+        return (f"ROS is only partly sourced: {site} is not in PYTHONPATH.",)
     if not own_python and str(homes[0] / "lib") not in prefixes.entries(environ, "LD_LIBRARY_PATH"):
-        return (f"ROS is half sourced: {homes[0] / 'lib'} is not in LD_LIBRARY_PATH.",)
+        return (f"ROS is only partly sourced: {homes[0] / 'lib'} is not in LD_LIBRARY_PATH.",)
     if not any(prefixes.holds_package(prefix, RMW) for prefix in sourced):
         return (f"The sourced ROS 2 {DISTRO} has no {RMW}, which the checks use.",)
     return ()
 
 
 def _distro_of(path: Path) -> str:
-    """The distribution of a path such as /opt/ros/<distribution>/lib; empty elsewhere."""
+    """Return the distribution of a path such as /opt/ros/<distribution>/lib; empty for other paths."""
     return path.parts[3] if len(path.parts) > 3 and path.is_relative_to("/opt/ros") else ""
 
 
@@ -162,11 +162,12 @@ def _system_python(home: Path, environ: Mapping[str, str]) -> Path | None:
 
 
 def _ros_env(ros: RosEnvironment, environ: Mapping[str, str], first_on_path: list[Path]) -> dict[str, str]:
-    kept = (*_OUR_OWN, *(_SYSTEM_FACTS if ros.kind == "system" else ()))
+    kept = (*_OWN_VARIABLES, *(_SYSTEM_ROS_VARIABLES if ros.kind == "system" else ()))
     env = {
         name: value
         for name, value in environ.items()
-        if not name.startswith(_ALWAYS_DROPPED + _DISCOVERY) and (not name.startswith(_ROS) or name.startswith(kept))
+        if not name.startswith(_DROPPED_PREFIXES + _DISCOVERY_PREFIXES)
+        and (not name.startswith(_ROS_PREFIXES) or name.startswith(kept))
     }
     if ros.kind == "bundled":
         binaries = Path(sys.prefix) / "bin"
@@ -176,12 +177,12 @@ def _ros_env(ros: RosEnvironment, environ: Mapping[str, str], first_on_path: lis
         )
         python_path = [str(bundled_interfaces.site_packages()), *prefixes.without_ros(environ, "PYTHONPATH")]
         env["AMENT_PREFIX_PATH"] = prefixes.joined([bundled_interfaces.prefix(), sys.prefix])
-        rest = {name: prefixes.without_ros(environ, name) for name in _PATHS_OF_ROS}
+        rest = {name: prefixes.without_ros(environ, name) for name in _ROS_PATH_VARIABLES}
     else:
         python_path = prefixes.without_bundled(environ, "PYTHONPATH")
         rest = {
             name: prefixes.without_bundled(environ, name)
-            for name in ("PATH", "LD_LIBRARY_PATH", "AMENT_PREFIX_PATH", *_PATHS_OF_ROS)
+            for name in ("PATH", "LD_LIBRARY_PATH", "AMENT_PREFIX_PATH", *_ROS_PATH_VARIABLES)
         }
     env["PYTHONPATH"] = prefixes.joined([*first_on_path, *python_path])
     for name, left in rest.items():
@@ -190,19 +191,23 @@ def _ros_env(ros: RosEnvironment, environ: Mapping[str, str], first_on_path: lis
             env[name] = prefixes.joined(left)
     env[BOOTSTRAP_DONE] = "1"
     env["RMW_IMPLEMENTATION"] = ros.rmw
-    env[UNBUFFERED] = "1"  # a piped print would be held back
+    env[UNBUFFERED] = "1"  # otherwise output to a pipe would be delayed
     env["PYTHONDONTWRITEBYTECODE"] = "1"  # no __pycache__ beside a learner's files
     env["PYTHONIOENCODING"] = "utf-8"
-    # Messages import numpy, whose threads spin for a while when it is loaded: a quarter of a node's start, in CPU time.
+    # Message modules import numpy, whose threads spin when loaded: a quarter of the CPU time of a node's start.
     env.setdefault("OPENBLAS_NUM_THREADS", "1")
     return env
 
 
-def _discovery(ros: RosEnvironment, isolated: bool, environ: Mapping[str, str]) -> dict[str, str]:
+def _discovery_env(ros: RosEnvironment, isolated: bool, environ: Mapping[str, str]) -> dict[str, str]:
     if isolated:
         return isolated_discovery()
-    users = {name: value for name, value in environ.items() if name in _USERS_DISCOVERY or name.startswith(_DISCOVERY)}
-    users.pop("RMW_IMPLEMENTATION", None)
-    users = {name: value for name, value in users.items() if value != str(PROFILE)}
-    has_profile = any(name.endswith("_DEFAULT_PROFILES_FILE") for name in users)
-    return users if has_profile or ros.kind == "system" else {**prompt_discovery(), **users}
+    user_settings = {
+        name: value
+        for name, value in environ.items()
+        if name in _USER_DISCOVERY or name.startswith(_DISCOVERY_PREFIXES)
+    }
+    user_settings.pop("RMW_IMPLEMENTATION", None)
+    user_settings = {name: value for name, value in user_settings.items() if value != str(PROFILE)}
+    has_profile = any(name.endswith("_DEFAULT_PROFILES_FILE") for name in user_settings)
+    return user_settings if has_profile or ros.kind == "system" else {**prompt_discovery(), **user_settings}

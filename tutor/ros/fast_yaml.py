@@ -1,7 +1,7 @@
-"""The YAML of messages that have nothing in them that YAML needs to escape: most messages of most topics.
+"""A fast YAML writer for messages without anything that needs escaping, which are most messages on most topics.
 
-PyYAML takes a fifth of a millisecond for each; at 1 kHz that is a fifth of a core. What is written here is what PyYAML
-writes, character by character; whatever is not plainly so is left to it.
+PyYAML takes 0.2 ms per message, a fifth of a core at 1 kHz. The output here is identical to PyYAML's, character by
+character; anything else is left to PyYAML.
 """
 
 from __future__ import annotations
@@ -10,20 +10,20 @@ import array
 import re
 from typing import Any
 
-# A word or words that YAML takes for text in any place, and a text that it puts between single quotes in any place.
+# Text that YAML leaves unquoted wherever it occurs, and text that it puts in single quotes wherever it occurs.
 _PLAIN = re.compile(r"[A-Za-z](?:[A-Za-z0-9_/.-]| (?=[A-Za-z0-9_/.]))*\Z")
 _QUOTED = re.compile(r"(?=.*: )[!-~](?:[ -~]*[!-~])?\Z")
-_WORDS = frozenset(["yes", "no", "true", "false", "on", "off", "null"])
+_RESERVED_WORDS = frozenset(["yes", "no", "true", "false", "on", "off", "null"])
 
 
 def dump_plain(message: Any, longest: int | None) -> str | None:
-    """The message in block style, arrays and texts no longer than `longest`; None where that is for PyYAML to say."""
+    """Return the message in block style, arrays cut at `longest` elements; None if it needs PyYAML."""
     lines: list[str] = []
     return "".join(lines) if _write(message, "", longest, lines) else None
 
 
 def is_array(value: Any) -> bool:
-    """Whether a field's value is an array or a sequence, in whichever of the forms that rclpy gives them."""
+    """Return whether a field's value is an array or a sequence, in any form that rclpy uses."""
     return isinstance(value, (list, tuple, array.array)) or (hasattr(value, "tolist") and hasattr(value, "__len__"))
 
 
@@ -31,7 +31,7 @@ def _write(message: Any, indent: str, longest: int | None, lines: list[str]) -> 
     names = message.get_fields_and_field_types()
     for name in names:
         value = getattr(message, name)
-        if name in _WORDS:
+        if name in _RESERVED_WORDS:
             return False
         if (written := _scalar(value, longest)) is not None:
             lines.append(f"{indent}{name}: {written}\n")
@@ -65,7 +65,7 @@ def _scalar(value: Any, longest: int | None) -> str | None:
         if longest is not None and len(value) > longest:
             return None
         if _PLAIN.match(value):
-            return None if value.lower() in _WORDS else str(value)
+            return None if value.lower() in _RESERVED_WORDS else str(value)
         return "'" + value.replace("'", "''") + "'" if _QUOTED.match(value) else None
     if kind is float:
         return _float(value)

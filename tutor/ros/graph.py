@@ -1,4 +1,4 @@
-"""The ROS graph as our node sees it, as plain data."""
+"""Reads the ROS graph, as seen by our node, into plain data."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _NamesAndTypes = Sequence[tuple[str, Sequence[str]]]
 
 
 def read_graph(node: Node, *, standard_topics: bool = False) -> Graph:
-    """The graph as `node` sees it, without our own nodes. `standard_topics` includes those that every node has."""
+    """Return the graph as `node` sees it, without our own nodes. `standard_topics`: include those of every node."""
     nodes = sorted(
         NodeName(name, namespace).full
         for name, namespace in node.get_node_names_and_namespaces()
@@ -32,7 +32,7 @@ def read_graph(node: Node, *, standard_topics: bool = False) -> Graph:
 
 
 def graph_fingerprint(node: Node) -> object:
-    """A cheap value that changes when the graph does, unless one endpoint replaces another."""
+    """Return a value that is cheap to get and changes with the graph, unless one endpoint replaces another."""
     return (
         node.get_node_names_and_namespaces(),
         [
@@ -43,32 +43,34 @@ def graph_fingerprint(node: Node) -> object:
     )
 
 
-def _topic_endpoints(topics: Iterable[str], ask: Callable[[str], list[TopicEndpointInfo]]) -> tuple[TopicEndpoint, ...]:
+def _topic_endpoints(
+    topics: Iterable[str], query: Callable[[str], list[TopicEndpointInfo]]
+) -> tuple[TopicEndpoint, ...]:
     found = [
         TopicEndpoint(topic, info.topic_type, _node_of(info), from_rclpy(info.qos_profile))
         for topic in topics
-        for info in ask(topic)
+        for info in query(topic)
         if not info.node_name.startswith(OUR_PREFIX)
     ]
-    return tuple(sorted(found, key=lambda end: (end.topic, end.node, end.type, str(end.qos))))
+    return tuple(sorted(found, key=lambda endpoint: (endpoint.topic, endpoint.node, endpoint.type, str(endpoint.qos))))
 
 
 def _service_endpoints(
-    node: Node, nodes: Iterable[str], ask: Callable[[str, str], _NamesAndTypes], dds_topic: str
+    node: Node, nodes: Iterable[str], query: Callable[[str, str], _NamesAndTypes], dds_topic: str
 ) -> tuple[ServiceEndpoint, ...]:
-    """The servers or clients of `nodes`. They send on `dds_topic`, with {} for the service's name."""
+    """Return the servers or clients of `nodes`. They send on `dds_topic`, where {} stands for the service name."""
     found: list[ServiceEndpoint] = []
     for full in dict.fromkeys(nodes):
         try:
-            offered = ask(*NodeName.parse(full))
-        except RuntimeError:  # the node has left meanwhile
+            services = query(*NodeName.parse(full))
+        except RuntimeError:  # the node has left the graph meanwhile
             continue
-        for service, types in offered:
-            ends = [ServiceEndpoint(service, type_name, full) for type_name in types]
-            if not any(end.is_standard for end in ends):
+        for service, types in services:
+            endpoints = [ServiceEndpoint(service, type_name, full) for type_name in types]
+            if not any(endpoint.is_standard for endpoint in endpoints):
                 reliability = _reliability(node, dds_topic.format(service), full)
-                ends = [ServiceEndpoint(service, type_name, full, reliability) for type_name in types]
-            found += ends
+                endpoints = [ServiceEndpoint(service, type_name, full, reliability) for type_name in types]
+            found += endpoints
     return tuple(found)
 
 

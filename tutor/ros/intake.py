@@ -1,4 +1,4 @@
-"""One topic of a learner's, taken as bytes: how large a message is, is known before anything is made of it."""
+"""Subscribes to a learner's topic and takes messages as bytes, so that their size is known before decoding."""
 
 from __future__ import annotations
 
@@ -10,35 +10,32 @@ from rclpy.callback_groups import CallbackGroup
 from rclpy.node import Node
 from rclpy.serialization import deserialize_message
 
-from tutor.ros.messages import interface_class, placeholder_message
+from tutor.ros.messages import RECEIVED_PER_KEPT_BYTE, interface_class, placeholder_message
 from tutor.ros.qos import subscription_profile
 from tutor.ros_model import QoS
 
-DEEP = 1000
-"""Queue depth of our subscriptions: a default-QoS subscriber can lose a burst that this one gets whole."""
+QUEUE_DEPTH = 1000
+"""Queue depth of our subscriptions, so that a burst arrives whole that a default-QoS subscriber would lose in part."""
 
-WAITING_BYTES = 8_000_000
-"""What may wait until it is taken, at most: of large messages, fewer wait. One that is larger itself is the last."""
+MOST_QUEUED_BYTES = 8_000_000
+"""Most bytes in the queue: it is made shorter for large messages. A single message above this is the last one taken."""
 
-READABLE_BYTES = 2_000_000
-"""A larger message is counted, with its time and its size, and not looked into."""
+MOST_READABLE_BYTES = 2_000_000
+"""A larger message is counted, with its time and size, but not decoded."""
 
 MOST_SAMPLES = 20_000
-"""A topic is no longer listened to after this many samples: a flood must not exhaust us."""
+"""We unsubscribe from a topic after this many samples, so that a flood cannot exhaust our memory."""
 
 MOST_BYTES = 8_000_000
-"""Nor after this many bytes."""
-
-_RECEIVED = 8
-"""Bytes that are received and not kept count as a byte for this many."""
+"""We also unsubscribe after keeping this many bytes."""
 
 
 class Intake:
-    """A subscription, whose messages are taken in the thread of the node's executor.
+    """A bounded subscription.
 
-    `take(message, source_time)` is given each message and the time (s) at which it was sent; it gives what it costs to
-    keep it, in bytes. Where a message is too large to be looked into, or is none of its type, its texts say so, and its
-    arrays are empty.
+    In the executor's thread, `take(message, source_time)` gets each message and the time (s) when it was sent; it
+    returns the memory cost of what it keeps, in bytes. For a message that is too large to decode, or not of the topic's
+    type, it gets a placeholder whose strings say so and whose arrays are empty.
     """
 
     def __init__(
@@ -56,17 +53,17 @@ class Intake:
         self._type = interface_class(type_name)
         self._requested = requested
         self._group = group
-        self._depth = DEEP
+        self._depth = QUEUE_DEPTH
         self._take = take
-        self._messages = self._kept = 0
+        self._received = self._kept_bytes = 0
         self._subscription = self._subscribe()
 
-    def leave(self) -> None:
-        """Take no more messages. Called in the executor's thread."""
+    def unsubscribe(self) -> None:
+        """Unsubscribe. Called in the executor's thread."""
         self._node.destroy_subscription(self._subscription)
 
     def _subscribe(self) -> Any:
-        # rclpy gives the message's info to a callback that takes two arguments; its annotations know one only.
+        # rclpy also passes the message info to a callback with two parameters, but its annotations allow only one.
         callback: Any = self._receive
         qos = subscription_profile(self._requested, self._depth)
         return self._node.create_subscription(
@@ -75,26 +72,23 @@ class Intake:
 
     def _receive(self, data: bytes, info: Any) -> None:
         size = len(data)
-        self._messages += 1
-        self._kept += self._take(self._read(data), info["source_timestamp"] * 1e-9)
-        if size > READABLE_BYTES:
-            self._kept += size // _RECEIVED
-        if self._messages >= MOST_SAMPLES or self._kept > MOST_BYTES or size > WAITING_BYTES:
-            self.leave()
-        elif size * self._depth > WAITING_BYTES:
-            self.leave()
-            self._depth = max(1, WAITING_BYTES // size)
-            self._requested = replace(
-                self._requested, durability="volatile"
-            )  # the messages kept for late subscribers have come
+        self._received += 1
+        self._kept_bytes += self._take(self._read(data), info["source_timestamp"] * 1e-9)
+        if size > MOST_READABLE_BYTES:
+            self._kept_bytes += size // RECEIVED_PER_KEPT_BYTE
+        if self._received >= MOST_SAMPLES or self._kept_bytes > MOST_BYTES or size > MOST_QUEUED_BYTES:
+            self.unsubscribe()
+        elif size * self._depth > MOST_QUEUED_BYTES:
+            self.unsubscribe()
+            self._depth = max(1, MOST_QUEUED_BYTES // size)
+            # Volatile: the messages stored for late subscribers have already arrived.
+            self._requested = replace(self._requested, durability="volatile")
             self._subscription = self._subscribe()
 
     def _read(self, data: bytes) -> Any:
-        if len(data) > READABLE_BYTES:
-            return placeholder_message(
-                self._type, f"(a message of {len(data) / 1e6:.1f} MB, too large to be looked into)"
-            )
+        if len(data) > MOST_READABLE_BYTES:
+            return placeholder_message(self._type, f"(a message of {len(data) / 1e6:.1f} MB, too large to decode)")
         try:
             return deserialize_message(data, self._type)
-        except Exception:  # whatever it is that a learner sends as bytes
-            return placeholder_message(self._type, f"({len(data)} bytes that are no {self._type.__name__})")
+        except Exception:  # a learner may send arbitrary bytes
+            return placeholder_message(self._type, f"({len(data)} bytes that are not a valid {self._type.__name__})")

@@ -1,4 +1,4 @@
-"""What a learner publishes by hand, from a node that is visible in the graph, as that of `ros2 topic pub` is."""
+"""Publishes by hand for the learner, from a node that is visible in the graph like that of `ros2 topic pub`."""
 
 from __future__ import annotations
 
@@ -14,13 +14,11 @@ from tutor.ros.messages import interface_class
 from tutor.ros.participant import OUR_PREFIX, create_node
 
 NODE_NAME = "published_by_hand"
-"""The node's name."""
-
 _DEPTH = 10
 
 
 class ManualPublisher:
-    """Publishers of one node, which exists as long as it has a publisher."""
+    """Manages publishers on one node, which exists only while it has any."""
 
     def __init__(self, context: Context) -> None:
         self._context = context
@@ -30,7 +28,7 @@ class ManualPublisher:
     def add(self, topic: str, type_name: str, values: Mapping[str, Any]) -> None:
         """Create a reliable publisher for this message; `values` maps field paths to values.
 
-        Raises UnknownType, and ValueError with one line where a value or the topic's name does not fit.
+        Raises UnknownType, or ValueError with a one-line message if a value or the topic name is invalid.
         """
         message = fill_message(type_name, values)
         self.remove(topic)
@@ -38,8 +36,8 @@ class ManualPublisher:
             self._node = create_node(self._context, NODE_NAME)
         try:
             publisher = self._node.create_publisher(interface_class(type_name), topic, _DEPTH)
-        except Exception as error:  # rclpy has exceptions of several kinds for a bad name
-            self._leave()
+        except Exception as error:  # rclpy raises several kinds of exceptions for a bad name
+            self._destroy_node_if_unused()
             raise ValueError(f"{topic} is not a valid topic name: {str(error).splitlines()[0]}") from error
         self._publishers[topic] = (publisher, message)
 
@@ -49,26 +47,26 @@ class ManualPublisher:
         publisher.publish(message)
 
     def listeners(self, topic: str) -> int:
-        """The number of subscriptions, without our own."""
+        """Return the number of subscriptions, not counting our own."""
         if self._node is None:
             return 0
         found = self._node.get_subscriptions_info_by_topic(topic)
         return sum(not each.node_name.startswith(OUR_PREFIX) for each in found)
 
     def is_connected(self, topic: str, ours: bool) -> bool:
-        """Whether every known subscription is matched; with `ours`, also that one of them is our own."""
+        """Return whether every known subscription is matched and, with `ours`, one of them is our own."""
         publisher, _ = self._publishers[topic]
-        there = self._node.get_subscriptions_info_by_topic(topic) if self._node is not None else []
-        found = any(each.node_name.startswith(OUR_PREFIX) for each in there)
-        return 0 < len(there) <= publisher.get_subscription_count() and (found or not ours)
+        known = self._node.get_subscriptions_info_by_topic(topic) if self._node is not None else []
+        has_ours = any(each.node_name.startswith(OUR_PREFIX) for each in known)
+        return 0 < len(known) <= publisher.get_subscription_count() and (has_ours or not ours)
 
     def remove(self, topic: str) -> None:
         """Remove the publisher of a topic."""
         if (found := self._publishers.pop(topic, None)) is not None and self._node is not None:
             self._node.destroy_publisher(found[0])
-        self._leave()
+        self._destroy_node_if_unused()
 
-    def _leave(self) -> None:
+    def _destroy_node_if_unused(self) -> None:
         if not self._publishers and self._node is not None:
             self._node.destroy_node()
             self._node = None

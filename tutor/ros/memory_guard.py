@@ -1,8 +1,8 @@
-"""Bounds what learners' messages take of our memory, however large a single one is.
+"""Bounds the memory that learners' messages take in this process, however large a single one is.
 
-Fast DDS puts a message together before any callback, and no setting of it bounds that: one of 500 MB takes as
-much, in each participant that it goes to. So the large blocks that this process has are looked at all the time; where
-they are too many, the participant that is receiving leaves what it receives.
+Fast DDS reassembles a message before any callback, and none of its settings bounds that: a message of 500 MB takes as
+much in each participant that receives it. So we keep watching the total of large memory blocks in this process. When it
+gets too high, the participant that is receiving unsubscribes from whatever it receives.
 """
 
 from __future__ import annotations
@@ -15,37 +15,37 @@ from functools import cache
 from typing import Protocol
 
 MOST_BYTES = 32_000_000
-"""What the large blocks may take, beyond the usual. To take a message that has come makes up to three copies of it."""
+"""Most memory in large blocks, above the baseline. Taking a received message makes up to three copies of it."""
 
-EVERY_S = 0.02
-_LARGE = 65_536
-"""A block of this size is one that the system keeps a count of; no ordinary check has more than a few."""
+_POLL_S = 0.02
+_LARGE_BLOCK_BYTES = 65_536
+"""malloc counts blocks of this size and more separately; an ordinary check has no more than a few."""
 
-_USUAL_BYTES = 1_000_000
-"""What an observer has of them: 660 KB, measured."""
+_OBSERVER_BYTES = 1_000_000
+"""Allowance of large blocks for each observer; measured: 660 KB."""
 
-_LOOK_S = 0.01
-_MUCH_NS = 1_000_000
-"""A participant that takes 1 ms of CPU time in 10 ms is receiving much: ten times what a topic of 1 kHz asks for."""
+_SAMPLE_S = 0.01
+_BUSY_NS = 1_000_000
+"""A participant that uses 1 ms of CPU time in 10 ms is receiving a lot: ten times as much as for a 1 kHz topic."""
 
-_PERSISTS_S = 1.5
-"""Where so much is held for longer than this, and nobody is receiving any more, all leave what they receive.
+_STUCK_S = 1.5
+"""If the limit is exceeded for this long while nobody is receiving any more, all participants drop what they receive.
 
-To leave a topic takes some tenths of a second while Fast DDS is busy with what comes in on it.
+Unsubscribing takes some tenths of a second while Fast DDS is busy with incoming data on the topic.
 """
 
 
 class Guarded(Protocol):
-    """One of our participants, which receives from a learner's nodes."""
+    """One of our participants, which receives data from a learner's nodes."""
 
     threads: frozenset[str]
-    """The threads of this process that receive for it, as the system numbers them."""
+    """The ids of its receiving threads, as in /proc/self/task."""
 
     def pause(self, paused: bool) -> None:
-        """Take nothing of what has been received, or take it again. Called in the guard's thread; raises nothing."""
+        """Stop or resume taking received messages. Called in the guard's thread; must not raise."""
 
     def drop_received(self) -> None:
-        """Leave what is too large to be received. Called in the guard's thread; raises nothing."""
+        """Unsubscribe from what is too large to receive. Called in the guard's thread; must not raise."""
 
 
 _guarded: set[Guarded] = set()
@@ -53,24 +53,24 @@ _lock = threading.Lock()
 _thread: threading.Thread | None = None
 
 
-def guard(one: Guarded) -> None:
-    """Have `one` drop what it receives when it is too much, from now on until `release`."""
+def guard(participant: Guarded) -> None:
+    """Make a participant drop what it receives when it is too much, until `release`."""
     global _thread
     with _lock:
-        _guarded.add(one)
+        _guarded.add(participant)
         if _thread is None and _large_bytes() is not None:
             _thread = threading.Thread(target=_run, name="memory_guard", daemon=True)
             _thread.start()
 
 
-def release(one: Guarded) -> None:
-    """No longer guard it."""
+def release(participant: Guarded) -> None:
+    """Stop guarding a participant."""
     with _lock:
-        _guarded.discard(one)
+        _guarded.discard(participant)
 
 
 def threads() -> frozenset[str]:
-    """The threads of this process, as the system numbers them."""
+    """Return the ids of this process's threads, as in /proc/self/task."""
     return frozenset(os.listdir("/proc/self/task"))
 
 
@@ -94,14 +94,14 @@ class _MallInfo(ctypes.Structure):
 
 @cache
 def _library() -> ctypes.CDLL | None:
-    """The C library, set to count large blocks; None where it is none that can (glibc before 2.33)."""
+    """Return the C library, configured to count large blocks; None if it cannot (glibc before 2.33)."""
     library = ctypes.CDLL(None)
     if not hasattr(library, "mallinfo2"):
         return None
     library.mallinfo2.restype = _MallInfo
     m_mmap_threshold, m_trim_threshold = -3, -1
-    library.mallopt(m_mmap_threshold, _LARGE)
-    library.mallopt(m_trim_threshold, 16 * _LARGE)
+    library.mallopt(m_mmap_threshold, _LARGE_BLOCK_BYTES)
+    library.mallopt(m_trim_threshold, 16 * _LARGE_BLOCK_BYTES)
     return library
 
 
@@ -112,30 +112,30 @@ def _large_bytes() -> int | None:
 
 def _run() -> None:
     global _thread
-    before = _large_bytes() or 0
-    since: float | None = None
+    baseline = _large_bytes() or 0
+    exceeded_since: float | None = None
     while True:
         with _lock:
             watched = tuple(_guarded)
             if not watched:
                 _thread = None
                 return
-        time.sleep(EVERY_S)
-        exceeds = _exceeds(before + MOST_BYTES + len(watched) * _USUAL_BYTES)
-        if exceeds or since is not None:  # an innocent node loses nothing: what is sent to it waits
-            for one in watched:
-                one.pause(exceeds)
+        time.sleep(_POLL_S)
+        exceeds = _exceeds(baseline + MOST_BYTES + len(watched) * _OBSERVER_BYTES)
+        if exceeds or exceeded_since is not None:  # an innocent node loses nothing: its messages wait
+            for participant in watched:
+                participant.pause(exceeds)
         if not exceeds:
-            since = None
+            exceeded_since = None
             continue
         now = time.monotonic()
         if receiving := _receiving(watched):
-            since = now
-        elif since is None or now - since < _PERSISTS_S:
-            since = since or now
+            exceeded_since = now
+        elif exceeded_since is None or now - exceeded_since < _STUCK_S:
+            exceeded_since = exceeded_since or now
             continue
-        for one in receiving or watched:
-            one.drop_received()
+        for participant in receiving or watched:
+            participant.drop_received()
 
 
 def _exceeds(most: int) -> bool:
@@ -143,17 +143,17 @@ def _exceeds(most: int) -> bool:
 
 
 def _receiving(watched: tuple[Guarded, ...]) -> tuple[Guarded, ...]:
-    """Those that are receiving much right now, by the CPU time of their threads."""
-    before = [_cpu_ns(one) for one in watched]
-    time.sleep(_LOOK_S)
-    had = [_cpu_ns(one) - ns for one, ns in zip(watched, before, strict=True)]
-    least = max(_MUCH_NS, max(had) // 4)
-    return tuple(one for one, ns in zip(watched, had, strict=True) if ns >= least)
+    """Return those that are receiving a lot right now, judged by the CPU time of their threads."""
+    before = [_cpu_ns(participant) for participant in watched]
+    time.sleep(_SAMPLE_S)
+    used = [_cpu_ns(participant) - ns for participant, ns in zip(watched, before, strict=True)]
+    threshold = max(_BUSY_NS, max(used) // 4)
+    return tuple(participant for participant, ns in zip(watched, used, strict=True) if ns >= threshold)
 
 
-def _cpu_ns(one: Guarded) -> int:
+def _cpu_ns(participant: Guarded) -> int:
     total = 0
-    for thread in one.threads:
+    for thread in participant.threads:
         try:
             with open(f"/proc/self/task/{thread}/schedstat", "rb") as file:
                 total += int(file.read().split()[0])

@@ -1,4 +1,4 @@
-"""The bridge between rclpy and asyncio: one participant on one domain, with its executor in a thread of its own."""
+"""The bridge between rclpy and asyncio: one participant on one domain, with its executor in a separate thread."""
 
 from __future__ import annotations
 
@@ -26,20 +26,20 @@ from tutor.ros.participant import OUR_PREFIX, create_node, new_context
 from tutor.ros_model import QoS
 
 ANY_PUBLISHER = QoS("best_effort", "volatile")
-"""What every publisher offers at least."""
+"""The weakest request, which every publisher's offer satisfies."""
 
 LINE_CHARACTERS = 2000
-"""A log message is cut at this many characters, as a line of the output is."""
+"""Log messages are cut at this many characters, like lines of output."""
 
-_number = itertools.count(1)
+_node_numbers = itertools.count(1)
 
 
 class AnswerTooLarge(Exception):
-    """The answer to a request is larger than what may be received."""
+    """The response of a service is larger than what we can receive."""
 
 
 class _Gate(MutuallyExclusiveCallbackGroup):
-    """What is received is taken while it is open."""
+    """A callback group that holds its callbacks back while `closed`."""
 
     closed = False
 
@@ -48,14 +48,14 @@ class _Gate(MutuallyExclusiveCallbackGroup):
 
 
 class Observer:
-    """Our participant in a domain. Every method is called on the event loop's thread; facts arrive there too.
+    """Our participant in a domain. Call its methods on the event loop's thread, unless they say otherwise.
 
-    `on_change` is called (on that thread) after each new fact. Messages and answers are taken in the executor's thread
-    and handed over with `call_soon_threadsafe`.
+    The executor's thread takes messages and responses and passes them to the loop with `call_soon_threadsafe`.
+    `on_change` is called on the loop after each new sample, log record or fault.
     """
 
     def __init__(self, domain_id: int, on_change: Callable[[], None] = lambda: None, *, guarded: bool = True) -> None:
-        """`guarded`: it leaves what is too large to be received (see `tutor.ros.memory_guard`)."""
+        """`guarded`: unsubscribe from what is too large to receive (see `tutor.ros.memory_guard`)."""
         self.samples: dict[str, list[Sample]] = {}
         self.logs: list[LogRecord] = []
         self.fault: Exception | None = None
@@ -63,14 +63,14 @@ class Observer:
         self._on_change = on_change
         self._clients: dict[tuple[str, str], Client] = {}
         self._servers: list[ServiceServer] = []
-        self._answers: set[asyncio.Future[Any]] = set()
-        self._large_answers = 0
+        self._pending_answers: set[asyncio.Future[Any]] = set()
+        self._pending_large_answers = 0
         self._gate: _Gate = _Gate()  # type: ignore[no-untyped-call]
         self._intakes: list[Intake] = []
         self._closed = False
         threads = memory_guard.threads()
         self._context = new_context(domain_id)
-        self.node = create_node(self._context, f"{OUR_PREFIX}_{next(_number)}")
+        self.node = create_node(self._context, f"{OUR_PREFIX}_{next(_node_numbers)}")
         self.threads = memory_guard.threads() - threads
         self._executor = SingleThreadedExecutor(context=self._context)
         self._executor.add_node(self.node)
@@ -88,20 +88,20 @@ class Observer:
             text, name, function = (
                 truncate(each, LINE_CHARACTERS) for each in (message.msg, message.name, message.function)
             )
-            self._hand_to_loop(self._log, LogRecord(level, name, text, stamp, time.time(), function))
+            self._call_on_loop(self._add_log, LogRecord(level, name, text, stamp, time.time(), function))
             return kept_bytes(message.msg, text)
 
         qos = QoS("reliable", "transient_local")
         self._intakes.append(Intake(self.node, "/rosout", "rcl_interfaces/msg/Log", qos, self._gate, take))
 
     def watch(self, topic: str, type_name: str, requested: QoS = ANY_PUBLISHER) -> None:
-        """Collect the samples of a topic. Raises UnknownType."""
+        """Collect the samples of a topic in `samples`. Raises UnknownType."""
         interface_class(type_name)
         self.samples[topic] = []
 
         def take(message: Any, source_time: float) -> int:
             plain, cost = to_plain_and_size(message)
-            self._hand_to_loop(self._sample, Sample(topic, plain, source_time, time.time()))
+            self._call_on_loop(self._add_sample, Sample(topic, plain, source_time, time.time()))
             return cost
 
         self._intakes.append(Intake(self.node, topic, type_name, requested, self._gate, take))
@@ -113,15 +113,15 @@ class Observer:
         handler: Callable[[Mapping[str, Any]], Mapping[str, Any]],
         on_served: Callable[[Mapping[str, Any], Mapping[str, Any]], None],
     ) -> None:
-        """Answer a service with `handler`; `on_served(request, response)` is called on the loop's thread."""
+        """Serve a service with `handler`, which runs in the executor's thread; `on_served` is called on the loop."""
 
         def answer(request: Any, response: Any) -> Any:
-            asked = to_plain(request)
-            answered = handler(asked)
-            self._hand_to_loop(on_served, asked, answered)
-            return set_fields(response, answered)
+            plain_request = to_plain(request)
+            values = handler(plain_request)
+            self._call_on_loop(on_served, plain_request, values)
+            return set_fields(response, values)
 
-        # Of a client that ended before its answer, rclpy warns on stderr; it is no fault of ours.
+        # rclpy warns on stderr about a client that ended before its response; that is not our fault.
         warnings.filterwarnings("ignore", "failed to send response", RuntimeWarning)
         self._servers.append(
             self.node.create_service(interface_class(type_name), service, answer, callback_group=self._gate)
@@ -130,9 +130,9 @@ class Observer:
     async def call(
         self, service: str, type_name: str, request: Mapping[str, Any], limit_s: float, *, large: bool = False
     ) -> Any | None:
-        """Call a service once its server is matched; None where no answer came within the limit.
+        """Call a service once its server is matched. Return None if no response arrives within `limit_s` seconds.
 
-        `large`: that its answer may be of any size is to be expected. Raises AnswerTooLarge.
+        `large`: the response may be of any size. Raises AnswerTooLarge.
         """
         deadline = self._loop.time() + limit_s
         if not await self.wait_for_server(service, type_name, limit_s):
@@ -141,26 +141,26 @@ class Observer:
         filled = set_fields(interface_class(type_name).Request(), request)
         answer: asyncio.Future[Any] = self._loop.create_future()
         pending = client.call_async(filled)
-        pending.add_done_callback(lambda done: self._hand_to_loop(_settle, answer, done))
-        self._answers.add(answer)
-        self._large_answers += large
+        pending.add_done_callback(lambda done: self._call_on_loop(_transfer_result, answer, done))
+        self._pending_answers.add(answer)
+        self._pending_large_answers += large
         try:
             return await asyncio.wait_for(answer, max(0.0, deadline - self._loop.time()))
         except TimeoutError:
             return None
         finally:  # the caller may be cancelled
-            self._answers.discard(answer)
-            self._large_answers -= large
+            self._pending_answers.discard(answer)
+            self._pending_large_answers -= large
             if not pending.done():
                 client.remove_pending_request(pending)
 
-    def forget(self, service: str, type_name: str) -> None:
-        """Make another client for the next call: one keeps the memory of the largest answer that it has had."""
+    def discard_client(self, service: str, type_name: str) -> None:
+        """Destroy our client of a service: it keeps the memory of its largest response. The next call makes another."""
         if client := self._clients.pop((service, type_name), None):
             self._executor.create_task(self.node.destroy_client, client)
 
     async def wait_for_server(self, service: str, type_name: str, limit_s: float) -> bool:
-        """Wait until our client has discovered the server; False where it has not within the limit."""
+        """Wait until our client has discovered the server. Return False if it has not within `limit_s` seconds."""
         client = self._client(service, type_name)
         deadline = self._loop.time() + limit_s
         while not client.service_is_ready():
@@ -170,37 +170,37 @@ class Observer:
         return True
 
     def pause(self, paused: bool) -> None:
-        """Take nothing of what has been received, or take it again. Called in any thread."""
+        """Stop or resume taking received messages. May be called from any thread."""
         if self._gate.closed != paused:
             self._gate.closed = paused
             with contextlib.suppress(AttributeError):  # the executor has been shut down meanwhile
                 self._executor.wake()
 
     async def wait_while_paused(self, limit_s: float) -> None:
-        """Wait while nothing is taken of what has been received."""
+        """Wait while paused, for up to `limit_s` seconds."""
         deadline = self._loop.time() + limit_s
         while self._gate.closed and self._loop.time() < deadline:
             await asyncio.sleep(0.01)
 
     def drop_received(self) -> None:
-        """Leave the services of which a large answer is awaited, or else the topics, or else all services.
+        """Drop all services if a large response is pending or there are no topics, else all topics.
 
-        Called in any thread. What is left is left where messages are taken, too.
+        May be called from any thread. The endpoints are destroyed in the executor's thread, where messages are taken.
         """
-        left: list[Callable[[], object]] = [intake.leave for intake in self._intakes]
-        if left and not self._large_answers:
+        actions: list[Callable[[], object]] = [intake.unsubscribe for intake in self._intakes]
+        if actions and not self._pending_large_answers:
             self._intakes = []
         else:
             clients, self._clients = self._clients, {}
-            left = [functools.partial(self.node.destroy_client, client) for client in clients.values()]
-            left += [functools.partial(self.node.destroy_service, server) for server in self._servers]
-            self._hand_to_loop(self._refuse_answers)
+            actions = [functools.partial(self.node.destroy_client, client) for client in clients.values()]
+            actions += [functools.partial(self.node.destroy_service, server) for server in self._servers]
+            self._call_on_loop(self._refuse_answers)
         with contextlib.suppress(AttributeError):  # the executor has been shut down meanwhile
-            for leave in left:
-                self._executor.create_task(leave)
+            for action in actions:
+                self._executor.create_task(action)
 
     def close(self) -> None:
-        """Leave the domain. Safe to call twice."""
+        """Leave the domain. Idempotent."""
         if self._closed:
             return
         self._closed = True
@@ -211,7 +211,7 @@ class Observer:
         self.node.destroy_node()
 
     def _refuse_answers(self) -> None:
-        for answer in self._answers:
+        for answer in self._pending_answers:
             if not answer.done():
                 answer.set_exception(AnswerTooLarge())
 
@@ -230,31 +230,31 @@ class Observer:
                 self._executor.spin_once()
         except ExternalShutdownException:
             pass
-        except Exception as error:  # the thread's boundary: any error is reported on the loop's thread
+        except Exception as error:  # nothing else would catch an error in this thread: report it on the loop
             if not self._closed:
-                self._hand_to_loop(self._fail, error)
+                self._call_on_loop(self._set_fault, error)
 
-    def _hand_to_loop(self, callback: Callable[..., None], *args: Any) -> None:
+    def _call_on_loop(self, callback: Callable[..., None], *args: Any) -> None:
         try:
             self._loop.call_soon_threadsafe(callback, *args)
         except RuntimeError:  # the loop is closed
             if not self._closed:
                 raise
 
-    def _sample(self, sample: Sample) -> None:
+    def _add_sample(self, sample: Sample) -> None:
         self.samples[sample.topic].append(sample)
         self._on_change()
 
-    def _log(self, record: LogRecord) -> None:
+    def _add_log(self, record: LogRecord) -> None:
         self.logs.append(record)
         self._on_change()
 
-    def _fail(self, error: Exception) -> None:
+    def _set_fault(self, error: Exception) -> None:
         self.fault = error
         self._on_change()
 
 
-def _settle(answer: asyncio.Future[Any], done: Any) -> None:
+def _transfer_result(answer: asyncio.Future[Any], done: Any) -> None:
     if answer.done():
         return
     if (error := done.exception()) is not None:

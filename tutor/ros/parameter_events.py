@@ -1,4 +1,4 @@
-"""Subscribes to parameter events."""
+"""Watches parameter changes through /parameter_events."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from tutor.ros.observer import Observer
 
 
 def watch_changes(observer: Observer, on_change: Callable[[str], None]) -> None:
-    """Call `on_change(node)` on the event loop's thread whenever a node reports that one of its parameters changed."""
+    """Call `on_change(node)` on the event loop whenever a node reports that one of its parameters changed."""
     loop = asyncio.get_running_loop()
 
     def on_event(event: Any) -> None:

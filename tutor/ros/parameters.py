@@ -1,4 +1,4 @@
-"""Parameters of the learner's nodes, asked for and set over the parameter services."""
+"""Reads and sets parameters of the learner's nodes through the parameter services."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from tutor.ros.messages import interface_class, truncate
 from tutor.ros.observer import AnswerTooLarge, Observer
 from tutor.ros_model import PARAMETER_TYPES, Parameter
 
-_FIELDS = (
+_VALUE_FIELDS = (
     None,
     "bool_value",
     "integer_value",
@@ -27,26 +27,26 @@ _FIELDS = (
 
 
 MOST_PARAMETERS, MOST_ELEMENTS = 500, 1000
-"""This many parameters of a node are asked for, and this many elements of an array are kept. Texts are cut, too."""
+"""Limits on the parameters read from a node, and on the elements kept of an array. Strings are cut, too."""
 
 LONGEST_NAME = 1000
 
 MOST_BYTES = 64_000_000
-"""No more than this is received of the values of a node's texts and arrays, one after the other."""
+"""Once this much of a node's strings and arrays has been received, no more of them are requested."""
 
 TOO_LARGE = (0, "(too large to be read)")
-"""In place of a type and a value: of a parameter that is not read."""
+"""Type and value shown for a parameter that is too large to read."""
 
-_SMALL = frozenset((1, 2, 3))
-"""The types whose values have a fixed size."""
+_FIXED_SIZE_TYPES = frozenset((1, 2, 3))
+"""Type numbers of fixed-size values: bool, integer, double."""
 
-_LARGE = 1_000_000
+_LARGE_BYTES = 1_000_000
 _ELEMENT_BYTES = 8
 
 
 async def get_parameters(observer: Observer, nodes: Iterable[str], limit_s: float) -> tuple[Parameter, ...] | None:
-    """The parameters of all `nodes` that answer within `limit_s` seconds; None where none does."""
-    answers = await asyncio.gather(*(_ask_one(observer, node, limit_s) for node in dict.fromkeys(nodes)))
+    """Return the parameters of all `nodes` that respond within `limit_s` seconds; None if none does."""
+    answers = await asyncio.gather(*(_get_node_parameters(observer, node, limit_s) for node in dict.fromkeys(nodes)))
     if all(answer is None for answer in answers):
         return None
     return tuple(parameter for answer in answers if answer is not None for parameter in answer)
@@ -61,33 +61,35 @@ async def set_parameters(
     limit_s: float,
     types: Mapping[str, str] | None = None,
 ) -> SetAnswer:
-    """Set parameters of one node in one request. Python floats are doubles, ints integers, as on the command line.
+    """Set parameters of one node in one request. Python floats become doubles, ints integers, as on the command line.
 
-    `types` names the types of those values that do not tell it themselves, such as an empty list.
+    `types` gives the type of values that do not show it themselves, such as an empty list.
     """
     verb, kind = (
         ("set_parameters_atomically", "SetParametersAtomically") if atomic else ("set_parameters", "SetParameters")
     )
-    wanted = [_message(name, value, (types or {}).get(name)) for name, value in values.items()]
-    asked = time.time()
+    parameters = [_parameter_message(name, value, (types or {}).get(name)) for name, value in values.items()]
+    requested_at = time.time()
     try:
-        answer = await observer.call(f"{node}/{verb}", f"rcl_interfaces/srv/{kind}", {"parameters": wanted}, limit_s)
+        answer = await observer.call(
+            f"{node}/{verb}", f"rcl_interfaces/srv/{kind}", {"parameters": parameters}, limit_s
+        )
     except AnswerTooLarge:
-        return SetAnswer(values, True, False, TOO_LARGE[1], asked, time.time())
+        return SetAnswer(values, True, False, TOO_LARGE[1], requested_at, time.time())
     if answer is None:
-        return SetAnswer(values, False, False, "", asked, time.time())
+        return SetAnswer(values, False, False, "", requested_at, time.time())
     results = [answer.result] if atomic else answer.results
     return SetAnswer(
         values,
         True,
         all(result.successful for result in results) and bool(results),
         truncate("; ".join(result.reason for result in results if result.reason)),
-        asked,
+        requested_at,
         time.time(),
     )
 
 
-async def _ask_one(observer: Observer, node: str, limit_s: float) -> tuple[Parameter, ...] | None:
+async def _get_node_parameters(observer: Observer, node: str, limit_s: float) -> tuple[Parameter, ...] | None:
     try:
         listed = await observer.call(f"{node}/list_parameters", "rcl_interfaces/srv/ListParameters", {}, limit_s)
     except AnswerTooLarge:
@@ -97,28 +99,28 @@ async def _ask_one(observer: Observer, node: str, limit_s: float) -> tuple[Param
     names = [name for name in listed.result.names[:MOST_PARAMETERS] if len(name) <= LONGEST_NAME]
     if not names:
         return ()
-    asked = {"names": names}
+    request = {"names": names}
     try:
         described = await observer.call(
-            f"{node}/describe_parameters", "rcl_interfaces/srv/DescribeParameters", asked, limit_s
+            f"{node}/describe_parameters", "rcl_interfaces/srv/DescribeParameters", request, limit_s
         )
         if described is None:
             return None
         descriptors = dict(zip(names, described.descriptors, strict=False))
     except AnswerTooLarge:
         descriptors = {name: interface_class("rcl_interfaces/msg/ParameterDescriptor")() for name in names}
-    small = [name for name, descriptor in descriptors.items() if descriptor.type in _SMALL]
-    values = _Values(observer, node, limit_s)
-    await values.ask(small)
-    await values.ask_in_turn([name for name in descriptors if name not in set(small)])
+    fixed_size = [name for name, descriptor in descriptors.items() if descriptor.type in _FIXED_SIZE_TYPES]
+    values = _ValueReader(observer, node, limit_s)
+    await values.read(fixed_size)
+    await values.read_in_batches([name for name in descriptors if name not in set(fixed_size)])
     return tuple(_parameter(node, name, values.found.get(name), descriptor) for name, descriptor in descriptors.items())
 
 
-class _Values:
-    """The values of a node's parameters, asked for without ever having much of them at a time.
+class _ValueReader:
+    """Reads the values of a node's parameters without ever receiving much data at once.
 
-    One answer holds all that were asked for, and cannot be had in part. So those that are small by their type are asked
-    for together; of the others a few, and more only while they are small, too.
+    A response holds all requested values and cannot be received in part. So parameters of fixed-size types are read
+    together. Of the others we request one first, and then more at a time for as long as they turn out to be small.
     """
 
     def __init__(self, observer: Observer, node: str, limit_s: float) -> None:
@@ -127,39 +129,40 @@ class _Values:
         self._node = node
         self._limit_s = limit_s
 
-    async def ask_in_turn(self, names: list[str]) -> None:
-        """Ask for parameters of any size; from `MOST_BYTES` on, no more of them."""
-        at_once, received = 1, 0
+    async def read_in_batches(self, names: list[str]) -> None:
+        """Read parameters of any size, and stop after `MOST_BYTES`."""
+        batch_size, received = 1, 0
         while names:
-            some, names = names[:at_once], names[at_once:]
+            batch, names = names[:batch_size], names[batch_size:]
             if received > MOST_BYTES:
-                self.found.update(dict.fromkeys(some, TOO_LARGE))
+                self.found.update(dict.fromkeys(batch, TOO_LARGE))
                 continue
-            size = await self.ask(some, large=True)
-            at_once = 1 if size > _LARGE else 2 * at_once
+            size = await self.read(batch, large=True)
+            batch_size = 1 if size > _LARGE_BYTES else 2 * batch_size
             received += size
 
-    async def ask(self, names: list[str], *, large: bool = False) -> int:
-        """Ask for these parameters in one request; gives the size of the answer, in bytes."""
+    async def read(self, names: list[str], *, large: bool = False) -> int:
+        """Read these parameters in one request, or one by one if that fails. Return the size received, in bytes."""
         if not names:
             return 0
         service, type_name = f"{self._node}/get_parameters", "rcl_interfaces/srv/GetParameters"
         try:
             answer = await self._observer.call(service, type_name, {"names": names}, self._limit_s, large=large)
         except AnswerTooLarge:
-            await self._observer.wait_while_paused(self._limit_s)  # what comes of it meanwhile is none of the next one
+            # Wait until the rest of it is gone, so that it is not taken for part of the next response.
+            await self._observer.wait_while_paused(self._limit_s)
             if len(names) > 1:
-                return sum([await self.ask([name], large=large) for name in names])
+                return sum([await self.read([name], large=large) for name in names])
             self.found[names[0]] = TOO_LARGE
             return MOST_BYTES // 4
         values = list(answer.values) if answer is not None else []
-        # A declared parameter without a value makes get_parameters answer with nothing at all; ask one by one then.
+        # A parameter that is declared without a value makes get_parameters return nothing at all: read one by one then.
         if len(values) != len(names) and len(names) > 1:
-            return sum(await asyncio.gather(*(self.ask([name], large=large) for name in names)))
-        size = sum(_size(value) for value in values)
-        self.found.update({name: _value(value) for name, value in zip(names, values, strict=False)})
-        if size > _LARGE:
-            self._observer.forget(service, type_name)
+            return sum(await asyncio.gather(*(self.read([name], large=large) for name in names)))
+        size = sum(_value_bytes(value) for value in values)
+        self.found.update({name: _read_value(value) for name, value in zip(names, values, strict=False)})
+        if size > _LARGE_BYTES:
+            self._observer.discard_client(service, type_name)
         return size
 
 
@@ -177,34 +180,34 @@ def _parameter(node: str, name: str, found: tuple[int, Any] | None, descriptor: 
     )
 
 
-def _value(value: Any) -> tuple[int, Any]:
-    """A value with the number of its type, cut to what is kept of it."""
-    field = _FIELDS[value.type]
-    held = getattr(value, field) if field else None
-    if isinstance(held, str):
-        return value.type, truncate(held)
-    return value.type, held[:MOST_ELEMENTS] if held is not None and hasattr(held, "__len__") else held
+def _read_value(value: Any) -> tuple[int, Any]:
+    """Return the type number and the value, cut to the limits."""
+    field = _VALUE_FIELDS[value.type]
+    content = getattr(value, field) if field else None
+    if isinstance(content, str):
+        return value.type, truncate(content)
+    return value.type, content[:MOST_ELEMENTS] if content is not None and hasattr(content, "__len__") else content
 
 
-def _size(value: Any) -> int:
-    field = _FIELDS[value.type]
-    held = getattr(value, field) if field else None
-    return _ELEMENT_BYTES * len(held) if held is not None and hasattr(held, "__len__") else _ELEMENT_BYTES
+def _value_bytes(value: Any) -> int:
+    field = _VALUE_FIELDS[value.type]
+    content = getattr(value, field) if field else None
+    return _ELEMENT_BYTES * len(content) if content is not None and hasattr(content, "__len__") else _ELEMENT_BYTES
 
 
-def _message(name: str, value: Any, type_name: str | None = None) -> Any:
-    holder = interface_class("rcl_interfaces/msg/ParameterValue")()
-    holder.type = _kind_of(value) if type_name is None else PARAMETER_TYPES.index(type_name)
+def _parameter_message(name: str, value: Any, type_name: str | None = None) -> Any:
+    message = interface_class("rcl_interfaces/msg/ParameterValue")()
+    message.type = _type_number(value) if type_name is None else PARAMETER_TYPES.index(type_name)
     if type_name == "byte array":
         value = [bytes([item]) for item in value]
-    setattr(holder, str(_FIELDS[holder.type]), value)
+    setattr(message, str(_VALUE_FIELDS[message.type]), value)
     parameter = interface_class("rcl_interfaces/msg/Parameter")()
     parameter.name = name
-    parameter.value = holder
+    parameter.value = message
     return parameter
 
 
-def _kind_of(value: Any) -> int:
+def _type_number(value: Any) -> int:
     # bool before int: a bool is an int in Python, but not in ROS.
     for kind, python_type in ((1, bool), (2, int), (3, float), (4, str)):
         if isinstance(value, python_type):

@@ -1,4 +1,4 @@
-"""How we join a domain: with a context, and so a participant, of our own, and nodes with our prefix."""
+"""How we join a domain: with a separate context, and so our own participant, and nodes with our prefix."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from rclpy.signals import SignalHandlerOptions
 from tutor.ros.environment import NO_LOG_FILES
 
 OUR_PREFIX = "_ros_tutor"
-"""The prefix of our nodes' names. They are hidden, as those of ros2cli are."""
+"""The prefix of our node names. The underscore hides them, as ros2cli does with its own."""
 
 
 def new_context(domain_id: int | None = None) -> Context:
-    """Join a domain, by default that of ROS_DOMAIN_ID. It installs no signal handlers and writes no log files."""
+    """Join a domain, by default ROS_DOMAIN_ID. Installs no signal handlers and writes no log files."""
     context = Context()
     rclpy.init(
         args=[*NO_LOG_FILES], context=context, domain_id=domain_id, signal_handler_options=SignalHandlerOptions.NO
@@ -23,7 +23,7 @@ def new_context(domain_id: int | None = None) -> Context:
 
 
 def create_node(context: Context, name: str) -> Node:
-    """A node without /rosout publisher and parameter services."""
+    """Create a node without a /rosout publisher and parameter services."""
     return rclpy.create_node(
         name, context=context, use_global_arguments=False, enable_rosout=False, start_parameter_services=False
     )

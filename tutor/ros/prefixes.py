@@ -1,4 +1,4 @@
-"""Which entries of PATH-like variables belong to a ROS installation, and to which: ours, or another."""
+"""Tells which entries of PATH-like variables belong to the bundled ROS, to another ROS, or to none."""
 
 from __future__ import annotations
 
@@ -14,23 +14,23 @@ _INDEX = Path("share") / "ament_index" / "resource_index"
 
 
 def entries(environ: Mapping[str, str], name: str) -> list[str]:
-    """The entries of a PATH-like variable, empty ones left out, each once, in order."""
+    """Return the non-empty entries of a PATH-like variable, without duplicates, in order."""
     return list(dict.fromkeys(entry for entry in environ.get(name, "").split(os.pathsep) if entry))
 
 
 def joined(parts: Iterable[str | Path]) -> str:
-    """Entries as the value of a PATH-like variable, each once, in order."""
+    """Join entries to the value of a PATH-like variable, without duplicates, in order."""
     return os.pathsep.join(dict.fromkeys(str(part) for part in parts))
 
 
 def is_bundled(entry: str | Path) -> bool:
-    """Whether a path is in the bundled ROS: our own environment, or the interfaces built for it."""
+    """Return whether a path is in the bundled ROS: our own environment, or the interfaces built for it."""
     path = Path(entry)
     return any(path.is_relative_to(root) for root in _own_roots())
 
 
 def is_foreign_ros(entry: str | Path) -> bool:
-    """Whether a path is in an ament prefix (of ROS itself or of a workspace) that is not the bundled one."""
+    """Return whether a path is in an ament prefix (of ROS or of a workspace) other than the bundled one."""
     path = Path(entry)
     if is_bundled(path) or not path.is_absolute():
         return False
@@ -41,23 +41,23 @@ def is_foreign_ros(entry: str | Path) -> bool:
 
 
 def without_ros(environ: Mapping[str, str], name: str) -> list[str]:
-    """The entries of a PATH-like variable that belong to no ROS at all."""
+    """Return the entries of a PATH-like variable that belong to no ROS at all."""
     return [entry for entry in entries(environ, name) if not is_bundled(entry) and not is_foreign_ros(entry)]
 
 
 def without_bundled(environ: Mapping[str, str], name: str) -> list[str]:
-    """The entries of a PATH-like variable, those of the bundled ROS left out."""
+    """Return the entries of a PATH-like variable without those of the bundled ROS."""
     return [entry for entry in entries(environ, name) if not is_bundled(entry)]
 
 
 def bundled_libraries() -> list[Path]:
-    """The folders with the bundled ROS's shared libraries, always in the same order."""
+    """Return the folders with the bundled ROS's shared libraries, in a stable order."""
     site = Path(sys.prefix) / SITE_PACKAGES
     return [Path(sys.prefix) / "lib", bundled_interfaces.library_dir(), *sorted(site.glob("ros_*.libs"))]
 
 
 def rclpy_site(prefix: Path) -> Path | None:
-    """The folder of an ament prefix that `import rclpy` works from with CPython 3.12, if it holds one."""
+    """Return the folder in an ament prefix with an rclpy for CPython 3.12; None if there is none."""
     for site in (SITE_PACKAGES, Path("local") / "lib" / "python3.12" / "dist-packages"):
         if any((prefix / site / "rclpy").glob("_rclpy_pybind11.cpython-312-*.so")):
             return prefix / site
@@ -65,12 +65,12 @@ def rclpy_site(prefix: Path) -> Path | None:
 
 
 def holds_package(prefix: Path, package: str) -> bool:
-    """Whether an ament prefix holds this ROS package."""
+    """Return whether an ament prefix holds this ROS package."""
     return (prefix / _INDEX / "packages" / package).is_file()
 
 
 def _own_roots() -> tuple[Path, ...]:
-    # A prefix such as /usr (no environment of its own) also holds what is not ours: then only the wheels count.
+    # Outside a virtual environment, a prefix such as /usr also holds things that are not ours: only the wheels count.
     prefix = Path(sys.prefix)
     if sys.prefix != sys.base_prefix:
         return (prefix, bundled_interfaces.prefix())

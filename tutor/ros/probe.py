@@ -1,10 +1,10 @@
-"""Small programs that try ROS out in a process of their own, for the doctor.
+"""Small programs that try out ROS in a separate process, for the doctor.
 
-Run by path, with any Python: none of our code is imported. The last line on stdout is the answer, as JSON.
+Run by path, with any Python: none of our code is imported. The last line on stdout is the result, as JSON.
 
-    probe.py import             how long `import rclpy` takes, and from where it comes
+    probe.py import             how long `import rclpy` takes, and where it is imported from
     probe.py interfaces         whether example_interfaces/srv/AddTwoInts can be used
-    probe.py listen TOPIC       says "ready", then waits for one message
+    probe.py listen TOPIC       prints "ready", then waits for one message
     probe.py talk TOPIC         publishes until it is killed
 """
 
@@ -36,14 +36,14 @@ def _listen(topic: str) -> dict[str, object]:
     import rclpy
     from std_msgs.msg import String
 
-    seen: list[object] = []
+    received: list[object] = []
     rclpy.init()
     node = rclpy.create_node("doctor_listener")
-    node.create_subscription(String, topic, seen.append, 10)
+    node.create_subscription(String, topic, received.append, 10)
     print("ready", flush=True)
-    while not seen:
+    while not received:
         rclpy.spin_once(node, timeout_sec=1.0)
-    return {"messages": len(seen)}
+    return {"messages": len(received)}
 
 
 def _talk(topic: str) -> dict[str, object]:
@@ -59,10 +59,10 @@ def _talk(topic: str) -> dict[str, object]:
 
 
 if __name__ == "__main__":
-    _programs: dict[str, Callable[..., dict[str, object]]] = {
+    _COMMANDS: dict[str, Callable[..., dict[str, object]]] = {
         "import": _import,
         "interfaces": _interfaces,
         "listen": _listen,
         "talk": _talk,
     }
-    print(json.dumps(_programs[sys.argv[1]](*sys.argv[2:])), flush=True)
+    print(json.dumps(_COMMANDS[sys.argv[1]](*sys.argv[2:])), flush=True)

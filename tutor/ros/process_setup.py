@@ -1,4 +1,4 @@
-"""Our own process as a user of ROS: the right libraries, the right modules, none of the other ROS."""
+"""Prepares our own process for rclpy: the right libraries and modules, and nothing of the other ROS."""
 
 from __future__ import annotations
 
@@ -16,60 +16,60 @@ from tutor import interpreter
 from tutor.ros import prefixes, shared_memory
 from tutor.ros.environment import RosEnvironment, tutor_env
 
-_RESTARTED = "_ROS_TUTOR_RESTARTED"
-_NOT_ROS = ("ros_tutor", "ros_wheels_bootstrapper")
-_OF_ROS = ("ROS_", "RMW_", "AMENT_", "FASTRTPS_", "FASTDDS_", "RCUTILS_", "OPENBLAS_")
+_RESTARTED_VARIABLE = "_ROS_TUTOR_RESTARTED"
+_NON_ROS_WHEELS = ("ros_tutor", "ros_wheels_bootstrapper")
+_ROS_VARIABLE_PREFIXES = ("ROS_", "RMW_", "AMENT_", "FASTRTPS_", "FASTDDS_", "RCUTILS_", "OPENBLAS_")
 
-_in_use: tuple[object, ...] | None = None
-"""The ROS that this process was prepared for: once rclpy is imported, it can be no other."""
+_prepared_for: tuple[object, ...] | None = None
+"""The ROS that this process was prepared for, which cannot change once rclpy is imported."""
 
 _users_environ: dict[str, str] = {}
-_preparations = 0
+_active_blocks = 0
 
 
 @contextmanager
 def environment_restored() -> Iterator[None]:
-    """Give the user's environment back at the end of whatever prepares this process for rclpy.
+    """Restore the user's environment after a block that prepares this process for rclpy.
 
-    A node that the user runs later from this process would be set up as a check's otherwise. These may overlap: the
-    last to end restores.
+    Otherwise a node that the user runs later from this process would get the settings of a check. Blocks may overlap:
+    the last one to end restores.
     """
-    global _preparations
-    if not _preparations:
+    global _active_blocks
+    if not _active_blocks:
         _users_environ.clear()
         _users_environ.update(os.environ)
-    _preparations += 1
+    _active_blocks += 1
     try:
         yield
     finally:
-        _preparations -= 1
-        if not _preparations:
+        _active_blocks -= 1
+        if not _active_blocks:
             for name in set(os.environ) - set(_users_environ):
                 del os.environ[name]
             os.environ.update(_users_environ)
 
 
 def prepare_for_rclpy(ros: RosEnvironment, *, isolated: bool) -> None:
-    """Prepare this process for `import rclpy` (the observer's side). Call it before anything else.
+    """Prepare this process for `import rclpy`. Call this before anything else.
 
-    Where this process was started with library folders of the other ROS, it restarts itself, once, without them: the
-    loader reads LD_LIBRARY_PATH only then. It may be called again for the same ROS. Raises RuntimeError where rclpy was
-    imported before the first call or for another ROS, OSError where shared memory is full, and whatever
-    `tutor.ros.bundled_interfaces.activate` raises where the bundled interfaces are missing.
+    If the process was started with library folders of the other ROS, it restarts itself once without them, since the
+    loader reads LD_LIBRARY_PATH only at process start. May be called again for the same ROS. Raises RuntimeError if
+    rclpy was imported before the first call or for another ROS, OSError if shared memory is full, and whatever
+    `tutor.ros.bundled_interfaces.activate` raises if the bundled interfaces are missing.
     """
-    global _in_use
-    interpreter.answer_ctrl_c()  # where this process has restarted itself
+    global _prepared_for
+    interpreter.answer_ctrl_c()  # in case this process has restarted itself
     shared_memory.require_enough()
     env = tutor_env(ros, isolated=isolated)
-    if "rclpy" in sys.modules and _in_use != _identity(ros):
-        raise RuntimeError("rclpy is imported already: choose the ROS before")
-    _in_use = _identity(ros)
-    if _wrong_libraries(ros) and os.environ.get(_RESTARTED) != ros.kind:
-        interpreter.become([sys.executable, *sys.orig_argv[1:]], {**env, _RESTARTED: ros.kind})
+    if "rclpy" in sys.modules and _prepared_for != _identity(ros):
+        raise RuntimeError("rclpy is already imported: choose the ROS first")
+    _prepared_for = _identity(ros)
+    if _has_wrong_libraries(ros) and os.environ.get(_RESTARTED_VARIABLE) != ros.kind:
+        interpreter.become([sys.executable, *sys.orig_argv[1:]], {**env, _RESTARTED_VARIABLE: ros.kind})
     for name in set(os.environ) - set(env):
-        if name.startswith(_OF_ROS):
+        if name.startswith(_ROS_VARIABLE_PREFIXES):
             del os.environ[name]
-    os.environ.update({name: value for name, value in env.items() if name.startswith(_OF_ROS)})
+    os.environ.update({name: value for name, value in env.items() if name.startswith(_ROS_VARIABLE_PREFIXES)})
     if ros.kind == "system":
         if sys.flags.isolated:
             interpreter.add_python_path(env)
@@ -83,11 +83,11 @@ def prepare_for_rclpy(ros: RosEnvironment, *, isolated: bool) -> None:
 
 
 def keep_stdout() -> None:
-    """Keep standard output for us: what ROS's libraries write goes to stderr. Call it after `prepare_for_rclpy`."""
+    """Reserve stdout for us: redirect what ROS libraries write there to stderr. Call after `prepare_for_rclpy`."""
     try:
         if sys.stdout.fileno() != 1 or sys.stderr.fileno() != 2:
             return
-    except (AttributeError, OSError, ValueError):  # one of them is closed, or no file
+    except (AttributeError, OSError, ValueError):  # one of them is closed, or not a file
         return
     sys.stdout.flush()
     ours = os.dup(1)
@@ -96,36 +96,41 @@ def keep_stdout() -> None:
 
 
 def _identity(ros: RosEnvironment) -> tuple[object, ...]:
-    # Without its problems: they are those of the variables around us, which `prepare_for_rclpy` has cleaned.
+    # Without `problems`: they describe environment variables, which `prepare_for_rclpy` cleans up.
     return ros.kind, ros.distro, ros.python, ros.rmw
 
 
-def _wrong_libraries(ros: RosEnvironment) -> bool:
+def _has_wrong_libraries(ros: RosEnvironment) -> bool:
     wrong = prefixes.is_bundled if ros.kind == "system" else prefixes.is_foreign_ros
-    return any(wrong(entry) for entry in prefixes.entries(_started_with(), "LD_LIBRARY_PATH"))
+    return any(wrong(entry) for entry in prefixes.entries(_initial_environ(), "LD_LIBRARY_PATH"))
 
 
 @cache
-def _started_with() -> dict[str, str]:
-    """What the loader was given when this process started, whatever os.environ says by now.
+def _initial_environ() -> dict[str, str]:
+    """Return the environment that the loader saw when this process started, unlike os.environ.
 
-    Read once: when learners' processes run, it is closed to us (`prctl.guard`).
+    Cached, because /proc/self/environ is unreadable once learners' processes run (see `prctl.guard`).
     """
     text = Path("/proc/self/environ").read_bytes().decode(errors="surrogateescape")
     return dict(variable.partition("=")[::2] for variable in text.split("\0"))
 
 
-def _lines(record: Path) -> list[str]:
+def _read_lines(record: Path) -> list[str]:
     return record.read_text(encoding="utf-8", errors="replace").splitlines()
 
 
 class _NoBundledRos(MetaPathFinder):
-    """Refuses to import a module of the bundled ROS: what a system ROS lacks is missing there, never mixed in."""
+    """Blocks imports from the bundled ROS: a module missing from a system ROS is an error, never mixed in."""
 
     @cached_property
     def _bundled(self) -> frozenset[str]:
         records = (Path(sys.prefix) / prefixes.SITE_PACKAGES).glob("ros_*.dist-info/RECORD")
-        lines = (line for record in records if not record.parent.name.startswith(_NOT_ROS) for line in _lines(record))
+        lines = (
+            line
+            for record in records
+            if not record.parent.name.startswith(_NON_ROS_WHEELS)
+            for line in _read_lines(record)
+        )
         return frozenset(line.partition("/")[0] for line in lines if "/" in line)
 
     def find_spec(

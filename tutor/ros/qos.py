@@ -1,4 +1,4 @@
-"""QoS between rclpy and our model of it."""
+"""Converts QoS between rclpy and our model of it."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ _INFINITE_S = 1e9
 
 
 def from_rclpy(profile: QoSProfile) -> QoS:
-    """The policies of a profile that decide whether endpoints connect."""
+    """Return the policies of a profile that decide whether endpoints are compatible."""
     return QoS(
         reliability=profile.reliability.short_key,
         durability=profile.durability.short_key,
@@ -22,7 +22,7 @@ def from_rclpy(profile: QoSProfile) -> QoS:
 
 
 def subscription_profile(qos: QoS, depth: int) -> QoSProfile:
-    """The profile for our subscription, which requests this reliability and durability only."""
+    """Return the profile of a subscription of ours, which requests only this reliability and durability."""
     return QoSProfile(
         history=HistoryPolicy.KEEP_LAST,
         depth=depth,
@@ -32,6 +32,6 @@ def subscription_profile(qos: QoS, depth: int) -> QoSProfile:
 
 
 def _finite_s(duration: Duration) -> float | None:
-    """A policy's duration in seconds; None where it is infinite, or left to the default."""
+    """Return a duration in seconds; None if it is infinite or left at the default."""
     seconds = duration.nanoseconds * 1e-9
     return seconds if 0 < seconds < _INFINITE_S else None

@@ -1,7 +1,7 @@
-"""Topics at any rate: every message is taken, as bytes, and only what is shown is deserialised.
+"""Subscribes to topics of any rate: takes every message as bytes, so that only those shown are deserialized.
 
-A thread waits until there is something, takes all of it, and hands it over in one batch; then it lets more gather for a
-moment. So ten thousand messages a second cost a hundred wake-ups, not ten thousand.
+A thread waits for messages, takes all of them, and passes them on in one batch. Then it lets more gather for a moment,
+so 10,000 messages per second cost 100 wake-ups instead of 10,000.
 """
 
 from __future__ import annotations
@@ -24,18 +24,18 @@ from tutor.ros.qos import subscription_profile
 from tutor.ros_model import QoS
 
 DEPTH = 10_000
-"""Messages that may wait until we take them: a second of a 10 kHz topic."""
+"""Queue depth: one second of a 10 kHz topic."""
 
 GATHER_S = 0.01
-"""How long messages gather between two wake-ups, in seconds."""
+"""How long messages gather between two wake-ups."""
 
-_MOST_AT_ONCE = 5_000
+_MAX_BATCH_SIZE = 5_000
 _WAIT_NS = 1_000_000_000
 
 
 @dataclass(frozen=True, slots=True)
 class Batch:
-    """Messages of a topic in order of arrival: all source timestamps (s) and sequence numbers, the last one's bytes."""
+    """Messages of a topic in order of arrival: source timestamps (s), sequence numbers, and the bytes of the last."""
 
     stamps: list[float]
     numbers: list[int | None]
@@ -43,21 +43,21 @@ class Batch:
 
 
 class RawSubscription:
-    """Subscriptions whose messages are taken in a thread of their own. Methods may be called from any thread."""
+    """Subscriptions that share a dedicated thread for taking messages. Methods may be called from any thread."""
 
     def __init__(self, context: Context) -> None:
         self._context = context
-        # In no executor: only we take its messages.
+        # Not added to any executor: only our thread takes its messages.
         self._node = create_node(context, f"{OUR_PREFIX}_raw_subscription")
         self._subscriptions: dict[str, tuple[Subscription, Callable[[Batch], None]]] = {}
         self._requests: deque[Callable[[], None]] = deque()
-        self._guard = _rclpy.GuardCondition(context.handle)
+        self._wake_condition = _rclpy.GuardCondition(context.handle)
         self._closing = False
         self._thread = threading.Thread(target=self._run, name="raw_subscription", daemon=True)
         self._thread.start()
 
     def subscribe(self, topic: str, type_name: str, qos: QoS, on_batch: Callable[[Batch], None]) -> None:
-        """Take the messages of a topic; `on_batch` is called in the subscription's thread. Raises UnknownType."""
+        """Subscribe to a topic; `on_batch` is called in the dedicated thread. Raises UnknownType."""
         message_type = interface_class(type_name)
         profile = subscription_profile(qos, DEPTH)
 
@@ -75,12 +75,12 @@ class RawSubscription:
     def close(self) -> None:
         """Destroy all subscriptions and end the thread. The context must still be valid."""
         self._closing = True
-        self._guard.trigger_guard_condition()
+        self._wake_condition.trigger_guard_condition()
         self._thread.join(2.0)
 
     def _request(self, action: Callable[[], None]) -> None:
         self._requests.append(action)
-        self._guard.trigger_guard_condition()
+        self._wake_condition.trigger_guard_condition()
 
     def _destroy(self, topic: str) -> None:
         if found := self._subscriptions.pop(topic, None):
@@ -96,27 +96,27 @@ class RawSubscription:
                 for subscription, on_batch in list(self._subscriptions.values()):
                     if (batch := _take_all(subscription)) is not None:
                         on_batch(batch)
-                time.sleep(GATHER_S)  # the pace of taking, not a wait for anything
+                time.sleep(GATHER_S)  # lets a batch gather; not a wait for any condition
         finally:
             for topic in list(self._subscriptions):
                 self._destroy(topic)
             self._node.destroy_node()
 
     def _wait(self) -> bool:
-        """Wait for a message or a request. Returns whether there are subscriptions."""
+        """Wait for a message or a request. Return whether there are subscriptions."""
         handles = [subscription.handle for subscription, _ in self._subscriptions.values()]
-        # A new one each time, so that it holds no handle longer than the wait.
-        waited = _rclpy.WaitSet(len(handles), 1, 0, 0, 0, 0, self._context.handle)
-        waited.clear_entities()
+        # A new wait set each time, so that it holds no handle after the wait.
+        wait_set = _rclpy.WaitSet(len(handles), 1, 0, 0, 0, 0, self._context.handle)
+        wait_set.clear_entities()
         for handle in handles:
-            waited.add_subscription(handle)
-        waited.add_guard_condition(self._guard)
-        waited.wait(_WAIT_NS)
+            wait_set.add_subscription(handle)
+        wait_set.add_guard_condition(self._wake_condition)
+        wait_set.wait(_WAIT_NS)
         return bool(handles)
 
 
 def deserialize(type_name: str, message: bytes) -> Any:
-    """Deserialise a message. Raises UnknownType."""
+    """Deserialize a message. Raises UnknownType."""
     return deserialize_message(message, interface_class(type_name))
 
 
@@ -126,7 +126,7 @@ def _take_all(subscription: Subscription) -> Batch | None:
     newest = b""
     take, message_type = subscription.handle.take_message, subscription.msg_type
     with subscription.handle:
-        while len(stamps) < _MOST_AT_ONCE and (taken := take(message_type, True)) is not None:
+        while len(stamps) < _MAX_BATCH_SIZE and (taken := take(message_type, True)) is not None:
             newest, info = taken
             stamps.append(info["source_timestamp"] * 1e-9)
             numbers.append(info["publication_sequence_number"])

@@ -1,4 +1,4 @@
-"""Whether ROS can be loaded with what is left of shared memory: 64 MB in a container, where nothing else is said."""
+"""Checks whether enough shared memory is left to load ROS. A container has 64 MB by default."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from pathlib import Path
 
 from tutor.ros import stale_segments
 
-_PLACE = Path("/dev/shm")
-_NEEDED = 2 * 4096
-HINT = "remove from it what nobody needs, or give the container more (docker run --shm-size=1g)"
+_FOLDER = Path("/dev/shm")
+_NEEDED_BYTES = 2 * 4096
+HINT = "delete files there that nobody needs, or give the container more (docker run --shm-size=1g)"
 
 
 @dataclass(frozen=True, slots=True)
 class Room:
-    """What there is of it, in bytes. `enough`: ROS can be loaded."""
+    """Size and free space of shared memory in bytes. `enough`: ROS can be loaded."""
 
     place: Path
     size: int
@@ -23,11 +23,11 @@ class Room:
     enough: bool
 
 
-def room(place: Path = _PLACE) -> Room | None:
-    """What there is of shared memory; None where the machine has none, or has not limited it.
+def room(place: Path = _FOLDER) -> Room | None:
+    """Return the space in shared memory; None if the machine has none, or no limit on it.
 
-    Its tracing library maps a page for everybody and one for each user as soon as ROS is loaded. Where there is none
-    left, the kernel kills the process (SIGBUS). Fast DDS does without shared memory, and says so.
+    Loading ROS makes its tracing library (LTTng) map one page for all users and one per user. If no page is left, the
+    kernel kills the process (SIGBUS). Fast DDS, in contrast, prints a message and works without shared memory.
     """
     try:
         found = os.statvfs(place)
@@ -36,19 +36,19 @@ def room(place: Path = _PLACE) -> Room | None:
     if not found.f_blocks:
         return None
     free = found.f_bavail * found.f_frsize
-    return Room(place, found.f_blocks * found.f_frsize, free, free >= _NEEDED or _has_pages(place))
+    return Room(place, found.f_blocks * found.f_frsize, free, free >= _NEEDED_BYTES or _has_pages(place))
 
 
-def problem(place: Path = _PLACE) -> str:
-    """Why ROS cannot be loaded with it, and what to do, in one sentence; empty where it can."""
+def problem(place: Path = _FOLDER) -> str:
+    """Return one sentence on why ROS cannot be loaded and what to do; empty if it can."""
     found = room(place)
     if found is None or found.enough:
         return ""
-    return f"{place} is full ({found.size / 2**20:.0f} MB), so that ROS cannot be loaded; {HINT}"
+    return f"{place} is full ({found.size / 2**20:.0f} MB), so ROS cannot be loaded; {HINT}"
 
 
 def require_enough() -> None:
-    """Raise OSError where there is a `problem`, with what killed processes have left out of the way."""
+    """Remove what killed processes have left behind, then raise OSError if there still is a `problem`."""
     stale_segments.remove()
     if text := problem():
         raise OSError(text)

@@ -1,9 +1,9 @@
-"""What killed processes have left of Fast DDS's shared memory: some 600 kB each, which nobody else ever removes.
+"""Removes Fast DDS shared memory left behind by killed processes: about 600 kB each, which nobody else cleans up.
 
-A file `fastrtps_NAME` in /dev/shm is stale by Fast DDS's own rule: it has a file of locks beside it (`_el`, `_sl`),
-and nobody holds the lock, for the kernel lets go of what a process held that is gone. The process that removes it
-holds the lock meanwhile; a port's, where processes meet, also its named mutex. Fast DDS looks again for a lock's file
-once it has it.
+Fast DDS's own rule for a stale `fastrtps_NAME` in /dev/shm: it has a lock file beside it (`_el`, `_sl`), but nobody
+holds the lock, since the kernel releases the locks of a dead process. We hold the lock while removing the files; for a
+port, which processes share, also its named mutex. Fast DDS is prepared for that: after taking a lock, it checks that
+the lock file still exists.
 """
 
 from __future__ import annotations
@@ -19,17 +19,17 @@ from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
-_PLACE = Path("/dev/shm")
-_LOCK = re.compile(r"(fastrtps_(?:[0-9a-f]{16}|port[0-9]{1,5}))_[es]l")
+_FOLDER = Path("/dev/shm")
+_LOCK_NAME = re.compile(r"(fastrtps_(?:[0-9a-f]{16}|port[0-9]{1,5}))_[es]l")
 _LIMIT_S = 0.2
-_READ = os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC
+_READ_FLAGS = os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC
 
 
-def remove(place: Path = _PLACE, limit_s: float = _LIMIT_S) -> None:
-    """Remove the user's own that are stale, for at most `limit_s` seconds; the next time goes on. Raises nothing."""
+def remove(place: Path = _FOLDER, limit_s: float = _LIMIT_S) -> None:
+    """Remove the user's own stale segments, for up to `limit_s` seconds; the next call continues. Never raises."""
     deadline = time.monotonic() + limit_s
     try:
-        names = sorted({found[1] for name in os.listdir(place) if (found := _LOCK.fullmatch(name))})
+        names = sorted({found[1] for name in os.listdir(place) if (found := _LOCK_NAME.fullmatch(name))})
     except OSError:
         return
     for name in names:
@@ -40,9 +40,9 @@ def remove(place: Path = _PLACE, limit_s: float = _LIMIT_S) -> None:
 
 
 def _remove(place: Path, name: str) -> None:
-    """Remove one of them. Raises BlockingIOError where it is in use, PermissionError where it is another user's."""
+    """Remove one segment. Raises BlockingIOError if it is in use, PermissionError if it is another user's."""
     mutex = f"{name}_mutex" if "_port" in name else ""
-    with _held(mutex) if mutex else contextlib.nullcontext(), ExitStack() as locks:
+    with _hold_mutex(mutex) if mutex else contextlib.nullcontext(), ExitStack() as locks:
         held = [lock for lock in (place / f"{name}_el", place / f"{name}_sl") if _lock(lock, locks)]
         if not held:
             return
@@ -52,22 +52,22 @@ def _remove(place: Path, name: str) -> None:
 
 
 def _lock(path: Path, locks: ExitStack) -> bool:
-    """Hold this lock as long as `locks`; False where there is no such file."""
+    """Take this lock until `locks` is closed. Return False if there is no such file."""
     try:
-        handle = os.open(path, _READ)
+        handle = os.open(path, _READ_FLAGS)
     except FileNotFoundError:
         return False
     locks.callback(os.close, handle)
-    facts = os.fstat(handle)
-    if not stat.S_ISREG(facts.st_mode) or facts.st_uid != os.getuid():
+    status = os.fstat(handle)
+    if not stat.S_ISREG(status.st_mode) or status.st_uid != os.getuid():
         raise PermissionError(path)
     fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
     return True
 
 
 @contextmanager
-def _held(mutex: str) -> Iterator[None]:
-    """Hold a named mutex of Boost's, which is a POSIX semaphore. Raises BlockingIOError where somebody else does."""
+def _hold_mutex(mutex: str) -> Iterator[None]:
+    """Hold a named Boost mutex, which is a POSIX semaphore. Raises BlockingIOError if it is taken."""
     library = ctypes.CDLL(None, use_errno=True)
     library.sem_open.restype = ctypes.c_void_p
     semaphore = ctypes.c_void_p(library.sem_open(f"/{mutex}".encode(), 0))

@@ -1,4 +1,4 @@
-"""Our publisher on the learner's domain, with a participant of its own."""
+"""Our publisher on the learner's domain, in a separate participant."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from tutor.ros.participant import OUR_PREFIX, create_node, new_context
 from tutor.ros_model import TopicEndpoint
 
 DEPTH = 10
-"""The queue depth of ROS's own demo talkers, whose QoS is the default: reliable and volatile."""
+"""The queue depth of ROS's demo talkers, which use the default QoS: reliable and volatile."""
 
 
 class Talker:
-    """The `Publisher` of `tutor.judge.bench`, on real DDS. Raises UnknownType for a type that is not installed."""
+    """Implements `Publisher` of `tutor.judge.bench` on real DDS. Raises UnknownType if the type is not installed."""
 
     def __init__(self, domain_id: int, topic: str, type_name: str) -> None:
         self._type: Any = interface_class(type_name)
@@ -43,7 +43,7 @@ class Talker:
         return Sample(self._endpoint.topic, dict(message), now, now)
 
     def close(self) -> None:
-        """Leave the graph. Safe to call twice."""
+        """Leave the graph. Idempotent."""
         if self._context.ok():
             self._node.destroy_node()
             self._context.try_shutdown()

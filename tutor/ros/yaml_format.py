@@ -1,4 +1,4 @@
-"""A message as `ros2 topic echo` writes it, and the numbers in it."""
+"""Formats messages as `ros2 topic echo` does, and finds the numbers in them."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from tutor.ros.fast_yaml import dump_plain, is_array
 __all__ = ["LONGEST", "is_array", "number_at", "numeric_fields", "to_csv", "to_yaml"]
 
 LONGEST = 128
-"""Arrays and texts are cut after this many elements, as `ros2 topic echo` does."""
+"""Arrays and strings are cut at this length, as `ros2 topic echo` does."""
 
 _MOST_FIELDS = 64
 _MOST_ELEMENTS = 16
@@ -30,14 +30,14 @@ def to_yaml(
     no_texts: bool = False,
     flow_style: bool = False,
 ) -> str:
-    """The message as YAML in block style, with arrays and texts of more than `longest` elements cut with an ellipsis.
+    """Return the message as block-style YAML, with arrays and strings cut at `longest` elements with an ellipsis.
 
-    `no_arrays` and `no_texts` give only their types and lengths; `flow_style` writes lists in one line.
+    `no_arrays` and `no_texts` show only their types and lengths; `flow_style` writes lists on one line.
     """
     if not (no_arrays or no_texts or flow_style) and (written := dump_plain(message, longest)) is not None:
         return written
     return yaml.dump(
-        _plain(message, _Form(longest, no_arrays, no_texts)),
+        _plain(message, _Options(longest, no_arrays, no_texts)),
         Dumper=_Dumper,
         allow_unicode=True,
         width=sys.maxsize,
@@ -47,17 +47,17 @@ def to_yaml(
 
 
 def to_csv(message: Any, *, longest: int | None = LONGEST, no_arrays: bool = False, no_texts: bool = False) -> str:
-    """The message's values, separated by commas, cut as in `to_yaml`."""
-    return _row(message, _Form(longest, no_arrays, no_texts))
+    """Return the message's values, separated by commas and cut as in `to_yaml`."""
+    return _row(message, _Options(longest, no_arrays, no_texts))
 
 
 def numeric_fields(message: Any) -> tuple[str, ...]:
-    """The paths of the numbers in a message, such as `pose.x` or `ranges[3]`; of long arrays the first ones only."""
-    return tuple(itertools.islice(_numbers(message, ""), _MOST_FIELDS))
+    """Return the paths of the numbers in a message, such as `pose.x` or `ranges[3]`; only the first of long arrays."""
+    return tuple(itertools.islice(_number_paths(message, ""), _MOST_FIELDS))
 
 
 def number_at(message: Any, path: str) -> float | None:
-    """The number at such a path; None where the message has none there now, or it is not finite."""
+    """Return the number at a path from `numeric_fields`; None if this message has none there, or it is not finite."""
     value = message
     for step in path.replace("[", ".[").strip(".").split("."):
         try:
@@ -72,7 +72,7 @@ def number_at(message: Any, path: str) -> float | None:
 
 
 @dataclass(frozen=True, slots=True)
-class _Form:
+class _Options:
     longest: int | None
     no_arrays: bool
     no_texts: bool
@@ -84,13 +84,13 @@ class _Form:
 
 
 class _Dumper(yaml.SafeDumper):
-    """Writes no anchors, even where one object occurs twice."""
+    """Never writes anchors, even if an object occurs twice."""
 
     def ignore_aliases(self, data: Any) -> bool:
         return True
 
     def represent_message(self, data: dict[str, Any]) -> yaml.MappingNode:
-        # Without a style of its own, a mapping is a block unless it is within a list in flow style.
+        # Without an explicit style, a mapping is written as a block unless it is inside a flow-style list.
         pairs = [(self.represent_data(name), self.represent_data(value)) for name, value in data.items()]
         return yaml.MappingNode("tag:yaml.org,2002:map", pairs)
 
@@ -98,44 +98,44 @@ class _Dumper(yaml.SafeDumper):
 _Dumper.add_representer(dict, _Dumper.represent_message)
 
 
-def _plain(value: Any, form: _Form) -> Any:
+def _plain(value: Any, options: _Options) -> Any:
     if hasattr(value, "get_fields_and_field_types"):
-        return {name: _plain_field(getattr(value, name), slot, form) for name, slot in _slots(value)}
+        return {name: _plain_field(getattr(value, name), slot, options) for name, slot in _slots(value)}
     if isinstance(value, bytes):
         text = "".join(map(chr, value))
-        return text if form.longest is None or len(text) <= form.longest else f"{text[: form.longest]}..."
+        return text if options.longest is None or len(text) <= options.longest else f"{text[: options.longest]}..."
     if isinstance(value, str):
-        return form.text(value)
+        return options.text(value)
     if is_array(value):
-        items = [_plain(item, form) for item in value[: form.longest]]
+        items = [_plain(item, options) for item in value[: options.longest]]
         return items if len(items) == len(value) else [*items, "..."]
     return value.item() if hasattr(value, "item") else value
 
 
-def _plain_field(value: Any, slot: Any, form: _Form) -> Any:
-    return _abbreviated(value, slot) if form.no_arrays and is_array(value) else _plain(value, form)
+def _plain_field(value: Any, slot: Any, options: _Options) -> Any:
+    return _abbreviate(value, slot) if options.no_arrays and is_array(value) else _plain(value, options)
 
 
-def _row(message: Any, form: _Form) -> str:
-    return _joined(_cell(getattr(message, name), slot, form) for name, slot in _slots(message))
+def _row(message: Any, options: _Options) -> str:
+    return _join_cells(_cell(getattr(message, name), slot, options) for name, slot in _slots(message))
 
 
-def _cell(value: Any, slot: Any, form: _Form) -> str:
-    """`slot` is None for an element of an array."""
+def _cell(value: Any, slot: Any, options: _Options) -> str:
+    """Return one cell. `slot` is None for an element of an array."""
     if is_array(value):
-        if form.no_arrays and slot is not None:
-            return _abbreviated(value, slot)
-        more = ["..."] if form.longest is not None and len(value) > form.longest else []
-        return _joined([*(_cell(item, None, form) for item in value[: form.longest]), *more])
+        if options.no_arrays and slot is not None:
+            return _abbreviate(value, slot)
+        more = ["..."] if options.longest is not None and len(value) > options.longest else []
+        return _join_cells([*(_cell(item, None, options) for item in value[: options.longest]), *more])
     if hasattr(value, "get_fields_and_field_types"):
-        return _row(value, form)
-    if isinstance(value, bytes) and form.longest is not None and len(value) > form.longest:
-        return str(value[: form.longest] + b"...")
-    return form.text(value) if isinstance(value, str) else str(value)
+        return _row(value, options)
+    if isinstance(value, bytes) and options.longest is not None and len(value) > options.longest:
+        return str(value[: options.longest] + b"...")
+    return options.text(value) if isinstance(value, str) else str(value)
 
 
-def _joined(cells: Iterable[str]) -> str:
-    """With commas, as rosidl_runtime_py sets them: none after cells that are empty, as long as nothing came before."""
+def _join_cells(cells: Iterable[str]) -> str:
+    """Join with commas as rosidl_runtime_py does: no comma as long as all cells so far are empty."""
     row = ""
     for cell in cells:
         row = f"{row},{cell}" if row else cell
@@ -146,11 +146,13 @@ def _slots(message: Any) -> Iterator[tuple[str, Any]]:
     return zip(message.get_fields_and_field_types(), message.SLOT_TYPES, strict=True)
 
 
-def _abbreviated(value: Any, slot: Any) -> str:
-    of = slot.value_type
-    names = getattr(of, "namespaced_name", None)
+def _abbreviate(value: Any, slot: Any) -> str:
+    value_type = slot.value_type
+    names = getattr(value_type, "namespaced_name", None)
     element = (
-        "/".join(names()) if names else getattr(of, "typename", None) or type(of).__name__.lower().split("bounded")[-1]
+        "/".join(names())
+        if names
+        else getattr(value_type, "typename", None) or type(value_type).__name__.lower().split("bounded")[-1]
     )
     if hasattr(slot, "size"):
         return f"<array type: {element}[{slot.size}]>"
@@ -158,12 +160,12 @@ def _abbreviated(value: Any, slot: Any) -> str:
     return f"<sequence type: {element}{bound}, length: {len(value)}>"
 
 
-def _numbers(value: Any, path: str) -> Iterator[str]:
+def _number_paths(value: Any, path: str) -> Iterator[str]:
     if hasattr(value, "get_fields_and_field_types"):
         for name in value.get_fields_and_field_types():
-            yield from _numbers(getattr(value, name), f"{path}.{name}" if path else name)
+            yield from _number_paths(getattr(value, name), f"{path}.{name}" if path else name)
     elif is_array(value):
         for index, item in enumerate(value[:_MOST_ELEMENTS]):
-            yield from _numbers(item, f"{path}[{index}]")
+            yield from _number_paths(item, f"{path}[{index}]")
     elif not isinstance(value, (str, bytes)):
-        yield path  # a boolean is a number, too: it is plotted as 0 and 1
+        yield path  # booleans count as numbers: they are plotted as 0 and 1

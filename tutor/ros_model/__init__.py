@@ -1,4 +1,4 @@
-"""ROS 2 as plain data: the graph, the QoS of its endpoints, and parameters. Pure; below all that looks at ROS."""
+"""ROS 2 as plain data: the graph, QoS, and parameters. Pure, so that any layer can import it."""
 
 from tutor.ros_model.field import Field
 from tutor.ros_model.graph import (

@@ -1,4 +1,4 @@
-"""The fields of a message."""
+"""The fields of messages and requests."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Field:
-    """One leaf of a request: its path with dots, its type as ROS names it, and its default as text."""
+    """One leaf field: its dotted path, its ROS type, and its default as text."""
 
     path: str
     type: str

@@ -1,4 +1,4 @@
-"""The ROS graph: nodes, and the endpoints that connect them. A `node` is a fully qualified name, `/robot1/talker`."""
+"""The ROS graph: nodes and their endpoints. `node` is always a fully qualified name, such as `/robot1/talker`."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ class NodeName(NamedTuple):
 
     @classmethod
     def parse(cls, full: str) -> NodeName:
-        """The parts of a fully qualified name; its first slash may be left out."""
+        """Split a fully qualified name, whose leading slash may be missing."""
         namespace, _, name = full.rpartition("/")
         return cls(name, f"/{namespace.strip('/')}")
 
@@ -28,7 +28,7 @@ class NodeName(NamedTuple):
 
 
 def is_standard_topic(name: str) -> bool:
-    """Whether it is one of the topics that every node has."""
+    """Return whether every node has this topic."""
     return name in ("/rosout", "/parameter_events")
 
 
@@ -44,7 +44,7 @@ class TopicEndpoint:
 
 @dataclass(frozen=True, slots=True)
 class ServiceEndpoint:
-    """A service server or client of a node. `reliability` is that of what it sends: answers, or requests."""
+    """A service server or client of a node. `reliability` is that of its DDS writer (of responses or requests)."""
 
     name: str
     type: str
@@ -53,7 +53,7 @@ class ServiceEndpoint:
 
     @property
     def is_standard(self) -> bool:
-        """Whether it is one that nodes have by themselves, such as those of their parameters."""
+        """Whether nodes create it by default, such as the parameter services."""
         return _is_standard_type(self.type)
 
 
@@ -67,18 +67,18 @@ class Topic:
 
     @property
     def types(self) -> tuple[str, ...]:
-        """The types that its endpoints use, each once; more than one is a mistake."""
-        return tuple(dict.fromkeys(end.type for end in (*self.publishers, *self.subscriptions)))
+        """The distinct types of its endpoints; more than one is a mistake."""
+        return tuple(dict.fromkeys(endpoint.type for endpoint in (*self.publishers, *self.subscriptions)))
 
     @property
     def is_standard(self) -> bool:
-        """Whether every node has it."""
+        """Whether every node has this topic."""
         return is_standard_topic(self.name)
 
 
 @dataclass(frozen=True, slots=True)
 class Service:
-    """A service with its types, and the nodes that offer it."""
+    """A service with its types and the nodes that offer it."""
 
     name: str
     types: tuple[str, ...]
@@ -86,13 +86,13 @@ class Service:
 
     @property
     def is_standard(self) -> bool:
-        """Whether nodes offer it by themselves, such as those of their parameters."""
+        """Whether nodes create it by default, such as the parameter services."""
         return all(map(_is_standard_type, self.types))
 
 
 @dataclass(frozen=True, slots=True)
 class Graph:
-    """The graph without what is ours. A name is in `nodes` once for each node that has it."""
+    """The graph without our own nodes. `nodes` repeats a name once for each node that has it."""
 
     nodes: tuple[str, ...] = ()
     publishers: tuple[TopicEndpoint, ...] = ()
@@ -102,31 +102,31 @@ class Graph:
 
     @property
     def topics(self) -> tuple[Topic, ...]:
-        """Every topic with an endpoint, by name."""
-        ends: dict[str, tuple[list[TopicEndpoint], list[TopicEndpoint]]] = {}
-        for place, endpoints in enumerate((self.publishers, self.subscriptions)):
-            for end in endpoints:
-                ends.setdefault(end.topic, ([], []))[place].append(end)
-        return tuple(Topic(name, tuple(ends[name][0]), tuple(ends[name][1])) for name in sorted(ends))
+        """All topics with an endpoint, sorted by name."""
+        by_topic: dict[str, tuple[list[TopicEndpoint], list[TopicEndpoint]]] = {}
+        for index, endpoints in enumerate((self.publishers, self.subscriptions)):
+            for endpoint in endpoints:
+                by_topic.setdefault(endpoint.topic, ([], []))[index].append(endpoint)
+        return tuple(Topic(name, tuple(by_topic[name][0]), tuple(by_topic[name][1])) for name in sorted(by_topic))
 
     @property
     def services(self) -> tuple[Service, ...]:
-        """Every service with a server, by name."""
-        offered: dict[str, list[ServiceEndpoint]] = {}
+        """All services with a server, sorted by name."""
+        by_name: dict[str, list[ServiceEndpoint]] = {}
         for server in self.servers:
-            offered.setdefault(server.name, []).append(server)
+            by_name.setdefault(server.name, []).append(server)
         return tuple(
             Service(
                 name,
-                tuple(dict.fromkeys(server.type for server in offered[name])),
-                tuple(dict.fromkeys(server.node for server in offered[name])),
+                tuple(dict.fromkeys(server.type for server in by_name[name])),
+                tuple(dict.fromkeys(server.node for server in by_name[name])),
             )
-            for name in sorted(offered)
+            for name in sorted(by_name)
         )
 
     @property
     def parameter_nodes(self) -> tuple[str, ...]:
-        """The nodes that offer their parameters over services."""
+        """The nodes with parameter services."""
         return tuple(
             dict.fromkeys(
                 server.name.removesuffix("/list_parameters")
@@ -136,15 +136,15 @@ class Graph:
         )
 
     def topic(self, name: str) -> Topic | None:
-        """The topic of this name, if it has an endpoint."""
-        publishers = tuple(end for end in self.publishers if end.topic == name)
-        subscriptions = tuple(end for end in self.subscriptions if end.topic == name)
+        """Return the topic of this name; None if it has no endpoint."""
+        publishers = tuple(endpoint for endpoint in self.publishers if endpoint.topic == name)
+        subscriptions = tuple(endpoint for endpoint in self.subscriptions if endpoint.topic == name)
         return Topic(name, publishers, subscriptions) if publishers or subscriptions else None
 
 
 @dataclass(frozen=True, slots=True)
 class Connection:
-    """A publisher and a subscription of one topic; `problems` say why no message gets from one to the other."""
+    """A publisher and a subscription on the same topic; `problems` says why messages do not get through."""
 
     topic: str
     publisher: TopicEndpoint
@@ -153,14 +153,14 @@ class Connection:
 
 
 def connections(topic: Topic) -> Iterator[Connection]:
-    """Every pair of a publisher and a subscription of a topic."""
+    """Yield every pair of a publisher and a subscription of a topic."""
     for publisher in topic.publishers:
         for subscription in topic.subscriptions:
             yield Connection(topic.name, publisher, subscription, tuple(_problems(publisher, subscription)))
 
 
 def _problems(publisher: TopicEndpoint, subscription: TopicEndpoint) -> Iterator[str]:
-    """Why these two are not connected, each reason as sentences."""
+    """Yield the reasons why these two are not connected, each in full sentences."""
     if publisher.type != subscription.type:
         yield (
             f"The types differ: the publisher sends {publisher.type}, the subscription expects {subscription.type}. "
@@ -168,12 +168,12 @@ def _problems(publisher: TopicEndpoint, subscription: TopicEndpoint) -> Iterator
         )
         return
     for mismatch in incompatible_policies(publisher.qos, subscription.qos):
-        yield f"{_capitalised(str(mismatch))}. {_capitalised(mismatch.hint)}."
+        yield f"{_capitalize(str(mismatch))}. {_capitalize(mismatch.hint)}."
 
 
 def _is_standard_type(name: str) -> bool:
     return name.startswith(("rcl_interfaces/", "type_description_interfaces/"))
 
 
-def _capitalised(text: str) -> str:
+def _capitalize(text: str) -> str:
     return text[:1].upper() + text[1:]

@@ -1,4 +1,4 @@
-"""A node's parameter."""
+"""Parameters of nodes."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ PARAMETER_TYPES = (
     "double array",
     "string array",
 )
-"""The types of `rcl_interfaces/msg/ParameterType`, by number, as `ros2 param describe` names them."""
+"""Names of the types, as shown by `ros2 param describe`, indexed by `rcl_interfaces/msg/ParameterType`."""
 
 
 @dataclass(frozen=True, slots=True)

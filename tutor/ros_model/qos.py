@@ -1,4 +1,4 @@
-"""Quality of service: what an endpoint offers or requests, and where the two are incompatible."""
+"""Quality of service (QoS): what endpoints offer or request, and when the two are incompatible."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class QoS:
-    """The policies that decide whether two endpoints connect, by their short names.
+    """The policies that decide whether two endpoints are compatible, with rclpy's short keys as values.
 
-    `deadline_s` and `lease_s` (the liveliness lease duration), in seconds, are None where infinite.
+    `deadline_s` and `lease_s` (the liveliness lease duration) are None if infinite.
     """
 
     reliability: str = "reliable"
@@ -30,7 +30,7 @@ class QoS:
 
 @dataclass(frozen=True, slots=True)
 class QoSMismatch:
-    """A policy of which a subscription requests more than the publisher offers, with both values in words."""
+    """A policy for which a subscription requests more than the publisher offers, with both values in words."""
 
     policy: str
     offered: str
@@ -44,31 +44,33 @@ class QoSMismatch:
 
     @property
     def hint(self) -> str:
-        """What to do about it."""
+        """How to fix it."""
         return f"give both the same {self.policy}: with a plain depth, such as 10, instead of a QoSProfile they match"
 
 
 def incompatible_policies(offered: QoS, requested: QoS) -> Iterator[QoSMismatch]:
-    """The policies that keep a subscription from a publisher; none where DDS connects them."""
+    """Yield the policies that prevent a match; none if DDS connects the two endpoints."""
     if (offered.reliability, requested.reliability) == ("best_effort", "reliable"):
         yield QoSMismatch("reliability", offered.reliability, requested.reliability)
     if (offered.durability, requested.durability) == ("volatile", "transient_local"):
         yield QoSMismatch("durability", offered.durability, requested.durability)
     if _is_longer(offered.deadline_s, requested.deadline_s):
-        yield QoSMismatch("deadline", _duration(offered.deadline_s), _duration(requested.deadline_s))
+        yield QoSMismatch("deadline", _format_duration(offered.deadline_s), _format_duration(requested.deadline_s))
     if _is_longer(offered.lease_s, requested.lease_s):
-        yield QoSMismatch("liveliness lease duration", _duration(offered.lease_s), _duration(requested.lease_s))
+        yield QoSMismatch(
+            "liveliness lease duration", _format_duration(offered.lease_s), _format_duration(requested.lease_s)
+        )
     if (offered.liveliness, requested.liveliness) == ("automatic", "manual_by_topic"):
         yield QoSMismatch("liveliness", offered.liveliness, requested.liveliness)
 
 
 def echo_qos(offered: Iterable[QoS]) -> QoS:
-    """What `ros2 topic echo` requests: reliable and transient local only where every publisher offers it."""
+    """Return what `ros2 topic echo` requests: reliable and transient local only if every publisher offers it."""
     offers = list(offered)
-    kept = bool(offers) and all(each.durability == "transient_local" for each in offers)
+    is_transient_local = bool(offers) and all(each.durability == "transient_local" for each in offers)
     return QoS(
         reliability="reliable" if all(each.reliability == "reliable" for each in offers) else "best_effort",
-        durability="transient_local" if kept else "volatile",
+        durability="transient_local" if is_transient_local else "volatile",
     )
 
 
@@ -76,5 +78,5 @@ def _is_longer(offered_s: float | None, requested_s: float | None) -> bool:
     return requested_s is not None and (offered_s is None or offered_s > requested_s)
 
 
-def _duration(seconds: float | None) -> str:
-    return "without end" if seconds is None else f"{seconds:g} s"
+def _format_duration(seconds: float | None) -> str:
+    return "infinite" if seconds is None else f"{seconds:g} s"

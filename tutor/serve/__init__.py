@@ -1,4 +1,4 @@
-"""The app in a browser: a small web server of this machine that starts one app for each page that is open."""
+"""The app in a browser: a small local web server that starts one app per open page."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The app behind one page: `python -m tutor.serve WORKSPACE [LESSONS]`, with a page where a terminal would be."""
+"""The app behind one page: `python -m tutor.serve WORKSPACE [LESSONS]`, which draws to a page, not a terminal."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from tutor.tui import run
 
 
 def main(workspace: str, lessons: str | None = None) -> int:
-    """Open the app. It is asked to leave when the server is killed, and saves first."""
+    """Run the app. If the server is killed, the app gets SIGTERM, so that it saves before it exits."""
     die_with_parent(signal.SIGTERM)
     return run(Path(workspace), None if lessons is None else Path(lessons))
 

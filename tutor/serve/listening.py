@@ -1,4 +1,4 @@
-"""Where the server listens: one socket, on this machine only unless someone asks for more."""
+"""The server's listening socket: reachable only from this machine unless requested otherwise."""
 
 from __future__ import annotations
 
@@ -10,13 +10,14 @@ import socket
 from tutor.errors import NoAddress, ServeError
 
 USUAL_PORT = 8000
-"""Taken where it is free and none is asked for, so that a bookmark stays good."""
+"""The default port, if it is free, so that bookmarks keep working."""
 
 
 def listen(host: str, port: int | None) -> socket.socket:
-    """A listening socket at `host`. Without `port`, the usual one, or a free one where that is taken; 0 is a free one.
+    """Return a listening socket at `host`.
 
-    Raises NoAddress where `host` is none of this machine's, ServeError where the port is not to be had.
+    `port` None means the usual port, or a free one if that is taken; 0 means a free one. Raises NoAddress if `host` is
+    not an address of this machine, ServeError if the port cannot be used.
     """
     if port is not None:
         return _listen(host, port)
@@ -29,7 +30,7 @@ def listen(host: str, port: int | None) -> socket.socket:
 
 
 def address(listener: socket.socket, token: str = "") -> str:
-    """What to type into a browser on this machine. With `token`, it may be anyone who has it."""
+    """Return the URL to open in a browser on this machine, including the `token` if there is one."""
     host, port = listener.getsockname()[:2]
     if ipaddress.ip_address(host).is_unspecified:
         host = "127.0.0.1" if listener.family == socket.AF_INET else "::1"
@@ -38,37 +39,37 @@ def address(listener: socket.socket, token: str = "") -> str:
 
 
 def is_loopback(listener: socket.socket) -> bool:
-    """Whether only this machine can reach it."""
+    """Return whether only this machine can reach the socket."""
     return ipaddress.ip_address(listener.getsockname()[0]).is_loopback
 
 
 def _listen(host: str, port: int) -> socket.socket:
     try:
-        found = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE)
+        candidates = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE)
     except (OSError, UnicodeError) as error:
         raise NoAddress(
             f"--host {host}: no such host", "leave --host out, or give an address of this machine"
         ) from error
-    family, kind, protocol, _, place = found[0]
+    family, kind, protocol, _, sockaddr = candidates[0]
     listener = socket.socket(family, kind, protocol)
     try:
-        listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)  # what was served a moment ago is no hindrance
-        listener.bind(place)
+        listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)  # the port may have been in use a moment ago
+        listener.bind(sockaddr)
         listener.listen()
     except OSError as error:
         listener.close()
-        raise _refused(host, port, error) from error
+        raise _listen_error(host, port, error) from error
     listener.setblocking(False)
     return listener
 
 
-def _refused(host: str, port: int, error: OSError) -> ServeError:
+def _listen_error(host: str, port: int, error: OSError) -> ServeError:
     if error.errno == errno.EADDRINUSE:
         what, hint = f"port {port} of {host} is taken", "name another with --port, or leave it out to get a free one"
     elif error.errno == errno.EADDRNOTAVAIL:
         return NoAddress(f"--host {host}: this machine has no such address", "leave --host out for this machine only")
     elif error.errno == errno.EACCES:
-        what, hint = f"you may not listen on port {port}", "name one from 1024 on with --port"
+        what, hint = f"you may not listen on port {port}", "choose one from 1024 up with --port"
     else:
         what, hint = f"cannot listen on port {port} of {host}: {os.strerror(error.errno or 0)}", "try another --port"
     return ServeError(what, hint)

@@ -1,4 +1,4 @@
-"""The web server: the page, what it is made of, and the apps behind the pages that are open."""
+"""The web server: the page, its static files, and the apps behind the open pages."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ from tutor.serve.session import Session
 PAGE = Path(__file__).parent / "page"
 
 WIDEST, HIGHEST = 500, 200
-"""Columns and lines: more than any screen has, and little enough for an app to draw."""
+"""Limits in columns and lines: more than any screen has, but not too much for an app to draw."""
 
 _STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 _GOODBYE_S = 2.0
 
 
 class AppServer(Server):
-    """Serves the app that `argv` starts, to anyone who has the `token`, where there is one."""
+    """Serves the app that `argv` starts; if there is a `token`, only to those who have it."""
 
     def __init__(self, argv: Sequence[str], listener: socket.socket, token: str = "") -> None:
         host, port = listener.getsockname()[:2]
@@ -36,12 +36,12 @@ class AppServer(Server):
         self._sessions: set[Session] = set()
 
     async def run(self, on_ready: Callable[[], None], on_stop: Callable[[], None]) -> None:
-        """Serve until a signal asks to stop. `on_ready`: pages can be opened; `on_stop`: the apps are being ended."""
+        """Serve until stopped by a signal. Call `on_ready` once pages can be opened, `on_stop` when apps are ending."""
         stopped = asyncio.Event()
         loop = asyncio.get_running_loop()
         for number in _STOP_SIGNALS:
             loop.add_signal_handler(number, stopped.set)
-        # Requests are not logged: what a learner types is nobody's business.
+        # No access log: what a learner types is nobody's business.
         runner = web.AppRunner(await self._make_app(), access_log=None, shutdown_timeout=_GOODBYE_S)
         await runner.setup()
         try:
@@ -50,7 +50,7 @@ class AppServer(Server):
             on_ready()
             await stopped.wait()
             on_stop()
-            await site.stop()  # no new page while the old ones are ended
+            await site.stop()  # accept no new page while the open ones are being closed
         finally:
             await asyncio.gather(*(session.stop() for session in self._sessions))
             await runner.cleanup()
@@ -63,13 +63,15 @@ class AppServer(Server):
         return app
 
     async def on_startup(self, app: web.Application) -> None:
-        """Print nothing: the caller does."""
+        """Override: print nothing, as the caller does that."""
 
     async def handle_websocket(self, request: web.Request) -> web.WebSocketResponse:
-        """A page has been opened: start an app for it, and end that when the page is closed."""
+        """Start an app for a page that was opened, and end it when the page is closed."""
         page = web.WebSocketResponse(heartbeat=15, timeout=_GOODBYE_S)
         await page.prepare(request)
-        width, height = (to_int(request.query.get(name, ""), usual) for name, usual in (("width", 80), ("height", 24)))
+        width, height = (
+            to_int(request.query.get(name, ""), default) for name, default in (("width", 80), ("height", 24))
+        )
         session = Session(self._argv, page, self.download_manager)
         self._sessions.add(session)
         try:

@@ -1,4 +1,4 @@
-"""One page that is open, and the app behind it."""
+"""An open page and the app behind it."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from textual_serve.app_service import AppService
 from textual_serve.download_manager import DownloadManager
 
 LEAVE_LIMIT_S = 20.0
-"""How long an app may take to save, and to end the learner's node and a check, in seconds. Then it is killed."""
+"""Time for an app to save and to end the learner's node and check. After that, it is killed."""
 
 
 class Session(AppService):
-    """An app in a process of its own, which lives as long as its page."""
+    """An app in a separate process, which lives as long as its page."""
 
     def __init__(self, argv: Sequence[str], page: web.WebSocketResponse, downloads: DownloadManager) -> None:
         super().__init__(
@@ -32,7 +32,7 @@ class Session(AppService):
         self._ending: asyncio.Task[None] | None = None
 
     async def _open_app_process(self, width: int = 80, height: int = 24) -> Process:
-        """Start the app, without a shell, and away from our Ctrl+C: it is asked to leave, and then saves first."""
+        """Start the app without a shell, and out of reach of our Ctrl+C, so that it can save when we stop it."""
         self._process = await asyncio.create_subprocess_exec(
             *self._argv,
             stdin=PIPE,
@@ -45,12 +45,12 @@ class Session(AppService):
         return self._process
 
     async def run(self) -> None:
-        """Carry what the app draws to the page, until the app ends; then the page is closed, too."""
+        """Forward the app's output to the page until the app ends, then close the page."""
         await super().run()
         await self._close_page()
 
     async def stop(self) -> None:
-        """Have the app save, end what it runs, and leave; wait for that. May be called more than once."""
+        """Make the app save, end what it runs and exit, and wait for that. Idempotent."""
         if self._ending is None:
             self._ending = asyncio.create_task(self._stop())
         await asyncio.shield(self._ending)
@@ -71,7 +71,7 @@ class Session(AppService):
         if self._task is not None:
             await self._task
 
-    # A page that is gone must not keep the app's output from being read: the app would hang in its last words.
+    # After the page is gone, we must keep reading the app's output, or the app would block on it while exiting.
 
     async def _send_bytes(self, data: bytes) -> None:
         with contextlib.suppress(ConnectionError):
