@@ -95,7 +95,7 @@ def test_at_any_time(installed: str, words: tuple[str, ...], end: int, until_s: 
         code, said = pressed([installed, *words], after(step * until_s / 20))
         assert code in (*INTERRUPTED, end, 2 if words[0] == "ros2" else end), (step, code, said)  # 2: as ros2cli ends
         assert all(line.startswith("ros-tutor: ") for line in said.splitlines()), (step, said)
-        assert said in ("", ordinary) or "nothing that was started is left" in said, (step, said)
+        assert said in ("", ordinary) or "nothing is left running" in said, (step, said)
 
 
 @needs_env

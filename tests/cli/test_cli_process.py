@@ -233,11 +233,11 @@ def test_an_interrupt_lets_the_engine_clean_up_and_is_130(number: signal.Signals
     assert process.stdout is not None
     assert process.stderr.readline() == "started\n"
     process.send_signal(number)
-    assert process.stderr.readline() == "ros-tutor: stopping what was started\n"
+    assert process.stderr.readline() == "ros-tutor: stopping everything that was started\n"
     process.send_signal(number)  # someone is impatient
     rest = process.stderr.read()
     assert process.wait(timeout=LIMIT_S) == 130
-    assert rest == "cleaned up\nros-tutor: interrupted; nothing that was started is left\n"
+    assert rest == "cleaned up\nros-tutor: interrupted; nothing is left running\n"
     assert process.stdout.read() == ""
     process.stdout.close()
     process.stderr.close()

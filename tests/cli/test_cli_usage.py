@@ -53,7 +53,7 @@ WORKSPACE = ("--workspace", "ws")
         (["list", "--workspace", "."], "is not a workspace; `ros-tutor start i1.1 --workspace"),
         (["check", "i1.1", "--workspace", "."], "is not a workspace"),
         (["hint", "i1.1", "--workspace", "."], "is not a workspace"),
-        (["list", "--lessons", "nowhere"], "--lessons nowhere: there is no folder lessons in it"),
+        (["list", "--lessons", "nowhere"], "--lessons nowhere: it has no lessons/ folder"),
         (["checklist", "tick"], "checklist tick needs an ITEM"),
         (["checklist", "show", "timers"], "takes no ITEM"),
         (["checklist", "--output", "x"], "go with `checklist export`"),

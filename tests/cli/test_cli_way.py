@@ -134,14 +134,14 @@ def test_reset_keeps_what_was_there(run: Run, home: Path, monkeypatch: pytest.Mo
     (home / FILE).write_text("mine\n")
     ran = run("reset", "i1.1")
     assert (ran.code, (home / FILE).read_text()) == (2, "mine\n")
-    assert "--yes says that you are sure" in ran.err
+    assert "pass --yes if you are sure" in ran.err
 
     ran = run("reset", "i1.1", "--yes")
     assert ran.code == 0
     assert (home / FILE).read_text() == skeleton
     assert (home / f"{FILE}.~1~").read_text() == "mine\n"
-    assert f"skeleton again  {FILE}\n" in ran.out
-    assert f"kept            {FILE}.~1~\n" in ran.out
+    assert f"restored   {FILE}\n" in ran.out
+    assert f"backup     {FILE}.~1~\n" in ran.out
 
     for answer, content in (("\n", "again\n"), ("no\n", "again\n"), ("yes\n", skeleton)):
         (home / FILE).write_text("again\n")
@@ -225,9 +225,9 @@ def test_run_runs_a_launch_file_as_ros2_does(
 @pytest.mark.parametrize(
     ("argv", "message"),
     [
-        (["i1.1"], "is not there; `ros-tutor start i1.1`"),
+        (["i1.1"], "does not exist; `ros-tutor start i1.1`"),
         (["i1.3", "server"], "i1.3 has no file 'server'; it has calculator_server.py and calculator_client.py"),
-        (["i1.1", "--ros-args"], "what is your node's own follows --"),
+        (["i1.1", "--ros-args"], "put your node's own arguments after --"),
         (["i9.9"], "There is no exercise"),
     ],
 )

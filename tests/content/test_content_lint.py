@@ -23,9 +23,9 @@ def test_a_right_course_has_no_problems(lesson_folder: Path) -> None:
     ("old", "new", "text"),
     [
         ("  - Call move.\n", "", "it has 2 hints instead of 3"),
-        ("- Call move.\n", "- Think of moving.\n", "the hint 'Think of moving.' is there twice"),
-        ("- id: moves", "- id: Moves_1", "the criterion id 'Moves_1' may only have small letters and hyphens"),
-        ("- id: stops", "- id: moves", "the criterion moves is there twice"),
+        ("- Call move.\n", "- Think of moving.\n", "the hint 'Think of moving.' appears twice"),
+        ("- id: moves", "- id: Moves_1", "the criterion id 'Moves_1' may only have lowercase letters and hyphens"),
+        ("- id: stops", "- id: moves", "the criterion moves appears twice"),
         ("text: It moves\n", "text: It moves\n    bonus: true\n", "it has no criterion that is required"),
         (
             "text: It moves\n",

@@ -110,7 +110,7 @@ def test_another_course_needs_no_checklist(lesson_folder: Path, tmp_path: Path) 
 
 def test_another_course_may_not_replace_an_exercise(lesson_folder: Path, tmp_path: Path) -> None:
     made = copy_course(lesson_folder, tmp_path / "extra", "x1_1", "x1.1")
-    with pytest.raises(ContentError, match=r"there is an exercise x1\.1 already") as caught:
+    with pytest.raises(ContentError, match=r"there already is an exercise x1\.1") as caught:
         load_course(tmp_path / "extra")
     assert caught.value.file == made / "lesson.md"
 
@@ -127,7 +127,7 @@ def test_another_course_that_is_not_there_is_named(lesson_folder: Path, tmp_path
         ("title: First Steps", "title:", 3, "title", "expected a text, found nothing"),
         ("title: First Steps", "title: 7", 3, "title", "expected a text, found a number"),
         ("id: x1.1", "id: x1.2", 2, "id", "'x1.2' does not belong in the folder x1_1"),
-        ("difficulty: easy", "difficulty: hard", 4, "difficulty", "'hard' is none of easy, medium, challenge"),
+        ("difficulty: easy", "difficulty: hard", 4, "difficulty", "'hard' is not one of easy, medium, challenge"),
         ("objective:", "objektive:", 2, "objective", "this field is missing"),
         ("title: First Steps", "title: First Steps\nextra: 1", 4, "extra", "there is no such field"),
         ("mover.py", "../mover.py", 8, "files[1].name", "expected a plain file name, found '../mover.py'"),

@@ -186,7 +186,7 @@ def test_temporary_files_that_cannot_be_written(monkeypatch: pytest.MonkeyPatch)
 
 def test_a_workspace_that_can_be_made_or_written(tmp_path: Path) -> None:
     assert machine.workspace(tmp_path) == Finding("Workspace", True, f"{tmp_path} can be written to")
-    assert machine.workspace(tmp_path / "a" / "b") == Finding("Workspace", True, f"{tmp_path}/a/b can be made")
+    assert machine.workspace(tmp_path / "a" / "b") == Finding("Workspace", True, f"{tmp_path}/a/b can be created")
     assert list(tmp_path.iterdir()) == []
 
 

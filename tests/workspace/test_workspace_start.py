@@ -67,7 +67,7 @@ def test_a_learners_work_is_never_overwritten_and_nothing_else_is_written_then(
     mine.parent.mkdir(parents=True)
     mine.write_text("my work")
 
-    with pytest.raises(WorkspaceError, match=r"calculator_server\.py is there already.*--force"):
+    with pytest.raises(WorkspaceError, match=r"calculator_server\.py already exists.*--force"):
         start(calculator, workspace)
 
     assert everything_in(workspace.root) == {"src/my_package/my_package/calculator_server.py": b"my work"}
@@ -97,7 +97,7 @@ def test_a_link_to_nothing_is_not_written_through(publisher: Lesson, tmp_path: P
     folder = tmp_path / "d"
     folder.mkdir()
     (folder / "temperature_publisher.py").symlink_to(tmp_path / "elsewhere.py")
-    with pytest.raises(WorkspaceError, match="is there already"):
+    with pytest.raises(WorkspaceError, match="already exists"):
         start_in(publisher, folder)
     assert not (tmp_path / "elsewhere.py").exists()
 

@@ -76,7 +76,7 @@ def test_what_lies_elsewhere_is_not_the_workspaces_own(publisher: Lesson, worksp
         ([], r"i1\.1 needs temperature_publisher\.py, but the folder .*/answer is empty$"),
         (["temperature_pub.py"], r"not in .*/answer \(found temperature_pub\.py there: .*rename it"),
         (["Temperature_Publisher.py"], r"found Temperature_Publisher\.py there"),
-        (["notes.txt"], r"i1\.1 needs temperature_publisher\.py, and it is not in .*/answer$"),
+        (["notes.txt"], r"i1\.1 needs temperature_publisher\.py, but it is not in .*/answer$"),
         (["src/pkg/temperature_publisher.py"], r"found it in .*/answer/src/pkg: give that folder"),
     ],
 )
@@ -111,7 +111,7 @@ def test_no_workspace_yet(publisher: Lesson, workspace: Workspace) -> None:
 
 def test_an_exercise_that_was_not_started(publisher: Lesson, launch: Lesson, workspace: Workspace) -> None:
     start(publisher, workspace)
-    with pytest.raises(SubmissionError, match=r"launch/my_launch\.py is not there; `ros-tutor start i2\.2`"):
+    with pytest.raises(SubmissionError, match=r"launch/my_launch\.py does not exist; `ros-tutor start i2\.2`"):
         find_submission(launch, None, workspace)
     assert is_started(publisher, None, workspace)
     assert not is_started(launch, None, workspace)
@@ -124,7 +124,7 @@ def test_what_cannot_be_run_is_said(publisher: Lesson, folder: Path, tmp_path: P
         find_submission(publisher, folder, None)
     place.rmdir()
     place.symlink_to(tmp_path / "nothing")
-    with pytest.raises(SubmissionError, match="link to a file that is not there"):
+    with pytest.raises(SubmissionError, match="link to a file that does not exist"):
         find_submission(publisher, folder, None)
     place.unlink()
     os.mkfifo(place)

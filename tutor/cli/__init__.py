@@ -1,4 +1,4 @@
-"""The command line. `main` is the one place that tells errors and chooses exit codes."""
+"""The command line. `main` is the one place that prints errors and chooses exit codes."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ from tutor.cli.errors import INTERRUPTED, describe, exit_code
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run one command and give its exit code: 0 passed, 1 not passed, 2 usage, 3 fault, 130 interrupted."""
+    """Run one command and return its exit code: 0 passed, 1 not passed, 2 usage, 3 fault, 130 interrupted."""
     try:
         return _run(argv)
     except KeyboardInterrupt:
         return INTERRUPTED
     except SystemExit as end:  # argparse, after --help and --version
         return end.code if isinstance(end.code, int) else 0
-    except Exception as error:  # the process's border: a learner gets one line, whatever happened
-        if _comes_from_ctrl_c(error):
+    except Exception as error:  # top level: whatever happened, the learner gets a single line
+        if _caused_by_ctrl_c(error):
             return INTERRUPTED
         if os.environ.get("ROS_TUTOR_DEBUG") == "1":
             traceback.print_exc(file=sys.stderr)
@@ -28,8 +28,8 @@ def main(argv: Sequence[str] | None = None) -> int:
         return exit_code(error)
 
 
-def _comes_from_ctrl_c(error: BaseException | None) -> bool:
-    """Whether Ctrl+C led to this error: a `finally` of a library (argparse has one) may raise its own then."""
+def _caused_by_ctrl_c(error: BaseException | None) -> bool:
+    """Whether Ctrl+C led to this error: a library's `finally` (argparse has one) may then raise an error of its own."""
     while error is not None:
         if isinstance(error, KeyboardInterrupt):
             return True
@@ -44,7 +44,7 @@ def _run(argv: Sequence[str] | None) -> int:
     from tutor.invocation import export_program_name
 
     export_program_name()
-    if completion.is_asked():
+    if completion.is_requested():
         completion.answer(build)
     arguments = parse(argv)
     if arguments.command is None:

@@ -1,4 +1,4 @@
-"""`ros-tutor`: the terminal app, and `ros-tutor --plain`: the same course in plain lines."""
+"""`ros-tutor`, the terminal app, and `ros-tutor --plain`, the same course as plain lines of text."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from tutor.invocation import command
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Open the app, which needs a terminal, or talk in plain lines, which need none."""
+    """Open the app, which needs a terminal, or the plain-text dialog, which does not."""
     root, lessons = context.choose_workspace(arguments).root, getattr(arguments, "lessons", None)
     if arguments.plain:
         from tutor.plain import run as talk

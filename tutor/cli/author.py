@@ -1,4 +1,4 @@
-"""`ros-tutor author check`: prove a course right, for those who write one."""
+"""`ros-tutor author check`: verify a course, for course authors."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ _ACTIONS = ("check",)
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Take check [EXERCISE...] [--static] [--submissions DIR]."""
-    parser.add_argument("action", metavar="ACTION", choices=_ACTIONS, help="check: prove lessons and checks right")
+    """Add `check [EXERCISE...] [--static] [--submissions DIR]`."""
+    parser.add_argument("action", metavar="ACTION", choices=_ACTIONS, help="check: verify lessons and their checks")
     parser.add_argument(
         "exercises", metavar="EXERCISE", nargs="*", help="only these (else all; with --lessons, its own)"
     )
@@ -33,7 +33,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Print one line for each finding, and a summary. First what reading shows, then what running shows."""
+    """Print one line per finding and a summary: first the static findings, then those from running the exercises."""
     from tutor.errors import ContentError
 
     try:
@@ -41,24 +41,24 @@ def run(arguments: argparse.Namespace) -> int:
     except ContentError as error:
         terminal.out(f"{error}\n1 finding: the course cannot be read\n")
         return NOT_PASSED
-    lessons = _chosen(arguments, course)
+    lessons = _choose_lessons(arguments, course)
     checks, findings = _load_checks(lessons)
-    findings += _static(arguments, course, lessons, checks)
-    _print(findings)
-    runnable = [lesson for lesson in lessons if lesson.id in checks and _is_whole(lesson)]
+    findings += _find_static_problems(arguments, course, lessons, checks)
+    _print_findings(findings)
+    runnable = [lesson for lesson in lessons if lesson.id in checks and _has_all_files(lesson)]
     proofs: Sequence[Proof] = ()
     if not arguments.static and runnable:
-        ran = _run(runnable, course)
-        if ran is None:
-            terminal.say("interrupted; nothing that was started is left")
+        proven = _prove(runnable, course)
+        if proven is None:
+            terminal.say("interrupted; nothing is left running")
             return INTERRUPTED
-        proofs = ran
+        proofs = proven
     unjudged = _print_proofs(proofs, findings)
-    _summary(len(lessons), len(proofs), len(findings), unjudged)
+    _print_summary(len(lessons), len(proofs), len(findings), unjudged)
     return NOT_PASSED if findings else FAULT if unjudged else PASSED
 
 
-def _chosen(arguments: argparse.Namespace, course: Course) -> list[Lesson]:
+def _choose_lessons(arguments: argparse.Namespace, course: Course) -> list[Lesson]:
     if arguments.exercises:
         return list(dict.fromkeys(course.find(each) for each in arguments.exercises))
     extra: Path | None = getattr(arguments, "lessons", None)
@@ -77,13 +77,13 @@ def _load_checks(lessons: Sequence[Lesson]) -> tuple[dict[str, Check], list[Prob
     for lesson in lessons:
         try:
             checks[lesson.id] = load_check(lesson)
-        except Exception as error:  # the check's border: whatever is wrong in it is a finding
+        except Exception as error:  # whatever goes wrong while loading a check is a finding
             text = f"it cannot be loaded: {type(error).__name__}: {error}"
             findings.append(Problem(lesson.check, " ".join(text.split()), getattr(error, "hint", "")))
     return checks, findings
 
 
-def _static(
+def _find_static_problems(
     arguments: argparse.Namespace, course: Course, lessons: Sequence[Lesson], checks: Mapping[str, Check]
 ) -> Iterator[Problem]:
     from tutor.content import Course, lint_course
@@ -92,31 +92,33 @@ def _static(
     from tutor.content.lint_submissions import find_bad_submissions
     from tutor.workspace import TEMPLATE
 
-    given = {path.name for path in TEMPLATE.rglob("*.py")}
+    template_files = {path.name for path in TEMPLATE.rglob("*.py")}
     yield from lint_course(Course(tuple(lessons), course.checklist))
     yield from find_stray_files(course, lessons)
     for lesson in lessons:
         if lesson.id in checks:
             yield from find_disagreements(lesson, checks[lesson.id])
-        yield from find_bad_commands(lesson, given, partial(_usage, arguments.parser))
-    root = _submissions(arguments, lessons)
+        yield from find_bad_commands(lesson, template_files, partial(_usage_error, arguments.parser))
+    root = _choose_submissions_folder(arguments, lessons)
     if root is not None:
         yield from find_bad_submissions(root, course, lessons)
 
 
-def _submissions(arguments: argparse.Namespace, lessons: Sequence[Lesson]) -> Path | None:
+def _choose_submissions_folder(arguments: argparse.Namespace, lessons: Sequence[Lesson]) -> Path | None:
     named: Path | None = arguments.submissions
     if named is not None and not named.is_dir():
         raise UsageError(f"--submissions {named}: there is no such folder")
-    beside = lessons[0].folder.parents[1] / "tests" / "submissions" if lessons else Path()
-    if named is None and not beside.is_dir():
-        terminal.say(f"there are no test submissions in {beside}, so that part is not proven; --submissions names them")
+    default = lessons[0].folder.parents[1] / "tests" / "submissions" if lessons else Path()
+    if named is None and not default.is_dir():
+        terminal.say(
+            f"no test submissions in {default}, so these are not verified; name their folder with --submissions"
+        )
         return None
-    return named or beside
+    return named or default
 
 
-def _usage(parser: argparse.ArgumentParser, argv: list[str]) -> str:
-    """What is wrong with the arguments of `ros-tutor`, or nothing."""
+def _usage_error(parser: argparse.ArgumentParser, argv: list[str]) -> str:
+    """Return the usage error that `ros-tutor` reports for these arguments; empty if they are valid."""
     try:
         grammar.read(parser, argv)
     except UsageError as error:
@@ -124,30 +126,30 @@ def _usage(parser: argparse.ArgumentParser, argv: list[str]) -> str:
     return ""
 
 
-def _is_whole(lesson: Lesson) -> bool:
+def _has_all_files(lesson: Lesson) -> bool:
     return all(file.skeleton.is_file() and file.solution.is_file() for file in lesson.files)
 
 
-def _run(lessons: Sequence[Lesson], course: Course) -> Sequence[Proof] | None:
+def _prove(lessons: Sequence[Lesson], course: Course) -> Sequence[Proof] | None:
     from tutor.cli.judging import NoDisplay, interruptible
     from tutor.engine.proving import prove
 
-    def tell(proof: Proof) -> None:
+    def report_progress(proof: Proof) -> None:
         result = proof.result
         terminal.say(f"{proof.lesson.id} {proof.kind}: {result.verdict.value} in {result.duration_s:.1f} s")
 
-    return interruptible(lambda: prove(lessons, course, tell), NoDisplay())
+    return interruptible(lambda: prove(lessons, course, report_progress), NoDisplay())
 
 
 def _print_proofs(proofs: Sequence[Proof], findings: list[Problem]) -> int:
-    """Print what the runs show and add it to `findings`; gives how many criteria could not be judged."""
+    """Print the findings of the runs and add them to `findings`; return how many criteria could not be judged."""
     from tutor.content.proof import faults, find_disproofs
 
     unjudged = 0
     for proof in proofs:
         found = list(find_disproofs(proof.lesson, proof.kind, proof.result))
         findings += found
-        _print(found)
+        _print_findings(found)
         for criterion in faults(proof.result):
             unjudged += 1
             why = " ".join(f"{criterion.verdict.cause}; {criterion.verdict.hint}".split())
@@ -155,14 +157,14 @@ def _print_proofs(proofs: Sequence[Proof], findings: list[Problem]) -> int:
     return unjudged
 
 
-def _print(findings: Sequence[Problem]) -> None:
+def _print_findings(findings: Sequence[Problem]) -> None:
     for finding in findings:
         place = context.display_path(finding.file)
         terminal.out(" ".join(f"{place}: {finding.description}".split()) + "\n")
 
 
-def _summary(lessons: int, ran: int, findings: int, unjudged: int) -> None:
+def _print_summary(lessons: int, run_count: int, findings: int, unjudged: int) -> None:
     counted = f"{findings} finding{'s' if findings != 1 else ''}" if findings else "nothing is wrong"
     not_judged = f", {unjudged} could not be judged" if unjudged else ""
-    runs = f", {ran} runs" if ran else ", nothing was run"
+    runs = f", {run_count} runs" if run_count else ", nothing was run"
     terminal.out(f"{counted}{not_judged}: {lessons} exercise{'s' if lessons != 1 else ''}{runs}\n")

@@ -1,4 +1,4 @@
-"""`ros-tutor check`: judge exercises headless."""
+"""`ros-tutor check`: judge exercises without the app."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _FORMATS = ("text", "json", "junit", "markdown")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """EXERCISE [PATH] [--solution] [--criterion ID]... [--first] [--format F] [--output FILE]."""
+    """Add `EXERCISE [PATH] [--solution] [--criterion ID]... [--first] [--isolate] [--format F] [--output FILE]`."""
     parser.add_argument("exercise", metavar="EXERCISE", help="for example i2.1; or all, which judges them in parallel")
     parser.add_argument("path", metavar="PATH", nargs="?", type=Path, help="a file or folder (or the workspace's own)")
     parser.add_argument("--solution", action="store_true", help="judge our own solution instead")
@@ -34,19 +34,19 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--isolate",
         action="store_true",
-        help="keep the submission from files, processes and network (needs bubblewrap)",
+        help="shut the submission off from files, processes and the network (needs bubblewrap)",
     )
     parser.add_argument("--format", choices=_FORMATS, default="text", help="text (default), json, junit or markdown")
     parser.add_argument("--output", metavar="FILE", type=Path, help="write the report there instead of to stdout")
 
 
 def add_first(parser: argparse.ArgumentParser) -> None:
-    """The option that ends a check at its first failure."""
+    """Add `--first`, which ends a check at its first failure."""
     parser.add_argument("--first", action="store_true", help="end the check at the first criterion that fails")
 
 
 def run(arguments: argparse.Namespace, engine: Engine | None = None) -> int:
-    """Judge, write the report, and remember the result where the workspace's own files were judged."""
+    """Judge, write the report, and save the result if the workspace's own files were judged."""
     from tutor.cli.choosing import ALL, choose_lessons, choose_submissions, with_missing
     from tutor.cli.judging import display_for, judge
     from tutor.report import renderer_of
@@ -54,7 +54,7 @@ def run(arguments: argparse.Namespace, engine: Engine | None = None) -> int:
 
     _check_options(arguments)
     if engine is None:
-        engine = _engine(isolate=arguments.isolate, first=arguments.first)
+        engine = _make_engine(isolate=arguments.isolate, first=arguments.first)
     course = context.load_course(arguments)
     workspace = context.require_workspace(arguments)
     lessons = choose_lessons(arguments.exercise, arguments.criterion, course)
@@ -68,26 +68,28 @@ def run(arguments: argparse.Namespace, engine: Engine | None = None) -> int:
 
     only = frozenset(arguments.criterion) if arguments.criterion else None
     to_terminal = arguments.output is None and terminal.is_terminal(sys.stdout)
-    renderer_of(arguments.format)  # before a learner's program runs, which might write where our modules are
+    renderer_of(arguments.format)  # import it before a learner's program runs, which might overwrite our modules
     report = judge(engine, submissions, course, only, display_for(course, report_follows=to_terminal))
     if report is None:
-        terminal.say("interrupted; nothing that was started is left")
+        terminal.say("interrupted; nothing is left running")
         return INTERRUPTED
     if not arguments.solution:
-        _record(report, submissions, course, workspace)  # first: a report that cannot be written must not lose it
+        _record(
+            report, submissions, course, workspace
+        )  # before _write_report: the result survives an unwritable report
     report = with_missing(report, missing, lessons, only)
-    _write(report, arguments)
+    _write_report(report, arguments)
     return _CODES[report.verdict.value]
 
 
-def _engine(*, isolate: bool, first: bool) -> Engine:
-    from tutor.engine import run_check  # late: nothing but a check needs ROS
+def _make_engine(*, isolate: bool, first: bool) -> Engine:
+    from tutor.engine import run_check  # imported late: only a check needs ROS
 
     if not isolate:
         return partial(run_check, first=True) if first else run_check
     from tutor.engine.isolation import Isolation
 
-    isolation = Isolation.set_up()  # before anything else: this process has one thread yet
+    isolation = Isolation.set_up()  # before anything else: this process must still be single-threaded
     return partial(run_check, isolation=isolation, first=first)
 
 
@@ -96,14 +98,14 @@ def _check_options(arguments: argparse.Namespace) -> None:
     if arguments.solution and path is not None:
         raise UsageError("--solution judges our own files: give no PATH with it")
     if path is not None and arguments.exercise.lower() == "all" and not path.is_dir():
-        raise UsageError(f"check all needs a folder, and {path} is none")
+        raise UsageError(f"check all needs a folder, and {path} is not one")
     if output is not None and not output.absolute().parent.is_dir():
         raise UsageError(f"--output {output}: there is no folder {output.parent}")
     if output is not None and output.is_dir():
         raise UsageError(f"--output {output}: this is a folder, not a file")
 
 
-def _write(report: Report, arguments: argparse.Namespace) -> None:
+def _write_report(report: Report, arguments: argparse.Namespace) -> None:
     from tutor.report import render
     from tutor.workspace import write_atomically
 
@@ -116,7 +118,7 @@ def _write(report: Report, arguments: argparse.Namespace) -> None:
 
 
 def _record(report: Report, submissions: Sequence[Submission], course: Course, workspace: Workspace) -> None:
-    """Keep the attempts on the workspace's own files. That it cannot be kept does not change the verdict."""
+    """Save attempts on the workspace's own files. A failure to save does not change the verdict."""
     from tutor.errors import StorageError
     from tutor.workspace import Progress, is_own
 
@@ -127,8 +129,8 @@ def _record(report: Report, submissions: Sequence[Submission], course: Course, w
 
     def add(progress: Progress) -> Progress:
         for result in results:
-            every = {criterion.id for criterion in course.find(result.id).criteria}
-            progress = progress.with_attempt(result, whole=every <= {criterion.id for criterion in result.criteria})
+            all_ids = {criterion.id for criterion in course.find(result.id).criteria}
+            progress = progress.with_attempt(result, whole=all_ids <= {criterion.id for criterion in result.criteria})
         return progress
 
     try:

@@ -19,21 +19,21 @@ if TYPE_CHECKING:
 
 _ACTIONS = ("show", "tick", "untick", "export")
 _FORMATS = ("markdown", "json", "html")
-_MOST_EVIDENCE = 2
-"""This many exercises are named as evidence for an item; a line is only so long."""
+_MAX_EVIDENCE = 2
+"""Maximum number of exercises named as evidence for an item, so that its line stays short."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """[show | tick ITEM... | untick ITEM... | export] [--format] [--output]."""
+    """Add `[show | tick ITEM... | untick ITEM... | export] [--format] [--output]`."""
     actions = f"{', '.join(_ACTIONS[:-1])} or {_ACTIONS[-1]}"
     parser.add_argument("action", metavar="ACTION", nargs="?", choices=_ACTIONS, default="show", help=actions)
-    parser.add_argument("items", metavar="ITEM", nargs="*", help="for tick and untick: what `show` calls it")
-    parser.add_argument("--format", choices=_FORMATS, help="for export (what FILE's suffix says, else markdown)")
+    parser.add_argument("items", metavar="ITEM", nargs="*", help="for tick and untick: an id that `show` prints")
+    parser.add_argument("--format", choices=_FORMATS, help="for export (default: by FILE's suffix, else markdown)")
     parser.add_argument("--output", metavar="FILE", type=Path, help="for export: write there instead of to stdout")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Do what was asked, and show the checklist afterwards (or write it)."""
+    """Tick or untick the items, then show the checklist; or export it."""
     _check_options(arguments)
     course = context.load_course(arguments)
     workspace = context.require_workspace(arguments)
@@ -51,7 +51,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.action == "export":
         _export(course, progress, arguments.format, arguments.output)
     else:
-        terminal.out(_show(course, progress))
+        terminal.out(_render(course, progress))
     return PASSED
 
 
@@ -86,7 +86,7 @@ def _with_ticks(progress: Progress, items: list[str], ticked: bool) -> Progress:
     return progress
 
 
-def _show(course: Course, progress: Progress) -> str:
+def _render(course: Course, progress: Progress) -> str:
     from tutor.report.assessment import assess
     from tutor.report.phrases import describe_evidence, near_day
 
@@ -98,16 +98,16 @@ def _show(course: Course, progress: Progress) -> str:
         lines += [f"{terminal.style(group.title, '1', sys.stdout)}  {group.ticked} of {len(group.items)}"]
         for item in group.items:
             box = terminal.style("[x]", "32", sys.stdout) if item.ticked else "[ ]"
-            shown = "; ".join(describe_evidence(item.evidence, near_day, most=_MOST_EVIDENCE))
+            shown = "; ".join(describe_evidence(item.evidence, near_day, most=_MAX_EVIDENCE))
             lines += [f"  {box} {item.id:{width}}  {item.text}{f'  ({shown})' if shown else ''}"]
         lines += [""]
     if assessment.ready:
-        lines += [terminal.style(assessment.ready_title, "1", sys.stdout), *_wrapped(assessment.ready_text), ""]
+        lines += [terminal.style(assessment.ready_title, "1", sys.stdout), *_wrap_lines(assessment.ready_text), ""]
     lines += [f"{assessment.ticked} of {len(items)} ticked. To tick one: {command('checklist', 'tick', 'ITEM')}"]
     return "\n".join(lines) + "\n"
 
 
-def _wrapped(text: str) -> list[str]:
+def _wrap_lines(text: str) -> list[str]:
     return terminal.wrap(text, terminal.width(sys.stdout)).splitlines()
 
 
@@ -117,8 +117,8 @@ def _export(course: Course, progress: Progress, format: str | None, output: Path
     from tutor.workspace import write_atomically
     from tutor.workspace.progress import now
 
-    meant = format or (output and format_of(output)) or "markdown"
-    text = render_checklist(assess(course, progress), meant, at=now())
+    chosen = format or (output and format_of(output)) or "markdown"
+    text = render_checklist(assess(course, progress), chosen, at=now())
     if output is None:
         terminal.out(text)
     else:

@@ -1,4 +1,4 @@
-"""What `ros-tutor check` is asked to judge."""
+"""Choosing which exercises and submissions `ros-tutor check` judges."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ NOT_STARTED = "not started"
 
 
 def choose_lessons(exercise: str, criteria: Sequence[str] | None, course: Course) -> tuple[Lesson, ...]:
-    """The lesson with this id, or all; of these, the ones that have any of `criteria`.
+    """Return the lesson with this id, or all lessons; given `criteria`, only those lessons that have any of them.
 
-    Raises UnknownExercise; UsageError for a criterion that none of them has.
+    Raises UnknownExercise, and UsageError for a criterion that none of the lessons has.
     """
     lessons = course.lessons if exercise.lower() == ALL else (course.find(exercise),)
     if not criteria:
@@ -40,22 +40,23 @@ def choose_lessons(exercise: str, criteria: Sequence[str] | None, course: Course
 def choose_submissions(
     lessons: Sequence[Lesson], path: Path | None, workspace: Workspace
 ) -> tuple[list[Submission], list[ExerciseResult]]:
-    """For `check all`: the submissions that are there, and a result for each exercise of which there is none.
+    """Return, for `check all`, the submissions that exist and a skipped result for each exercise without one.
 
-    Raises SubmissionError where there is none at all.
+    Raises SubmissionError if there is nothing to judge at all.
     """
     from tutor.errors import SubmissionError
     from tutor.workspace import find_submission, is_started
 
     if path is None and not workspace.exists:
-        find_submission(lessons[0], None, workspace)  # raises: it knows best what to say
+        find_submission(lessons[0], None, workspace)  # raises the most helpful error
     found: list[Submission] = []
     missing: list[ExerciseResult] = []
     for lesson in lessons:
         try:
             found.append(find_submission(lesson, path, workspace))
         except SubmissionError as error:
-            missing.append(_missing(lesson, str(error) if is_started(lesson, path, workspace) else NOT_STARTED))
+            why = str(error) if is_started(lesson, path, workspace) else NOT_STARTED
+            missing.append(_skipped_result(lesson, why))
     if not found:
         why = "; ".join(f"{result.id} {result.missing}" for result in missing)
         raise SubmissionError(f"there is nothing to judge in {path or workspace.root}: {why}")
@@ -65,20 +66,20 @@ def choose_submissions(
 def with_missing(
     report: Report, missing: Sequence[ExerciseResult], lessons: Sequence[Lesson], only: Collection[str] | None
 ) -> Report:
-    """The report together with what was not there (of which, too, the criteria in `only` are shown), in lesson order.
+    """Return the report with the missing exercises added, in lesson order and limited to the criteria in `only`.
 
-    What was not there is not passed: anyone who asks for all of them wants to know that all of them are.
+    A missing exercise counts as not passed: `check all` passes only if every exercise does.
     """
     shown = [
         replace(result, criteria=tuple(each for each in result.criteria if only is None or each.id in only))
         for result in missing
     ]
     order = [lesson.id for lesson in lessons]
-    together = sorted((*report.exercises, *shown), key=lambda result: order.index(result.id))
-    return replace(report, exercises=tuple(together))
+    combined = sorted((*report.exercises, *shown), key=lambda result: order.index(result.id))
+    return replace(report, exercises=tuple(combined))
 
 
-def _missing(lesson: Lesson, why: str) -> ExerciseResult:
+def _skipped_result(lesson: Lesson, why: str) -> ExerciseResult:
     names = ", ".join(file.name for file in lesson.files if file.required)
     hint = f"`{command('start', lesson.id)}` puts the skeleton into the workspace" if why == NOT_STARTED else ""
     verdict = Verdict(Status.SKIPPED, expected=names, cause=why, hint=hint)

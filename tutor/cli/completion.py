@@ -1,7 +1,7 @@
-"""`ros-tutor completion`: Tab completion for bash, zsh and fish, by argcomplete.
+"""`ros-tutor completion`: Tab completion for bash, zsh and fish, through argcomplete.
 
-The shell asks the program itself, so that exercises of `--lessons` and the criteria of the exercise that was typed are
-known.
+The shell runs the program itself to complete a line, so the exercises of `--lessons` and the criteria of the exercise
+already typed are known.
 """
 
 from __future__ import annotations
@@ -20,31 +20,31 @@ from tutor.invocation import PROGRAM, command, program
 if TYPE_CHECKING:
     from tutor.content import Course
 
-ASKED = "_ARGCOMPLETE"
-"""The variable by which a shell asks for completions, in place of running the command."""
+REQUEST_VARIABLE = "_ARGCOMPLETE"
+"""The environment variable with which a shell requests completions instead of running the command."""
 
 SHELLS = {
     "bash": '~/.bashrc:                   eval "$({})"',
     "zsh": '~/.zshrc, after compinit:    eval "$({})"',
     "fish": "~/.config/fish/config.fish:  {} | source",
 }
-"""Where the line goes that switches it on, and the line."""
+"""For each shell, the startup file and the line to add to it, to enable completion; {} is the command."""
 
 Completer = Callable[..., Iterable[str]]
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """SHELL."""
+    """Add `SHELL`."""
     parser.add_argument("shell", metavar="SHELL", choices=tuple(SHELLS), help=f"{', '.join(SHELLS)}")
     lines = (line.format(command("completion", shell)) for shell, line in SHELLS.items())
     parser.epilog = "To switch it on, add a line to\n" + "".join(f"  {line}\n" for line in lines)
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Print the lines that make Tab ask us."""
+    """Print the shell code that enables completion."""
     from argcomplete.shell_integration import shellcode
 
-    # bash and zsh look for the name of the file, wherever it is; fish for a path where it is one.
+    # bash and zsh match a command by its file name, wherever it is; fish needs the path if it was started by path.
     names = [PROGRAM]
     if arguments.shell == "fish" and "/" in program():
         names = [os.path.abspath(program().strip("'"))]
@@ -52,41 +52,41 @@ def run(arguments: argparse.Namespace) -> int:
     return PASSED
 
 
-def is_asked() -> bool:
-    """Whether the shell wants completions."""
-    return ASKED in os.environ
+def is_requested() -> bool:
+    """Whether the shell requests completions."""
+    return REQUEST_VARIABLE in os.environ
 
 
 def answer(build: Callable[..., argparse.ArgumentParser]) -> None:
-    """Give the shell its completions, and end the process. `build` makes the parser of the whole command line."""
+    """Print completions for the shell and exit. `build` makes the parser of the whole command line."""
     import argcomplete
 
     from tutor.cli import ros2
 
-    if (rest := _after_ros2(os.environ.get("COMP_LINE", ""))) is not None:
-        left_out = len(os.environ["COMP_LINE"]) - len(rest)
-        os.environ["COMP_POINT"] = str(int(os.environ["COMP_POINT"]) - left_out)
+    if (rest := _ros2_command_line(os.environ.get("COMP_LINE", ""))) is not None:
+        removed = len(os.environ["COMP_LINE"]) - len(rest)
+        os.environ["COMP_POINT"] = str(int(os.environ["COMP_POINT"]) - removed)
         os.environ["COMP_LINE"] = rest
-        ros2.run(argparse.Namespace(words=[]))  # becomes ros2, which knows its verbs
+        ros2.run(argparse.Namespace(words=[]))  # execs ros2, which completes its own verbs
     parser = build(mixing=False)
     parsers = command_parsers(parser)
-    for name, each in parsers.items():
-        for action in each._actions:
-            if (completer := _completer(name, action, list(parsers))) is not None:
-                action.completer = completer  # type: ignore[attr-defined]  # where argcomplete looks for it
+    for name, subparser in parsers.items():
+        for action in subparser._actions:
+            if (completer := _make_completer(name, action, list(parsers))) is not None:
+                action.completer = completer  # type: ignore[attr-defined]  # the attribute argcomplete reads
     argcomplete.autocomplete(parser, exclude=["-h", "--help", "--version"])
 
 
-def _after_ros2(line: str) -> str | None:
-    """What follows the program's name where that is `ros2 ` and more."""
+def _ros2_command_line(line: str) -> str | None:
+    """Return the line without the program's name if `ros2 ` follows it; else None."""
     rest = line.lstrip().partition(" ")[2].lstrip()
     return rest if rest.startswith("ros2 ") else None
 
 
-def _completer(name: str, action: argparse.Action, commands: list[str]) -> Completer | None:
+def _make_completer(name: str, action: argparse.Action, commands: list[str]) -> Completer | None:
     from argcomplete.completers import DirectoriesCompleter
 
-    def of_course(choose: Callable[[Course, argparse.Namespace], Iterable[str]]) -> Completer:
+    def complete_from_course(choose: Callable[[Course, argparse.Namespace], Iterable[str]]) -> Completer:
         def complete(parsed_args: argparse.Namespace, **_: Any) -> Iterable[str]:
             return choose(context.load_course(parsed_args), parsed_args)
 
@@ -98,20 +98,22 @@ def _completer(name: str, action: argparse.Action, commands: list[str]) -> Compl
             return directories
         case "EXERCISE":
             more = ("all",) if name == "check" else ()
-            return of_course(lambda course, _: [*(lesson.id for lesson in course.lessons), *more])
+            return complete_from_course(lambda course, _: [*(lesson.id for lesson in course.lessons), *more])
         case "ID" if "--criterion" in action.option_strings:
-            return of_course(_criteria)
+            return complete_from_course(_criterion_ids)
         case "ITEM":
-            return of_course(lambda course, _: [item.id for item in course.checklist.items])
+            return complete_from_course(lambda course, _: [item.id for item in course.checklist.items])
         case "FILE" if name == "run":
-            return of_course(lambda course, given: [Path(file.name).stem for file in course.find(given.exercise).files])
+            return complete_from_course(
+                lambda course, given: [Path(file.name).stem for file in course.find(given.exercise).files]
+            )
         case "COMMAND" if name == "help":
             return lambda **_: commands
     return None
 
 
-def _criteria(course: Course, given: argparse.Namespace) -> list[str]:
-    """Those of the exercise that was typed, else all."""
+def _criterion_ids(course: Course, given: argparse.Namespace) -> list[str]:
+    """Return the criteria of the exercise already typed, or else those of all exercises."""
     exercise = getattr(given, "exercise", None)
     lessons = [course.find(exercise)] if exercise and course.knows(exercise) else course.lessons
     return list(dict.fromkeys(criterion.id for lesson in lessons for criterion in lesson.criteria))

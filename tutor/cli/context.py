@@ -18,63 +18,64 @@ if TYPE_CHECKING:
 
 
 def load_course(arguments: argparse.Namespace) -> Course:
-    """The bundled course, and the one that `--lessons` names."""
+    """Load the bundled course, together with the lessons that `--lessons` names."""
     from tutor.content import load_course
 
     extra: Path | None = getattr(arguments, "lessons", None)
     if extra is not None and not (extra / "lessons").is_dir():
-        raise UsageError(f"--lessons {extra}: there is no folder lessons in it")
+        raise UsageError(f"--lessons {extra}: it has no lessons/ folder")
     return load_course(extra)
 
 
 def choose_workspace(arguments: argparse.Namespace) -> Workspace:
-    """The workspace to use, whether it exists or not. Raises UsageError where one is named that can never be one."""
+    """Return the workspace to use, which may not exist yet. Raises UsageError if a named one cannot be created."""
     found = choose_any_workspace(arguments)
     named = getattr(arguments, "workspace", None) is not None or os.environ.get("ROS_TUTOR_WORKSPACE")
-    if named and not found.exists and (why := _cannot_be_made(found.root)):
+    if named and not found.exists and (why := _why_not_creatable(found.root)):
         raise UsageError(f"{found.root} cannot be your workspace: {why}; name another folder with --workspace DIR")
     return found
 
 
 def choose_any_workspace(arguments: argparse.Namespace) -> Workspace:
-    """The workspace as `place` gives it, even where it can never be one."""
+    """Return the workspace that `find_workspace` finds, even if it cannot be created."""
     from tutor.workspace import Workspace, find_workspace
 
     return Workspace(find_workspace(getattr(arguments, "workspace", None)))
 
 
-def _cannot_be_made(root: Path) -> str:
-    """Why no workspace can be made at `root`; empty where it can."""
+def _why_not_creatable(root: Path) -> str:
+    """Return why no workspace can be created at `root`; empty if it can."""
     import tempfile
 
     nearest = next(folder for folder in (root, *root.parents) if os.path.lexists(folder))
     if not nearest.is_dir():
         return "it is a file" if nearest == root else f"{nearest} is a file"
     try:
-        with tempfile.NamedTemporaryFile(dir=nearest, prefix=".ros-tutor-"):  # permissions say nothing about /proc
+        # Try it: permission bits alone are misleading, for example in /proc.
+        with tempfile.NamedTemporaryFile(dir=nearest, prefix=".ros-tutor-"):
             return ""
     except OSError as error:
         return f"nothing can be written to {nearest} ({error.strerror})"
 
 
 def require_workspace(arguments: argparse.Namespace) -> Workspace:
-    """The workspace to use. It may not exist yet, unless it was named: then UsageError says that it is not one."""
+    """Return the workspace to use, which may not exist yet. Raises UsageError if `--workspace` names a missing one."""
     found = choose_workspace(arguments)
     if getattr(arguments, "workspace", None) is not None and not found.exists:
-        make = command("start", "i1.1", "--workspace", found.root)
-        raise UsageError(f"{found.root} is not a workspace; `{make}` makes it one")
+        create = command("start", "i1.1", "--workspace", found.root)
+        raise UsageError(f"{found.root} is not a workspace; `{create}` makes it one")
     return found
 
 
 def read_progress(workspace: Workspace) -> Progress:
-    """The progress in `workspace`; an empty one where there is no workspace."""
+    """Return the progress saved in `workspace`; empty if the workspace does not exist."""
     from tutor.workspace import Progress
 
     return workspace.progress(terminal.say).read() if workspace.exists else Progress()
 
 
 def display_path(path: Path) -> str:
-    """A path as people write it: relative to the current folder or to the home, where that is shorter."""
+    """Return a path as people write it: relative to the current folder or the home directory, if that is shorter."""
     from pathlib import Path
 
     texts = [str(path)]

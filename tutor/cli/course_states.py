@@ -1,4 +1,4 @@
-"""How a learner stands with an exercise, and what is next: for `list` and `next`."""
+"""Which exercise is next, and the command for it: for `list` and `next`."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ if TYPE_CHECKING:
     from tutor.workspace import ExerciseState
 
 
-def next_lesson(lessons: Sequence[Lesson], known: Mapping[str, ExerciseState]) -> Lesson | None:
-    """The first exercise that is not passed; None where all are."""
-    return next((lesson for lesson in lessons if not known[lesson.id].is_passed), None)
+def next_lesson(lessons: Sequence[Lesson], states: Mapping[str, ExerciseState]) -> Lesson | None:
+    """Return the first exercise that is not passed; None if all are. `states` maps exercise ids to states."""
+    return next((lesson for lesson in lessons if not states[lesson.id].is_passed), None)
 
 
-def next_command(lesson: Lesson | None, known: Mapping[str, ExerciseState]) -> str:
-    """What to type for `next_lesson`."""
+def next_command(lesson: Lesson | None, states: Mapping[str, ExerciseState]) -> str:
+    """Return the command to type for `next_lesson`."""
     if lesson is None:
         return command("checklist")
-    return command("start" if not known[lesson.id].is_started else "check", lesson.id)
+    return command("start" if not states[lesson.id].is_started else "check", lesson.id)

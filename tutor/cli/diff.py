@@ -1,4 +1,4 @@
-"""`ros-tutor diff`: the learner's files against the skeleton, or against our solution."""
+"""`ros-tutor diff`: compare the learner's files with the skeleton, or with our solution."""
 
 from __future__ import annotations
 
@@ -20,28 +20,28 @@ _COLORS = (("---", "1"), ("+++", "1"), ("@@", "36"), ("-", "31"), ("+", "32"))
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """EXERCISE [PATH] [--solution]."""
+    """Add `EXERCISE [PATH] [--solution]`."""
     parser.add_argument("exercise", metavar="EXERCISE", help="for example i2.1")
     parser.add_argument("path", metavar="PATH", nargs="?", type=Path, help="a file or folder (or the workspace's own)")
-    parser.add_argument("--solution", action="store_true", help="against our solution instead of the skeleton")
+    parser.add_argument("--solution", action="store_true", help="compare with our solution instead of the skeleton")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Print what was changed in the skeleton; or with --solution, what our solution has in the place of it."""
+    """Print the learner's changes to the skeleton; with --solution, the changes that lead to our solution."""
     from tutor.workspace import find_submission
 
     lesson = context.load_course(arguments).find(arguments.exercise)
     submission = find_submission(lesson, arguments.path, context.require_workspace(arguments))
-    lines = list(_lines(lesson, submission, solution=arguments.solution))
+    lines = list(_diff_lines(lesson, submission, solution=arguments.solution))
     other = "our solution" if arguments.solution else "the skeleton"
     if lines:
-        terminal.out("\n".join(map(_colored, lines)) + "\n")
+        terminal.out("\n".join(map(_colorize, lines)) + "\n")
     else:
         terminal.say(f"nothing differs from {other}")
     return PASSED
 
 
-def _lines(lesson: Lesson, submission: Submission, *, solution: bool) -> Iterator[str]:
+def _diff_lines(lesson: Lesson, submission: Submission, *, solution: bool) -> Iterator[str]:
     from tutor.workspace import read_source
 
     for file in lesson.files:
@@ -49,12 +49,12 @@ def _lines(lesson: Lesson, submission: Submission, *, solution: bool) -> Iterato
         if own is None:
             continue
         ours = file.solution if solution else file.skeleton
-        mine = (context.display_path(own), (read_source(own) or "").splitlines())
-        given = (f"{ours.parent.name}/{file.name}", ours.read_text(encoding="utf-8").splitlines())
-        (before, old), (after, new) = (mine, given) if solution else (given, mine)
+        theirs = (context.display_path(own), (read_source(own) or "").splitlines())
+        reference = (f"{ours.parent.name}/{file.name}", ours.read_text(encoding="utf-8").splitlines())
+        (before, old), (after, new) = (theirs, reference) if solution else (reference, theirs)
         yield from unified_diff(old, new, before, after, lineterm="")
 
 
-def _colored(line: str) -> str:
+def _colorize(line: str) -> str:
     color = next((color for start, color in _COLORS if line.startswith(start)), "")
     return terminal.style(line, color, sys.stdout)

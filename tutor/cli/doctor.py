@@ -1,4 +1,4 @@
-"""`ros-tutor doctor`: what ROS is used, and what is wrong with the machine."""
+"""`ros-tutor doctor`: which ROS is used, and what is wrong with the machine."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ _MARKS = {True: ("✓", "ok", "32"), None: ("!", "warning", "33"), False: ("✗"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """It takes none of its own."""
+    """Add nothing: `doctor` takes no arguments."""
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Print one finding to a line, each with its hint; exit code 3 where something is wrong."""
+    """Print one line per finding, followed by its hint; return exit code 3 if something is wrong."""
     from tutor.doctor import examine
 
     findings = examine(context.choose_any_workspace(arguments).root)

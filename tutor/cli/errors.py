@@ -1,4 +1,4 @@
-"""Exit codes, and what is said of an error that ends a command."""
+"""Exit codes, and the message for an error that ends a command."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ INTERRUPTED = 130
 
 
 def exit_code(error: Exception) -> int:
-    """The exit code for an error that ends a command."""
+    """Return the exit code for an error that ends a command."""
     return error.exit_code if isinstance(error, TutorError) else FAULT
 
 
 def describe(error: Exception) -> str:
-    """What to say about it, in one line."""
+    """Return a one-line message about the error."""
     text = " ".join(str(error).split())
     if isinstance(error, TutorError):
         course = "the course is broken: " if isinstance(error, ContentError) else ""

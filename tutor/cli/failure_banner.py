@@ -1,4 +1,4 @@
-"""The first failure of a check that goes on, above everything else on the terminal: its cause, and the next step."""
+"""The banner with the first failure of a running check, above everything else: its cause and the next step."""
 
 from __future__ import annotations
 
@@ -15,16 +15,19 @@ _RED = STYLES[Status.FAILED]
 _MARGIN = "┃ "
 
 
-def first_failure(name: str, result: CriterionResult, console: Console, most: int) -> list[Text]:
-    """The banner in at most this many rows of one line; `name` is the criterion's, with its exercise where needed."""
+def render_banner(name: str, result: CriterionResult, console: Console, max_rows: int) -> list[Text]:
+    """Return the banner as at most `max_rows` one-line texts, plus an empty one.
+
+    `name` is the criterion's id, preceded by its exercise's if several exercises are checked.
+    """
     verdict = result.verdict
     head = Text(f"{MARKS[verdict.status]} {name} failed after {seconds(result.duration_s)}", f"bold {_RED}")
-    said = [Text(one_line(verdict.cause or verdict.observed, 1000), "bold")]
+    body = [Text(one_line(verdict.cause or verdict.observed, 1000), "bold")]
     if verdict.hint:
-        said.append(Text.assemble(("next step: ", "dim"), printable(verdict.hint).strip()))
+        body.append(Text.assemble(("next step: ", "dim"), printable(verdict.hint).strip()))
     rows = [head]
-    for text in said:
+    for text in body:
         rows += text.wrap(console, max(20, console.width - len(_MARGIN) - 1))
-    if len(rows) > most:
-        rows = [*rows[: max(1, most - 1)], Text("...", "dim")]
+    if len(rows) > max_rows:
+        rows = [*rows[: max(1, max_rows - 1)], Text("...", "dim")]
     return [*(Text.assemble((_MARGIN, _RED), row) for row in rows), Text()]

@@ -1,4 +1,4 @@
-"""`ros-tutor help`: what there is, or what one command takes."""
+"""`ros-tutor help`: the help for all commands, or for one."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from tutor.errors import UsageError
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """[COMMAND]."""
+    """Add `[COMMAND]`."""
     parser.add_argument("topic", metavar="COMMAND", nargs="?", help="for example check (else all commands)")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Print what `--help` prints there."""
+    """Print what `--help` prints for the command, or for `ros-tutor` itself."""
     parser: argparse.ArgumentParser = arguments.parser
     if arguments.topic is not None:
         known = command_parsers(parser)

@@ -1,4 +1,4 @@
-"""Runs the engine for `ros-tutor check`: shows what it does, and stops it cleanly on Ctrl+C."""
+"""Runs the engine for `ros-tutor check`, shows its progress, and stops it cleanly on Ctrl+C."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
 class Engine(Protocol):
-    """`tutor.engine.check`."""
+    """The signature of `tutor.engine.run_check`."""
 
     def __call__(
         self,
@@ -34,41 +34,41 @@ class Engine(Protocol):
 
 
 class Display(Protocol):
-    """What is shown while the engine works."""
+    """Shows progress while the engine works."""
 
     def show(self, event: Event) -> None:
-        """Take in one event."""
+        """Process one event."""
 
     def stopping(self) -> None:
-        """The learner asked to stop; say that it takes a moment."""
+        """Tell the learner, who pressed Ctrl+C, that stopping takes a moment."""
 
     def close(self) -> None:
-        """Leave the terminal tidy."""
+        """Restore the terminal."""
 
 
 class NoDisplay:
-    """A display for streams that nobody watches."""
+    """A display for streams that are not a terminal."""
 
     def show(self, event: Event) -> None:
         """Show nothing."""
 
     def stopping(self) -> None:
-        """Say it in a line."""
-        terminal.say("stopping what was started")
+        """Print one line."""
+        terminal.say("stopping everything that was started")
 
     def close(self) -> None:
-        """There is nothing to tidy."""
+        """Do nothing."""
 
 
 def judge(
     engine: Engine, submissions: Sequence[Submission], course: Course, only: frozenset[str] | None, display: Display
 ) -> Report | None:
-    """Run the engine to its end; None where it was interrupted and has cleaned up."""
+    """Run the engine to completion; return None if it was interrupted, after it has cleaned up."""
     return interruptible(lambda: engine(submissions, course, only=only, on_event=display.show), display)
 
 
 def interruptible[T](work: Callable[[], Coroutine[None, None, T]], display: Display) -> T | None:
-    """Run `work` to its end; None where it was interrupted and has cleaned up. The display is closed in any case."""
+    """Run `work` to completion; return None if it was interrupted, after its cleanup. Always closes the display."""
     try:
         return asyncio.run(_until_stopped(work, display))
     finally:
@@ -81,29 +81,29 @@ async def _until_stopped[T](work: Callable[[], Coroutine[None, None, T]], displa
 
     def stop() -> None:
         nonlocal interrupted
-        if not interrupted:  # an impatient second Ctrl+C must not break off the clean-up
+        if not interrupted:  # an impatient second Ctrl+C must not abort the cleanup
             interrupted = True
             display.stopping()
             task.cancel()
 
     loop = asyncio.get_running_loop()
-    for number in _STOP_SIGNALS:
-        loop.add_signal_handler(number, stop)
+    for signum in _STOP_SIGNALS:
+        loop.add_signal_handler(signum, stop)
     try:
         return await task
     except asyncio.CancelledError:
         if not interrupted:
-            raise RuntimeError("the check was cancelled, and nobody asked for it") from None
+            raise RuntimeError("the check was cancelled without a stop signal") from None
         return None
     finally:
-        for number in _STOP_SIGNALS:
-            loop.remove_signal_handler(number)
+        for signum in _STOP_SIGNALS:
+            loop.remove_signal_handler(signum)
 
 
 def display_for(course: Course, *, report_follows: bool) -> Display:
-    """A live display where stderr is a terminal. `report_follows`: it makes room for the report at the end."""
+    """Return a live display if stderr is a terminal. With `report_follows`, it erases itself before the report."""
     if not terminal.can_animate(sys.stderr):
         return NoDisplay()
-    from tutor.cli.progress_display import ProgressDisplay  # rich: a tenth of a second
+    from tutor.cli.progress_display import ProgressDisplay  # imported late: importing rich takes 0.1 s
 
     return ProgressDisplay(course, vanishing=report_follows)

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from tutor.content import Course, Lesson
     from tutor.workspace import ExerciseProgress, ExerciseState, Progress, Workspace
 
-_WORDS = {
+_STATE_LABELS = {
     "passed": ("✓ passed        ", "32"),
     "not_passed": ("✗ not passed yet", "31"),
     "started": ("· started       ", "33"),
@@ -25,12 +25,12 @@ _WORDS = {
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """[--format text|json]."""
+    """Add `[--format text|json]`."""
     parser.add_argument("--format", choices=("text", "json"), default="text", help="text (default) or json")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Print one line for each exercise, what to do next, and the workspace's ROS domain; or all of it as JSON."""
+    """Print one line per exercise, what to do next, and the workspace's ROS domain; or all of it as JSON."""
     course = context.load_course(arguments)
     workspace = context.require_workspace(arguments)
     progress = context.read_progress(workspace)
@@ -39,7 +39,7 @@ def run(arguments: argparse.Namespace) -> int:
 
         terminal.out(render(course, progress, workspace))
         return PASSED
-    terminal.out(_text(course, progress, workspace))
+    terminal.out(_render_text(course, progress, workspace))
     if not workspace.exists:
         terminal.say(
             f"there is no workspace yet; `{command('start', course.lessons[0].id)}` makes one at {workspace.root}"
@@ -47,36 +47,36 @@ def run(arguments: argparse.Namespace) -> int:
     return PASSED
 
 
-def _text(course: Course, progress: Progress, workspace: Workspace) -> str:
+def _render_text(course: Course, progress: Progress, workspace: Workspace) -> str:
     from tutor.workspace import domain_of, states_of
 
-    known = states_of(course.lessons, progress, workspace)
+    states = states_of(course.lessons, progress, workspace)
     width = max((len(lesson.title) for lesson in course.lessons), default=0)
-    lines = [_line(lesson, progress.of(lesson.id), known[lesson.id], width) for lesson in course.lessons]
-    passed = sum(exercise_state.is_passed for exercise_state in known.values())
-    following = next_lesson(course.lessons, known)
-    word = "Next" if following is not None else "You have done them all"
-    lines += ["", f"{passed} of {len(lines)} passed. {word}: {next_command(following, known)}"]
+    lines = [_render_line(lesson, progress.of(lesson.id), states[lesson.id], width) for lesson in course.lessons]
+    passed = sum(exercise_state.is_passed for exercise_state in states.values())
+    following = next_lesson(course.lessons, states)
+    lead = "Next" if following is not None else "You have done them all"
+    lines += ["", f"{passed} of {len(lines)} passed. {lead}: {next_command(following, states)}"]
     if workspace.exists:
         lines += [f"Your nodes run in ROS domain {domain_of(workspace)}."]
     return "\n".join(lines) + "\n"
 
 
-def _line(lesson: Lesson, progress: ExerciseProgress, exercise_state: ExerciseState, width: int) -> str:
-    state = terminal.style(*_WORDS[exercise_state.state.value], sys.stdout)
+def _render_line(lesson: Lesson, progress: ExerciseProgress, exercise_state: ExerciseState, width: int) -> str:
+    state = terminal.style(*_STATE_LABELS[exercise_state.state.value], sys.stdout)
     name = f"{lesson.id:6} {lesson.title:{width}}  {lesson.difficulty.value:9}"
-    return f"{name}  {state}  {_last(progress, exercise_state)}".rstrip()
+    return f"{name}  {state}  {_describe_last_attempt(progress, exercise_state)}".rstrip()
 
 
-def _last(progress: ExerciseProgress, exercise_state: ExerciseState) -> str:
+def _describe_last_attempt(progress: ExerciseProgress, exercise_state: ExerciseState) -> str:
     last = progress.last
     if last is None:
         return ""
     count = "" if exercise_state.is_passed else f"{exercise_state.count} met, "
-    return f"{count}last check {last.verdict.value} ({_day(last.at)})"
+    return f"{count}last check {last.verdict.value} ({_format_local_time(last.at)})"
 
 
-def _day(at: str) -> str:
+def _format_local_time(at: str) -> str:
     try:
         return f"{datetime.fromisoformat(at).astimezone():%Y-%m-%d %H:%M}"
     except ValueError:

@@ -1,4 +1,4 @@
-"""`ros-tutor list --format json`: one document of the schema `ros-tutor/list/1`, which docs/formats.md describes."""
+"""`ros-tutor list --format json`: a document of the schema `ros-tutor/list/1`, described in docs/formats.md."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ SCHEMA = "ros-tutor/list/1"
 
 
 def render(course: Course, progress: Progress, workspace: Workspace) -> str:
-    """The document, with a line's end."""
+    """Return the document as JSON text with a final newline."""
     from tutor.workspace import domain_of, states_of
 
-    known = states_of(course.lessons, progress, workspace)
-    following = next_lesson(course.lessons, known)
+    states = states_of(course.lessons, progress, workspace)
+    following = next_lesson(course.lessons, states)
     document = {
         "schema": SCHEMA,
         "workspace": {
@@ -27,10 +27,10 @@ def render(course: Course, progress: Progress, workspace: Workspace) -> str:
             "exists": workspace.exists,
             "ros_domain_id": domain_of(workspace) if workspace.exists else None,
         },
-        "passed": sum(exercise_state.is_passed for exercise_state in known.values()),
-        "next": {"exercise": None if following is None else following.id, "command": next_command(following, known)},
+        "passed": sum(exercise_state.is_passed for exercise_state in states.values()),
+        "next": {"exercise": None if following is None else following.id, "command": next_command(following, states)},
         "exercises": [
-            _exercise(lesson, progress.of(lesson.id), known[lesson.id], workspace) for lesson in course.lessons
+            _exercise(lesson, progress.of(lesson.id), states[lesson.id], workspace) for lesson in course.lessons
         ],
     }
     return json.dumps(document, ensure_ascii=False, indent=2) + "\n"

@@ -17,31 +17,31 @@ if TYPE_CHECKING:
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """It takes none of its own."""
+    """Add nothing: `next` takes no arguments."""
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Print the exercise, how far the learner is, and the next command."""
+    """Print the exercise, the learner's progress on it, and the next command."""
     from tutor.workspace import states_of
 
     course = context.load_course(arguments)
     workspace = context.require_workspace(arguments)
     progress = context.read_progress(workspace)
-    known = states_of(course.lessons, progress, workspace)
-    lesson = next_lesson(course.lessons, known)
+    states = states_of(course.lessons, progress, workspace)
+    lesson = next_lesson(course.lessons, states)
     if lesson is None:
-        terminal.out(f"You have passed all {len(known)} exercises.\nNext: {next_command(None, known)}\n")
+        terminal.out(f"You have passed all {len(states)} exercises.\nNext: {next_command(None, states)}\n")
         return PASSED
     heading = f"{lesson.id} {lesson.title} ({lesson.difficulty.value})"
     lines = [terminal.style(heading, "1", sys.stdout), lesson.objective.strip(), ""]
-    if known[lesson.id].is_started:
-        lines += _so_far(lesson, known[lesson.id], workspace)
-    lines += [f"Next: {next_command(lesson, known)}"]
+    if states[lesson.id].is_started:
+        lines += _progress_lines(lesson, states[lesson.id], workspace)
+    lines += [f"Next: {next_command(lesson, states)}"]
     terminal.out(terminal.wrap("\n".join(lines), terminal.width(sys.stdout)))
     return PASSED
 
 
-def _so_far(lesson: Lesson, exercise_state: ExerciseState, workspace: Workspace) -> list[str]:
+def _progress_lines(lesson: Lesson, exercise_state: ExerciseState, workspace: Workspace) -> list[str]:
     lines = [f"  to edit   {context.display_path(workspace.path_of(file.name))}" for file in lesson.files]
     if exercise_state.is_attempted:
         lines += [f"  not yet   {', '.join(exercise_state.missed)}"] if exercise_state.missed else []

@@ -1,4 +1,4 @@
-"""All commands and their arguments."""
+"""The parser of the whole command line: all commands and their arguments."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ from tutor.cli import (
 from tutor.cli.grammar import CommandParser, Parser, read
 from tutor.invocation import program
 
-Run = Callable[[argparse.Namespace], int]
+RunCommand = Callable[[argparse.Namespace], int]
 
 
 _EPILOG = """\
@@ -41,18 +41,18 @@ exit codes: 0 passed, 1 not everything passed, 2 wrong usage, 3 a fault of the t
 
 
 def parse(argv: Sequence[str] | None) -> argparse.Namespace:
-    """Read the command line. `command` is None where there is none. Raises UsageError."""
+    """Read the command line; `command` is None if none was given. Raises UsageError."""
     return read(build(), argv)
 
 
 def build(*, mixing: bool = True) -> argparse.ArgumentParser:
-    """The parser of the whole command line. `mixing`: options may stand between a command's other arguments."""
-    everywhere = _global_options()
+    """Build the parser of the whole command line. `mixing`: allow options between a command's positional arguments."""
+    global_options = _global_options()
     parser = Parser(
         prog=program(),
         description="Hands-on ROS 2 exercises, judged by what your node really does.",
         epilog=_EPILOG,
-        parents=[everywhere],
+        parents=[global_options],
     )
     parser.set_defaults(command=None, parser=parser)
     parser.add_argument(
@@ -62,8 +62,8 @@ def build(*, mixing: bool = True) -> argparse.ArgumentParser:
         title="commands", metavar="COMMAND", parser_class=CommandParser if mixing else Parser
     )
 
-    def add(name: str, run: Run, arguments: Callable[[argparse.ArgumentParser], None], help: str) -> None:
-        command = commands.add_parser(name, help=help, description=_sentence(help), parents=[everywhere])
+    def add(name: str, run: RunCommand, arguments: Callable[[argparse.ArgumentParser], None], help: str) -> None:
+        command = commands.add_parser(name, help=help, description=_as_sentence(help), parents=[global_options])
         arguments(command)
         command.set_defaults(command=name, run=run)
 
@@ -80,16 +80,19 @@ def build(*, mixing: bool = True) -> argparse.ArgumentParser:
     add("checklist", checklist.run, checklist.add_arguments, "show, tick or export the self-assessment checklist")
     add("serve", serve.run, serve.add_arguments, "open the app in a browser, on this machine only")
     add("shell", shell.run, shell.add_arguments, "a shell in which ros2 works and your workspace is sourced")
-    add("ros2", ros2.run, ros2.add_arguments, "the ros2 command, also without an installed ROS 2")
-    add("completion", completion.run, completion.add_arguments, "print what makes Tab complete in bash, zsh or fish")
-    add("doctor", doctor.run, doctor.add_arguments, "say what ROS is used, and what is wrong with the machine")
-    add("help", help_command.run, help_command.add_arguments, "show what a command takes, or all commands")
-    add("author", author.run, author.add_arguments, "prove a course right, for those who write one")
+    add("ros2", ros2.run, ros2.add_arguments, "the ros2 command, even without ROS 2 installed")
+    add("completion", completion.run, completion.add_arguments, "print the Tab completion script for bash, zsh or fish")
+    add("doctor", doctor.run, doctor.add_arguments, "say which ROS is used, and what is wrong with the machine")
+    add("help", help_command.run, help_command.add_arguments, "show the help for a command, or all commands")
+    add("author", author.run, author.add_arguments, "verify a course, for course authors")
     return parser
 
 
 def _global_options() -> CommandParser:
-    """Options that are good before and after the command. Suppressed defaults: the second must not undo the first."""
+    """Return the options allowed both before and after the command.
+
+    Their defaults are suppressed: otherwise the command's parser would overwrite a value given before the command.
+    """
     parser = CommandParser(add_help=False, argument_default=argparse.SUPPRESS)
     options = parser.add_argument_group("options for every command")
     options.add_argument(
@@ -103,5 +106,5 @@ def _global_options() -> CommandParser:
     return parser
 
 
-def _sentence(text: str) -> str:
+def _as_sentence(text: str) -> str:
     return f"{text[0].upper()}{text[1:]}."

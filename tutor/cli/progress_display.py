@@ -1,7 +1,7 @@
-"""What `ros-tutor check` shows on a terminal while it works: a line for each criterion.
+"""The live display of `ros-tutor check` on a terminal: one line per criterion.
 
-Where that is more than the terminal has rows: a line for each exercise with a small bar for each criterion, and below
-them as many of those under way as there is room for.
+If the terminal has too few rows for that: one line per exercise with a tiny bar per criterion, and below them as many
+of the criteria in progress as fit.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from rich.table import Table
 from rich.text import Text
 
 from tutor.cli import terminal
-from tutor.cli.failure_banner import first_failure
+from tutor.cli.failure_banner import render_banner
 from tutor.content import Course
 from tutor.judge.events import CheckStarted, CriterionJudged, Event, Progress
 from tutor.judge.result import CriterionResult
@@ -26,17 +26,17 @@ from tutor.report.plain import MARKS, describe_waiting, seconds
 from tutor.report.text import STYLES
 from tutor.terminal_text import printable
 
-_PER_SECOND = 10
-_WAITED = 22
-_COLUMNS = 1 + _WAITED + 3 * 2
-"""Of a line, what all but the criterion's name and the words at its end take."""
+_REFRESH_HZ = 10
+_BAR_COLUMN_WIDTH = 22
+_FIXED_WIDTH = 1 + _BAR_COLUMN_WIDTH + 3 * 2
+"""Width of a line without the criterion's name and the text at its end: the mark, the bar and three gaps."""
 
 _EIGHTHS = "▁▂▃▄▅▆▇█"
 
 
 @dataclass(slots=True)
 class _Line:
-    """One criterion, so far."""
+    """The state of one criterion."""
 
     fraction: float = 0.0
     doing: str = ""
@@ -45,9 +45,9 @@ class _Line:
 
 
 class ProgressDisplay:
-    """Draws on stderr from the first event on, several times a second, until `close`.
+    """Draws on stderr, several times a second, from the first event until `close`.
 
-    `vanishing`: wipe it at the end, because the report follows on the same terminal.
+    `vanishing`: erase the display at the end, because the report follows on the same terminal.
     """
 
     def __init__(self, course: Course, *, vanishing: bool) -> None:
@@ -62,14 +62,14 @@ class ProgressDisplay:
         self._live = Live(
             console=self._console,
             get_renderable=self._draw,
-            refresh_per_second=_PER_SECOND,
+            refresh_per_second=_REFRESH_HZ,
             transient=vanishing,
-            redirect_stdout=False,  # stdout is the report, and may well go elsewhere
+            redirect_stdout=False,  # stdout carries the report and may go elsewhere
             redirect_stderr=False,
         )
 
     def show(self, event: Event) -> None:
-        """Take in one event. The first one starts the drawing: until then, the engine may restart this process."""
+        """Process one event. The first one starts the drawing: until then, the engine may restart this process."""
         if isinstance(event, CheckStarted):
             self._lines[event.exercise] = {criterion: _Line() for criterion in event.criteria}
             if not self._live.is_started:
@@ -89,7 +89,7 @@ class ProgressDisplay:
                 self._failure = event.exercise, event.result
 
     def stopping(self) -> None:
-        """Say at the bottom that the end takes a moment."""
+        """Say at the bottom that stopping takes a moment."""
         self._stopping = True
 
     def close(self) -> None:
@@ -101,23 +101,23 @@ class ProgressDisplay:
         exercises = list(self._lines)  # a copy: another thread draws while events come in
         needed = sum(len(self._lines[exercise]) + 2 for exercise in exercises)
         rows = self._console.height - 2
-        failure = self._first_failure(rows // 2 - 1, several=len(exercises) > 1)
-        rows -= len(failure)
+        banner = self._render_banner(rows // 2 - 1, several=len(exercises) > 1)
+        rows -= len(banner)
         parts: list[RenderableType]
         if len(exercises) > 1 and needed > rows:
-            parts = [self._summaries(exercises), *self._under_way(exercises, rows - len(exercises) - 1)]
+            parts = [self._summaries(exercises), *self._in_progress(exercises, rows - len(exercises) - 1)]
         else:
             parts = [self._exercise(exercise) for exercise in exercises]
         if self._stopping:
-            parts.append(Text("Stopping what was started ...", "yellow"))
-        return Group(*failure, *parts)
+            parts.append(Text("Stopping everything that was started ...", "yellow"))
+        return Group(*banner, *parts)
 
-    def _first_failure(self, most: int, *, several: bool) -> list[Text]:
+    def _render_banner(self, max_rows: int, *, several: bool) -> list[Text]:
         if self._failure is None:
             return []
         exercise, result = self._failure
         name = f"{exercise} {result.id}" if several else result.id
-        return first_failure(name, result, self._console, most)
+        return render_banner(name, result, self._console, max_rows)
 
     def _exercise(self, exercise: str) -> RenderableType:
         lines = self._lines[exercise]
@@ -130,21 +130,21 @@ class ProgressDisplay:
 
     def _row(self, criterion: str, line: _Line, width: int) -> tuple[RenderableType, ...]:
         if line.result is None:
-            said = describe_waiting(line.doing, line.so_far, self._console.width - width - _COLUMNS)
+            text = describe_waiting(line.doing, line.so_far, self._console.width - width - _FIXED_WIDTH)
             bar = ProgressBar(total=1.0, completed=line.fraction, width=20, complete_style="cyan")
-            return self._spinner, Text(criterion), bar, Text(printable(said), "dim")
+            return self._spinner, Text(criterion), bar, Text(printable(text), "dim")
         verdict = line.result.verdict
         style = STYLES[verdict.status]
-        said = "" if verdict.passed else (verdict.cause or verdict.observed)
+        text = "" if verdict.passed else (verdict.cause or verdict.observed)
         return (
             Text(MARKS[verdict.status], style),
             Text(criterion),
             Text(f"{verdict.status.value} after {seconds(line.result.duration_s)}", style),
-            Text(" ".join(printable(said).split()), "dim"),
+            Text(" ".join(printable(text).split()), "dim"),
         )
 
     def _summaries(self, exercises: list[str]) -> RenderableType:
-        """One line for each exercise."""
+        """Return one line per exercise."""
         grid = Table.grid(padding=(0, 2, 0, 0))
         grid.add_column(width=1)
         for _ in range(3):
@@ -160,27 +160,27 @@ class ProgressDisplay:
             grid.add_row(mark, Text(exercise), bars, Text(f"{passed} of {len(lines)} passed"), title)
         return grid
 
-    def _under_way(self, exercises: list[str], rows: int) -> list[RenderableType]:
-        """A line with a bar for criteria that are not judged yet, in this many rows."""
-        under_way = [
+    def _in_progress(self, exercises: list[str], rows: int) -> list[RenderableType]:
+        """Return a line with a bar for each criterion in progress, as many as fit into `rows`."""
+        in_progress = [
             (line, exercise, criterion)
             for exercise in exercises
             for criterion, line in list(self._lines[exercise].items())
             if line.result is None and (line.doing or line.so_far)
         ]
-        names = [f"{exercise} {criterion}" for _, exercise, criterion in under_way[: max(rows, 0)]]
+        names = [f"{exercise} {criterion}" for _, exercise, criterion in in_progress[: max(rows, 0)]]
         if not names:
             return []
         width = max(map(len, names))
         grid = _grid(width)
-        for name, (line, _, criterion) in zip(names, under_way, strict=False):
+        for name, (line, _, criterion) in zip(names, in_progress, strict=False):
             spinner, _, *rest = self._row(criterion, line, width)
             grid.add_row(spinner, Text(name), *rest)
         return ["", grid]
 
 
 def _small_bar(line: _Line) -> Text:
-    """One criterion in one column: how far it is, or how it ended."""
+    """Return one character for a criterion: its progress, or its verdict."""
     if line.result is None:
         return Text(_EIGHTHS[min(int(line.fraction * len(_EIGHTHS)), len(_EIGHTHS) - 1)], "cyan")
     status = line.result.verdict.status
@@ -191,6 +191,6 @@ def _grid(width: int) -> Table:
     grid = Table.grid(padding=(0, 2, 0, 0), expand=True)
     grid.add_column(width=1)
     grid.add_column(width=width, no_wrap=True)
-    grid.add_column(width=_WAITED, no_wrap=True)
+    grid.add_column(width=_BAR_COLUMN_WIDTH, no_wrap=True)
     grid.add_column(ratio=1, no_wrap=True, overflow="ellipsis")
     return grid

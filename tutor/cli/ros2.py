@@ -1,4 +1,4 @@
-"""`ros-tutor ros2`: the `ros2` command, also where no ROS 2 is installed."""
+"""`ros-tutor ros2`: the `ros2` command, even where no ROS 2 is installed."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from tutor.errors import UsageError
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """VERB [ARGUMENT ...]."""
+    """Add `COMMAND ...`."""
     parser.add_argument(
         "words",
         metavar="COMMAND ...",
@@ -22,7 +22,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Become `ros2`, in the user's own ROS domain; comes back only where that cannot be."""
+    """Exec `ros2` in the user's own ROS domain; does not return. Raises UsageError if it cannot be started."""
     from tutor import interpreter, private_folders
     from tutor.bundled_ros.ros2.starting import ros2_command
     from tutor.errors import CommandError

@@ -1,4 +1,4 @@
-"""`ros-tutor run`: the learner's node in the foreground, in the workspace's ROS domain."""
+"""`ros-tutor run`: run the learner's node in the foreground, in the workspace's ROS domain."""
 
 from __future__ import annotations
 
@@ -16,29 +16,29 @@ if TYPE_CHECKING:
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """EXERCISE [FILE] [-- ARGUMENT...]."""
+    """Add `EXERCISE [FILE] [-- ARGUMENT...]`."""
     parser.usage = "%(prog)s EXERCISE [FILE] [options] [-- ARGUMENT ...]"
     parser.add_argument("exercise", metavar="EXERCISE", help="for example i2.1; ends with Ctrl+C")
-    parser.add_argument("file", metavar="FILE", nargs="?", help="which of its files (or the first one)")
+    parser.add_argument("file", metavar="FILE", nargs="?", help="which of its files (default: the first one)")
     parser.epilog = (
-        "What follows -- is the node's own: -- --ros-args -p publish_rate:=2.0 (for a launch file: -- topic:=/x)"
+        "Arguments after -- go to the node: -- --ros-args -p publish_rate:=2.0 (for a launch file: -- topic:=/x)"
     )
     parser.set_defaults(rest=[])
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Become the node; comes back only where that cannot be."""
+    """Exec the node; does not return. Raises UsageError if it cannot be started."""
     from tutor.errors import CommandError
     from tutor.session import Session
     from tutor.workspace import RunOptions
 
     course = context.load_course(arguments)
     lesson = course.find(arguments.exercise)
-    file = _file(lesson, arguments.file)
+    file = _choose_file(lesson, arguments.file)
     session = Session(course, context.require_workspace(arguments))
     path = session.path(file)
     if not path.is_file():
-        raise UsageError(f"{path} is not there; `{command('start', lesson.id)}` puts the skeleton there")
+        raise UsageError(f"{path} does not exist; `{command('start', lesson.id)}` puts the skeleton there")
     try:
         node = session.node_command(file, RunOptions())
     except CommandError as error:
@@ -49,11 +49,11 @@ def run(arguments: argparse.Namespace) -> int:
     os.execve(node.argv[0], [*node.argv, *arguments.rest], node.env)
 
 
-def _file(lesson: Lesson, name: str | None) -> LessonFile:
+def _choose_file(lesson: Lesson, name: str | None) -> LessonFile:
     names = {alias: file for file in lesson.files for alias in (file.name, file.name.removesuffix(".py"))}
     if name is None:
         return lesson.files[0]
     if name not in names:
         known = " and ".join(file.name for file in lesson.files)
-        raise UsageError(f"{lesson.id} has no file {name!r}; it has {known}. What is the node's own follows --")
+        raise UsageError(f"{lesson.id} has no file {name!r}; it has {known}. Put the node's own arguments after --")
     return names[name]

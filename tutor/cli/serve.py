@@ -11,15 +11,17 @@ from tutor.cli.errors import INTERRUPTED
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """[--port N] [--host ADDRESS]."""
-    parser.add_argument("--port", metavar="N", type=_port, help="the port (8000, or a free one where that is taken)")
+    """Add `[--port N] [--host ADDRESS]`."""
     parser.add_argument(
-        "--host", metavar="ADDRESS", default="127.0.0.1", help="where to listen (127.0.0.1: this machine only)"
+        "--port", metavar="N", type=_parse_port, help="the port (default: 8000, or a free one if that is taken)"
+    )
+    parser.add_argument(
+        "--host", metavar="ADDRESS", default="127.0.0.1", help="where to listen (default: 127.0.0.1, this machine only)"
     )
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Serve until Ctrl+C; each page that is open has an app of its own."""
+    """Serve until Ctrl+C; each open page gets its own app."""
     import asyncio
 
     from tutor.errors import ServeError
@@ -48,7 +50,7 @@ def run(arguments: argparse.Namespace) -> int:
         terminal.say("Ctrl+C ends it")
 
     def stopping() -> None:
-        terminal.say("ending the app, and what was started in it")
+        terminal.say("ending the app and everything that was started in it")
 
     with listener:
         asyncio.run(AppServer(argv, listener, token).run(ready, stopping))
@@ -58,7 +60,7 @@ def run(arguments: argparse.Namespace) -> int:
 _INSTALL = "install textual-serve (in a clone: ./.ci/uv sync)"
 
 
-def _port(text: str) -> int:
+def _parse_port(text: str) -> int:
     if text.isdecimal() and int(text) <= 65535:
         return int(text)
     raise argparse.ArgumentTypeError(f"{text!r} is not a port: a number from 0 (any that is free) to 65535")

@@ -1,4 +1,4 @@
-"""`ros-tutor shell`: a terminal in which ROS 2 and the workspace are sourced, and the domain is the app's."""
+"""`ros-tutor shell`: a shell with ROS 2 and the workspace sourced, in the same ROS domain as the app."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from tutor.errors import UsageError
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """[-c COMMAND]."""
-    parser.add_argument("-c", dest="line", metavar="COMMAND", help="run this command line in it, and end")
+    """Add `[-c COMMAND]`."""
+    parser.add_argument("-c", dest="line", metavar="COMMAND", help="run this command line in it, then exit")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Run the user's shell, or one command line in it; gives its exit code."""
+    """Run the user's shell, or one command line in it, and return its exit code."""
     from tutor import private_folders
     from tutor.bundled_ros.ros2 import sourced
     from tutor.bundled_ros.ros2.terminal import interactive, users_shell
@@ -58,17 +58,17 @@ def _run(command: list[str], env: dict[str, str]) -> int:
 
     sys.stdout.flush()
 
-    def as_from_a_terminal() -> None:
-        for each in (signal.SIGINT, signal.SIGHUP):  # nohup ignores the latter, and it would be inherited
-            signal.signal(each, signal.SIG_DFL)
+    def behave_as_in_a_terminal() -> None:
+        for signum in (signal.SIGINT, signal.SIGHUP):  # the child would inherit ignored signals; nohup ignores SIGHUP
+            signal.signal(signum, signal.SIG_DFL)
         prctl.die_with_parent(signal.SIGHUP)  # as when its terminal is closed
 
-    # Ctrl+C is the shell's; we are only there to tidy up after it.
+    # Ctrl+C is for the shell; this process only cleans up after it.
     before = signal.signal(signal.SIGINT, signal.SIG_IGN)
     try:
-        shell = subprocess.Popen(command, env=env, preexec_fn=as_from_a_terminal)
-        for each in (signal.SIGTERM, signal.SIGHUP):
-            signal.signal(each, lambda number, _: shell.send_signal(number))
+        shell = subprocess.Popen(command, env=env, preexec_fn=behave_as_in_a_terminal)
+        for signum in (signal.SIGTERM, signal.SIGHUP):
+            signal.signal(signum, lambda received, _: shell.send_signal(received))
         code = shell.wait()
     except OSError as error:
         raise UsageError(f"{command[0]} cannot be started: {error.strerror}") from error

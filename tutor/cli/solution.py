@@ -1,4 +1,4 @@
-"""`ros-tutor solution`: our own answer."""
+"""`ros-tutor solution`: print our solution."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ from tutor.cli.errors import PASSED
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """EXERCISE."""
+    """Add `EXERCISE`."""
     parser.add_argument("exercise", metavar="EXERCISE", help="for example i2.1")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Print the files; where there are several, each below a comment with its name."""
+    """Print the files; if there are several, each below a comment with its name."""
     lesson = context.load_course(arguments).find(arguments.exercise)
     texts = []
     for file in lesson.files:

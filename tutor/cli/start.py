@@ -12,13 +12,13 @@ from tutor.invocation import command
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """EXERCISE [DIR] [--force]."""
+    """Add `EXERCISE [DIR] [--force]`."""
     parser.add_argument("exercise", metavar="EXERCISE", help="for example i1.1")
     parser.add_argument(
         "folder", metavar="DIR", nargs="?", help="put just the files there, instead of into the workspace"
     )
     parser.add_argument(
-        "--force", action="store_true", help="replace files that are there; each is kept beside, as name.~1~"
+        "--force", action="store_true", help="replace existing files; each is kept beside the new one, as name.~1~"
     )
 
 

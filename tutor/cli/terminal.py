@@ -1,4 +1,4 @@
-"""The two streams: reports on stdout, everything else on stderr."""
+"""Terminal output: reports on stdout, everything else on stderr."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from typing import TextIO
 from tutor.errors import StorageError
 from tutor.terminal_text import escape_controls, printable
 
-_PLAIN_WIDTH = 100
-_WIDEST = 120
+_NON_TERMINAL_WIDTH = 100
+_MAX_WIDTH = 120
 
 
 def out(text: str) -> None:
-    """Write to stdout, whatever its encoding, with no control sequence but colours.
+    """Write to stdout, whatever its encoding, with all control sequences but colours escaped.
 
-    A reader that has gone away (`| head`) is not an error.
+    A reader that has exited (`| head`) is not an error. Raises StorageError if the write fails otherwise.
     """
     if sys.stdout is None:
         return
@@ -26,25 +26,25 @@ def out(text: str) -> None:
         sys.stdout.write(_encodable(escape_controls(text, colors=wants_color(sys.stdout)), sys.stdout))
         sys.stdout.flush()
     except BrokenPipeError:
-        _to_nowhere(sys.stdout)
+        _redirect_to_devnull(sys.stdout)
     except OSError as error:
-        _to_nowhere(sys.stdout)
+        _redirect_to_devnull(sys.stdout)
         raise StorageError.of("write to stdout", error) from error
 
 
 def say(text: str) -> None:
-    """Tell something beside the report: one line on stderr."""
+    """Print a message apart from the report, as one line on stderr. Never raises OSError."""
     if sys.stderr is None:
         return
     try:
         sys.stderr.write(_encodable(f"ros-tutor: {printable(text)}\n", sys.stderr))
         sys.stderr.flush()
     except OSError:
-        _to_nowhere(sys.stderr)
+        _redirect_to_devnull(sys.stderr)
 
 
 def is_terminal(stream: TextIO | None) -> bool:
-    """Whether someone reads this stream as it comes."""
+    """Whether this stream is an open terminal."""
     try:
         return stream is not None and stream.isatty()
     except ValueError:  # it is closed
@@ -52,7 +52,7 @@ def is_terminal(stream: TextIO | None) -> bool:
 
 
 def wants_color(stream: TextIO | None) -> bool:
-    """Whether to use colours on this stream. NO_COLOR, if not empty, says no (https://no-color.org)."""
+    """Whether to use colours on this stream. A non-empty NO_COLOR turns them off (https://no-color.org)."""
     return is_terminal(stream) and not os.environ.get("NO_COLOR") and os.environ.get("TERM", "dumb") != "dumb"
 
 
@@ -62,12 +62,12 @@ def can_animate(stream: TextIO | None) -> bool:
 
 
 def width(stream: TextIO | None) -> int:
-    """How many columns a line should have: those of the terminal, within reason; a fixed number elsewhere."""
-    return min(shutil.get_terminal_size().columns, _WIDEST) if is_terminal(stream) else _PLAIN_WIDTH
+    """Return the line width for this stream, in columns: the terminal's, up to a limit; fixed for other streams."""
+    return min(shutil.get_terminal_size().columns, _MAX_WIDTH) if is_terminal(stream) else _NON_TERMINAL_WIDTH
 
 
 def wrap(text: str, columns: int) -> str:
-    """Wrap long lines; short ones, indented ones and those in a fenced block stay as they are."""
+    """Wrap long lines, except indented ones and those in a fenced block."""
     lines = []
     fenced = False
     for line in text.rstrip("\n").split("\n"):
@@ -79,7 +79,7 @@ def wrap(text: str, columns: int) -> str:
 
 
 def style(text: str, code: str, stream: TextIO | None) -> str:
-    """Put `text` into an ANSI style ("1" bold, "2" dim, "32" green, ...) where the stream shows colours."""
+    """Put `text` into an ANSI style ("1" bold, "2" dim, "32" green, ...) if the stream shows colours."""
     return f"\x1b[{code}m{printable(text)}\x1b[0m" if code and wants_color(stream) else text
 
 
@@ -88,12 +88,12 @@ def _encodable(text: str, stream: TextIO) -> str:
     return text.encode(encoding, "replace").decode(encoding)
 
 
-def _to_nowhere(stream: TextIO) -> None:
-    """Nothing more can be written: keep the interpreter from trying again, and complaining, at its end."""
+def _redirect_to_devnull(stream: TextIO) -> None:
+    """Redirect a broken stream to /dev/null, so that the interpreter's flush at exit does not fail and complain."""
     try:
         target = stream.fileno()
     except (OSError, ValueError):
         return
-    nowhere = os.open(os.devnull, os.O_WRONLY)
-    os.dup2(nowhere, target)
-    os.close(nowhere)
+    devnull = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(devnull, target)
+    os.close(devnull)

@@ -1,4 +1,4 @@
-"""`ros-tutor watch`: check again at each save."""
+"""`ros-tutor watch`: check again after each save."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from tutor.cli.errors import INTERRUPTED
 if TYPE_CHECKING:
     from tutor.cli.judging import Engine
 
-_LOOK_EVERY_S = 0.3
-_SOURCES = (".py", ".xml", ".yaml", ".yml")
+_POLL_INTERVAL_S = 0.3
+_SOURCE_SUFFIXES = (".py", ".xml", ".yaml", ".yml")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """EXERCISE [PATH] [--criterion ID]... [--first]."""
+    """Add `EXERCISE [PATH] [--criterion ID]... [--first]`."""
     parser.add_argument("exercise", metavar="EXERCISE", help="for example i2.1")
     parser.add_argument("path", metavar="PATH", nargs="?", type=Path, help="a file or folder (or the workspace's own)")
     parser.add_argument("--criterion", metavar="ID", action="append", help="judge only this one (repeatable)")
@@ -27,7 +27,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace, engine: Engine | None = None) -> int:
-    """Check now, and whenever a file of the exercise, or one that no other exercise has, is saved; until Ctrl+C."""
+    """Check now and after each save, until Ctrl+C.
+
+    Saves of the exercise's own files count, and of other source files beside them that belong to no other exercise.
+    """
     from tutor.errors import SubmissionError
     from tutor.workspace import find_submission
 
@@ -35,26 +38,26 @@ def run(arguments: argparse.Namespace, engine: Engine | None = None) -> int:
     lesson = course.find(arguments.exercise)
     submission = find_submission(lesson, arguments.path, context.require_workspace(arguments))
     folders = {path.parent for path in submission.files.values()}
-    own = {path for path in submission.files.values()}
+    own = set(submission.files.values())
     others = {file.name for other in course.lessons for file in other.files if other.id != lesson.id}
     while True:
-        seen = _look(folders, own, others)
+        seen = _read_sources(folders, own, others)
         try:
             if check.run(arguments, engine) == INTERRUPTED:
                 return INTERRUPTED
-        except SubmissionError as error:  # renamed, or half saved
+        except SubmissionError as error:  # the file was renamed, or is only half saved
             terminal.say(str(error))
         terminal.say(f"waiting for the next save of {' or '.join(sorted(path.name for path in own))}; Ctrl+C ends it")
-        while _look(folders, own, others) == seen:
-            time.sleep(_LOOK_EVERY_S)
+        while _read_sources(folders, own, others) == seen:
+            time.sleep(_POLL_INTERVAL_S)
 
 
-def _look(folders: set[Path], own: set[Path], others: set[str]) -> dict[Path, bytes]:
-    """The contents of the files that a check may read."""
+def _read_sources(folders: set[Path], own: set[Path], others: set[str]) -> dict[Path, bytes]:
+    """Return the contents of the files that a check may read, by path."""
     found: dict[Path, bytes] = {}
     for folder in folders:
         try:
-            paths = [path for path in folder.iterdir() if path.suffix in _SOURCES and path.name not in others]
+            paths = [path for path in folder.iterdir() if path.suffix in _SOURCE_SUFFIXES and path.name not in others]
         except OSError:
             continue
         for path in {*paths, *(each for each in own if each.parent == folder)}:

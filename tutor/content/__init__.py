@@ -1,4 +1,4 @@
-"""The course: lessons and the self-assessment checklist, as plain data. Knows neither ROS nor the terminal."""
+"""The course: lessons and the self-assessment checklist, as plain data, independent of ROS and the terminal."""
 
 from tutor.content.lint import lint_course
 from tutor.content.live import LiveTopic, LiveView, Partner

@@ -1,4 +1,4 @@
-"""YAML with manners: every wrong, missing or misspelt field is an error that names its file and line."""
+"""Strict YAML reading: every wrong, missing or misspelt field is an error that names its file and line."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ import yaml
 
 from tutor.errors import ContentError
 
-# The C parser is some ten times faster; a PyYAML built without it works just as well. Both are the safe loader.
+# The C parser is about ten times faster, but PyYAML may be built without it. Both are safe loaders.
 _Loader: type[Any] = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 
 class Document:
-    """A YAML text with its place in a file. `offset` is the number of the file's lines that come before the text."""
+    """A YAML text and its place in a file. `offset` is the number of lines of the file before the text."""
 
     def __init__(self, file: Path, text: str, offset: int = 0) -> None:
         self.file = file
@@ -38,12 +38,12 @@ class Document:
         return Fields(self, (), value)
 
     def error(self, path: tuple[str | int, ...], message: str) -> ContentError:
-        """Say what is wrong with the value at `path`, at its line or that of the nearest value around it."""
+        """Return an error about the value at `path`, with its line number or that of the nearest enclosing value."""
         field = "".join(f"[{step + 1}]" if isinstance(step, int) else f".{step}" for step in path).lstrip(".")
         return ContentError(self.file, message, line=self._line(path), field=field)
 
     def _line(self, path: tuple[str | int, ...]) -> int:
-        # Lines cost a second parse, so they are looked up only when there is something to complain about.
+        # Line numbers cost a second parse, so they are looked up only for an error.
         node = yaml.compose(self._text, Loader=_Loader)
         line = node.start_mark.line if node is not None else 0
         for step in path:
@@ -60,81 +60,84 @@ class Document:
 
 
 class Fields:
-    """A mapping whose fields are taken one by one, each as the type it must have; `done` refuses what is left."""
+    """A mapping whose fields are taken one by one, each with its expected type; `done` rejects the rest.
+
+    Every method raises ContentError for a value of another type.
+    """
 
     def __init__(self, document: Document, path: tuple[str | int, ...], value: object) -> None:
         self._document = document
         self._path = path
         if not isinstance(value, dict):
-            raise document.error(path, f"expected fields (name: value), found {_kind(value)}")
-        self._left = dict(value)
+            raise document.error(path, f"expected fields (name: value), found {_describe_type(value)}")
+        self._remaining = dict(value)
 
     def text(self, name: str, *, optional: bool = False) -> str:
-        """A text that is not empty, without the white space around it; an absent `optional` one is empty."""
-        if optional and name not in self._left:
+        """Take a non-empty text, with surrounding whitespace stripped; "" if `optional` and absent."""
+        if optional and name not in self._remaining:
             return ""
         return self._text((*self._path, name), self._take(name))
 
     def flag(self, name: str, default: bool) -> bool:
-        """True or false; `default` where the field is absent."""
-        value = self._left.pop(name, default)
+        """Take a boolean; `default` if absent."""
+        value = self._remaining.pop(name, default)
         if not isinstance(value, bool):
-            raise self.error(name, f"expected true or false, found {_kind(value)}")
+            raise self.error(name, f"expected true or false, found {_describe_type(value)}")
         return value
 
     def texts(self, name: str, *, optional: bool = False) -> tuple[str, ...]:
-        """A list of texts; an absent `optional` one is empty."""
+        """Take a list of texts; empty if `optional` and absent."""
         return self._list(name, optional, self._text)
 
     def anything(self, name: str) -> object:
-        """Whatever there is, or None where there is nothing: for the caller to look at."""
-        return self._left.pop(name, None)
+        """Take a value of any type, which the caller validates; None if absent."""
+        return self._remaining.pop(name, None)
 
     def number(self, name: str) -> float | None:
-        """A number; None where the field is absent."""
-        value = self._left.pop(name, None)
+        """Take a number; None if absent."""
+        value = self._remaining.pop(name, None)
         if value is not None and (isinstance(value, bool) or not isinstance(value, (int, float))):
-            raise self.error(name, f"expected a number, found {_kind(value)}")
+            raise self.error(name, f"expected a number, found {_describe_type(value)}")
         return None if value is None else float(value)
 
     def mapping(self, name: str) -> Fields | None:
-        """A mapping; None where the field is absent."""
-        value = self._left.pop(name, None)
+        """Take a mapping; None if absent."""
+        value = self._remaining.pop(name, None)
         return None if value is None else Fields(self._document, (*self._path, name), value)
 
     def mappings(self, name: str, *, optional: bool = False) -> tuple[Fields, ...]:
-        """A list of mappings; an absent `optional` one is empty."""
+        """Take a list of mappings; empty if `optional` and absent."""
         return self._list(name, optional, lambda path, value: Fields(self._document, path, value))
 
     def done(self) -> None:
-        """Refuse fields that nobody asked for: most often they are misspelt."""
-        for name in self._left:
+        """Reject fields that were not taken: most often they are misspelt."""
+        for name in self._remaining:
             raise self.error(str(name), "there is no such field")
 
     def error(self, name: str, message: str) -> ContentError:
-        """Say what is wrong with one field of this mapping."""
+        """Return an error about one field of this mapping."""
         return self._document.error((*self._path, name), message)
 
     def _take(self, name: str) -> object:
-        if name not in self._left:
+        if name not in self._remaining:
             raise self.error(name, "this field is missing")
-        return self._left.pop(name)
+        return self._remaining.pop(name)
 
     def _text(self, path: tuple[str | int, ...], value: object) -> str:
         if not isinstance(value, str) or not value.strip():
-            raise self._document.error(path, f"expected a text, found {_kind(value)}")
+            raise self._document.error(path, f"expected a text, found {_describe_type(value)}")
         return value.strip()
 
     def _list[T](self, name: str, optional: bool, read: Callable[[tuple[str | int, ...], object], T]) -> tuple[T, ...]:
-        if optional and name not in self._left:
+        if optional and name not in self._remaining:
             return ()
         value = self._take(name)
         if not isinstance(value, list):
-            raise self.error(name, f"expected a list, found {_kind(value)}")
+            raise self.error(name, f"expected a list, found {_describe_type(value)}")
         return tuple(read((*self._path, name, index), item) for index, item in enumerate(value))
 
 
-def _kind(value: object) -> str:
+def _describe_type(value: object) -> str:
     if value is None or value == "":
         return "nothing"
     names = {str: "a text", bool: "true or false", int: "a number", float: "a number", list: "a list", dict: "fields"}

@@ -1,4 +1,4 @@
-"""Proves a loaded course right: what the loader cannot see, and what a learner would stumble over."""
+"""Lints a loaded course: finds mistakes that the loader cannot see and that a learner would stumble over."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ SECTIONS = (
 HINTS = 3
 
 CODE_WIDTH = 76
-"""The widest line of code that a terminal of 80 columns shows whole."""
+"""The longest line of code that the app shows without wrapping on an 80-column terminal."""
 
 _CRITERION_ID = re.compile(r"[a-z-]+")
 _CHECKLIST_ID = re.compile(r"[a-z][a-z0-9-]*")
@@ -32,24 +32,25 @@ _RAW_HTML = re.compile(r"</?[a-zA-Z][^>]*>|<!--")
 
 
 def lint_course(course: Course) -> list[Problem]:
-    """Find everything that is wrong with a course, lesson by lesson; an empty list means that it is right."""
-    problems = list(_course(course))
+    """Return all problems of a course, lesson by lesson; empty if there are none."""
+    problems = list(_lint_ids_and_groups(course))
     for lesson in course.lessons:
         source = lesson.folder / "lesson.md"
-        problems += [Problem(source, text) for text in (*_front_matter(lesson, course), *_body(lesson.body))]
-        problems += _folder(lesson)
+        problems += [Problem(source, text) for text in (*_lint_front_matter(lesson, course), *_lint_body(lesson.body))]
+        problems += _lint_folder(lesson)
     return problems
 
 
-def _course(course: Course) -> Iterator[Problem]:
-    for lesson_id in _doubles(lesson.id for lesson in course.lessons):
+def _lint_ids_and_groups(course: Course) -> Iterator[Problem]:
+    for lesson_id in _duplicates(lesson.id for lesson in course.lessons):
         folder = course.find(lesson_id).folder
         yield Problem(folder / "lesson.md", f"the exercise id {lesson_id} is used twice")
     checklist = _checklist_file(course)
     groups = course.checklist.groups
-    for item_id in _doubles([group.id for group in groups] + [item.id for item in course.checklist.items]):
+    ids = [group.id for group in groups] + [item.id for item in course.checklist.items]
+    for item_id in _duplicates(ids):
         yield Problem(checklist, f"the id {item_id} is used twice")
-    for item_id in [group.id for group in groups] + [item.id for item in course.checklist.items]:
+    for item_id in ids:
         if not _CHECKLIST_ID.fullmatch(item_id):
             yield Problem(checklist, f"the id {item_id!r} is not in kebab-case")
     for group in groups:
@@ -62,21 +63,21 @@ def _checklist_file(course: Course) -> Path:
     return folder / "checklist.yaml"
 
 
-def _front_matter(lesson: Lesson, course: Course) -> Iterator[str]:
+def _lint_front_matter(lesson: Lesson, course: Course) -> Iterator[str]:
     if not any(file.required for file in lesson.files):
         yield "it requires no file"
-    for name in _doubles(file.name for file in lesson.files):
+    for name in _duplicates(file.name for file in lesson.files):
         yield f"the file {name} is named twice"
-    yield from _criteria(lesson.criteria)
+    yield from _lint_criteria(lesson.criteria)
     if len(lesson.hints) != HINTS:
         yield f"it has {len(lesson.hints)} hints instead of {HINTS}"
-    for hint in _doubles(lesson.hints):
-        yield f"the hint {hint!r} is there twice"
+    for hint in _duplicates(lesson.hints):
+        yield f"the hint {hint!r} appears twice"
     known = {item.id for item in course.checklist.items}
     for item in lesson.checklist:
         if item not in known:
             yield f"the checklist has no item {item!r}"
-    for item in _doubles(lesson.checklist):
+    for item in _duplicates(lesson.checklist):
         yield f"the checklist item {item} is named twice"
     for criterion in lesson.criteria:
         for item in criterion.shows:
@@ -84,7 +85,7 @@ def _front_matter(lesson: Lesson, course: Course) -> Iterator[str]:
                 yield f"the criterion {criterion.id} shows {item!r}, which is not in the lesson's checklist"
 
 
-def _criteria(criteria: Sequence[CriterionText]) -> Iterator[str]:
+def _lint_criteria(criteria: Sequence[CriterionText]) -> Iterator[str]:
     required = [criterion for criterion in criteria if not criterion.bonus]
     if not required:
         yield "it has no criterion that is required"
@@ -92,17 +93,17 @@ def _criteria(criteria: Sequence[CriterionText]) -> Iterator[str]:
         yield "the skeleton leaves no required criterion open: there is nothing to do"
     if list(criteria[: len(required)]) != required:
         yield "its required criteria belong before the bonus ones"
-    for criterion_id in _doubles(criterion.id for criterion in criteria):
-        yield f"the criterion {criterion_id} is there twice"
+    for criterion_id in _duplicates(criterion.id for criterion in criteria):
+        yield f"the criterion {criterion_id} appears twice"
     for criterion in criteria:
         if not _CRITERION_ID.fullmatch(criterion.id):
-            yield f"the criterion id {criterion.id!r} may only have small letters and hyphens"
+            yield f"the criterion id {criterion.id!r} may only have lowercase letters and hyphens"
         for name, value in (("text", criterion.text), ("hint", criterion.hint)):
             if not value:
                 yield f"the criterion {criterion.id} has no {name}"
 
 
-def _body(body: str) -> Iterator[str]:
+def _lint_body(body: str) -> Iterator[str]:
     headings = []
     fenced = False
     for line in body.splitlines():
@@ -130,7 +131,7 @@ def _body(body: str) -> Iterator[str]:
         yield f"its sections are {', '.join(headings) or 'missing'}; expected {', '.join(SECTIONS)}"
 
 
-def _folder(lesson: Lesson) -> Iterator[Problem]:
+def _lint_folder(lesson: Lesson) -> Iterator[Problem]:
     expected = {lesson.folder / "lesson.md"}
     for file in lesson.files:
         expected |= {file.skeleton, file.solution}
@@ -138,27 +139,27 @@ def _folder(lesson: Lesson) -> Iterator[Problem]:
             if not path.is_file():
                 yield Problem(path, "this file is missing")
             else:
-                yield from _source(path)
-        if file.skeleton.is_file() and file.solution.is_file() and _same(file.skeleton, file.solution):
+                yield from _lint_source(path)
+        if file.skeleton.is_file() and file.solution.is_file() and _same_content(file.skeleton, file.solution):
             yield Problem(file.skeleton, "the skeleton is the solution")
     for partner in lesson.live.partners:
         if partner.beside and partner.beside not in [file.name for file in lesson.files]:
             yield Problem(
                 lesson.folder / "lesson.md",
-                f"{partner.name} is beside {partner.beside}, which is no file of the lesson",
+                f"{partner.name} is beside {partner.beside}, which is not a file of the lesson",
             )
         if partner.file is not None:
             expected.add(partner.file)
             if not partner.file.is_file():
                 yield Problem(partner.file, "this file is missing")
             else:
-                yield from _source(partner.file)
+                yield from _lint_source(partner.file)
     for path in sorted(lesson.folder.rglob("*")):
         if path.is_file() and path not in expected and path.parent.name != "__pycache__":
             yield Problem(path, "this file belongs to no lesson")
 
 
-def _source(path: Path) -> Iterator[Problem]:
+def _lint_source(path: Path) -> Iterator[Problem]:
     source = path.read_bytes()
     if b"\t" in source:
         yield Problem(path, "there is a tab in it")
@@ -169,9 +170,9 @@ def _source(path: Path) -> Iterator[Problem]:
             yield Problem(path, f"it does not compile: {error}")
 
 
-def _same(one: Path, other: Path) -> bool:
+def _same_content(one: Path, other: Path) -> bool:
     return one.read_bytes() == other.read_bytes()
 
 
-def _doubles(values: Iterable[str]) -> list[str]:
-    return [value for value, times in Counter(values).items() if times > 1]
+def _duplicates(values: Iterable[str]) -> list[str]:
+    return [value for value, count in Counter(values).items() if count > 1]

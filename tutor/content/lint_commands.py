@@ -1,4 +1,4 @@
-"""Proves that the commands of a lesson can be typed as they stand: their files, exercises and options exist."""
+"""Lints the commands in a lesson: a learner can type them as they are, because their files and options exist."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ _PACKAGE = "my_package"
 
 
 def commands(body: str) -> Iterator[list[str]]:
-    """The commands in the shell blocks of a lesson, as words; a line that ends in a backslash goes on in the next.
+    """Yield the words of each command in the shell blocks of a lesson; a trailing backslash continues a line.
 
-    Where lines of a block begin with `$ `, only those are commands: the others are what they print.
+    If any line of a block begins with `$ `, only such lines are commands and the others are their output.
     """
     for block in _BLOCK.findall(body):
         lines = block.replace("\\\n", " ").splitlines()
-        typed = [line for line in lines if line.startswith("$ ")]
-        for line in typed or lines:
+        prompted = [line for line in lines if line.startswith("$ ")]
+        for line in prompted or lines:
             try:
                 words = shlex.split(line.removeprefix("$ "), comments=True)
             except ValueError:
@@ -32,10 +32,10 @@ def commands(body: str) -> Iterator[list[str]]:
 
 
 def find_bad_commands(lesson: Lesson, given: Collection[str], usage: Callable[[list[str]], str]) -> Iterator[Problem]:
-    """Find commands that a learner could not type.
+    """Find commands that would fail for a learner.
 
-    `given` are the names of the files that are in every workspace; `usage` says what is wrong with the arguments of
-    `ros-tutor`, or nothing.
+    `given` holds the names of the files in every workspace. `usage` returns the usage error for arguments of
+    `ros-tutor`, or "" if they are valid.
     """
     source = lesson.folder / "lesson.md"
     known = {*given, *(file.name for file in lesson.files)}

@@ -1,4 +1,4 @@
-"""Proves test submissions right: each says what it must be judged as, and every criterion is kept and broken by one."""
+"""Lints test submissions: each declares its expected verdict, and every criterion is met by one and broken by one."""
 
 from __future__ import annotations
 
@@ -11,32 +11,32 @@ from tutor.content.submissions import EXPECT, RIGHT, WRONG, Case, read_case
 from tutor.errors import ContentError
 
 _EXCLUSIVE = ("fails", "bonus_failed")
-"""What one of these names, no other key names: it is failed, and that is all there is to say."""
+"""Keys whose criteria may be named in no other key: they fail, so no other expectation can hold for them."""
 
 
 def find_bad_submissions(root: Path, course: Course, lessons: Sequence[Lesson]) -> Iterator[Problem]:
-    """Find what is wrong with the submissions to `lessons` below `root`, and what is missing."""
+    """Find wrong and missing submissions to `lessons` below the folder `root`."""
     folders = {lesson.folder.name: lesson for lesson in course.lessons}
-    for path in _entries(root):
+    for path in _list_entries(root):
         if path.name not in folders and path.name != "README.md":
             yield Problem(path, "this belongs to no exercise", "name the folder after one, as in i1_1")
     for lesson in lessons:
         cases: list[Case] = []
-        for found in _of(root / lesson.folder.name, lesson):
+        for found in _find_cases(root / lesson.folder.name, lesson):
             if isinstance(found, Problem):
                 yield found
             else:
                 cases.append(found)
-                yield from _case(found, lesson)
-        yield from _coverage(root / lesson.folder.name, lesson, cases)
+                yield from _lint_case(found, lesson)
+        yield from _find_uncovered(root / lesson.folder.name, lesson, cases)
 
 
-def _of(folder: Path, lesson: Lesson) -> Iterator[Problem | Case]:
-    for kind in _entries(folder):
+def _find_cases(folder: Path, lesson: Lesson) -> Iterator[Problem | Case]:
+    for kind in _list_entries(folder):
         if kind.name not in (RIGHT, WRONG) or not kind.is_dir():
             yield Problem(kind, "this is not a submission", f"put it into {RIGHT}/<name> or {WRONG}/<name>")
             continue
-        for path in _entries(kind):
+        for path in _list_entries(kind):
             if not path.is_dir():
                 yield Problem(path, "this is not a submission", "put it into a folder of its own")
             elif not (path / EXPECT).is_file():
@@ -50,7 +50,7 @@ def _of(folder: Path, lesson: Lesson) -> Iterator[Problem | Case]:
                     yield Problem(error.file, f"{place}{field}{error.message}")
 
 
-def _case(case: Case, lesson: Lesson) -> Iterator[Problem]:
+def _lint_case(case: Case, lesson: Lesson) -> Iterator[Problem]:
     for file in lesson.files:
         if file.required and not (case.folder / file.name).is_file():
             yield Problem(case.folder, f"there is no {file.name}", "without it there is nothing to judge")
@@ -60,11 +60,13 @@ def _case(case: Case, lesson: Lesson) -> Iterator[Problem]:
         for name in names:
             if name not in bonus:
                 yield Problem(source, f"{key}: there is no criterion {name!r}", f"the criteria are {', '.join(bonus)}")
-    yield from _contradictions(source, expected.named, bonus)
-    yield from (Problem(source, text, hint) for text, hint in _kind(case, bonus))
+    yield from _find_contradictions(source, expected.named, bonus)
+    yield from (Problem(source, text, hint) for text, hint in _lint_kind(case, bonus))
 
 
-def _contradictions(source: Path, named: Mapping[str, Collection[str]], bonus: Mapping[str, bool]) -> Iterator[Problem]:
+def _find_contradictions(
+    source: Path, named: Mapping[str, Collection[str]], bonus: Mapping[str, bool]
+) -> Iterator[Problem]:
     for name in named["fails"]:
         if bonus.get(name, False):
             yield Problem(source, f"fails: {name} is a bonus", "name it in bonus_failed")
@@ -78,38 +80,38 @@ def _contradictions(source: Path, named: Mapping[str, Collection[str]], bonus: M
                 yield Problem(source, f"{name} is in {key} and in another key", "name it once")
 
 
-def _kind(case: Case, bonus: Mapping[str, bool]) -> Iterator[tuple[str, str]]:
+def _lint_kind(case: Case, bonus: Mapping[str, bool]) -> Iterator[tuple[str, str]]:
     expected = case.expected
     fails = (*expected.fails, *expected.fails_any)
     if case.kind == RIGHT:
         if not expected.passes:
-            yield "a right one passes", "write passes: all"
+            yield "a right submission must pass", "write passes: all"
         for name in (*fails, *expected.not_passed, *expected.either):
             if not bonus.get(name, True):
-                yield f"{name} does not have to pass, and this is a right one", f"move it to {WRONG}"
+                yield f"{name} does not have to pass, but this is a right submission", f"move it to {WRONG}"
     else:
         if expected.passes:
-            yield "a wrong one does not pass", f"take out passes, or move it to {RIGHT}"
+            yield "a wrong submission must not pass", f"take out passes, or move it to {RIGHT}"
         if not fails and not expected.bonus_failed:
-            yield "nothing fails, and this is a wrong one", "name what it breaks in fails"
+            yield "nothing fails, but this is a wrong submission", "name what it breaks in fails"
 
 
-def _coverage(folder: Path, lesson: Lesson, cases: Sequence[Case]) -> Iterator[Problem]:
+def _find_uncovered(folder: Path, lesson: Lesson, cases: Sequence[Case]) -> Iterator[Problem]:
     for criterion in lesson.criteria:
         key = "bonus_failed" if criterion.bonus else "fails"
         if not any(criterion.id in case.expected.named[key] for case in cases):
             yield Problem(
                 folder / WRONG, f"no submission breaks {criterion.id}", f"add one with {key}: [{criterion.id}]"
             )
-        if not any(_keeps(case, criterion.id) for case in cases):
+        if not any(_meets(case, criterion.id) for case in cases):
             yield Problem(folder / RIGHT, f"no submission keeps {criterion.id}", "add one that passes it for certain")
 
 
-def _keeps(case: Case, criterion: str) -> bool:
+def _meets(case: Case, criterion: str) -> bool:
     return case.kind == RIGHT and not any(criterion in names for names in case.expected.named.values())
 
 
-def _entries(folder: Path) -> list[Path]:
+def _list_entries(folder: Path) -> list[Path]:
     if not folder.is_dir():
         return []
     return sorted(path for path in folder.iterdir() if path.name != "__pycache__")

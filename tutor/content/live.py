@@ -1,4 +1,4 @@
-"""What a lesson is about on DDS, for the app: what to look at, and which of our nodes go with the learner's."""
+"""What the app shows live of a lesson's ROS graph, and which of our nodes run alongside the learner's."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pathlib import Path
 
 @dataclass(frozen=True, slots=True)
 class LiveTopic:
-    """A topic that the exercise asks for. `band`: between which values the exercise wants its numbers, if it does."""
+    """A topic that the exercise requires. `band`: the range (low, high) required of its numbers, if there is one."""
 
     name: str
     type: str
@@ -17,10 +17,10 @@ class LiveTopic:
 
 @dataclass(frozen=True, slots=True)
 class Partner:
-    """One of our nodes, to be started beside the learner's own.
+    """One of our nodes, to be started alongside the learner's.
 
-    It is either `run`, the words that follow `ros2 run`, or a Python `file`. `beside` is the learner's file that it
-    goes with; empty where it goes with any.
+    It is given either as `run`, the words after `ros2 run`, or as a Python `file`. `beside` is the learner's file that
+    it goes with; empty if it goes with any. `does` says what the node does.
     """
 
     name: str
@@ -32,16 +32,16 @@ class Partner:
 
 @dataclass(frozen=True, slots=True)
 class LiveView:
-    """What of a lesson is to be seen live. The first topic, and the first service, are shown first."""
+    """The topics, services and partner nodes that the app shows for a lesson; the first ones are shown first."""
 
     topics: tuple[LiveTopic, ...] = ()
     services: tuple[str, ...] = ()
     partners: tuple[Partner, ...] = ()
 
     def partner_of(self, file: str) -> Partner | None:
-        """The partner of one of the learner's files, if it has one."""
+        """Return the partner of one of the learner's files, if it has one."""
         return next((partner for partner in self.partners if partner.beside in ("", file)), None)
 
     def band_of(self, topic: str) -> tuple[float, float] | None:
-        """The values that are asked for on a topic, from the lowest to the highest."""
+        """Return the range (low, high) that the exercise requires on a topic, if there is one."""
         return next((known.band for known in self.topics if known.name == topic), None)

@@ -4,8 +4,8 @@ A course is a folder with
 
 - lessons/checklist.yaml: the self-assessment checklist
 - lessons/i1_1/lesson.md: YAML front matter between two --- lines, then the lesson in Markdown
-- lessons/i1_1/skeleton/: what a learner starts from
-- lessons/i1_1/solution/: our own answer
+- lessons/i1_1/skeleton/: the files a learner starts from
+- lessons/i1_1/solution/: our solution
 - checks/i1_1/: the package that judges it (not read here)
 """
 
@@ -29,8 +29,8 @@ from tutor.content.model import (
 )
 from tutor.errors import ContentError
 
-# The folders tutor, lessons and checks lie side by side, in the repository as in an installed wheel. Importing
-# `lessons` instead would let a folder of that name in a learner's PYTHONPATH take its place.
+# The folders tutor, lessons and checks are siblings, both in the repository and in an installed wheel. Importing
+# `lessons` to locate it could find a folder of that name in a learner's PYTHONPATH instead.
 BUNDLED = Path(__file__).resolve().parents[2]
 
 _FENCE = "---"
@@ -38,43 +38,43 @@ _LESSON_FOLDER = re.compile(r"[a-z]+[0-9]+_[0-9]+")
 
 
 def load_course(extra: Path | None = None) -> Course:
-    """Read the bundled course, and after it the one in `extra`: a folder that holds `lessons/` and `checks/`.
+    """Read the bundled course, followed by the one in `extra`, a folder with `lessons/` and `checks/`.
 
-    Raises ContentError at the first thing that is wrong.
+    Raises ContentError for the first problem.
     """
-    course = _read(BUNDLED / "lessons")
+    course = _read_course(BUNDLED / "lessons")
     if extra is None:
         return course
-    more = _read(extra / "lessons")
+    more = _read_course(extra / "lessons")
     known = {lesson.id for lesson in course.lessons}
     for lesson in more.lessons:
         if lesson.id in known:
-            raise ContentError(lesson.folder / "lesson.md", f"there is an exercise {lesson.id} already", field="id")
+            raise ContentError(lesson.folder / "lesson.md", f"there already is an exercise {lesson.id}", field="id")
     return Course(
         lessons=course.lessons + more.lessons,
         checklist=replace(course.checklist, groups=course.checklist.groups + more.checklist.groups),
     )
 
 
-def _read(lessons: Path) -> Course:
+def _read_course(lessons: Path) -> Course:
     if not lessons.is_dir():
         raise ContentError(lessons, "there is no such folder")
     folders = [folder for folder in lessons.iterdir() if _LESSON_FOLDER.fullmatch(folder.name) and folder.is_dir()]
     checklist = lessons / "checklist.yaml"
     return Course(
-        lessons=tuple(_lesson(folder) for folder in sorted(folders, key=_order)),
-        checklist=_checklist(checklist) if checklist.exists() else Checklist(),
+        lessons=tuple(_read_lesson(folder) for folder in sorted(folders, key=_order_key)),
+        checklist=_read_checklist(checklist) if checklist.exists() else Checklist(),
     )
 
 
-def _order(folder: Path) -> tuple[str, int, int]:
-    """The order to do lessons in: i2_9 comes before i2_10."""
+def _order_key(folder: Path) -> tuple[str, int, int]:
+    """Return the sort key for the order of lessons, in which i2_9 comes before i2_10."""
     unit, number = folder.name.split("_")
     letters = unit.rstrip("0123456789")
     return letters, int(unit.removeprefix(letters)), int(number)
 
 
-def _text(file: Path) -> str:
+def _read_text(file: Path) -> str:
     try:
         return file.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
@@ -82,54 +82,54 @@ def _text(file: Path) -> str:
         raise ContentError(file, f"cannot read it: {reason}") from error
 
 
-def _lesson(folder: Path) -> Lesson:
+def _read_lesson(folder: Path) -> Lesson:
     file = folder / "lesson.md"
-    head, fence, body = _split(_text(file))
+    head, fence, body = _split_front_matter(_read_text(file))
     if not fence:
         raise ContentError(file, f"expected a front matter between two {_FENCE} lines at the top", line=1)
     fields = Document(file, head, offset=1).read()
     lesson = Lesson(
-        id=_id(fields, folder),
+        id=_read_id(fields, folder),
         title=fields.text("title"),
-        difficulty=_difficulty(fields),
+        difficulty=_read_difficulty(fields),
         unit=fields.text("unit"),
         objective=fields.text("objective"),
-        files=tuple(_file(item, folder) for item in fields.mappings("files")),
-        criteria=tuple(_criterion(item) for item in fields.mappings("criteria")),
+        files=tuple(_read_file(item, folder) for item in fields.mappings("files")),
+        criteria=tuple(_read_criterion(item) for item in fields.mappings("criteria")),
         hints=fields.texts("hints"),
         checklist=fields.texts("checklist", optional=True),
         body=body.strip("\n") + "\n",
         folder=folder,
-        live=_live(fields.mapping("live"), folder),
+        live=_read_live(fields.mapping("live"), folder),
     )
     fields.done()
     return lesson
 
 
-def _split(text: str) -> tuple[str, str, str]:
-    """The front matter, the line that ends it (empty where there is none), and the body."""
+def _split_front_matter(text: str) -> tuple[str, str, str]:
+    """Split a lesson into its front matter, the closing fence (empty if there is none), and the body."""
     opening, _, rest = text.partition("\n")
     if opening.rstrip() != _FENCE:
         return "", "", ""
     return rest.partition(f"\n{_FENCE}\n")
 
 
-def _id(fields: Fields, folder: Path) -> str:
+def _read_id(fields: Fields, folder: Path) -> str:
     found = fields.text("id")
     if found != folder.name.replace("_", "."):
         raise fields.error("id", f"{found!r} does not belong in the folder {folder.name}")
     return found
 
 
-def _difficulty(fields: Fields) -> Difficulty:
+def _read_difficulty(fields: Fields) -> Difficulty:
     found = fields.text("difficulty")
     try:
         return Difficulty(found)
     except ValueError:
-        raise fields.error("difficulty", f"{found!r} is none of {', '.join(Difficulty)}") from None
+        raise fields.error("difficulty", f"{found!r} is not one of {', '.join(Difficulty)}") from None
 
 
-def _file(fields: Fields, folder: Path) -> LessonFile:
+def _read_file(fields: Fields, folder: Path) -> LessonFile:
     name = fields.text("name")
     if "/" in name or name.startswith("."):
         raise fields.error("name", f"expected a plain file name, found {name!r}")
@@ -138,7 +138,7 @@ def _file(fields: Fields, folder: Path) -> LessonFile:
     return LessonFile(name, required, skeleton=folder / "skeleton" / name, solution=folder / "solution" / name)
 
 
-def _criterion(fields: Fields) -> CriterionText:
+def _read_criterion(fields: Fields) -> CriterionText:
     criterion = CriterionText(
         id=fields.text("id"),
         text=fields.text("text"),
@@ -151,19 +151,19 @@ def _criterion(fields: Fields) -> CriterionText:
     return criterion
 
 
-def _live(fields: Fields | None, folder: Path) -> LiveView:
+def _read_live(fields: Fields | None, folder: Path) -> LiveView:
     if fields is None:
         return LiveView()
     found = LiveView(
-        topics=tuple(_topic(item) for item in fields.mappings("topics", optional=True)),
+        topics=tuple(_read_topic(item) for item in fields.mappings("topics", optional=True)),
         services=fields.texts("services", optional=True),
-        partners=tuple(_partner(item, folder) for item in fields.mappings("partners", optional=True)),
+        partners=tuple(_read_partner(item, folder) for item in fields.mappings("partners", optional=True)),
     )
     fields.done()
     return found
 
 
-def _topic(fields: Fields) -> LiveTopic:
+def _read_topic(fields: Fields) -> LiveTopic:
     low, high = fields.number("low"), fields.number("high")
     if (low is None) is not (high is None) or (low is not None and high is not None and low >= high):
         raise fields.error("low", "a band goes from a `low` to a greater `high`")
@@ -173,10 +173,10 @@ def _topic(fields: Fields) -> LiveTopic:
     return topic
 
 
-def _partner(fields: Fields, folder: Path) -> Partner:
+def _read_partner(fields: Fields, folder: Path) -> Partner:
     run, file = fields.text("run", optional=True), fields.text("file", optional=True)
     if bool(run) is bool(file):
-        raise fields.error("run", "a partner is either what to `run`, or a `file`")
+        raise fields.error("run", "a partner has either `run` or `file`")
     partner = Partner(
         name=fields.text("name"),
         does=fields.text("does"),
@@ -188,10 +188,10 @@ def _partner(fields: Fields, folder: Path) -> Partner:
     return partner
 
 
-def _checklist(file: Path) -> Checklist:
-    fields = Document(file, _text(file)).read()
+def _read_checklist(file: Path) -> Checklist:
+    fields = Document(file, _read_text(file)).read()
     checklist = Checklist(
-        groups=tuple(_group(group) for group in fields.mappings("groups")),
+        groups=tuple(_read_group(group) for group in fields.mappings("groups")),
         ready_title=fields.text("ready_title", optional=True),
         ready_text=fields.text("ready_text", optional=True),
     )
@@ -199,17 +199,17 @@ def _checklist(file: Path) -> Checklist:
     return checklist
 
 
-def _group(fields: Fields) -> ChecklistGroup:
+def _read_group(fields: Fields) -> ChecklistGroup:
     group = ChecklistGroup(
         id=fields.text("id"),
         title=fields.text("title"),
-        items=tuple(_item(item) for item in fields.mappings("items")),
+        items=tuple(_read_item(item) for item in fields.mappings("items")),
     )
     fields.done()
     return group
 
 
-def _item(fields: Fields) -> ChecklistItem:
+def _read_item(fields: Fields) -> ChecklistItem:
     item = ChecklistItem(id=fields.text("id"), text=fields.text("text"))
     fields.done()
     return item

@@ -1,4 +1,4 @@
-"""What a course is made of. Facts only: reading it from disk is `loader`, proving it right is `lint`."""
+"""The data model of a course. `loader` reads it from disk, `lint` checks it for mistakes."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ class Difficulty(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class LessonFile:
-    """One file of a submission, with the file a learner starts from and our own answer.
+    """One file of a submission, with the skeleton a learner starts from and our solution.
 
-    A file that is not `required` may be missing from a submission; what depends on it is then not passed.
+    A file that is not `required` may be missing from a submission; criteria that depend on it are then not passed.
     """
 
     name: str
@@ -33,10 +33,10 @@ class LessonFile:
 
 @dataclass(frozen=True, slots=True)
 class CriterionText:
-    """One criterion in words.
+    """A lesson's description of one criterion.
 
     `open`: the untouched skeleton does not pass it. `bonus`: it is shown, but never changes the verdict. `shows` holds
-    the ids of the checklist items that passing it gives evidence for.
+    the ids of the checklist items for which passing it is evidence.
     """
 
     id: str
@@ -49,11 +49,11 @@ class CriterionText:
 
 @dataclass(frozen=True, slots=True)
 class Lesson:
-    """One exercise: its text, the files it asks for, and what will be judged.
+    """One exercise: its text, its files, and the criteria it is judged by.
 
-    `hints` go from gentle to plain. `checklist` holds the ids of the checklist items that passing gives evidence for:
-    by the criteria that show an item, or by the exercise as a whole where none of them does. `body` is Markdown,
-    without a title. `folder` is where all of it lies. `live` is what of it the app shows on DDS.
+    `hints` go from gentle to explicit. `checklist` holds the ids of the checklist items for which passing is evidence:
+    passing the criteria that show an item, or the whole exercise if no criterion shows it. `body` is Markdown without
+    a title. `folder` holds the lesson's files. `live` describes what the app shows of its ROS graph.
     """
 
     id: str
@@ -79,7 +79,7 @@ class Lesson:
 
 @dataclass(frozen=True, slots=True)
 class ChecklistItem:
-    """One thing that a learner can tick: "I can ..."."""
+    """One statement that a learner can tick: "I can ..."."""
 
     id: str
     text: str
@@ -87,7 +87,7 @@ class ChecklistItem:
 
 @dataclass(frozen=True, slots=True)
 class ChecklistGroup:
-    """Checklist items of one subject."""
+    """The checklist items on one subject."""
 
     id: str
     title: str
@@ -96,7 +96,7 @@ class ChecklistGroup:
 
 @dataclass(frozen=True, slots=True)
 class Checklist:
-    """The self-assessment checklist. `ready_title` and `ready_text` are for anyone who has ticked every item."""
+    """The self-assessment checklist. `ready_title` and `ready_text` are shown once every item is ticked."""
 
     groups: tuple[ChecklistGroup, ...] = ()
     ready_title: str = ""
@@ -118,9 +118,9 @@ class Course:
     def find(self, text: str) -> Lesson:
         """Find a lesson by its id, written as i1.1, I1.1 or i1_1.
 
-        Raises UnknownExercise where there is none.
+        Raises UnknownExercise if there is none.
         """
-        wanted = _id_of(text)
+        wanted = _normalize_id(text)
         for lesson in self.lessons:
             if lesson.id == wanted:
                 return lesson
@@ -128,8 +128,8 @@ class Course:
 
     def knows(self, text: str) -> bool:
         """Whether `find` would find a lesson."""
-        return any(lesson.id == _id_of(text) for lesson in self.lessons)
+        return any(lesson.id == _normalize_id(text) for lesson in self.lessons)
 
 
-def _id_of(text: str) -> str:
+def _normalize_id(text: str) -> str:
     return text.strip().lower().replace("_", ".")

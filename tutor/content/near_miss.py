@@ -1,4 +1,4 @@
-"""Names on the graph that are almost those that the exercise asks for. Pure."""
+"""Finds topic and service names on the graph that almost match those of the exercise. Pure functions."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ from dataclasses import dataclass
 from tutor.content.live import LiveView
 from tutor.ros_model import Graph
 
-_ALIKE = 0.8
-"""From this likeness on a name is taken for a slip: /temprature and /temperature have 0.96, /add and /divide 0.2."""
+_MIN_SIMILARITY = 0.8
+"""difflib ratio from which a name counts as a misspelling: /temprature, /temperature: 0.96; /add, /divide: 0.2."""
 
 
 @dataclass(frozen=True, slots=True)
 class NearMiss:
-    """A node has a topic or service of a name that is close to a `wanted` one. `does` is what it does with it."""
+    """A node uses a topic or service, `found`, whose name is close to a `wanted` one. `does` is a verb: "publishes"."""
 
     node: str
     does: str
@@ -27,33 +27,36 @@ class NearMiss:
 
 
 def near_misses(graph: Graph, asked: LiveView) -> Iterator[NearMiss]:
-    """Every slip, by its topic or service."""
+    """Yield every near miss: first by topic, then by service."""
     topics, services = [topic.name for topic in asked.topics], list(asked.services)
     for topic in graph.topics:
         if topic.is_standard or topic.name in topics:
             continue
         for does, ends in (("publishes", topic.publishers), ("listens to", topic.subscriptions)):
             for node in dict.fromkeys(end.node for end in ends):
-                if wanted := _near(topic.name, topics, node):
+                if wanted := _closest(topic.name, topics, node):
                     yield NearMiss(node, does, topic.name, wanted)
     for service in graph.services:
         if service.is_standard or service.name in services:
             continue
         for node in service.nodes:
-            if wanted := _near(service.name, services, node):
+            if wanted := _closest(service.name, services, node):
                 yield NearMiss(node, "serves", service.name, wanted)
 
 
-def _near(name: str, wanted: list[str], node: str) -> str:
-    """The name that was meant, or nothing. A node in a namespace has its names there on purpose."""
+def _closest(name: str, wanted: list[str], node: str) -> str:
+    """Return the wanted name that was probably meant, or "".
+
+    A wanted name within the node's own namespace is no slip: the node was put there on purpose.
+    """
     namespace = node.rpartition("/")[0]
     if namespace and name.removeprefix(namespace) in wanted:
         return ""
-    for each in wanted:
-        if name.endswith(each) or each.endswith(name) or _plain(name) == _plain(each):
-            return each
-    return next(iter(difflib.get_close_matches(name, wanted, n=1, cutoff=_ALIKE)), "")
+    for candidate in wanted:
+        if name.endswith(candidate) or candidate.endswith(name) or _normalize(name) == _normalize(candidate):
+            return candidate
+    return next(iter(difflib.get_close_matches(name, wanted, n=1, cutoff=_MIN_SIMILARITY)), "")
 
 
-def _plain(name: str) -> str:
+def _normalize(name: str) -> str:
     return name.replace("/", "").replace("_", "").casefold()

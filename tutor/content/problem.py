@@ -1,4 +1,4 @@
-"""What is wrong with a course, for its author."""
+"""A problem in a course, reported to its author."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ class Problem:
 
     @property
     def description(self) -> str:
-        """What is wrong, and how to fix it."""
+        """The problem and how to fix it, in one line."""
         return f"{self.text}; {self.hint}" if self.hint else self.text
 
     def __str__(self) -> str:

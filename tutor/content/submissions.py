@@ -1,7 +1,7 @@
-"""Test submissions: right and wrong answers to the exercises, and what each must be judged as.
+"""Test submissions: right and wrong answers to the exercises, each with its expected verdict.
 
-A folder of them holds `<exercise>/<right|wrong>/<name>/` with the learner's files and an `expect.yaml`, whose keys
-`Expected` describes.
+Each is a folder `<exercise>/<right|wrong>/<name>/` with the learner's files and an `expect.yaml`; `Expected` describes
+the keys of the latter.
 """
 
 from __future__ import annotations
@@ -19,15 +19,20 @@ RIGHT, WRONG = "right", "wrong"
 
 @dataclass(frozen=True, slots=True)
 class Expected:
-    """What a submission must be judged as. What no key names is passed (or, in a wrong one, skipped).
+    """The expected verdict on a submission. A criterion that no key names passes (or, in a wrong one, is skipped).
 
-    `passes`: every required criterion is. `fails` are failed; of `fails_any` at least one is; `not_passed` are failed
-    or skipped; `either` may be anything but an error; `bonus_failed` are bonus criteria that are failed. `causes` maps
-    a criterion ("" stands for all that fail) to texts, one of which is in its cause, `steps` likewise to what is in its
-    next step. `gone` is in the command line of
-    no process afterwards. `ros` is the only kind of ROS that this holds for, where it is not empty. `exit` is the exit
-    code of `ros-tutor check`, where it is given; with 3, criteria may end in an error. `keeps_busy`: its processes take
-    all of the CPU that they get, so that several of them at once would keep each other from running.
+    - `says`: what the submission does right or wrong, for people
+    - `passes`: every required criterion passes
+    - `fails`: criteria that fail; of `fails_any`, at least one fails
+    - `not_passed`: criteria that fail or are skipped
+    - `either`: criteria that may have any verdict but an error
+    - `bonus_failed`: bonus criteria that fail
+    - `causes`: maps a criterion ("" stands for all that fail) to texts, one of which its cause contains
+    - `steps`: the same for its next step
+    - `gone`: a text that is in no process's command line afterwards
+    - `ros`: the only kind of ROS for which this holds, unless empty
+    - `exit`: the exit code of `ros-tutor check`, if given; with 3, criteria may end in an error
+    - `keeps_busy`: its processes use all the CPU they get, so that several at once would starve each other
     """
 
     says: str
@@ -46,7 +51,7 @@ class Expected:
 
     @property
     def named(self) -> Mapping[str, tuple[str, ...]]:
-        """The keys that name criteria, with what they name."""
+        """The keys that name criteria, and the criteria each of them names."""
         return {
             "fails": self.fails,
             "fails_any": self.fails_any,
@@ -72,7 +77,7 @@ class Case:
 def read_expected(file: Path) -> Expected:
     """Read an `expect.yaml`.
 
-    Raises ContentError for what is missing, unknown or of the wrong kind in it.
+    Raises ContentError if it cannot be read, or if a key is missing, unknown or of the wrong type.
     """
     try:
         text = file.read_text(encoding="utf-8")
@@ -90,8 +95,8 @@ def read_expected(file: Path) -> Expected:
         not_passed=fields.texts("not_passed", optional=True),
         either=fields.texts("either", optional=True),
         bonus_failed=fields.texts("bonus_failed", optional=True),
-        causes=_texts_of_criteria(fields, "cause"),
-        steps=_texts_of_criteria(fields, "step"),
+        causes=_texts_by_criterion(fields, "cause"),
+        steps=_texts_by_criterion(fields, "step"),
         gone=fields.text("gone", optional=True),
         ros=fields.text("ros", optional=True),
         exit=None if (code := fields.number("exit")) is None else int(code),
@@ -102,21 +107,21 @@ def read_expected(file: Path) -> Expected:
 
 
 def read_case(folder: Path) -> Case:
-    """The submission in this folder.
+    """Read the submission in this folder.
 
-    Raises ContentError where its `expect.yaml` is missing or broken.
+    Raises ContentError if its `expect.yaml` is missing or broken.
     """
     exercise, kind = folder.parts[-3].replace("_", "."), folder.parts[-2]
     return Case(exercise, kind, folder, read_expected(folder / EXPECT))
 
 
-def _texts_of_criteria(fields: Fields, key: str) -> Mapping[str, tuple[str, ...]]:
+def _texts_by_criterion(fields: Fields, key: str) -> Mapping[str, tuple[str, ...]]:
     value = fields.anything(key)
     found = value if isinstance(value, dict) else {"": value or []}
     texts_of: dict[str, tuple[str, ...]] = {}
-    for name, said in found.items():
-        texts = [said] if isinstance(said, str) else said
+    for name, entry in found.items():
+        texts = [entry] if isinstance(entry, str) else entry
         if not isinstance(texts, list) or not all(isinstance(text, str) for text in texts):
-            raise fields.error(key, "expected a text, or for criteria each a text or a list of texts")
+            raise fields.error(key, "expected a text or a list of texts, or one of these for each criterion")
         texts_of[str(name)] = tuple(texts)
     return {name: texts for name, texts in texts_of.items() if texts}

@@ -1,4 +1,4 @@
-"""Probes in child processes: a broken ROS must not take the doctor with it."""
+"""Probes in child processes, so that a broken ROS cannot crash the doctor."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ PROBE = Path(__file__).resolve().parent.parent / "ros" / "probe.py"
 
 
 def ask(ros: RosEnvironment, environ: Mapping[str, str], program: str, limit_s: float) -> dict[str, Any]:
-    """Run one program of the probe to its end, and return its answer. Raises ProbeFailed."""
+    """Run one program of the probe to completion and return the JSON object it prints. Raises ProbeFailed."""
     with private_folders.temporary("doctor") as folder:
         env = learner_env(ros, domain_id=0, log_dir=folder, package_root=None, isolated=True, environ=environ)
         try:
@@ -40,19 +40,19 @@ def ask(ros: RosEnvironment, environ: Mapping[str, str], program: str, limit_s: 
 
 
 def first_message_ms(ros: RosEnvironment, environ: Mapping[str, str], limit_s: float) -> float:
-    """Let two processes find each other on a reserved domain.
+    """Measure discovery between two processes on a reserved domain.
 
-    Returns the milliseconds from the start of the publisher's process to the first message in the other. Raises
-    ProbeFailed, NoFreeDomain.
+    Returns the time from the start of the publisher's process to the subscriber's first message, in milliseconds.
+    Raises ProbeFailed or NoFreeDomain.
     """
     with private_folders.temporary("doctor") as folder, reserve_domain() as domain:
         env = learner_env(ros, domain_id=domain, log_dir=folder, package_root=None, isolated=True, environ=environ)
         deadline = time.monotonic() + limit_s
         with _running(ros, env, folder, "listen") as listener:
-            _line(listener, deadline, "the subscriber did not start")
+            _read_line(listener, deadline, "the subscriber did not start")
             started = time.monotonic()
             with _running(ros, env, folder, "talk"):
-                _line(listener, deadline, "no message arrived")
+                _read_line(listener, deadline, "no message arrived")
                 return (time.monotonic() - started) * 1000
 
 
@@ -60,11 +60,11 @@ def first_message_ms(ros: RosEnvironment, environ: Mapping[str, str], limit_s: f
 def _running(
     ros: RosEnvironment, env: Mapping[str, str], folder: Path, program: str
 ) -> Iterator[subprocess.Popen[str]]:
-    with tempfile.TemporaryFile("w+", errors="replace") as said:
+    with tempfile.TemporaryFile("w+", errors="replace") as stderr_file:
         try:
             process = subprocess.Popen(
                 [ros.python, PROBE, program, "/ros_tutor_doctor"],
-                env=env, cwd=folder, stdout=subprocess.PIPE, stderr=said, text=True, errors="replace",
+                env=env, cwd=folder, stdout=subprocess.PIPE, stderr=stderr_file, text=True, errors="replace",
             )  # fmt: skip
         except OSError as error:
             raise ProbeFailed(f"{ros.python} cannot be run: {error.strerror}") from error
@@ -72,29 +72,29 @@ def _running(
             yield process
         except ProbeFailed as failure:
             if process.poll() not in (None, 0):
-                said.seek(0)
-                raise ProbeFailed(_output_tail(process.returncode, said.read())) from failure
+                stderr_file.seek(0)
+                raise ProbeFailed(_output_tail(process.returncode, stderr_file.read())) from failure
             raise
         finally:
             process.kill()
             process.communicate()
 
 
-def _line(process: subprocess.Popen[str], deadline: float, otherwise: str) -> str:
-    """The next line of a process. A process that ends, or says nothing in time, fails with `otherwise`."""
+def _read_line(process: subprocess.Popen[str], deadline: float, failure: str) -> str:
+    """Read the next line of a process. Raises ProbeFailed(`failure`) if it exits, or prints nothing by `deadline`."""
     assert process.stdout is not None
     with selectors.DefaultSelector() as selector:
         selector.register(process.stdout, selectors.EVENT_READ)
         if not selector.select(max(0.0, deadline - time.monotonic())):
-            raise ProbeFailed(f"{otherwise} in time")
+            raise ProbeFailed(f"{failure} in time")
     line = process.stdout.readline()
     if not line:
         process.wait(timeout=5)
-        raise ProbeFailed(otherwise)
+        raise ProbeFailed(failure)
     return line
 
 
 def _output_tail(code: int, stderr: str) -> str:
-    said = [line.strip() for line in stderr.splitlines() if line.strip()]
-    how = f"killed by signal {-code}" if code < 0 else f"exit code {code}"
-    return f"{said[-1]} ({how})" if said else how
+    lines = [line.strip() for line in stderr.splitlines() if line.strip()]
+    ending = f"killed by signal {-code}" if code < 0 else f"exit code {code}"
+    return f"{lines[-1]} ({ending})" if lines else ending

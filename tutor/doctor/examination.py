@@ -1,4 +1,4 @@
-"""All examinations, side by side."""
+"""Runs all examinations in parallel."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ Examination = Callable[[], Finding]
 
 
 def examine(workspace: Path | None, environ: Mapping[str, str] = os.environ) -> tuple[Finding, ...]:
-    """Examine this machine; findings come in the order to show them. Takes a few seconds.
+    """Examine this machine and return the findings in display order. Takes a few seconds.
 
-    `workspace` is where the learner's files are, or will be; None leaves that out. Nothing is changed (but that the
-    workspace gets its ROS domain, where it has none yet), and no process is left behind.
+    `workspace` is where the learner's files are or will be; None skips its examinations. Changes nothing, except that a
+    workspace without a ROS domain gets one, and leaves no process behind.
     """
     ros = detect(environ)
     examinations: list[tuple[str, Examination]] = [
@@ -41,12 +41,12 @@ def examine(workspace: Path | None, environ: Mapping[str, str] = os.environ) -> 
             ("ROS domain", lambda: ros2.own_domain(workspace, environ)),
         ]
     with ThreadPoolExecutor(len(examinations)) as pool:
-        return tuple(pool.map(lambda examination: _guarded(*examination), examinations))
+        return tuple(pool.map(lambda examination: _run_guarded(*examination), examinations))
 
 
-def _guarded(name: str, examination: Examination) -> Finding:
+def _run_guarded(name: str, examination: Examination) -> Finding:
     try:
         return examination()
-    except Exception as error:  # the border of one examination: the others must still be reported
+    except Exception as error:  # contain the failure: the other findings must still be reported
         text = f"This could not be examined: {type(error).__name__}: {error}"
         return Finding(name, False, text, "This is a fault of ros-tutor itself: please report it, with this line.")

@@ -1,4 +1,4 @@
-"""What an examination found."""
+"""The result of one examination."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """One thing that was examined.
+    """The result of one examination.
 
-    `ok` is True where all is well, False where checks cannot work, and None for a warning: checks work, but there is
-    something to know. `hint` says what to do, and is empty where there is nothing to do.
+    `ok` is True if all is well, False if checks cannot work, and None for a warning: checks work, but with a
+    limitation. `hint` says what to do; empty if there is nothing to do.
     """
 
     name: str

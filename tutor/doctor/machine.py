@@ -1,4 +1,4 @@
-"""Examinations of the machine: Python, network, folders."""
+"""Examinations of the machine: Python, network, shared memory, folders."""
 
 from __future__ import annotations
 
@@ -11,16 +11,18 @@ from tutor.doctor.finding import Finding
 from tutor.ros import shared_memory
 from tutor.ros.discovery import loopback_multicast_works, require_loopback
 
-_NEEDED_PYTHON = (3, 12)
-_MEMORY_OF_A_NODE = 700_000  # measured: a segment, and the ports at which it listens
+_REQUIRED_PYTHON = (3, 12)
+_BYTES_PER_NODE = 700_000
+"""Shared memory of one node, as measured: a segment, and the ports on which it listens."""
 _NODES = 20
+"""Warn if shared memory has room for fewer nodes than this."""
 
 
 def python_version(version: tuple[int, int] = sys.version_info[:2], platform_name: str | None = None) -> Finding:
-    """Whether this is the Python and the kind of machine that ROS 2 Jazzy is built for."""
+    """Examine whether this is the Python and the platform that ROS 2 Jazzy is built for."""
     where = platform_name or f"{platform.system()} {platform.machine()}"
     text = f"Python {'.'.join(map(str, version))} on {where}"
-    if version != _NEEDED_PYTHON:
+    if version != _REQUIRED_PYTHON:
         hint = "Install ros-tutor with Python 3.12, for example: uv tool install --python 3.12 ros-tutor"
         return Finding("Python", False, f"{text}; ROS 2 Jazzy needs Python 3.12.", hint)
     if where != "Linux x86_64":
@@ -30,7 +32,7 @@ def python_version(version: tuple[int, int] = sys.version_info[:2], platform_nam
 
 
 def loopback() -> Finding:
-    """Whether a datagram to 127.0.0.1 arrives."""
+    """Examine whether a datagram to 127.0.0.1 arrives."""
     try:
         require_loopback()
     except OSError as error:
@@ -40,7 +42,7 @@ def loopback() -> Finding:
 
 
 def loopback_multicast() -> Finding:
-    """Whether multicast works on the loopback interface: with it, nodes find each other at once."""
+    """Examine whether multicast works on the loopback interface: with it, discovery is immediate."""
     if loopback_multicast_works():
         return Finding("Loopback multicast", True, "multicast on the loopback interface works")
     return Finding(
@@ -53,36 +55,36 @@ def loopback_multicast() -> Finding:
 
 
 def shared_memory_room() -> Finding:
-    """Whether ROS can be loaded with what is left of shared memory, and nodes can use it."""
+    """Examine whether enough shared memory is free for ROS to load, and for nodes to use it."""
     name = "Shared memory"
     room = shared_memory.room()
     if room is None:
-        return Finding(name, True, "this machine sets no limit to it")
-    size, free = (_megabytes(number) for number in (room.size, room.free))
+        return Finding(name, True, "this machine sets no limit on it")
+    size, free = _megabytes(room.size), _megabytes(room.free)
     hint = shared_memory.HINT[0].upper() + shared_memory.HINT[1:] + "."
     if not room.enough:
-        return Finding(name, False, f"{room.place} is full ({size}), so that ROS cannot be loaded.", hint)
-    if room.free < _MEMORY_OF_A_NODE * _NODES:
-        text = f"{room.place} has {free} of {size} left, which is little: each node takes {_MEMORY_OF_A_NODE / 1e6} MB."
+        return Finding(name, False, f"{room.place} is full ({size}), so ROS cannot be loaded.", hint)
+    if room.free < _BYTES_PER_NODE * _NODES:
+        text = f"{room.place} has {free} of {size} left, which is little: each node takes {_BYTES_PER_NODE / 1e6} MB."
         return Finding(name, None, f"{text} Without it, nodes print errors and send over the network instead.", hint)
     return Finding(name, True, f"{room.place} has {free} of {size} left")
 
 
 def temporary_files() -> Finding:
-    """Whether temporary files, such as the logs of a check, can be written."""
+    """Examine whether temporary files, such as the logs of a check, can be written."""
     name = "Temporary files"
     hint = "Free some space there, or set TMPDIR to a folder that you may write to: export TMPDIR=$HOME/tmp"
     try:
         folder = Path(tempfile.gettempdir())
     except FileNotFoundError as error:
         return Finding(name, False, f"There is no folder for temporary files ({error.strerror}).", hint)
-    if (fault := _cannot_write(folder)) is not None:
+    if (fault := _try_writing(folder)) is not None:
         return Finding(name, False, f"{folder} cannot be written to ({fault}).", hint)
     return Finding(name, True, f"{folder} can be written to")
 
 
 def workspace(root: Path) -> Finding:
-    """Whether the workspace can be written to or, where there is none yet, made. It is not made here."""
+    """Examine whether the workspace can be written to or, if it does not exist yet, created. Does not create it."""
     name = "Workspace"
     folder = root
     while not folder.exists() and not folder.is_symlink() and folder != folder.parent:
@@ -90,18 +92,18 @@ def workspace(root: Path) -> Finding:
     if not folder.is_dir():
         text = f"{root} cannot be a folder: {folder} is something else."
         return Finding(name, False, text, "Choose another folder with --workspace DIR, or move that file away.")
-    if (fault := _cannot_write(folder)) is not None:
+    if (fault := _try_writing(folder)) is not None:
         hint = f"Choose another folder with --workspace DIR, or make this one yours: sudo chown -R $USER {folder}"
         return Finding(name, False, f"{folder} cannot be written to ({fault}).", hint)
-    return Finding(name, True, f"{root} can be written to" if folder == root else f"{root} can be made")
+    return Finding(name, True, f"{root} can be written to" if folder == root else f"{root} can be created")
 
 
-def _megabytes(number: int) -> str:
-    return f"{number / 2**20:.0f} MB"
+def _megabytes(size: int) -> str:
+    return f"{size / 2**20:.0f} MB"
 
 
-def _cannot_write(folder: Path) -> str | None:
-    """Why nothing can be written into a folder, found by writing; None where it can."""
+def _try_writing(folder: Path) -> str | None:
+    """Try to write a file into a folder; return why it fails, or None if it works."""
     try:
         with tempfile.NamedTemporaryFile(dir=folder, prefix=".ros-tutor-") as file:
             file.write(b"\0" * 65536)  # enough to notice a full disk

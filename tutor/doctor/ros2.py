@@ -1,4 +1,4 @@
-"""Examinations of ROS 2: which one, whether it is whole, and whether two processes can talk."""
+"""Examinations of ROS 2: which one is used, whether it is complete, and whether two processes can communicate."""
 
 from __future__ import annotations
 
@@ -25,35 +25,35 @@ _REINSTALL = (
     "Install ros-tutor again: uv tool install --reinstall --python 3.12 ros-tutor "
     "(in a clone: ./.ci/uv sync --reinstall)"
 )
-_SOURCE_ANEW = (
+_SOURCE_AGAIN = (
     "Open a new terminal and source ROS 2 Jazzy alone (source /opt/ros/jazzy/setup.bash), or no ROS at all; "
-    "look into ~/.bashrc for a line that sources another one."
+    "check ~/.bashrc for a line that sources another one."
 )
 
 
 def which_ros(ros: RosEnvironment) -> Finding:
-    """The ROS that is used, and its middleware."""
+    """Report which ROS is used, and its middleware."""
     return Finding("ROS 2", True, f"{ros.distro}, {ros.kind}, {ros.rmw}, run by {ros.python}")
 
 
 def variables(ros: RosEnvironment) -> Finding:
-    """Whether what is sourced in this terminal is whole and unmixed."""
+    """Examine whether the ROS sourced in this terminal is complete and not mixed with another one."""
     if ros.problems:
         text = " ".join(ros.problems) + " The bundled ROS is used instead."
-        return Finding("ROS variables", None, text, _SOURCE_ANEW)
+        return Finding("ROS variables", None, text, _SOURCE_AGAIN)
     return Finding(
         "ROS variables", True, "ROS 2 Jazzy is sourced" if ros.kind == "system" else "no other ROS is sourced"
     )
 
 
 def wheels(ros: RosEnvironment, path: Sequence[str] | None = None) -> Finding:
-    """Whether every package of the bundled ROS is installed (on `path`; by default where this process looks)."""
+    """Examine whether every package of the bundled ROS is installed on `path`, by default sys.path."""
     name = "ROS packages"
     if ros.kind == "system":
         return Finding(name, True, "those of the sourced ROS are used")
     found = distributions() if path is None else distributions(path=list(path))
-    installed = {_plain(distribution.metadata["Name"] or ""): distribution for distribution in found}
-    missing = _missing(installed)
+    installed = {_normalize(distribution.metadata["Name"] or ""): distribution for distribution in found}
+    missing = _find_missing(installed)
     if missing:
         shown = ", ".join(missing[:5]) + (f" and {len(missing) - 5} more" if len(missing) > 5 else "")
         return Finding(name, False, f"Parts of the bundled ROS are not installed: {shown}.", _REINSTALL)
@@ -62,7 +62,7 @@ def wheels(ros: RosEnvironment, path: Sequence[str] | None = None) -> Finding:
 
 
 def rclpy_import(ros: RosEnvironment, environ: Mapping[str, str]) -> Finding:
-    """Whether `import rclpy` works as a learner's process does it, and how long it takes."""
+    """Examine whether `import rclpy` works in a learner's process, and how long it takes."""
     try:
         answer = child.ask(ros, environ, "import", limit_s=20.0)
     except ProbeFailed as failure:
@@ -71,7 +71,7 @@ def rclpy_import(ros: RosEnvironment, environ: Mapping[str, str]) -> Finding:
 
 
 def example_interfaces(ros: RosEnvironment, environ: Mapping[str, str]) -> Finding:
-    """Whether example_interfaces/srv/AddTwoInts, which the service exercises use, can be loaded."""
+    """Examine whether example_interfaces/srv/AddTwoInts, which the service exercises use, can be loaded."""
     name = "example_interfaces"
     try:
         child.ask(ros, environ, "interfaces", limit_s=20.0)
@@ -84,29 +84,26 @@ def example_interfaces(ros: RosEnvironment, environ: Mapping[str, str]) -> Findi
 
 
 def own_domain(workspace: Path, environ: Mapping[str, str]) -> Finding:
-    """In which ROS domain the nodes of `workspace` run, and how another terminal gets there."""
-    name, domain, said = (
-        "ROS domain",
-        domain_of(Workspace(workspace), environ),
-        environ.get("ROS_DOMAIN_ID", "").strip(),
-    )
+    """Report the ROS domain in which the nodes of `workspace` run, and how to join it from another terminal."""
+    name, domain = "ROS domain", domain_of(Workspace(workspace), environ)
+    variable = environ.get("ROS_DOMAIN_ID", "").strip()
     if given_domain(environ) is not None:
         return Finding(name, True, f"your nodes run in domain {domain}, as ROS_DOMAIN_ID says")
     own = f"your nodes run in domain {domain}, which is your workspace's own"
-    if said:
+    if variable:
         hint = f"export ROS_DOMAIN_ID={domain}, or unset ROS_DOMAIN_ID"
-        return Finding(name, None, f"ROS_DOMAIN_ID is {said!r}, which is not a number from 0 to 232; {own}", hint)
+        return Finding(name, None, f"ROS_DOMAIN_ID is {variable!r}, which is not a number from 0 to 232; {own}", hint)
     return Finding(name, True, f"{own} (in another terminal: export ROS_DOMAIN_ID={domain})")
 
 
 def discovery(ros: RosEnvironment, environ: Mapping[str, str]) -> Finding:
-    """Whether two processes find each other over DDS, as a check needs it, and how fast."""
+    """Examine whether two processes discover each other over DDS, as checks require, and how fast."""
     try:
         took_ms = child.first_message_ms(ros, environ, limit_s=15.0)
     except NoFreeDomain as error:
         return Finding("Discovery", False, str(error), error.hint)
     except ProbeFailed as failure:
-        hint = "First fix what is wrong above; then look for a firewall that blocks UDP on the loopback interface."
+        hint = "First fix the problems above; then look for a firewall that blocks UDP on the loopback interface."
         return Finding("Discovery", False, f"Two ROS processes did not find each other: {failure}", hint)
     return Finding("Discovery", True, f"first message {took_ms:.0f} ms after the start of a publisher")
 
@@ -119,22 +116,22 @@ def _hint_for_import(ros: RosEnvironment) -> str:
     return "Repair the sourced ROS (sudo apt install --reinstall ros-jazzy-rclpy), or use a new terminal without it."
 
 
-def _missing(installed: Mapping[str, Distribution]) -> list[str]:
-    """The ROS packages that the required ones need, directly or not, and that are not installed."""
+def _find_missing(installed: Mapping[str, Distribution]) -> list[str]:
+    """Return the required ROS packages, and those they depend on directly or indirectly, that are not installed."""
     missing: list[str] = []
-    waiting, seen = list(REQUIRED_WHEELS), set(REQUIRED_WHEELS)
-    while waiting:
-        package = waiting.pop(0)
+    pending, seen = list(REQUIRED_WHEELS), set(REQUIRED_WHEELS)
+    while pending:
+        package = pending.pop(0)
         if package not in installed:
             missing.append(package)
             continue
         for requirement in installed[package].requires or ():
-            needed = _plain(re.split(r"[^A-Za-z0-9._-]", requirement, maxsplit=1)[0])
+            needed = _normalize(re.split(r"[^A-Za-z0-9._-]", requirement, maxsplit=1)[0])
             if needed.startswith("ros-") and "extra ==" not in requirement and needed not in seen:
                 seen.add(needed)
-                waiting.append(needed)
+                pending.append(needed)
     return missing
 
 
-def _plain(name: str) -> str:
+def _normalize(name: str) -> str:
     return re.sub(r"[-_.]+", "-", name).lower()

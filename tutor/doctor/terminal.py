@@ -1,4 +1,4 @@
-"""Examination of the terminal that the app will be shown in."""
+"""Examination of the terminal in which the app would run."""
 
 from __future__ import annotations
 
@@ -9,24 +9,29 @@ from collections.abc import Mapping
 from tutor.doctor.finding import Finding
 
 _NAME = "Terminal"
-_COLUMNS, _ROWS = 80, 24
+_MIN_COLUMNS, _MIN_ROWS = 80, 24
 
 
 def capabilities(environ: Mapping[str, str] = os.environ) -> Finding:
-    """Whether the terminal shows colour and UTF-8 and is large enough. Never a failure: reports are plain text."""
+    """Examine whether the terminal shows colour and UTF-8 and is large enough.
+
+    A lack is only a warning, since reports are plain text.
+    """
     if not sys.stdout.isatty():
-        return Finding(_NAME, None, "The output is not a terminal: the app cannot be shown here, reports can.")
-    wanting = _wanting(environ)
+        return Finding(_NAME, None, "The output is not a terminal: the app cannot be shown here, but reports can.")
+    limitations = _find_limitations(environ)
     columns, rows = os.get_terminal_size(sys.stdout.fileno())
-    if columns < _COLUMNS or rows < _ROWS:
-        wanting.append((f"it is {columns}x{rows}, smaller than {_COLUMNS}x{_ROWS}", "make the window larger"))
-    if wanting:
-        text = "This terminal is limited: " + "; ".join(what for what, _ in wanting) + "."
-        return Finding(_NAME, None, text, "To see it well: " + "; ".join(hint for _, hint in wanting) + ".")
+    if columns < _MIN_COLUMNS or rows < _MIN_ROWS:
+        limitations.append(
+            (f"it is {columns}x{rows}, smaller than {_MIN_COLUMNS}x{_MIN_ROWS}", "make the window larger")
+        )
+    if limitations:
+        text = "This terminal is limited: " + "; ".join(what for what, _ in limitations) + "."
+        return Finding(_NAME, None, text, "To see it well: " + "; ".join(hint for _, hint in limitations) + ".")
     return Finding(_NAME, True, f"{environ['TERM']}, {columns}x{rows}, colour, UTF-8")
 
 
-def _wanting(environ: Mapping[str, str]) -> list[tuple[str, str]]:
+def _find_limitations(environ: Mapping[str, str]) -> list[tuple[str, str]]:
     term = environ.get("TERM", "")
     found: list[tuple[str, str]] = []
     if term in ("", "dumb"):

@@ -1,4 +1,4 @@
-"""How far a learner is: the checklist with its ticks and what the checks have shown, and each exercise's progress."""
+"""A learner's overall progress: the checklist with ticks and evidence from checks, and the state of each exercise."""
 
 from __future__ import annotations
 
@@ -6,14 +6,14 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from tutor.content import ChecklistItem, Course, CriterionText, Lesson
-from tutor.workspace import ExerciseProgress, Progress, State, exercise_state
+from tutor.workspace import ExerciseProgress, Progress, exercise_state
 
 
 @dataclass(frozen=True, slots=True)
 class Evidence:
-    """A criterion that passed; `criterion` is empty where the exercise as a whole is meant.
+    """A criterion that passed, or the exercise as a whole if `criterion` is empty.
 
-    `at` is the last time that it passed (UTC, ISO 8601), empty where that is no longer known.
+    `at` is the last time it passed (UTC, ISO 8601), or empty if that is no longer known.
     """
 
     exercise: str
@@ -23,7 +23,7 @@ class Evidence:
 
 @dataclass(frozen=True, slots=True)
 class Source:
-    """What could give evidence: criteria of an exercise, or the whole of it where there are none."""
+    """What could give evidence: some criteria of an exercise, or the exercise as a whole if `criteria` is empty."""
 
     exercise: str
     criteria: tuple[str, ...]
@@ -31,7 +31,7 @@ class Source:
 
 @dataclass(frozen=True, slots=True)
 class AssessedItem:
-    """One item: when it was ticked (None where it is not), what shows it, the latest first, and what could."""
+    """One checklist item. `ticked_at` is None if it is not ticked; `evidence` is sorted by time, latest first."""
 
     id: str
     text: str
@@ -41,13 +41,13 @@ class AssessedItem:
 
     @property
     def ticked(self) -> bool:
-        """Whether the learner has ticked it."""
+        """Whether the learner has ticked the item."""
         return self.ticked_at is not None
 
 
 @dataclass(frozen=True, slots=True)
 class AssessedGroup:
-    """The items of one subject."""
+    """The checklist items on one subject."""
 
     id: str
     title: str
@@ -55,7 +55,7 @@ class AssessedGroup:
 
     @property
     def ticked(self) -> int:
-        """How many are ticked."""
+        """The number of ticked items."""
         return sum(item.ticked for item in self.items)
 
 
@@ -63,7 +63,7 @@ class AssessedGroup:
 class AssessedExercise:
     """One exercise. `met` and `bonus_met` count the criteria that are met (see `tutor.workspace.exercise_states`).
 
-    `passed_at` and `last_at` are UTC times in ISO 8601, None where there is none (or it is no longer known).
+    `passed_at` and `last_at` are UTC times in ISO 8601, or None if there is none or it is no longer known.
     """
 
     id: str
@@ -81,7 +81,7 @@ class AssessedExercise:
 
     @property
     def status(self) -> str:
-        """How far the learner is with it, in words."""
+        """The learner's progress on the exercise, in words."""
         if self.passed:
             return "passed"
         if self.attempts:
@@ -91,7 +91,7 @@ class AssessedExercise:
 
 @dataclass(frozen=True, slots=True)
 class Assessment:
-    """All of it. `ready_title` and `ready_text` are for anyone who has ticked every item."""
+    """The whole assessment. `ready_title` and `ready_text` are shown once every item is ticked."""
 
     groups: tuple[AssessedGroup, ...]
     exercises: tuple[AssessedExercise, ...]
@@ -105,74 +105,74 @@ class Assessment:
 
     @property
     def ticked(self) -> int:
-        """How many items are ticked."""
+        """The number of ticked items."""
         return sum(group.ticked for group in self.groups)
 
     @property
     def ready(self) -> bool:
-        """Whether there is something to tick, and all of it is ticked."""
+        """Whether every item is ticked, and there is at least one."""
         return self.ticked == len(self.items) > 0
 
     @property
     def passed(self) -> int:
-        """How many exercises are passed."""
+        """The number of passed exercises."""
         return sum(exercise.passed for exercise in self.exercises)
 
 
 def assess(course: Course, progress: Progress) -> Assessment:
-    """Bring together what the course asks and what the learner has done."""
+    """Combine the course's checklist and exercises with the learner's progress."""
     checklist = course.checklist
     return Assessment(
         groups=tuple(
-            AssessedGroup(group.id, group.title, tuple(_item(item, course, progress) for item in group.items))
+            AssessedGroup(group.id, group.title, tuple(_assess_item(item, course, progress) for item in group.items))
             for group in checklist.groups
         ),
-        exercises=tuple(_exercise(lesson, progress.of(lesson.id)) for lesson in course.lessons),
+        exercises=tuple(_assess_exercise(lesson, progress.of(lesson.id)) for lesson in course.lessons),
         ready_title=checklist.ready_title,
         ready_text=checklist.ready_text,
     )
 
 
-def _item(item: ChecklistItem, course: Course, progress: Progress) -> AssessedItem:
-    found: list[Evidence] = []
+def _assess_item(item: ChecklistItem, course: Course, progress: Progress) -> AssessedItem:
+    evidence: list[Evidence] = []
     sources: list[Source] = []
     for lesson in course.lessons:
         if item.id not in lesson.checklist:
             continue
         criteria = [criterion for criterion in lesson.criteria if item.id in criterion.shows]
         sources.append(Source(lesson.id, tuple(criterion.id for criterion in criteria)))
-        found += _found(lesson, criteria, progress.of(lesson.id))
-    found.sort(key=lambda each: each.at, reverse=True)  # stable: those of one moment stay in the lesson's order
-    return AssessedItem(item.id, item.text, progress.ticks.get(item.id), tuple(found), tuple(sources))
+        evidence += _find_evidence(lesson, criteria, progress.of(lesson.id))
+    evidence.sort(key=lambda each: each.at, reverse=True)  # stable: evidence of the same time keeps the lesson's order
+    return AssessedItem(item.id, item.text, progress.ticks.get(item.id), tuple(evidence), tuple(sources))
 
 
-def _found(lesson: Lesson, criteria: list[CriterionText], progress: ExerciseProgress) -> Iterator[Evidence]:
+def _find_evidence(lesson: Lesson, criteria: list[CriterionText], progress: ExerciseProgress) -> Iterator[Evidence]:
     if not criteria and progress.is_passed:
         passes = [attempt.at for attempt in progress.attempts if attempt.is_pass]
         yield Evidence(lesson.id, "", passes[-1] if passes else "")
     for criterion in criteria:
-        # What the skeleton passes untouched shows nothing before the rest does its work as well.
+        # A criterion that the untouched skeleton passes is evidence only once the whole exercise is passed.
         counted = [attempt for attempt in progress.attempts if criterion.open or attempt.is_pass]
         at = [attempt.at for attempt in counted if criterion.id in attempt.passed]
         if at:
             yield Evidence(lesson.id, criterion.id, at[-1])
         elif progress.is_passed and not criterion.bonus:
-            yield Evidence(lesson.id, criterion.id, "")  # so long ago that the attempt is not kept any more
+            yield Evidence(lesson.id, criterion.id, "")  # passed so long ago that the attempt has been dropped
 
 
-def _exercise(lesson: Lesson, progress: ExerciseProgress) -> AssessedExercise:
-    found = exercise_state(lesson, progress)
+def _assess_exercise(lesson: Lesson, progress: ExerciseProgress) -> AssessedExercise:
+    state = exercise_state(lesson, progress)
     passes = [attempt for attempt in progress.attempts if attempt.is_pass]
     return AssessedExercise(
         id=lesson.id,
         title=lesson.title,
         difficulty=lesson.difficulty.value,
-        passed=found.state is State.PASSED,
+        passed=state.is_passed,
         started=progress.started_at is not None,
-        met=len(found.met),
-        required=len(found.required),
-        bonus_met=len(found.bonus_met),
-        bonus=len(found.bonus),
+        met=len(state.met),
+        required=len(state.required),
+        bonus_met=len(state.bonus_met),
+        bonus=len(state.bonus),
         attempts=len(progress.attempts),
         passed_at=passes[0].at if passes else None,
         last_at=progress.last.at if progress.last else None,

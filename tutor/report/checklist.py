@@ -1,4 +1,4 @@
-"""The self-assessment checklist as a document to keep and to hand in."""
+"""Exports the self-assessment checklist as a document to keep or hand in."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from pathlib import Path
 from tutor.report.assessment import Assessment
 
 SUFFIXES = {"markdown": ".md", "json": ".json", "html": ".html"}
-"""The formats, each with the suffix of its files."""
+"""File suffix by format."""
 
 FORMATS = tuple(SUFFIXES)
 
@@ -17,16 +17,16 @@ TITLE = "Self-assessment checklist"
 
 
 def format_of(path: Path) -> str | None:
-    """The format that a file's suffix stands for, or None."""
+    """Return the format of a file by its suffix, or None if it is unknown."""
     known = {suffix: format for format, suffix in SUFFIXES.items()} | {".markdown": "markdown", ".htm": "html"}
     return known.get(path.suffix.lower())
 
 
 def render_checklist(assessment: Assessment, format: str, *, at: str) -> str:
-    """Write the checklist in one of `FORMATS`; the text ends with a line's end.
+    """Render the checklist in one of `FORMATS`; the text ends with a newline.
 
-    `at` is when the document is made (UTC, ISO 8601).
+    `at` is the time of the export (UTC, ISO 8601).
     """
-    # Late: only one of them is needed.
+    # Imported late: only one of the renderers is needed.
     render: Callable[..., str] = import_module(f"tutor.report.checklist_{format}").render
     return render(assessment, at=at)

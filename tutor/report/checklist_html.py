@@ -1,4 +1,4 @@
-"""The checklist as one HTML page that needs nothing else: for the screen in light and dark, for print, to be heard."""
+"""The checklist as one self-contained HTML page: for screens (light and dark), print and screen readers."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from tutor.report.checklist import TITLE
 from tutor.report.phrases import calendar_day, describe_evidence
 from tutor.terminal_text import printable
 
-# Text colours have a contrast of at least 4.5 to 1 on their ground, in light, dark and print.
+# All text colours have a contrast of at least 4.5:1 with their background, in light, dark and print.
 _STYLE = """\
 :root { color-scheme: light dark; --ground: #fbfcfe; --ink: #1b2536; --quiet: #55627a; --line: #c3cddd;
   --good: #1d6f3a; --lead: #1f5fb8; }
@@ -49,7 +49,7 @@ td.number, th.number { text-align: right; white-space: nowrap; }
 
 
 def render(assessment: Assessment, *, at: str) -> str:
-    """Write the page. It loads nothing, and says so to the browser."""
+    """Render the page. It loads nothing, which its Content-Security-Policy enforces."""
     return "\n".join(_lines(assessment, at)) + "\n"
 
 
@@ -69,12 +69,12 @@ def _lines(assessment: Assessment, at: str) -> Iterator[str]:
     yield f"<h1>{TITLE}</h1>"
     yield f"<p>{assessment.ticked} of {total} ticked, as of {_time(at)}.</p>"
     if total:
-        # The line above says the same: nobody needs to hear it twice.
+        # Hidden from screen readers, since the line above says the same.
         yield f'<progress aria-hidden="true" value="{assessment.ticked}" max="{total}"></progress>'
     if assessment.ready:
         yield '<section class="ready" aria-labelledby="ready">'
-        yield f'<h2 id="ready">{_text(assessment.ready_title)}</h2>'
-        yield f"<p>{_text(assessment.ready_text)}</p>"
+        yield f'<h2 id="ready">{_escape(assessment.ready_title)}</h2>'
+        yield f"<p>{_escape(assessment.ready_text)}</p>"
         yield "</section>"
     for number, group in enumerate(assessment.groups, start=1):
         yield from _group(group, number)
@@ -88,8 +88,8 @@ def _lines(assessment: Assessment, at: str) -> Iterator[str]:
 def _group(group: AssessedGroup, number: int) -> Iterator[str]:
     yield f'<section aria-labelledby="group-{number}">'
     count = f"<small>{group.ticked} of {len(group.items)}</small>"
-    yield f'<h2 id="group-{number}">{_text(group.title)} {count}</h2>'
-    yield '<ul role="list">'  # without markers, some browsers take the list's role away
+    yield f'<h2 id="group-{number}">{_escape(group.title)} {count}</h2>'
+    yield '<ul role="list">'  # without list markers, some browsers drop the implicit role
     yield from (_item(item) for item in group.items)
     yield "</ul>"
     yield "</section>"
@@ -97,9 +97,9 @@ def _group(group: AssessedGroup, number: int) -> Iterator[str]:
 
 def _item(item: AssessedItem) -> str:
     box = f'<input type="checkbox" disabled{" checked" if item.ticked else ""}>'
-    said = "; ".join(describe_evidence(item.evidence, calendar_day))
-    shown = f' <span class="evidence">{_text(said)}</span>' if said else ""
-    return f"<li><label>{box} {_text(item.text)}</label>{shown}</li>"
+    evidence = "; ".join(describe_evidence(item.evidence, calendar_day))
+    span = f' <span class="evidence">{_escape(evidence)}</span>' if evidence else ""
+    return f"<li><label>{box} {_escape(item.text)}</label>{span}</li>"
 
 
 def _exercises(assessment: Assessment) -> Iterator[str]:
@@ -127,16 +127,16 @@ def _row(exercise: AssessedExercise) -> str:
     kind = ' class="passed"' if exercise.passed else ""
     bonus = f"{exercise.bonus_met} of {exercise.bonus}" if exercise.bonus else "none"
     return (
-        f'<tr><th scope="row">{_text(exercise.id)} {_text(exercise.title)}</th><td>{_text(exercise.difficulty)}</td>'
-        f"<td{kind}>{mark}{exercise.status}{when}</td>"
+        f'<tr><th scope="row">{_escape(exercise.id)} {_escape(exercise.title)}</th>'
+        f"<td>{_escape(exercise.difficulty)}</td><td{kind}>{mark}{exercise.status}{when}</td>"
         f'<td class="number">{exercise.met} of {exercise.required}</td><td class="number">{bonus}</td>'
         f'<td class="number">{exercise.attempts}</td></tr>'
     )
 
 
 def _time(at: str) -> str:
-    return f'<time datetime="{_text(at)}">{_text(calendar_day(at))}</time>'
+    return f'<time datetime="{_escape(at)}">{_escape(calendar_day(at))}</time>'
 
 
-def _text(text: str) -> str:
+def _escape(text: str) -> str:
     return escape_html(printable(text))

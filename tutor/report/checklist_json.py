@@ -1,4 +1,4 @@
-"""The checklist as one JSON document, for programs. All times are UTC in ISO 8601."""
+"""The checklist as a JSON document, for programs. All times are UTC in ISO 8601."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ SCHEMA = "ros-tutor/checklist/1"
 
 
 def render(assessment: Assessment, *, at: str) -> str:
-    """Write the document."""
+    """Render the document as JSON text with a final newline."""
     document = {
         "schema": SCHEMA,
         "exported_at": at,

@@ -1,4 +1,4 @@
-"""The checklist in Markdown: a task list as GitHub shows it, and a table of the exercises."""
+"""The checklist in Markdown: a GitHub task list, and a table of the exercises."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from tutor.report.phrases import calendar_day, describe_evidence
 
 
 def render(assessment: Assessment, *, at: str) -> str:
-    """Write the document."""
+    """Render the document as Markdown text with a final newline."""
     return "\n".join(_lines(assessment, at)) + "\n"
 
 
@@ -40,8 +40,8 @@ def _lines(assessment: Assessment, at: str) -> Iterator[str]:
 
 
 def _task(item: AssessedItem) -> str:
-    shown = escape("; ".join(describe_evidence(item.evidence, calendar_day)))
-    return f"- [{'x' if item.ticked else ' '}] {escape(item.text)}{f' ({shown})' if shown else ''}"
+    evidence = escape("; ".join(describe_evidence(item.evidence, calendar_day)))
+    return f"- [{'x' if item.ticked else ' '}] {escape(item.text)}{f' ({evidence})' if evidence else ''}"
 
 
 def _row(exercise: AssessedExercise) -> str:

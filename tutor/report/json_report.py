@@ -1,4 +1,4 @@
-"""The report as one JSON document, for programs."""
+"""The report as a JSON document, for programs."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ SCHEMA = "ros-tutor/report/1"
 
 
 def render(report: Report) -> str:
-    """Write the document; durations are seconds, rounded to milliseconds."""
+    """Render the document; durations are in seconds, rounded to milliseconds."""
     document: dict[str, Any] = {
         "schema": SCHEMA,
         "verdict": report.verdict.value,

@@ -1,4 +1,4 @@
-"""The report as JUnit XML, as Jenkins, GitLab and GitHub's test reporters read it (Jenkins's junit-10.xsd)."""
+"""The report as JUnit XML for Jenkins, GitLab and GitHub's test reporters (follows Jenkins's junit-10.xsd)."""
 
 from __future__ import annotations
 
@@ -9,28 +9,28 @@ from tutor.judge.result import CriterionResult, ExerciseResult, Report
 from tutor.judge.verdict import Status
 from tutor.report.plain import details, evidence_lines, one_line
 
-_LONGEST = 2000
-_COUNTED = (("failures", "failure"), ("errors", "error"), ("skipped", "skipped"))
+_MAX_LENGTH = 2000
+_COUNT_ATTRIBUTES = (("failures", "failure"), ("errors", "error"), ("skipped", "skipped"))
 
 
 def render(report: Report) -> str:
-    """Write one test suite for each exercise, one test case for each criterion.
+    """Render one test suite per exercise and one test case per criterion.
 
-    A bonus criterion that did not pass is "skipped" here, since a failure would turn a passed check red; a required one
-    of an exercise that was not handed in is a failure, since nothing else would turn the check red.
+    A bonus criterion that did not pass is reported as "skipped", since a failure would turn a passed check red. A
+    required criterion of an exercise that was not handed in is a failure, since nothing else would turn the check red.
     """
-    root = Element("testsuites", name="ros-tutor", time=_time(report.duration_s))
+    root = Element("testsuites", name="ros-tutor", time=_format_time(report.duration_s))
     for exercise in report.exercises:
-        _suite(root, exercise, report)
+        _add_suite(root, exercise, report)
     for name in ("tests", "failures", "errors"):
         root.set(name, str(sum(int(suite.get(name, "0")) for suite in root)))
     indent(root)
     return '<?xml version="1.0" encoding="UTF-8"?>\n' + tostring(root, encoding="unicode") + "\n"
 
 
-def _suite(root: Element, exercise: ExerciseResult, report: Report) -> None:
+def _add_suite(root: Element, exercise: ExerciseResult, report: Report) -> None:
     name = one_line(f"{exercise.id} {exercise.title}")
-    suite = SubElement(root, "testsuite", name=name, time=_time(exercise.duration_s))
+    suite = SubElement(root, "testsuite", name=name, time=_format_time(exercise.duration_s))
     properties = SubElement(suite, "properties")
     facts = {
         **asdict(report.environment),
@@ -40,19 +40,19 @@ def _suite(root: Element, exercise: ExerciseResult, report: Report) -> None:
     for name, value in facts.items():
         SubElement(properties, "property", name=name, value=one_line(value))
     for criterion in exercise.criteria:
-        _case(suite, exercise, criterion)
+        _add_case(suite, exercise, criterion)
     suite.set("tests", str(len(exercise.criteria)))
-    for attribute, tag in _COUNTED:
+    for attribute, tag in _COUNT_ATTRIBUTES:
         suite.set(attribute, str(len(suite.findall(f"testcase/{tag}"))))
 
 
-def _case(suite: Element, exercise: ExerciseResult, criterion: CriterionResult) -> None:
+def _add_case(suite: Element, exercise: ExerciseResult, criterion: CriterionResult) -> None:
     case = SubElement(
         suite,
         "testcase",
         classname=one_line(f"ros-tutor.{exercise.id}"),
         name=one_line(criterion.id),
-        time=_time(criterion.duration_s),
+        time=_format_time(criterion.duration_s),
     )
     verdict = criterion.verdict
     if verdict.passed:
@@ -69,10 +69,10 @@ def _case(suite: Element, exercise: ExerciseResult, criterion: CriterionResult) 
     lines = [one_line(criterion.text)]
     for label, text in details(verdict):
         first, *code = text.split("\n") if label == "next step" else [text]
-        lines += [f"{label}: {one_line(first, _LONGEST)}", *code]
+        lines += [f"{label}: {one_line(first, _MAX_LENGTH)}", *code]
     lines += [f"  {line}" for line in evidence_lines(verdict)]
     outcome.text = "\n".join(lines)
 
 
-def _time(duration_s: float) -> str:
+def _format_time(duration_s: float) -> str:
     return f"{max(duration_s, 0.0):.3f}"

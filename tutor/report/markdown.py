@@ -13,16 +13,16 @@ from tutor.terminal_text import printable
 
 _SPECIAL = re.compile(r"([\\`*_{}\[\]<>#|~$]|&(?=#?\w+;))")
 _MENTION = re.compile(r"@(?=\w)")
-_LONGEST = 2000
+_MAX_LENGTH = 2000
 
 
 def render(report: Report) -> str:
-    """Write a heading and a table for each exercise, and below it what to do about each criterion that did not pass."""
+    """Render a heading and a table per exercise, followed by a diagnosis of each criterion that did not pass."""
     return "\n".join(_lines(report)).rstrip("\n") + "\n"
 
 
 def escape(text: str) -> str:
-    """Text as it is, in one line of Markdown: nothing in it is markup, HTML, a cell's end, or calls a person."""
+    """Escape text as one line of literal Markdown: without markup, HTML, table cell ends or @mentions."""
     return _MENTION.sub("@<!-- -->", _SPECIAL.sub(r"\\\1", " ".join(printable(text).split())))
 
 
@@ -75,7 +75,7 @@ def _exercise(exercise: ExerciseResult) -> Iterator[str]:
 
 
 def _diagnosis(criterion: CriterionResult) -> Iterator[str]:
-    """A block that folds: open where it is the learner's to fix and the verdict depends on it."""
+    """Yield a collapsible block, open if the criterion failed or had an error and counts towards the verdict."""
     verdict = criterion.verdict
     unfolded = " open" if verdict.status in (Status.FAILED, Status.ERROR) and not criterion.bonus else ""
     bonus = " (bonus)" if criterion.bonus else ""
@@ -84,8 +84,8 @@ def _diagnosis(criterion: CriterionResult) -> Iterator[str]:
     yield ""
     for label, text in details(verdict):
         first, *code = text.split("\n") if label == "next step" else [text]
-        yield f"- **{label}:** {escape(one_line(first, _LONGEST))}"
-        if code:  # to be copied as it is
+        yield f"- **{label}:** {escape(one_line(first, _MAX_LENGTH))}"
+        if code:  # fenced, so that it can be copied verbatim
             yield ""
             yield from _fenced(code)
     if verdict.evidence:
@@ -96,7 +96,7 @@ def _diagnosis(criterion: CriterionResult) -> Iterator[str]:
 
 
 def _fenced(lines: Sequence[str]) -> Iterator[str]:
-    """The lines as a block of text in which nothing is markup."""
+    """Yield the lines as a fenced block, with a fence longer than any run of backticks in them."""
     longest = max((len(run) for line in lines for run in re.findall("`+", line)), default=0)
     fence = "`" * max(3, longest + 1)
     yield f"{fence}text"

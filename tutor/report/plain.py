@@ -1,4 +1,4 @@
-"""Words that every format shares."""
+"""Marks and phrases shared by all formats."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ MARKS = {Status.PASSED: "✓", Status.FAILED: "✗", Status.SKIPPED: "-", Status
 
 
 def one_line(text: str, most: int = 300) -> str:
-    """`printable` text in one line, of `most` characters: what is longer ends in "..."."""
+    """Return `printable` text as one line, shortened to `most` characters with "..."."""
     text = " ".join(printable(text).split())
     return text if len(text) <= most else f"{text[: most - 3].rstrip()}..."
 
 
 def describe_waiting(doing: str, so_far: str, most: int) -> str:
-    """What is done to a node that a criterion waits for, and what is known so far, in words that are not final.
+    """Describe a criterion that is still waiting: what is being done to the node, and the provisional result so far.
 
-    Where both do not fit into `most` characters, it is what is known.
+    If both do not fit into `most` characters, only the provisional result is returned.
     """
     if not so_far:
         return doing
@@ -28,13 +28,13 @@ def describe_waiting(doing: str, so_far: str, most: int) -> str:
 
 
 def evidence_lines(verdict: Verdict, most: int = 500) -> list[str]:
-    """The evidence as `printable` lines of at most `most` characters."""
+    """Return the evidence as `printable` lines of at most `most` characters."""
     lines = [line for text in verdict.evidence for line in printable(text).split("\n")]
     return [line if len(line) <= most else f"{line[: most - 3]}..." for line in lines]
 
 
 def details(verdict: Verdict) -> list[tuple[str, str]]:
-    """What there is to say about a verdict, as (label, text) pairs without the evidence."""
+    """Return the non-empty texts of a verdict as (label, text) pairs, without the evidence."""
     pairs = (
         ("expected", verdict.expected),
         ("observed", verdict.observed),
@@ -45,16 +45,16 @@ def details(verdict: Verdict) -> list[tuple[str, str]]:
 
 
 def isolation_lines(report: Report) -> list[str]:
-    """A line for what was isolated, and one for what was not; none where isolation was not asked for."""
+    """Return a line for what was isolated and one for what was not; none if isolation was not requested."""
     lines = []
     for label, stands in (("isolated", True), ("not isolated", False)):
-        if found := [f"{each.name} ({each.detail})" for each in report.isolation if each.stands is stands]:
-            lines.append(f"{label}: {'; '.join(found)}")
+        if walls := [f"{wall.name} ({wall.detail})" for wall in report.isolation if wall.stands is stands]:
+            lines.append(f"{label}: {'; '.join(walls)}")
     return lines
 
 
 def tally(exercise: ExerciseResult) -> str:
-    """How many criteria passed: "4 of 6 passed, bonus 1 of 1"."""
+    """Return how many criteria passed: "4 of 6 passed, bonus 1 of 1"."""
     required = [c.verdict.passed for c in exercise.criteria if not c.bonus]
     bonus = [c.verdict.passed for c in exercise.criteria if c.bonus]
     text = f"{sum(required)} of {len(required)} passed" if required else ""
@@ -63,10 +63,10 @@ def tally(exercise: ExerciseResult) -> str:
 
 
 def seconds(duration_s: float) -> str:
-    """A duration for people: "3.9 s"."""
+    """Format a duration: "3.9 s"."""
     return f"{duration_s:.1f} s"
 
 
 def describe(environment: Environment) -> str:
-    """What the check ran on, in one line."""
+    """Describe the environment of a check in one line."""
     return f"ROS 2 {environment.ros_distro} ({environment.ros}), {environment.rmw}, ros-tutor {environment.ros_tutor}"

@@ -1,4 +1,4 @@
-"""The report for people in a terminal, or in a file."""
+"""The report as plain text, for a terminal or a file."""
 
 from __future__ import annotations
 
@@ -20,26 +20,26 @@ STYLES = {Status.PASSED: "green", Status.FAILED: "red", Status.SKIPPED: "yellow"
 
 _INDENT = 4
 
-_UNBROKEN = 4000
-"""So wide is a next step in a file: the code in it is to be copied, so its lines are not broken."""
+_UNWRAPPED_WIDTH = 4000
+"""Width of a next step in a file: code in it is to be copied, so its lines must not wrap."""
 
 
 @dataclass(frozen=True, slots=True)
 class _Step:
-    """The row of a next step."""
+    """The row of a next step, which may have another width than the rest."""
 
     row: RenderableType
 
 
 def render(report: Report, *, color: bool, width: int) -> str:
-    """Write the report, `width` columns wide. The verdict is always a word too, never a colour alone."""
+    """Render the report, `width` columns wide. Verdicts are always words as well, never colours alone."""
     out = StringIO()
-    console = _console(out, color=color, width=max(width, 40))
-    steps = console if color else _console(out, color=color, width=_UNBROKEN)
+    console = _make_console(out, color=color, width=max(width, 40))
+    step_console = console if color else _make_console(out, color=color, width=_UNWRAPPED_WIDTH)
     for exercise in report.exercises:
         for part in _exercise(exercise):
             if isinstance(part, _Step):
-                steps.print(part.row)
+                step_console.print(part.row)
             else:
                 console.print(part)
     console.print(_summary(report))
@@ -47,7 +47,7 @@ def render(report: Report, *, color: bool, width: int) -> str:
     return "\n".join(lines).rstrip("\n") + "\n"
 
 
-def _console(out: StringIO, *, color: bool, width: int) -> Console:
+def _make_console(out: StringIO, *, color: bool, width: int) -> Console:
     return Console(
         file=out,
         force_terminal=color,
@@ -108,9 +108,9 @@ def _diagnosis(criterion: CriterionResult) -> Iterator[RenderableType | _Step]:
     if criterion.verdict.status is Status.ERROR:
         yield _row("", Text("This could not be judged. It is no fault of your code.", "magenta"))
     for label, text in details(criterion.verdict):
-        step = label == "next step"
-        row = _row(label, Text(text, "bold" if step else ""))
-        yield _Step(row) if step else row
+        is_step = label == "next step"
+        row = _row(label, Text(text, "bold" if is_step else ""))
+        yield _Step(row) if is_step else row
     for number, line in enumerate(criterion.verdict.evidence):
         yield _row("" if number else "evidence", Text(printable(line), "dim"))
 
@@ -126,13 +126,13 @@ def _row(label: str, text: Text) -> RenderableType:
 def _summary(report: Report) -> RenderableType:
     verdict = report.verdict
     passed = sum(exercise.verdict is Status.PASSED for exercise in report.exercises)
-    of = f"  {passed} of {len(report.exercises)} exercises passed" if len(report.exercises) > 1 else ""
-    took = f"  in {seconds(report.duration_s)}"
+    tally_text = f"  {passed} of {len(report.exercises)} exercises passed" if len(report.exercises) > 1 else ""
+    duration = f"  in {seconds(report.duration_s)}"
     return Text.assemble(
         (f"{MARKS[verdict]} {verdict.value}", f"bold {STYLES[verdict]}"),
-        of,
+        tally_text,
         (
-            "\n".join([took, describe(report.environment), *isolation_lines(report)]),
+            "\n".join([duration, describe(report.environment), *isolation_lines(report)]),
             "dim",
         ),
     )

@@ -1,4 +1,4 @@
-"""What the app, plain text and the command line share: one answer to each question, so that they cannot disagree.
+"""The logic shared by the app, the plain-text dialog and the command line, so that they cannot disagree.
 
 Imports neither Textual nor rclpy.
 """

@@ -1,4 +1,4 @@
-"""One check, from its start to its end: reads the child's events and passes them on."""
+"""Runs one check in a child process and forwards its events."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from tutor.judge.events import CheckFinished, Event
 from tutor.session.engine_child import EngineChild
 
 ENGINE_FAULT = 3
-"""The exit code with which the engine tells a fault that it knows."""
+"""The exit code with which the engine reports a fault that it has described on its last line."""
 
 
 @dataclass(frozen=True, slots=True)
 class CheckEnded:
-    """The check's process is gone. `fault` says what broke in it, if anything; `evidence` is what it wrote last."""
+    """The check's process has exited. `fault` says what broke, if anything; `evidence` is the tail of its output."""
 
     exercise: str
     cancelled: bool = False
@@ -25,7 +25,7 @@ class CheckEnded:
 
 
 class CheckProcess:
-    """A check that runs. `tell` is given every event, and last a `CheckEnded`."""
+    """A running check. `tell` is called with every event, and finally with a `CheckEnded`."""
 
     def __init__(
         self, exercise: str, command: Sequence[str], cwd: Path, tell: Callable[[Event | CheckEnded], object]
@@ -37,26 +37,26 @@ class CheckProcess:
 
     @property
     def cancelled(self) -> bool:
-        """Whether it was asked to stop."""
+        """Whether the check was asked to stop."""
         return self._cancelled.is_set()
 
     def cancel(self) -> None:
-        """Ask it to stop; `run` returns when the child has cleaned up."""
+        """Ask the check to stop; `run` returns once the child has cleaned up."""
         self._cancelled.set()
 
     async def run(self) -> None:
-        """Check. No process of it is left when this returns, or is cancelled."""
-        over = CheckEnded(self.exercise)
+        """Run the check. None of its processes is left when this returns or is cancelled."""
+        ended = CheckEnded(self.exercise)
         try:
-            over = await self._run()
+            ended = await self._run()
         except OSError as error:
-            over = CheckEnded(self.exercise, fault=f"the check could not be started: {error.strerror or error}")
-        except Exception as error:  # the worker border: our fault must not take the app down
-            over = CheckEnded(self.exercise, fault=f"the check broke: {type(error).__name__}: {error}")
+            ended = CheckEnded(self.exercise, fault=f"the check could not be started: {error.strerror or error}")
+        except Exception as error:  # top level of the worker: a bug of ours must not crash the app
+            ended = CheckEnded(self.exercise, fault=f"the check crashed: {type(error).__name__}: {error}")
         finally:
             if self._child is not None:
                 await self._child.stop()
-            self._tell(over)
+            self._tell(ended)
 
     async def _run(self) -> CheckEnded:
         self._child = child = await EngineChild.start(self._command, self._cwd)
@@ -72,14 +72,14 @@ class CheckProcess:
                 await child.stop()
             code = await child.ended()
             if not finished and not fault:
-                fault = _why(code, child.output_tail)
+                fault = _describe_early_exit(code, child.output_tail)
             return CheckEnded(self.exercise, fault=fault, evidence=child.output_tail if fault else ())
         finally:
             reading.cancel()
             stopping.cancel()
 
     async def _read(self, child: EngineChild) -> tuple[bool, str]:
-        """Whether the check came to its end, and what was wrong with what it said."""
+        """Forward events to the end; return whether the check finished, and a fault if a line was no event."""
         finished = False
         try:
             async for event in child.events():
@@ -87,13 +87,13 @@ class CheckProcess:
                     self._tell(event)
                 finished = finished or isinstance(event, CheckFinished)
         except ValueError as error:
-            return finished, f"the check said something unknown ({error})"
+            return finished, f"the check sent an unknown event ({error})"
         return finished, ""
 
 
-def _why(code: int, said: Sequence[str]) -> str:
-    """Why a check ended early. With exit code 3 the engine says it itself, in its last line."""
-    if code == ENGINE_FAULT and said:
-        return said[-1]
-    how = f"exit code {code}" if code >= 0 else f"signal {-code}"
-    return f"the check ended before it was done ({how})"
+def _describe_early_exit(code: int, output_tail: Sequence[str]) -> str:
+    """Return why a check ended early. With exit code `ENGINE_FAULT`, that is the last line of the engine's output."""
+    if code == ENGINE_FAULT and output_tail:
+        return output_tail[-1]
+    ending = f"exit code {code}" if code >= 0 else f"signal {-code}"
+    return f"the check ended before it was done ({ending})"

@@ -1,4 +1,4 @@
-"""A check as a child process: whatever happens to it, the app lives on."""
+"""The engine as a child process, so that a crash of the engine does not affect the app."""
 
 from __future__ import annotations
 
@@ -12,21 +12,21 @@ from tutor.process import orphans, prctl
 from tutor.process.line_child import LineChild
 
 CLEAN_UP_S = 10.0
-"""How long a cancelled check may take to end the learner's processes, in seconds."""
+"""Timeout for a cancelled check to end the learner's processes, in seconds."""
 
 
 class EngineChild(LineChild):
-    """One run of the engine, which prints its events line by line."""
+    """One run of the engine, which prints one event per line."""
 
     @classmethod
     async def start(cls, argv: Sequence[str], cwd: Path) -> EngineChild:
-        """Start it. Raises OSError."""
+        """Start the engine. Raises OSError."""
         prctl.guard()
         prctl.adopt_orphans(True)
         return await cls._start(argv, cwd)
 
     async def events(self) -> AsyncIterator[Event]:
-        """The events as they come, until the child closes its output.
+        """Yield events as they arrive, until the child closes its output.
 
         Raises ValueError for a line that is not an event.
         """
@@ -34,20 +34,20 @@ class EngineChild(LineChild):
             yield decode(line)
 
     async def ended(self) -> int:
-        """Wait for its end; the exit code, negative for a signal."""
+        """Wait for the child to exit; return its exit code, negative for a signal."""
         code = await self._process.wait()
         await self._reader
         return code
 
     async def stop(self, limit_s: float = CLEAN_UP_S) -> None:
-        """Interrupt it and wait until it has cleaned up; kill it where that takes longer than the limit."""
-        for number in (signal.SIGINT, signal.SIGKILL):
+        """Interrupt the child and wait until it has cleaned up; kill it if that takes longer than `limit_s`."""
+        for signum in (signal.SIGINT, signal.SIGKILL):
             if self._process.returncode is None:
-                self.send_signal(number)
+                self.send_signal(signum)
                 try:
                     await asyncio.wait_for(self._process.wait(), limit_s)
                 except TimeoutError:
                     continue
         self._reader.cancel()
         if self._process.returncode is not None and self._process.returncode < 0:
-            orphans.end_orphans()  # it was killed, and could not clean up
+            orphans.end_orphans()  # it was killed and could not clean up

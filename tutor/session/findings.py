@@ -1,4 +1,4 @@
-"""What the check of one exercise has found so far, built from its events. Plain data: no widget, no process."""
+"""The state of one exercise's check, built from its events. Plain data, independent of widgets and processes."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from tutor.workspace import ExerciseProgress, last_met
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """One criterion: how far its check is (`fraction`, 0 to 1), what is being done, and in the end its verdict.
+    """The state of one criterion: progress (`fraction`, 0 to 1), current activity (`doing`), and finally its verdict.
 
-    `so_far`: what is known while it still waits, not final (see `tutor.judge.events.Progress`).
-    `before`: whether it was met when it was last checked before the app was started; None where it was not.
+    `so_far`: a provisional result while it still waits (see `tutor.judge.events.Progress`).
+    `before`: whether it was met in its last check before the app was started; None if it was never checked.
     """
 
     id: str
@@ -34,10 +34,10 @@ class Finding:
 
 @dataclass(frozen=True, slots=True)
 class Findings:
-    """All criteria of one exercise, in the order to show them. `note` says why there is no result, if there is none.
+    """All criteria of one exercise, in display order. `note` says why there is no result, if there is none.
 
-    `outdated`: the learner's code is no longer what was checked. `before` is when it was last checked before the app
-    was started, as the progress file has it; empty where it was not.
+    `outdated`: the learner's code has changed since the check. `before` is the time of the last check before the app
+    was started, as in the progress file; empty if there was none.
     """
 
     exercise: str
@@ -50,7 +50,7 @@ class Findings:
 
     @classmethod
     def of(cls, lesson: Lesson) -> Findings:
-        """Nothing found yet."""
+        """Return the findings before any check."""
         return cls(lesson.id, tuple(Finding(c.id, c.text, c.bonus) for c in lesson.criteria))
 
     @property
@@ -60,17 +60,20 @@ class Findings:
 
     @property
     def fraction(self) -> float:
-        """How far the whole check is, 0 to 1."""
+        """The progress of the whole check, 0 to 1."""
         done = [1.0 if finding.verdict else finding.fraction for finding in self.criteria if finding.checking]
         return sum(done) / len(done) if done else 0.0
 
     def begun(self) -> Findings:
-        """A check begins: what an earlier one found is gone."""
+        """Return the findings at the start of a check, without the results of earlier ones."""
         fresh = tuple(Finding(f.id, f.text, f.bonus, checking=True, before=f.before) for f in self.criteria)
         return Findings(self.exercise, fresh, checking=True, before=self.before)
 
     def with_last_check(self, progress: ExerciseProgress) -> Findings:
-        """With what the progress file says of the last check; it holds no diagnosis, so our own verdict says more."""
+        """Add the results of the last check in the progress file, unless there are verdicts or a check is running.
+
+        The progress file holds no diagnoses, so a verdict of this session is more informative.
+        """
         if self.judged or self.checking or (last := progress.last) is None:
             return self
         met = last_met((f.id for f in self.criteria), progress)
@@ -78,7 +81,7 @@ class Findings:
         return replace(self, criteria=known, before=last.at)
 
     def after(self, event: Event) -> Findings:
-        """What is known once `event` is. An event of another exercise changes nothing."""
+        """Return the findings after `event`. An event of another exercise changes nothing."""
         match event:
             case CheckStarted(exercise, criteria) if exercise == self.exercise:
                 known = {finding.id: finding for finding in self.criteria}
@@ -86,36 +89,38 @@ class Findings:
                 rest = [replace(f, checking=False) for f in self.criteria if f.id not in criteria]
                 return replace(self, criteria=(*(replace(f, checking=True) for f in shown), *rest))
             case Progress(exercise, criterion, fraction, doing, so_far) if exercise == self.exercise:
-                return self._with(
+                return self._with_change(
                     criterion, lambda f: replace(f, checking=True, fraction=fraction, doing=doing, so_far=so_far)
                 )
             case CriterionJudged(exercise, result) if exercise == self.exercise:
-                return self._judge(result)
+                return self._with_verdict(result)
             case ExerciseJudged(result) if result.id == self.exercise:
-                found = self
+                findings = self
                 for judged in result.criteria:
-                    found = found._judge(judged)
-                return replace(found, result=result)
+                    findings = findings._with_verdict(judged)
+                return replace(findings, result=result)
             case CheckFinished():
                 return self.stopped()
         return self
 
     def stopped(self, note: str = "") -> Findings:
-        """The check is over, or was cancelled: what has no verdict now gets none."""
+        """Return the findings after the check has finished or was cancelled: criteria without a verdict stay so."""
 
-        def idle(found: Finding) -> Finding:
-            return found if found.verdict else replace(found, checking=False, fraction=0.0, doing="", so_far="")
+        def reset_unjudged(finding: Finding) -> Finding:
+            if finding.verdict:
+                return finding
+            return replace(finding, checking=False, fraction=0.0, doing="", so_far="")
 
-        return replace(self, criteria=tuple(map(idle, self.criteria)), checking=False, note=note)
+        return replace(self, criteria=tuple(map(reset_unjudged, self.criteria)), checking=False, note=note)
 
     def broken(self, what: str, hint: str, evidence: tuple[str, ...]) -> Findings:
-        """The check itself failed: what has no verdict yet could not be judged, and that is our fault."""
+        """Return the findings after a fault of the check itself: criteria without a verdict get an error verdict."""
         verdict = fault(what, hint, evidence)
         judged = tuple(f if f.verdict else replace(f, checking=True, verdict=verdict) for f in self.criteria)
         return replace(self, criteria=judged, checking=False, note="could not be judged")
 
-    def _judge(self, result: CriterionResult) -> Findings:
-        return self._with(
+    def _with_verdict(self, result: CriterionResult) -> Findings:
+        return self._with_change(
             result.id,
             lambda f: replace(
                 f,
@@ -128,5 +133,5 @@ class Findings:
             ),
         )
 
-    def _with(self, criterion: str, change: Callable[[Finding], Finding]) -> Findings:
+    def _with_change(self, criterion: str, change: Callable[[Finding], Finding]) -> Findings:
         return replace(self, criteria=tuple(change(f) if f.id == criterion else f for f in self.criteria))

@@ -1,4 +1,4 @@
-"""The learner's node, run in their own domain so that their other terminals see it."""
+"""Runs the learner's node in the learner's own ROS domain, so that it is visible from other terminals."""
 
 from __future__ import annotations
 
@@ -14,18 +14,18 @@ from tutor.errors import ProcessError
 from tutor.judge.trace import Exit, OutputLine
 from tutor.process import LearnerProcess, log_folder
 
-SHOW_EVERY_S = 0.1
-"""The log is shown at this rate at most, however fast the node writes."""
+MIN_UPDATE_INTERVAL_S = 0.1
+"""Minimum time between two updates of the log, however fast the node writes."""
 
 INTERRUPT_S = 5.0
-"""How long a node may take to end after Ctrl+C before it is ended, in seconds."""
+"""How long a node may take to exit after Ctrl+C before it is killed, in seconds."""
 
 
 @dataclass(frozen=True, slots=True)
 class NodeCommand:
-    """How to start one file as a node. `typed` is what a ROS user would type for it.
+    """How to start one file as a node. `typed` is the command that a ROS user would type for it.
 
-    `terminal`: whether it is to find a terminal at its standard input, as `ros2 launch` needs for Ctrl+C.
+    `terminal`: whether its standard input is a terminal, which `ros2 launch` needs for Ctrl+C.
     """
 
     file: str
@@ -37,7 +37,7 @@ class NodeCommand:
 
 
 class Phase(Enum):
-    """Where in its life a node is."""
+    """The phase of a node's life cycle."""
 
     STARTING = "starting"
     RUNNING = "running"
@@ -47,9 +47,9 @@ class Phase(Enum):
 
 @dataclass(frozen=True, slots=True)
 class NodeState:
-    """A node as it is to be shown. `note` says how it ended, or why it did not start; `command` is as it is typed.
+    """A snapshot of a node for display. `note` says how it ended or why it did not start; `command` is as typed.
 
-    Times are seconds since the epoch.
+    `dropped` counts the lines dropped from the middle of the output. Times are in seconds since the epoch.
     """
 
     file: str
@@ -64,12 +64,15 @@ class NodeState:
 
     @property
     def alive(self) -> bool:
-        """Whether there is a process, or soon will be."""
+        """Whether the process is running or about to start."""
         return self.phase is not Phase.ENDED
 
 
 class Node:
-    """One run of a node. `show` is called with each new state, at most every `SHOW_EVERY_S` seconds while it writes."""
+    """One run of a node. `show` is called with each new state.
+
+    While the node writes, it is called at most once per `MIN_UPDATE_INTERVAL_S`.
+    """
 
     def __init__(self, command: NodeCommand, show: Callable[[NodeState], object]) -> None:
         self._command = command
@@ -77,20 +80,20 @@ class Node:
         self._changed = asyncio.Event()
         self._stop = asyncio.Event()
         self.over = asyncio.Event()
-        """Set when nothing of the node is left."""
+        """Set once none of the node's processes is left."""
         self.pid: int | None = None
-        """Its process, once there is one."""
+        """The process id, once the process has started."""
         self.state = NodeState(command.file, Phase.STARTING, time.time(), command=command.typed)
 
     async def run(self) -> None:
-        """Start the node, follow it, and return when it has ended; it is ended for certain where this is cancelled."""
+        """Start the node and return once it has exited; if this is cancelled, the node is killed."""
         try:
             await self._run()
         finally:
             self.over.set()
 
     async def _run(self) -> None:
-        self._say(self.state)
+        self._publish_state(self.state)
         command = self._command
         try:
             process = await LearnerProcess.start(
@@ -101,57 +104,61 @@ class Node:
                 on_change=self._changed.set,
             )
         except ProcessError as error:
-            self._say(replace(self.state, phase=Phase.ENDED, note=str(error), failed=True, ended_at=time.time()))
+            self._publish_state(
+                replace(self.state, phase=Phase.ENDED, note=str(error), failed=True, ended_at=time.time())
+            )
             return
         async with process:
             self.pid = process.pid
-            self._say(replace(self.state, phase=Phase.RUNNING, since=process.started_at))
-            beside = [asyncio.create_task(self._stop_when_asked(process))]
+            self._publish_state(replace(self.state, phase=Phase.RUNNING, since=process.started_at))
+            tasks = [asyncio.create_task(self._stop_on_request(process))]
             if (logs := command.env.get("ROS_LOG_DIR")) and private_folders.contains(Path(logs)):
-                beside.append(asyncio.create_task(log_folder.limit(Path(logs))))
+                tasks.append(asyncio.create_task(log_folder.limit(Path(logs))))
             try:
                 await self._follow(process)
             finally:
-                for task in beside:
+                for task in tasks:
                     task.cancel()
-        self._say(replace(self._with_output(process, phase=Phase.ENDED), ended_at=time.time()))
+        self._publish_state(replace(self._with_output(process, phase=Phase.ENDED), ended_at=time.time()))
 
     def stop(self) -> None:
-        """Press Ctrl+C, and end the node where that does not."""
+        """Press Ctrl+C, and kill the node if it does not exit in time."""
         self._stop.set()
 
     async def _follow(self, process: LearnerProcess) -> None:
         while process.exit is None:
             await self._changed.wait()
             self._changed.clear()
-            self._say(self._with_output(process))
-            await process.wait(SHOW_EVERY_S)  # a flood gathers meanwhile; an end is shown at once
-        how, failed = _ending(process.exit, self.state) if not process.fault else (process.fault, True)
-        self._say(replace(self._with_output(process), note=how, failed=failed))
+            self._publish_state(self._with_output(process))
+            await process.wait(MIN_UPDATE_INTERVAL_S)  # batches a flood of output; returns at once on exit
+        note, failed = _describe_exit(process.exit, self.state) if not process.fault else (process.fault, True)
+        self._publish_state(replace(self._with_output(process), note=note, failed=failed))
 
-    async def _stop_when_asked(self, process: LearnerProcess) -> None:
+    async def _stop_on_request(self, process: LearnerProcess) -> None:
         await self._stop.wait()
-        self._say(replace(self.state, phase=Phase.STOPPING))
+        self._publish_state(replace(self.state, phase=Phase.STOPPING))
         process.interrupt()
         if await process.wait(INTERRUPT_S) is None:
-            self._say(replace(self.state, note=f"ignored Ctrl+C for {INTERRUPT_S:.0f} s: ended by force", failed=True))
+            self._publish_state(
+                replace(self.state, note=f"ignored Ctrl+C for {INTERRUPT_S:.0f} s: ended by force", failed=True)
+            )
             await process.end()
 
     def _with_output(self, process: LearnerProcess, phase: Phase | None = None) -> NodeState:
         lines, dropped = tuple(process.output), process.dropped_lines
         return replace(self.state, phase=phase or self.state.phase, lines=lines, dropped=dropped)
 
-    def _say(self, state: NodeState) -> None:
+    def _publish_state(self, state: NodeState) -> None:
         self.state = state
         self._show(state)
 
 
-def _ending(exit: Exit, state: NodeState) -> tuple[str, bool]:
-    """How it ended, in words, and whether that is anything to look into."""
+def _describe_exit(exit: Exit, state: NodeState) -> tuple[str, bool]:
+    """Return how the node exited, in words, and whether that counts as a failure."""
     if state.note:
         return state.note, True
-    asked = state.phase is Phase.STOPPING
+    requested = state.phase is Phase.STOPPING
     clean = exit.code in (0, 130) or exit.signal == 2
-    if asked and clean:
+    if requested and clean:
         return "stopped", False
-    return (f"stopped with {exit}" if asked else f"ended by itself with {exit}"), not clean
+    return (f"stopped with {exit}" if requested else f"ended by itself with {exit}"), not clean

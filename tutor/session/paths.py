@@ -1,4 +1,4 @@
-"""Paths, as people write them."""
+"""Paths as people write them."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ from pathlib import Path
 
 
 def short_path(path: Path) -> str:
-    """A path with the home folder as ~."""
+    """Return a path with the home directory abbreviated as ~."""
     try:
         return f"~/{path.relative_to(Path.home())}"
-    except (RuntimeError, ValueError):  # it is elsewhere, or nobody knows the home
+    except (RuntimeError, ValueError):  # ValueError: not below the home directory; RuntimeError: no home directory
         return str(path)

@@ -1,4 +1,4 @@
-"""What a learner gives their node at its start: parameters and remaps, as they are typed for `ros2 run`. Pure."""
+"""Parameters and remaps for a learner's node, in the syntax of `ros2 run`. Pure functions."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ _ARGUMENT = re.compile(r"[A-Za-z_][\w.-]*:=.+")
 
 
 def lines(text: str) -> tuple[str, ...]:
-    """The lines that say something; a line that begins with # does not."""
-    found = (line.strip() for line in text.splitlines())
-    return tuple(line for line in found if line and not line.startswith("#"))
+    """Return the stripped lines of `text`, without empty ones and comments (# at the start)."""
+    stripped = (line.strip() for line in text.splitlines())
+    return tuple(line for line in stripped if line and not line.startswith("#"))
 
 
 def problem(options: RunOptions, *, launch: bool) -> str:
-    """What is wrong with the first wrong line, and how it should look; empty where all is well."""
+    """Return an error message for the first invalid line, with the expected syntax; empty if all are valid."""
     for line in options.parameters:
         if launch and not _ARGUMENT.fullmatch(line):
             return f"'{line}' is not a launch argument: write name:=value, as in topic:=/news"
@@ -36,7 +36,7 @@ def problem(options: RunOptions, *, launch: bool) -> str:
 
 
 def arguments(options: RunOptions, *, launch: bool) -> list[str]:
-    """The words that follow the program's name."""
+    """Return the command-line arguments that follow the program's name."""
     if launch:
         return list(options.parameters)
     words = [word for line in options.parameters for word in ("-p", line)]
@@ -45,7 +45,7 @@ def arguments(options: RunOptions, *, launch: bool) -> list[str]:
 
 
 def command_line(package: str, file: str, options: RunOptions) -> str:
-    """What a ROS user types to run this file of a package that is built."""
+    """Return the command that a ROS user types to run this file of a built package."""
     launch = is_launch_file(Path(file))
     program = file if launch else Path(file).stem
     words = ["ros2", "launch" if launch else "run", package, program, *arguments(options, launch=launch)]

@@ -1,6 +1,6 @@
-"""A learner at a course: lessons, files, progress, and how to run and to check.
+"""A learner's session with a course: lessons, files, progress, and the commands to run and check.
 
-The methods that touch the disk are called in worker threads.
+Methods that access the disk are called in worker threads.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ Notify = Callable[[str], None]
 
 
 class Session:
-    """A course, and a workspace to do it in. `extra` is where further lessons come from."""
+    """A course and the workspace to do it in. `extra` is the folder with further lessons, if any."""
 
     def __init__(self, course: Course, workspace: Workspace, extra: Path | None = None) -> None:
         self.course = course
@@ -51,7 +51,7 @@ class Session:
         self._domain: tuple[Path, int] | None = None
         self._tools: Path | None = None
         self.notify: Notify = lambda text: None
-        """Told in one line, from any thread, what the learner should know (damaged progress was set aside)."""
+        """Called, from any thread, with a one-line message for the learner (damaged progress was set aside)."""
 
     @property
     def lessons(self) -> tuple[Lesson, ...]:
@@ -60,50 +60,51 @@ class Session:
 
     @property
     def domain(self) -> int:
-        """The id of the ROS domain in which the learner's nodes run. Asked for the first time, it reads the disk."""
+        """The id of the ROS domain in which the learner's nodes run. The first access reads the disk."""
         root = self.workspace.root
         if self._domain is None or self._domain[0] != root:
             self._domain = (root, domain_of(self.workspace))
         return self._domain[1]
 
     def path(self, file: LessonFile) -> Path:
-        """Where the learner's file is, or will be."""
+        """Return where the learner's file is, or will be."""
         return self.workspace.path_of(file.name)
 
     def missing(self, lesson: Lesson) -> tuple[str, ...]:
-        """The files that must be there before the lesson can be checked, and are not."""
+        """Return the names of the required files that do not exist yet; the lesson cannot be checked without them."""
         return tuple(file.name for file in lesson.files if file.required and not self.path(file).exists())
 
     def start(self, lesson: Lesson) -> Placed:
-        """Put those skeleton files into the workspace that are not there; nothing of the learner's is changed.
+        """Put missing skeleton files into the workspace; existing files are not changed.
 
-        Raises WorkspaceError, StorageError.
+        Raises WorkspaceError or StorageError.
         """
         return start(lesson, self.workspace).files
 
     def create_workspace(self, root: Path) -> None:
-        """Create the workspace at `root`, with the first exercise in it; one that is there already is kept.
+        """Create the workspace at `root` and start the first exercise in it; an existing workspace is kept.
 
-        Where it was looked for is a link to it from now on, so that it is found the next time. Raises WorkspaceError,
-        StorageError.
+        A symbolic link to it is put at the previous root, if nothing is there, so that it is found the next time.
+        Raises WorkspaceError or StorageError.
         """
-        looked_for, found = self.workspace.root, Workspace(root)
-        if not found.exists:
-            start(self.lessons[0], found)
-        self.workspace = found
-        if root != looked_for and not os.path.lexists(looked_for):
+        default, chosen = self.workspace.root, Workspace(root)
+        if not chosen.exists:
+            start(self.lessons[0], chosen)
+        self.workspace = chosen
+        if root != default and not os.path.lexists(default):
             try:
-                looked_for.parent.mkdir(parents=True, exist_ok=True)
-                looked_for.symlink_to(root, target_is_directory=True)
+                default.parent.mkdir(parents=True, exist_ok=True)
+                default.symlink_to(root, target_is_directory=True)
             except OSError as error:
                 self.notify(
-                    f"Start with --workspace {root} the next time: {looked_for} is not a link ({error.strerror})."
+                    f"Next time, start with --workspace {root}: no link to it could be made at {default} "
+                    f"({error.strerror})."
                 )
 
     def reset(self, file: LessonFile) -> Placed:
-        """Put the skeleton in the place of the learner's file, which is kept as a backup.
+        """Replace the learner's file with the skeleton; the file is kept as a backup.
 
-        Raises WorkspaceError, StorageError.
+        Raises WorkspaceError or StorageError.
         """
         try:
             skeleton = file.skeleton.read_bytes()
@@ -112,91 +113,97 @@ class Session:
         return place_files({self.path(file): skeleton}, force=True)
 
     def app_state(self) -> AppState:
-        """What the app remembers of this workspace."""
+        """Read the app's saved state of this workspace."""
         return self.workspace.app_state(self.notify).read() if self.workspace.exists else AppState()
 
     def keep(self, state: AppState) -> None:
-        """Remember this. Raises StorageError."""
+        """Save the app's state. Raises StorageError."""
         if self.workspace.exists:
             self.workspace.app_state(self.notify).write(state)
 
     def progress(self) -> Progress:
-        """What the learner has done so far. Raises StorageError."""
+        """Read the learner's progress. Raises StorageError."""
         if not self.workspace.exists:
             return Progress()
         return self.workspace.progress(self.notify).read()
 
     def states(self, progress: Progress) -> dict[str, ExerciseState]:
-        """How far the learner is with each exercise, by its id."""
+        """Return the state of each exercise, by exercise id."""
         return states_of(self.lessons, progress, self.workspace)
 
     def record(self, result: ExerciseResult) -> Progress:
-        """Keep one attempt. Raises StorageError."""
+        """Save one attempt and return the new progress. Raises StorageError."""
         return self.workspace.progress(self.notify).change(lambda progress: progress.with_attempt(result, whole=True))
 
     def show_hint(self, lesson: Lesson) -> Progress:
-        """Count one more hint as shown. Raises StorageError."""
+        """Count one more hint as shown and return the new progress. Raises StorageError."""
         file = self.workspace.progress(self.notify)
         file.next_hint(lesson.id, of=len(lesson.hints))
         return file.read()
 
     def tick(self, item: str, ticked: bool) -> Progress:
-        """Tick an item of the checklist, or take the tick away. Raises StorageError."""
+        """Tick or untick a checklist item and return the new progress. Raises StorageError."""
         return self.workspace.progress(self.notify).change(lambda progress: progress.with_tick(item, ticked))
 
     def export(self, format: str, path: Path, replace: bool) -> bool:
-        """Write the checklist; False, and nothing is done, where there is a file and it is not to be replaced.
+        """Write the checklist to `path`; return False, without writing, if the file exists and `replace` is not set.
 
         Raises StorageError.
         """
         from tutor.report.assessment import assess
         from tutor.report.checklist import render_checklist
 
-        if os.path.exists(path) and not replace:  # Path.exists fails on what may not be looked at
+        if os.path.exists(path) and not replace:  # Path.exists raises PermissionError
             return False
         write_atomically(path, render_checklist(assess(self.course, self.progress()), format, at=now()))
         return True
 
     def check_command(self, lesson: Lesson, *, first: bool = False) -> Sequence[str]:
-        """The command that checks the workspace's own files and prints events, to be run in the workspace.
+        """Return the command that checks the workspace's own files and prints events, to be run in the workspace.
 
-        `first`: it ends at the first failure.
+        `first`: end at the first failure.
         """
         more = () if self.extra is None else ("--lessons", str(self.extra))
         more = ("--first", *more) if first else more
         return interpreter.module_command("tutor.engine", lesson.id, str(self.workspace.root), *more)
 
     def node_command(self, file: LessonFile, options: RunOptions) -> NodeCommand:
-        """How to run one file in the learner's own ROS domain. Raises CommandError where ROS has no `ros2`, OSError."""
-        from tutor.bundled_ros.ros2 import starting  # late: the first paint does not wait for it
+        """Return how to run one file in the learner's own ROS domain.
+
+        Raises CommandError if ROS has no `ros2`, and OSError.
+        """
+        from tutor.bundled_ros.ros2 import starting  # imported late, not to delay the first paint
 
         path = self.path(file)
         launch = starting.is_launch_file(path)
-        ros, env = self._world(path.parent.parent if (path.parent / "__init__.py").is_file() else None)
+        ros, env = self._ros_and_env(path.parent.parent if (path.parent / "__init__.py").is_file() else None)
         first = [*starting.ros2_command(ros, env), "launch"] if launch else [str(ros.python)]
         given = run_options.arguments(options, launch=launch)
         typed = self.command_line(file, options)
         return NodeCommand(file.name, (*first, str(path), *given), env, path.parent, typed, terminal=launch)
 
     def partner_command(self, partner: Partner) -> NodeCommand:
-        """How to run our partner node beside the learner's, in their own domain; raises what `node_command` does."""
+        """Return how to run our partner node in the learner's own ROS domain. Raises what `node_command` raises."""
         if partner.file is not None:
-            ros, env = self._world(None)
+            ros, env = self._ros_and_env(None)
             typed = f"python3 {partner.file.name}"
             return NodeCommand(partner.name, (str(ros.python), str(partner.file)), env, partner.file.parent, typed)
         return replace(self.ros2_command(["run", *partner.run]), file=partner.name)
 
     def ros2_command(self, words: Sequence[str]) -> NodeCommand:
-        """How to run `ros2` with these words in the learner's own ROS domain; raises what `node_command` does."""
-        from tutor.bundled_ros.ros2 import starting  # late: the first paint does not wait for it
+        """Return how to run `ros2` with these words in the learner's own domain. Raises what `node_command` raises."""
+        from tutor.bundled_ros.ros2 import starting  # imported late, not to delay the first paint
 
-        ros, env = self._world(None)
+        ros, env = self._ros_and_env(None)
         folder = self.workspace.root if self.workspace.exists else Path.home()
         typed = shlex.join(["ros2", *words])
         return NodeCommand("ros2", (*starting.ros2_command(ros, env), *words), env, folder, typed)
 
-    def _world(self, package: Path | None) -> tuple[RosEnvironment, dict[str, str]]:
-        """The ROS that nodes are run with, and their environment; `package` is the folder of a Python package."""
+    def _ros_and_env(self, package: Path | None) -> tuple[RosEnvironment, dict[str, str]]:
+        """Return the ROS that nodes run with, and their environment; `package` is the root of the learner's package.
+
+        Raises OSError if shared memory is full.
+        """
         from tutor import private_folders
         from tutor.ros import shared_memory
         from tutor.ros.environment import detect, learner_env
@@ -207,14 +214,14 @@ class Session:
         return ros, learner_env(ros, domain_id=self.domain, log_dir=log_dir, package_root=package, isolated=False)
 
     def command_line(self, file: LessonFile, options: RunOptions) -> str:
-        """What a ROS user would type to run this file, once the workspace is built."""
+        """Return what a ROS user would type to run this file, once the workspace is built."""
         return run_options.command_line(self.workspace.package.name, file.name, options)
 
     def shell(self) -> Shell:
-        """Where the commands of the terminal page are run: as in `ros-tutor shell`. Raises OSError, ValueError."""
+        """Return the shell for the terminal page, set up as in `ros-tutor shell`. Raises OSError or ValueError."""
         from tutor import private_folders
         from tutor.bundled_ros.ros2.sourced import sourced_environment
-        from tutor.ros.environment import detect  # late: the first paint does not wait for it
+        from tutor.ros.environment import detect  # imported late, not to delay the first paint
 
         if self._tools is None:
             self._tools = private_folders.until_exit("terminal")
@@ -222,14 +229,14 @@ class Session:
         return Shell(env, self.workspace.root)
 
     def typed_commands(self) -> list[str]:
-        """The commands that were typed on the terminal page, the oldest first."""
+        """Read the commands typed on the terminal page, oldest first."""
         try:
             return self._history.read_text(encoding="utf-8").splitlines()
         except (OSError, UnicodeDecodeError):
             return []
 
     def keep_typed_commands(self, commands: Sequence[str]) -> None:
-        """Remember the commands typed; where that is impossible, they are forgotten."""
+        """Save the typed commands; failures are ignored."""
         if self.workspace.exists and commands:
             with contextlib.suppress(StorageError):
                 write_atomically(self._history, "\n".join(commands) + "\n")

@@ -1,4 +1,4 @@
-"""The learner's workspace: a real colcon workspace, the files in it to check, and the progress."""
+"""The learner's workspace: a real colcon workspace, with the files to check and the saved progress."""
 
 from tutor.workspace.app_state import AppState, AppStateFile, RunOptions
 from tutor.workspace.atomic import write_atomically

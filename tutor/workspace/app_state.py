@@ -1,4 +1,4 @@
-"""What the terminal app remembers from one time to the next: where the learner was, and how they like it."""
+"""The terminal app's persistent state: where the learner was, and their preferences."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ SCHEMA = "ros-tutor/app/1"
 
 @dataclass(frozen=True, slots=True)
 class RunOptions:
-    """How the learner wants their node run: lines `name:=value`, and lines `from:=to` for remapped names.
+    """How the learner wants their node run: parameters as lines `name:=value`, remaps as lines `from:=to`.
 
-    For a launch file `parameters` are its launch arguments.
+    For a launch file, `parameters` are its launch arguments.
     """
 
     parameters: tuple[str, ...] = ()
@@ -28,7 +28,7 @@ class RunOptions:
 
 @dataclass(frozen=True, slots=True)
 class AppState:
-    """What is remembered. Empty texts mean: nothing yet. `runs` has the run options of each exercise.
+    """The saved state. An empty text means that nothing was saved yet. `runs` maps exercise ids to run options.
 
     `first_failure`: a check ends at its first failure.
     """
@@ -45,45 +45,45 @@ class AppState:
     runs: Mapping[str, RunOptions] = field(default_factory=dict)
 
     def run_of(self, exercise: str) -> RunOptions:
-        """The run options of one exercise; empty ones where there are none."""
+        """Return the run options of one exercise; empty if there are none."""
         return self.runs.get(exercise, RunOptions())
 
     def with_run(self, exercise: str, options: RunOptions) -> AppState:
-        """A copy in which `exercise` is run with these options."""
+        """Return a copy in which `exercise` has these run options."""
         return replace(self, runs={**self.runs, exercise: options})
 
 
 def encode(state: AppState) -> str:
-    """Write the state as JSON."""
+    """Encode the state as JSON."""
     return write_document(SCHEMA, **{each.name: getattr(state, each.name) for each in fields(state)})
 
 
 def decode(text: str) -> AppState:
-    """Read what `encode` wrote. Raises ValueError, which says what is wrong."""
+    """Decode the output of `encode`. Raises ValueError with a description of the problem."""
     return read_as(AppState, read_document(text, SCHEMA))
 
 
 class AppStateFile:
-    """The state of one workspace's app. The last writer wins: two apps at once do no harm."""
+    """The file with the app's state in one workspace. If two apps write it, the last one wins, which does no harm."""
 
     def __init__(self, path: Path, notify: Callable[[str], None]) -> None:
         self.path = path
         self._notify = notify
 
     def read(self) -> AppState:
-        """What is on disk; the defaults where there is nothing. A damaged file is set aside, and `notify` is called."""
+        """Read the state; the defaults if there is no file. A damaged file is set aside, and `notify` is called."""
         try:
             return decode(read_text(self.path))
         except FileNotFoundError:
             return AppState()
         except OSError as error:
-            self._notify(f"what the app remembered cannot be read: {error.strerror or error}")
+            self._notify(f"the app's saved state cannot be read: {error.strerror or error}")
         except ValueError as error:
             self._set_aside(str(error))
         return AppState()
 
     def write(self, state: AppState) -> None:
-        """Replace it, atomically. Raises StorageError."""
+        """Replace the file atomically. Raises StorageError."""
         write_atomically(self.path, encode(state))
 
     def _set_aside(self, reason: str) -> None:
@@ -93,4 +93,4 @@ class AppStateFile:
         except OSError as error:
             self._notify(str(StorageError.of(f"rename {self.path}", error)))
             return
-        self._notify(f"what the app remembered could not be read ({reason}); the file is kept as {aside}")
+        self._notify(f"the app's saved state could not be read ({reason}); the file is kept as {aside}")

@@ -1,4 +1,4 @@
-"""Writes a file so that a reader sees the old content or the new one, never a part of it."""
+"""Writes files atomically: a reader sees either the old content or the new one, never a part of it."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from tutor.errors import StorageError
 
 
 def write_atomically(path: Path, text: str) -> None:
-    """Write `text` as UTF-8 to a temporary file beside `path`, flush it to the disk, and rename it to `path`.
+    """Write `text` as UTF-8 to a temporary file beside `path`, flush it to disk, and rename it to `path`.
 
-    Something at `path` that is not a regular file (a terminal, a pipe) is written to directly; where it is a symbolic
-    link, what it points to is replaced. Raises StorageError.
+    If `path` is not a regular file (but a terminal or a pipe), it is written to directly. If it is a symbolic link, its
+    target is replaced. Raises StorageError.
     """
     try:
         _write(Path(os.path.realpath(path)), text.encode("utf-8", "replace"))
@@ -27,10 +27,10 @@ def _write(path: Path, content: bytes) -> None:
     except FileNotFoundError:
         mode = None
     if mode is not None and not stat.S_ISREG(mode):
-        # A pipe that nobody reads refuses to be opened, in place of waiting for a reader.
-        handle = os.open(path, os.O_WRONLY | os.O_NONBLOCK | os.O_NOCTTY | os.O_CLOEXEC)
-        os.set_blocking(handle, True)
-        with os.fdopen(handle, "wb") as file:
+        # With O_NONBLOCK, opening a pipe without a reader fails instead of blocking until there is one.
+        fd = os.open(path, os.O_WRONLY | os.O_NONBLOCK | os.O_NOCTTY | os.O_CLOEXEC)
+        os.set_blocking(fd, True)
+        with os.fdopen(fd, "wb") as file:
             file.write(content)
         return
     temporary = path.with_name(f".{path.name}.{os.getpid()}.tmp")
@@ -49,9 +49,9 @@ def _write(path: Path, content: bytes) -> None:
 
 
 def _flush_folder(folder: Path) -> None:
-    """Make the rename itself survive a power cut."""
-    handle = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
+    """Flush the directory, so that the rename survives a power failure."""
+    fd = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
     try:
-        os.fsync(handle)
+        os.fsync(fd)
     finally:
-        os.close(handle)
+        os.close(fd)

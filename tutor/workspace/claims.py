@@ -1,7 +1,7 @@
-"""Which workspace of this machine has which ROS domain: claims in a folder that all of the machine's users share.
+"""A machine-wide registry of which workspace uses which ROS domain, in a folder shared by all users.
 
-A claim is a small file that its user alone can change. The folder is never trusted: what is odd about it (a link, a
-folder that cannot be written to, a file that is not a claim) is passed over, and nothing outside of it is touched.
+A claim is a small file that only its owner can change. The folder is never trusted: anything odd (a link, a folder
+that is not writable, a file that is not a claim) is ignored, and nothing outside the folder is touched.
 """
 
 from __future__ import annotations
@@ -20,20 +20,21 @@ from pathlib import Path
 
 from tutor.workspace.locking import lock
 
-REGISTRY = Path("/tmp/ros-tutor-domains")  # not $TMPDIR: it may be another one for each user
+REGISTRY = Path("/tmp/ros-tutor-domains")  # not $TMPDIR, which may differ between users
 USABLE = range(1, 102)
-"""The ids to choose from: those that Linux keeps free of other ports, but for 0, where everybody else is."""
+"""The domain ids to choose from: their ports are outside Linux's ephemeral range; 0 is the default of everyone else."""
 
-_LOCK_LIMIT_S = 5.0
-_KEPT_WITHOUT_WORKSPACE_S = 86400.0
-_LARGEST = 4096
-_MOST = 1000
-_CAREFULLY = os.O_NOFOLLOW | os.O_CLOEXEC
+_LOCK_TIMEOUT_S = 5.0
+_CLAIM_LIFETIME_S = 86400.0
+"""How long a claim is kept after its last use if its workspace no longer exists."""
+_MAX_CLAIM_BYTES = 4096
+_MAX_CLAIMS = 1000
+_SAFE_OPEN_FLAGS = os.O_NOFOLLOW | os.O_CLOEXEC
 
 
 @dataclass(frozen=True, slots=True)
 class Claim:
-    """A domain that a workspace has. `used_at` is in seconds since the epoch."""
+    """A workspace's claim of a domain. `used_at` is in seconds since the epoch."""
 
     domain: int
     workspace: str
@@ -42,10 +43,10 @@ class Claim:
 
 
 def claimed_by(workspace: Path, registry: Path = REGISTRY) -> int | None:
-    """The domain that this user's workspace has claimed, if it has; the claim is marked as used."""
-    name = _name(workspace)
+    """Return the domain claimed by this user's workspace, if any, and mark the claim as used."""
+    name = _claim_file_name(workspace)
     try:
-        with _folder(registry) as folder:
+        with _open_folder(registry) as folder:
             claim = _read(folder, name)
             if claim is None or claim.workspace != str(workspace):
                 return None
@@ -61,20 +62,20 @@ def claim(
     in_use: Callable[[], Collection[int]],
     registry: Path = REGISTRY,
 ) -> int | None:
-    """Have a domain for `workspace`: the one that it has, else the wanted one, else one that no other has.
+    """Claim a domain for `workspace`: the wanted one, else the one already claimed, else one that no other claims.
 
-    `wanted` and `in_use` (ids on which something else is, to be avoided) are asked while no other process can claim.
-    Gives None where the registry cannot be used. Safe among threads, processes and users.
+    `wanted` and `in_use` (ids with other participants, to be avoided) are called while no other process can claim.
+    Returns None if the registry cannot be used. Safe across threads, processes and users.
     """
     try:
-        with _folder(registry, make=True) as folder, _locked(folder):
+        with _open_folder(registry, create=True) as folder, _locked(folder):
             own, others = None, []
-            for each in _claims(folder):
-                if each.workspace != str(workspace):
-                    others.append(each)
-                elif each.uid == os.getuid():
-                    own = each.domain
-            taken = {each.domain for each in others}
+            for existing in _read_claims(folder):
+                if existing.workspace != str(workspace):
+                    others.append(existing)
+                elif existing.uid == os.getuid():
+                    own = existing.domain
+            taken = {existing.domain for existing in others}
             chosen = wanted()
             if chosen is None:
                 chosen = own
@@ -87,7 +88,7 @@ def claim(
 
 
 def preferred(workspace: Path) -> list[int]:
-    """All usable ids, in an order that differs from workspace to workspace, user to user and machine to machine."""
+    """Return all usable ids, in an order that depends on the workspace, the user and the machine."""
     identity = f"{socket.gethostname()}:{os.getuid()}:{workspace}"
     start = int.from_bytes(hashlib.sha256(identity.encode()).digest()[:8]) % len(USABLE)
     return [*USABLE[start:], *USABLE[:start]]
@@ -100,73 +101,73 @@ def _choose(workspace: Path, others: list[Claim], in_use: Collection[int]) -> in
     if quiet or free:
         return (quiet or free)[0]
     last_used = {domain: max(claim.used_at for claim in others if claim.domain == domain) for domain in USABLE}
-    return min(USABLE, key=last_used.__getitem__)  # there are more workspaces than domains
+    return min(USABLE, key=last_used.__getitem__)  # more workspaces than domains: share the least recently used one
 
 
 # --- the folder and its files ---
 
 
 @contextmanager
-def _folder(path: Path, *, make: bool = False) -> Iterator[int]:
-    if make:
+def _open_folder(path: Path, *, create: bool = False) -> Iterator[int]:
+    if create:
         with contextlib.suppress(FileExistsError):
             path.mkdir(mode=0o1777)
-    handle = os.open(path, os.O_RDONLY | os.O_DIRECTORY | _CAREFULLY)
+    fd = os.open(path, os.O_RDONLY | os.O_DIRECTORY | _SAFE_OPEN_FLAGS)
     try:
-        found = os.fstat(handle)
-        if make and found.st_uid == os.getuid() and stat.S_IMODE(found.st_mode) != 0o1777:
-            os.fchmod(handle, 0o1777)  # past the umask: every user may add claims, and change only their own
-        yield handle
+        status = os.fstat(fd)
+        if create and status.st_uid == os.getuid() and stat.S_IMODE(status.st_mode) != 0o1777:
+            os.fchmod(fd, 0o1777)  # regardless of the umask: every user may add claims, but change only their own
+        yield fd
     finally:
-        os.close(handle)
+        os.close(fd)
 
 
 @contextmanager
 def _locked(folder: int) -> Iterator[None]:
-    handle = _lock_file(folder)
+    fd = _open_lock_file(folder)
     try:
-        if not stat.S_ISREG(os.fstat(handle).st_mode) or not lock(handle, _LOCK_LIMIT_S):
+        if not stat.S_ISREG(os.fstat(fd).st_mode) or not lock(fd, _LOCK_TIMEOUT_S):
             raise TimeoutError
         yield
     finally:
-        os.close(handle)
+        os.close(fd)
 
 
-def _lock_file(folder: int) -> int:
-    careful = os.O_RDONLY | os.O_NONBLOCK | _CAREFULLY
+def _open_lock_file(folder: int) -> int:
+    flags = os.O_RDONLY | os.O_NONBLOCK | _SAFE_OPEN_FLAGS
     try:
-        return os.open("lock", careful, dir_fd=folder)
+        return os.open("lock", flags, dir_fd=folder)
     except FileNotFoundError:
         pass
-    # Opening it with O_CREAT where it is another user's would be refused (fs.protected_regular).
+    # O_CREAT only if the file is missing: on another user's file the kernel refuses it (fs.protected_regular).
     with contextlib.suppress(FileExistsError):
-        handle = os.open("lock", careful | os.O_CREAT | os.O_EXCL, 0o644, dir_fd=folder)
-        os.fchmod(handle, 0o644)
-        return handle
-    return os.open("lock", careful, dir_fd=folder)
+        fd = os.open("lock", flags | os.O_CREAT | os.O_EXCL, 0o644, dir_fd=folder)
+        os.fchmod(fd, 0o644)
+        return fd
+    return os.open("lock", flags, dir_fd=folder)
 
 
-def _name(workspace: Path) -> str:
+def _claim_file_name(workspace: Path) -> str:
     return f"{os.getuid()}-{hashlib.sha256(os.fsencode(workspace)).hexdigest()[:16]}"
 
 
-def _claims(folder: int) -> list[Claim]:
-    """The claims that hold. Those of this user whose workspace is gone are taken away."""
-    found = []
-    for name in sorted(os.listdir(folder))[:_MOST]:
+def _read_claims(folder: int) -> list[Claim]:
+    """Return the valid claims, after removing this user's expired ones."""
+    claims = []
+    for name in sorted(os.listdir(folder))[:_MAX_CLAIMS]:
         claim = _read(folder, name)
         if claim is None:
             continue
-        if claim.uid == os.getuid() and _is_over(claim):
+        if claim.uid == os.getuid() and _is_expired(claim):
             with contextlib.suppress(OSError):
                 os.unlink(name, dir_fd=folder)
         else:
-            found.append(claim)
-    return found
+            claims.append(claim)
+    return claims
 
 
-def _is_over(claim: Claim) -> bool:
-    return not os.path.lexists(claim.workspace) and time.time() - claim.used_at > _KEPT_WITHOUT_WORKSPACE_S
+def _is_expired(claim: Claim) -> bool:
+    return not os.path.lexists(claim.workspace) and time.time() - claim.used_at > _CLAIM_LIFETIME_S
 
 
 def _read(folder: int, name: str) -> Claim | None:
@@ -174,30 +175,30 @@ def _read(folder: int, name: str) -> Claim | None:
     if not separator or not owner.isdecimal():
         return None
     try:
-        handle = os.open(name, os.O_RDONLY | os.O_NONBLOCK | _CAREFULLY, dir_fd=folder)
+        fd = os.open(name, os.O_RDONLY | os.O_NONBLOCK | _SAFE_OPEN_FLAGS, dir_fd=folder)
     except OSError:
         return None
-    with os.fdopen(handle, "rb") as file:
-        about = os.fstat(handle)
-        if not stat.S_ISREG(about.st_mode) or about.st_uid != int(owner):
+    with os.fdopen(fd, "rb") as file:
+        status = os.fstat(fd)
+        if not stat.S_ISREG(status.st_mode) or status.st_uid != int(owner):
             return None
         try:
-            claim = json.loads(file.read(_LARGEST))
+            claim = json.loads(file.read(_MAX_CLAIM_BYTES))
             domain, workspace = claim["domain"], claim["workspace"]
         except (OSError, ValueError, TypeError, KeyError, RecursionError):
             return None
     if type(domain) is not int or type(workspace) is not str:
         return None
-    return Claim(domain, workspace, about.st_uid, about.st_mtime)
+    return Claim(domain, workspace, status.st_uid, status.st_mtime)
 
 
 def _write(folder: int, workspace: Path, domain: int) -> None:
-    name = _name(workspace)
+    name = _claim_file_name(workspace)
     temporary = f".{name}"
     with contextlib.suppress(FileNotFoundError):
         os.unlink(temporary, dir_fd=folder)
-    handle = os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL | _CAREFULLY, 0o644, dir_fd=folder)
-    with os.fdopen(handle, "wb") as file:
-        os.fchmod(handle, 0o644)
+    fd = os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL | _SAFE_OPEN_FLAGS, 0o644, dir_fd=folder)
+    with os.fdopen(fd, "wb") as file:
+        os.fchmod(fd, 0o644)
         file.write(json.dumps({"domain": domain, "workspace": str(workspace)}).encode("utf-8"))
     os.rename(temporary, name, src_dir_fd=folder, dst_dir_fd=folder)

@@ -1,6 +1,7 @@
-"""The ROS domain of a workspace: one of its own, so that two learners on one machine never meet.
+"""The ROS domain of a workspace. Each has its own, so that the nodes of two learners on one machine never meet.
 
-It is kept in the workspace, in `.ros-tutor/domain`, and used by whatever the learner runs; `ROS_DOMAIN_ID` wins.
+It is saved in the workspace, in `.ros-tutor/domain`, and used for everything the learner runs; `ROS_DOMAIN_ID`
+overrides it.
 """
 
 from __future__ import annotations
@@ -16,53 +17,53 @@ from tutor.workspace.atomic import write_atomically
 from tutor.workspace.layout import MARKER, Workspace
 
 VARIABLE = "ROS_DOMAIN_ID"
-_LAST = 232
-"""The last id that DDS has ports for."""
+_MAX_DOMAIN_ID = 232
+"""The highest domain id for which DDS has port numbers."""
 
 
 def domain_of(workspace: Workspace, environ: Mapping[str, str] = os.environ) -> int:
-    """The id of the ROS domain in which the nodes of `workspace` run: what `ROS_DOMAIN_ID` says, else its own.
+    """Return the ROS domain id for the nodes of `workspace`: `ROS_DOMAIN_ID` if set, else the workspace's own.
 
-    The first time, an id (1 to 101) is chosen that no other workspace of this machine has and nothing else uses; from
-    then on it is the same one, unless a copy of the workspace has it. `workspace` need not exist, or be writable.
-    Reads and writes the disk: some milliseconds the first time. Raises nothing.
+    On the first call, an id from 1 to 101 is chosen that no other workspace of this machine has claimed and no other
+    participant uses, if possible. It stays the same unless a copy of the workspace has claimed it. `workspace` need not
+    exist or be writable. Reads and writes the disk, which takes some milliseconds the first time. Never raises.
     """
     given = given_domain(environ)
-    return _own(Path(os.path.realpath(workspace.root))) if given is None else given
+    return _own_domain(Path(os.path.realpath(workspace.root))) if given is None else given
 
 
 def given_domain(environ: Mapping[str, str] = os.environ) -> int | None:
-    """What `ROS_DOMAIN_ID` says; None where it is not set, or not to a number."""
-    return _number(environ.get(VARIABLE, ""))
+    """Return the value of `ROS_DOMAIN_ID`; None if it is not set or not a valid id."""
+    return _parse_domain_id(environ.get(VARIABLE, ""))
 
 
-def _own(root: Path) -> int:
-    kept = _kept(root)
-    if kept is not None and claims.claimed_by(root, claims.REGISTRY) == kept:
-        return kept
-    chosen = claims.claim(root, lambda: _kept(root), _in_use, claims.REGISTRY)
-    if chosen is None:  # no registry: the odds are a hundred to one that nobody has the same
-        chosen = claims.preferred(root)[0] if kept is None else kept
-    if chosen != kept and os.path.isdir(root / MARKER):
+def _own_domain(root: Path) -> int:
+    saved = _read_saved_domain(root)
+    if saved is not None and claims.claimed_by(root, claims.REGISTRY) == saved:
+        return saved
+    chosen = claims.claim(root, lambda: _read_saved_domain(root), _in_use, claims.REGISTRY)
+    if chosen is None:  # no registry: two workspaces collide with a probability of about 1 in 100
+        chosen = claims.preferred(root)[0] if saved is None else saved
+    if chosen != saved and os.path.isdir(root / MARKER):
         with contextlib.suppress(StorageError):
             write_atomically(root / MARKER / "domain", f"{chosen}\n")
     return chosen
 
 
-def _kept(root: Path) -> int | None:
+def _read_saved_domain(root: Path) -> int | None:
     try:
         with (root / MARKER / "domain").open("rb") as file:
-            return _number(file.read(64).decode("ascii"))
+            return _parse_domain_id(file.read(64).decode("ascii"))
     except (OSError, ValueError):
         return None
 
 
 def _in_use() -> frozenset[int]:
-    from tutor.ros.domain import domains_in_use  # late: needed once in the life of a workspace
+    from tutor.ros.domain import domains_in_use  # imported late: needed only once per workspace
 
     return domains_in_use()
 
 
-def _number(text: str) -> int | None:
+def _parse_domain_id(text: str) -> int | None:
     text = text.strip()
-    return int(text) if text.isascii() and text.isdecimal() and len(text) < 4 and int(text) <= _LAST else None
+    return int(text) if text.isascii() and text.isdecimal() and len(text) < 4 and int(text) <= _MAX_DOMAIN_ID else None

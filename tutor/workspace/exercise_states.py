@@ -1,4 +1,4 @@
-"""How far a learner is with an exercise: the one answer that the app, the command line and the checklist give."""
+"""The state of each exercise, computed in one place for the app, the command line and the checklist."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from tutor.workspace.submissions import is_started
 
 
 class State(Enum):
-    """How far a learner is; the values are those of `list --format json`."""
+    """The state of an exercise; the values are those of `list --format json`."""
 
     PASSED = "passed"
     NOT_PASSED = "not_passed"
@@ -23,9 +23,10 @@ class State(Enum):
 
 @dataclass(frozen=True, slots=True)
 class ExerciseState:
-    """One exercise. `met` and `bonus_met` hold the ids of the required and the bonus criteria that are met.
+    """The state of one exercise and its criteria, by criterion id.
 
-    `missed` are the required ones that were judged and are not met; of the others, nothing is known.
+    `met` and `bonus_met` are the required and the bonus criteria that are met. `missed` are the required ones that were
+    judged and are not met; the other required ones have not been judged yet.
     """
 
     state: State
@@ -42,22 +43,22 @@ class ExerciseState:
 
     @property
     def is_started(self) -> bool:
-        """Whether there is anything of it yet."""
+        """Whether the exercise has been started."""
         return self.state is not State.NOT_STARTED
 
     @property
     def is_attempted(self) -> bool:
-        """Whether it has been checked."""
+        """Whether the exercise has been checked."""
         return self.state in (State.PASSED, State.NOT_PASSED)
 
     @property
     def count(self) -> str:
-        """How many of the required criteria are met, as in "5 of 6"."""
+        """How many of the required criteria are met, such as "5 of 6"."""
         return f"{len(self.met)} of {len(self.required)}"
 
 
 def last_met(criteria: Iterable[str], progress: ExerciseProgress) -> dict[str, bool]:
-    """Of these criteria those that were ever judged, and whether each passed the last time that it was."""
+    """Return, for each of `criteria` that was ever judged, whether it passed the last time."""
     criteria = tuple(criteria)
     met: dict[str, bool] = {}
     for attempt in progress.attempts:
@@ -66,10 +67,10 @@ def last_met(criteria: Iterable[str], progress: ExerciseProgress) -> dict[str, b
 
 
 def exercise_state(lesson: Lesson, progress: ExerciseProgress, *, has_files: bool = False) -> ExerciseState:
-    """How far the learner is. `has_files`: the exercise's files are in the workspace, no matter who put them there.
+    """Return the state of an exercise. `has_files`: its files are in the workspace, whoever put them there.
 
-    A criterion is met where it passed in the last check that judged it. An exercise that has been passed stays so, with
-    all that it requires.
+    A criterion is met if it passed in the last check that judged it. An exercise that has been passed stays passed,
+    with all its required criteria met.
     """
     required = tuple(criterion.id for criterion in lesson.criteria if not criterion.bonus)
     bonus = tuple(criterion.id for criterion in lesson.criteria if criterion.bonus)
@@ -92,7 +93,7 @@ def exercise_state(lesson: Lesson, progress: ExerciseProgress, *, has_files: boo
 
 
 def states_of(lessons: Iterable[Lesson], progress: Progress, workspace: Workspace) -> dict[str, ExerciseState]:
-    """How far the learner is with each exercise, by its id. Looks for its files on the disk."""
+    """Return the state of each exercise, by exercise id. Looks for the exercises' files on disk."""
     return {
         lesson.id: exercise_state(lesson, progress.of(lesson.id), has_files=is_started(lesson, None, workspace))
         for lesson in lessons

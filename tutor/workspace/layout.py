@@ -1,4 +1,4 @@
-"""Where the workspace is, and where things are in it."""
+"""The location of the workspace, and of the files in it."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from tutor.workspace.app_state import AppStateFile
 from tutor.workspace.progress_file import ProgressFile, to_stderr
 
 MARKER = ".ros-tutor"
-"""The folder that makes a folder a workspace; it holds the progress."""
+"""The subfolder that marks a folder as a workspace; it holds the progress and our other files."""
 
 PACKAGE = "my_package"
 
@@ -25,7 +25,7 @@ class Workspace:
 
     @property
     def exists(self) -> bool:
-        """Whether `root` is a workspace (and not merely a folder, or nothing at all)."""
+        """Whether `root` is a workspace, rather than just a folder, or nothing at all."""
         return (self.root / MARKER).is_dir()
 
     @property
@@ -34,46 +34,46 @@ class Workspace:
         return self.root / "src" / PACKAGE
 
     def path_of(self, name: str) -> Path:
-        """Where the exercise file `name` belongs: launch files in `launch/`, everything else among the modules."""
+        """Return where the exercise file `name` belongs: launch files in `launch/`, others in the Python package."""
         return self.package / ("launch" if is_launch_file(name) else PACKAGE) / name
 
     def data_file(self, name: str) -> Path:
-        """Where one of our own files is kept, beside the learner's."""
+        """Return the path of one of our own files, kept apart from the learner's."""
         return self.root / MARKER / name
 
     def progress(self, notify: Callable[[str], None] = to_stderr) -> ProgressFile:
-        """The progress file; `notify` gets one line if a damaged one had to be set aside."""
+        """Return the progress file; `notify` is called with one line if a damaged one had to be set aside."""
         return ProgressFile(self.root / MARKER / "progress.json", notify)
 
     def app_state(self, notify: Callable[[str], None] = to_stderr) -> AppStateFile:
-        """What the app remembers; `notify` gets one line if a damaged file had to be set aside."""
+        """Return the app's state file; `notify` is called with one line if a damaged one had to be set aside."""
         return AppStateFile(self.root / MARKER / "app.json", notify)
 
 
 def is_launch_file(name: str) -> bool:
-    """Whether an exercise's file is a launch file, by its name."""
+    """Whether an exercise's file is a launch file, judging by its name."""
     return name.endswith(("_launch.py", ".launch.py"))
 
 
 def find_workspace(explicit: Path | None = None) -> Path:
-    """The folder of the workspace to use, whether it exists or not.
+    """Return the root of the workspace to use, which may not exist yet.
 
-    In this order: `explicit`, `ROS_TUTOR_WORKSPACE`, the workspace around the current folder, `~/ros_tutor_ws`. Raises
-    WorkspaceError where nobody knows the home.
+    In this order: `explicit`, `ROS_TUTOR_WORKSPACE`, the workspace that contains the current folder, `~/ros_tutor_ws`.
+    Raises WorkspaceError if the home directory is unknown.
     """
     if explicit is not None:
         return _absolute(explicit)
     if named := os.environ.get("ROS_TUTOR_WORKSPACE"):
         return _absolute(Path(named))
     try:
-        return _around() or Path.home() / "ros_tutor_ws"
+        return _find_enclosing() or Path.home() / "ros_tutor_ws"
     except RuntimeError:
         raise WorkspaceError(
             "HOME is not set, and you have no home folder: name a folder with --workspace DIR"
         ) from None
 
 
-def _around() -> Path | None:
+def _find_enclosing() -> Path | None:
     try:
         here = Path.cwd()
     except FileNotFoundError:  # the current folder was deleted

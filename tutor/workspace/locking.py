@@ -1,24 +1,24 @@
-"""Takes a file lock within a limit: flock knows none of its own, and its holder may be stopped."""
+"""File locking with a timeout, which flock lacks: the holder of a lock may be a stopped process."""
 
 from __future__ import annotations
 
 import fcntl
 import time
 
-_RETRY_S = 0.01
+_RETRY_INTERVAL_S = 0.01
 
 
 def lock(handle: int, limit_s: float) -> bool:
-    """Lock an open file for this process alone; False where another has kept it for `limit_s` seconds.
+    """Lock an open file exclusively; return False if another process has held the lock for `limit_s` seconds.
 
-    It is unlocked when `handle` is closed. Raises OSError.
+    The lock is released when `handle` is closed. Raises OSError.
     """
-    limit = time.monotonic() + limit_s
+    deadline = time.monotonic() + limit_s
     while True:
         try:
             fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
             return True
         except BlockingIOError:
-            if time.monotonic() > limit:
+            if time.monotonic() > deadline:
                 return False
-            time.sleep(_RETRY_S)
+            time.sleep(_RETRY_INTERVAL_S)

@@ -1,4 +1,4 @@
-"""Puts several files in place: all of them or none, and never over a learner's work."""
+"""Writes several files: all of them or none, and never over a learner's work."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from tutor.errors import StorageError, WorkspaceError
 
 @dataclass(frozen=True, slots=True)
 class Placed:
-    """What was done: files written, files that were there already just so, and where replaced files are kept."""
+    """The result: files written, files that already had the right content, and the backups of replaced files."""
 
     written: tuple[Path, ...]
     already_there: tuple[Path, ...]
@@ -21,16 +21,16 @@ class Placed:
 
 
 def place_files(files: Mapping[Path, bytes], *, force: bool) -> Placed:
-    """Write each content to its path, making folders as needed.
+    """Write each content to its path, creating folders as needed.
 
-    A file that differs is left alone: nothing at all is written then, and WorkspaceError says so. With `force` it is
-    kept as `name.~1~`, `name.~2~`, ... beside the new one. Raises StorageError, with everything as it was before.
+    If an existing file differs, nothing at all is written and WorkspaceError is raised; with `force`, the file is kept
+    as `name.~1~`, `name.~2~`, ... beside the new one. Raises StorageError after undoing all changes.
     """
-    there = tuple(path for path, content in files.items() if os.path.lexists(path) and _same(path, content))
-    missing = {path: content for path, content in files.items() if path not in there}
+    unchanged = tuple(path for path, content in files.items() if os.path.lexists(path) and _has_content(path, content))
+    missing = {path: content for path, content in files.items() if path not in unchanged}
     in_the_way = [path for path in missing if os.path.lexists(path)]
     if in_the_way and not force:
-        raise WorkspaceError(_kept(in_the_way))
+        raise WorkspaceError(_conflict_message(in_the_way))
     for path in missing:
         _check_folder(path.parent)
 
@@ -44,34 +44,34 @@ def place_files(files: Mapping[Path, bytes], *, force: bool) -> Placed:
                 path.rename(backup)
                 backups.append(backup)
                 undo.append(partial(backup.replace, path))
-            with path.open("xb") as file:  # "x": not even a file that appeared just now is overwritten
+            with path.open("xb") as file:  # "x": never overwrite a file that has appeared in the meantime
                 undo.append(partial(path.unlink, missing_ok=True))
                 file.write(content)
     except OSError as error:
         for step in reversed(undo):
             step()
         raise StorageError.of(f"write {path}", error) from error
-    return Placed(tuple(missing), there, tuple(backups))
+    return Placed(tuple(missing), unchanged, tuple(backups))
 
 
-def _same(path: Path, content: bytes) -> bool:
+def _has_content(path: Path, content: bytes) -> bool:
     if path.is_dir():
         raise WorkspaceError(f"{path} is a folder, but a file of this name belongs there: move it away")
     try:
         return path.read_bytes() == content
     except OSError:
-        return False  # unreadable, or a link to nothing: not ours to overwrite
+        return False  # unreadable, or a dangling link: not ours to overwrite
 
 
-def _kept(paths: list[Path]) -> str:
+def _conflict_message(paths: list[Path]) -> str:
     names = " and ".join(str(path) for path in paths)
     if len(paths) == 1:
-        return f"{names} is there already and is not the skeleton: go on with it, or use --force (a backup is kept)"
-    return f"{names} are there already and are not the skeleton: go on with them, or use --force (backups are kept)"
+        return f"{names} already exists and is not the skeleton: go on with it, or use --force (a backup is kept)"
+    return f"{names} already exist and are not the skeleton: go on with them, or use --force (backups are kept)"
 
 
 def _check_folder(folder: Path) -> None:
-    """Fail before anything is written, where that can be known."""
+    """Fail before anything is written, if it is already clear that `folder` cannot be created or written to."""
     nearest = next(parent for parent in (folder, *folder.parents) if os.path.lexists(parent))
     if not nearest.is_dir():
         raise WorkspaceError(f"{nearest} is a file, but a folder of this name is needed: move it away")
@@ -80,7 +80,7 @@ def _check_folder(folder: Path) -> None:
 
 
 def free_name(path: Path) -> Path:
-    """The next free name for a backup of `path`: `name.~1~`, `name.~2~`, ..."""
+    """Return the next free name for a backup of `path`: `name.~1~`, `name.~2~`, ..."""
     number = 1
     while os.path.lexists(backup := path.with_name(f"{path.name}.~{number}~")):
         number += 1

@@ -1,4 +1,4 @@
-"""What a learner has done so far, as plain data, and its form on disk."""
+"""A learner's progress as plain data, and its encoding on disk."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ from tutor.judge.verdict import Status
 
 SCHEMA = "ros-tutor/progress/1"
 MOST_ATTEMPTS = 200
-"""Older attempts are dropped; the best result is kept apart from them."""
+"""Older attempts are dropped; the best verdict is saved separately."""
 
 
 @dataclass(frozen=True, slots=True)
 class Attempt:
     """One check of the workspace's own files. `at` is a UTC time in ISO 8601.
 
-    `passed` holds the ids of the criteria that passed; `whole` is False where only some criteria were asked for, which
-    are `judged` (empty where all were).
+    `passed` holds the ids of the criteria that passed. `whole` is False if only some criteria were judged; their ids
+    are then in `judged`, which is empty otherwise.
     """
 
     at: str
@@ -31,17 +31,17 @@ class Attempt:
 
     @property
     def is_pass(self) -> bool:
-        """Whether everything required passed, and all of it was judged."""
+        """Whether every criterion was judged and all required ones passed."""
         return self.whole and self.verdict is Status.PASSED
 
     def judged_of(self, criteria: Iterable[str]) -> list[str]:
-        """Those of these criteria that were judged."""
+        """Return those of `criteria` that were judged."""
         return [id for id in criteria if self.whole or id in self.judged or id in self.passed]
 
 
 @dataclass(frozen=True, slots=True)
 class ExerciseProgress:
-    """One exercise: when it was started, the attempts (oldest first), the best verdict, how many hints were shown."""
+    """The progress on one exercise. `attempts` are oldest first; `hints` is the number of hints shown."""
 
     started_at: str | None = None
     attempts: tuple[Attempt, ...] = ()
@@ -65,28 +65,28 @@ class ExerciseProgress:
 
 @dataclass(frozen=True, slots=True)
 class Progress:
-    """Everything; `ticks` maps a ticked checklist item to when it was ticked."""
+    """The progress on all exercises, by id; `ticks` maps each ticked checklist item to when it was ticked."""
 
     exercises: Mapping[str, ExerciseProgress] = field(default_factory=dict)
     ticks: Mapping[str, str] = field(default_factory=dict)
 
     def of(self, exercise: str) -> ExerciseProgress:
-        """The progress in one exercise; an empty one where there is none."""
+        """Return the progress on one exercise; empty if there is none."""
         return self.exercises.get(exercise, ExerciseProgress())
 
     def with_exercise(self, exercise: str, progress: ExerciseProgress) -> Progress:
-        """A copy in which `exercise` has this progress."""
+        """Return a copy in which `exercise` has this progress."""
         return replace(self, exercises={**self.exercises, exercise: progress})
 
     def with_start(self, exercise: str) -> Progress:
-        """A copy in which `exercise` is started; the first time counts."""
+        """Return a copy in which `exercise` is started; an earlier start time is kept."""
         before = self.of(exercise)
         return self.with_exercise(exercise, replace(before, started_at=before.started_at or now()))
 
     def with_attempt(self, result: ExerciseResult, *, whole: bool) -> Progress:
-        """A copy with one more attempt. Only a whole check can be the best; our own fault is no attempt at all.
+        """Return a copy with one more attempt. Only a whole check can be the best; an error verdict is no attempt.
 
-        What was not judged, since the check ended at its first failure, is as it was.
+        Criteria left unjudged because the check ended at its first failure keep their last verdict.
         """
         if result.verdict is Status.ERROR:
             return self
@@ -101,27 +101,27 @@ class Progress:
         return self.with_exercise(result.id, replace(before, started_at=started_at, attempts=attempts, best=best))
 
     def with_hints(self, exercise: str, shown: int) -> Progress:
-        """A copy in which this many hints of `exercise` were shown."""
+        """Return a copy in which this many hints of `exercise` were shown."""
         return self.with_exercise(exercise, replace(self.of(exercise), hints=shown))
 
     def with_tick(self, item: str, ticked: bool = True) -> Progress:
-        """A copy in which one checklist item is ticked or not."""
+        """Return a copy in which one checklist item is ticked or unticked."""
         others = {key: at for key, at in self.ticks.items() if key != item}
         return replace(self, ticks={**others, item: self.ticks.get(item, now())} if ticked else others)
 
 
 def now() -> str:
-    """The time, as progress holds it."""
+    """Return the current time as progress stores it: UTC, ISO 8601, "2026-11-21T09:30:00Z"."""
     return datetime.now(UTC).isoformat(timespec="seconds").replace("+00:00", "Z")
 
 
 def encode(progress: Progress) -> str:
-    """Write progress as JSON."""
+    """Encode progress as JSON."""
     return write_document(SCHEMA, exercises=progress.exercises, checklist=progress.ticks)
 
 
 def decode(text: str) -> Progress:
-    """Read what `encode` wrote. Raises ValueError, which says what is wrong."""
+    """Decode the output of `encode`. Raises ValueError with a description of the problem."""
     document = read_document(text, SCHEMA)
     return Progress(
         exercises=read_as(dict[str, ExerciseProgress], document.get("exercises")),

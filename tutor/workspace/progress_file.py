@@ -1,4 +1,4 @@
-"""The progress file: written atomically, safe with several processes, and never silently lost."""
+"""The progress file: written atomically, safe across processes, and never lost silently."""
 
 from __future__ import annotations
 
@@ -16,25 +16,25 @@ from tutor.workspace.locking import lock
 from tutor.workspace.progress import Progress, decode, encode
 from tutor.workspace.regular import read_text
 
-_LOCK_LIMIT_S = 10.0
+_LOCK_TIMEOUT_S = 10.0
 
 
 def to_stderr(message: str) -> None:
-    """Say something to the learner beside the report."""
+    """Print a message for the learner, separately from the report."""
     print(f"ros-tutor: {printable(message)}", file=sys.stderr)
 
 
 class ProgressFile:
-    """The progress of one workspace. Reading needs no lock, since a write replaces the file as a whole."""
+    """The progress file of one workspace. Reading needs no lock, since writes replace the file atomically."""
 
     def __init__(self, path: Path, notify: Callable[[str], None] = to_stderr) -> None:
         self.path = path
         self._notify = notify
 
     def read(self) -> Progress:
-        """What is on disk; empty where there is no file yet. A damaged file is set aside.
+        """Read the progress; empty if there is no file yet. A damaged file is set aside.
 
-        Raises StorageError where the file cannot be read.
+        Raises StorageError if the file cannot be read.
         """
         try:
             return self._load()
@@ -47,7 +47,7 @@ class ProgressFile:
             return Progress()
 
     def change(self, change: Callable[[Progress], Progress]) -> Progress:
-        """Read, change and write under a lock, so that no other process's change is lost; the new state.
+        """Read, change and write under a lock, so that no other process's change is lost; return the new progress.
 
         Raises StorageError.
         """
@@ -63,15 +63,19 @@ class ProgressFile:
             return after
 
     def next_hint(self, exercise: str, of: int) -> tuple[int, bool]:
-        """Count one more hint as shown, of this many; its number from 1, and whether it had been shown before."""
-        seen_before: list[int] = []
+        """Count one more of the exercise's `of` hints as shown.
+
+        Returns its number, from 1, and whether it was shown before: the last hint is repeated.
+        """
+        shown_before = 0
 
         def count(progress: Progress) -> Progress:
-            seen_before.append(progress.of(exercise).hints)
-            return progress.with_hints(exercise, min(seen_before[0] + 1, of))
+            nonlocal shown_before
+            shown_before = progress.of(exercise).hints
+            return progress.with_hints(exercise, min(shown_before + 1, of))
 
         self.change(count)
-        return min(seen_before[0] + 1, of), seen_before[0] >= of
+        return min(shown_before + 1, of), shown_before >= of
 
     def _load(self) -> Progress:
         try:
@@ -88,11 +92,13 @@ class ProgressFile:
             self.path.rename(aside)
         except OSError as error:
             raise StorageError.of(f"rename {self.path}", error) from error
-        self._notify(f"your progress could not be read ({reason}); a new file is begun, the old one is kept as {aside}")
+        self._notify(
+            f"your progress could not be read ({reason}); a new file is started, the old one is kept as {aside}"
+        )
 
     @contextmanager
     def _locked(self) -> Iterator[None]:
-        """Hold the lock. It has a file of its own, because the progress file itself is replaced at each write."""
+        """Hold the lock, which is on a separate file, because each write replaces the progress file itself."""
         file = self.path.with_suffix(".lock")
         try:
             file.parent.mkdir(parents=True, exist_ok=True)
@@ -101,22 +107,22 @@ class ProgressFile:
             raise StorageError.of(f"write to {file.parent}", error) from error
         try:
             self._lock(handle)
-            self._sweep()
+            self._remove_leftovers()
             yield
         finally:
             os.close(handle)
 
     def _lock(self, handle: int) -> None:
         try:
-            locked = lock(handle, _LOCK_LIMIT_S)
+            locked = lock(handle, _LOCK_TIMEOUT_S)
         except OSError as error:
             raise StorageError.of(f"lock {self.path}", error) from error
         if not locked:
             raise StorageError(
-                f"cannot write {self.path}: another ros-tutor has kept it locked for {_LOCK_LIMIT_S:.0f} s"
+                f"cannot write {self.path}: another ros-tutor has kept it locked for {_LOCK_TIMEOUT_S:.0f} s"
             )
 
-    def _sweep(self) -> None:
-        """Remove what a writer that was killed left behind: under the lock, nobody else is writing."""
+    def _remove_leftovers(self) -> None:
+        """Remove temporary files of killed writers: while we hold the lock, nobody else is writing."""
         for leftover in self.path.parent.glob(f".{self.path.name}.*.tmp"):
             leftover.unlink(missing_ok=True)

@@ -1,4 +1,4 @@
-"""Reading a file that anybody may have put there: only a regular one, and only so much of it."""
+"""Reads files that anyone may have put there: only regular ones, and only up to a size limit."""
 
 from __future__ import annotations
 
@@ -8,20 +8,20 @@ from pathlib import Path
 
 
 def read_regular(path: Path | str, most: int) -> bytes | None:
-    """The bytes of a file; None for anything but a regular file (a FIFO, a device), and for more than `most` bytes.
+    """Return the bytes of a file; None if it is not a regular file (a FIFO, a device) or larger than `most` bytes.
 
-    Never waits for a writer. Raises OSError where it cannot be opened.
+    Never blocks. Raises OSError if it cannot be opened.
     """
-    handle = os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_NOCTTY | os.O_CLOEXEC)
-    with os.fdopen(handle, "rb", closefd=True) as file:
-        if not stat.S_ISREG(os.fstat(handle).st_mode):
+    fd = os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_NOCTTY | os.O_CLOEXEC)
+    with os.fdopen(fd, "rb") as file:
+        if not stat.S_ISREG(os.fstat(fd).st_mode):
             return None
         data = file.read(most + 1)
         return data if len(data) <= most else None
 
 
 def read_text(path: Path, most: int = 16_000_000) -> str:
-    """The text of one of our files. Raises OSError, and ValueError where it is no text file."""
+    """Read one of our files. Raises OSError, or ValueError if it is not a UTF-8 text file of at most `most` bytes."""
     data = read_regular(path, most)
     if data is None:
         raise ValueError("it is damaged")

@@ -1,4 +1,4 @@
-"""Saves a text over a file that others may be changing too: whatever they wrote meanwhile is never lost."""
+"""Saves edits to a file that other programs may change too, without ever losing what they wrote in the meantime."""
 
 from __future__ import annotations
 
@@ -11,12 +11,15 @@ from tutor.workspace.atomic import write_atomically
 from tutor.workspace.placing_files import free_name
 
 LARGEST = 1 << 20
-"""No file larger than this is opened for editing, in bytes."""
+"""Maximum size of a file that is opened for editing, in bytes."""
 
 
 @dataclass(frozen=True, slots=True)
 class Saved:
-    """What a save did: `done`, or what is on the disk instead (None: no file); `backup` holds what was replaced."""
+    """The result of a save. If not `done`, `found` is the file's content on disk (None: no file).
+
+    `backup` is the backup of another program's changes that were replaced.
+    """
 
     done: bool
     found: str | None = None
@@ -24,7 +27,7 @@ class Saved:
 
 
 def read_source(path: Path) -> str | None:
-    """The text of a file, or None where it is not there. Raises StorageError where it cannot be read as UTF-8."""
+    """Read a text file; return None if it does not exist. Raises StorageError if it cannot be read as UTF-8."""
     try:
         with path.open("rb") as file:
             content = file.read(LARGEST + 1)
@@ -41,9 +44,9 @@ def read_source(path: Path) -> str | None:
 
 
 def overwrite_file(path: Path, text: str, expected: str | None) -> Saved:
-    """Write `text` to `path` if it still holds `expected` (None: if it is not there). Raises StorageError.
+    """Write `text` to `path` if it still contains `expected` (None: if it does not exist). Raises StorageError.
 
-    What somebody wrote between the look and the write is kept as `name.~1~`, `name.~2~`, ...
+    Changes that another program makes between our read and our write are kept as `name.~1~`, `name.~2~`, ...
     """
     if (found := read_source(path)) != expected:
         return Saved(False, found)
@@ -55,7 +58,7 @@ def overwrite_file(path: Path, text: str, expected: str | None) -> Saved:
     try:
         before.unlink(missing_ok=True)
         os.link(path, before)
-    except OSError:  # a file system without hard links: the look above is all there is
+    except OSError:  # a file system without hard links: the comparison above has to suffice
         write_atomically(path, text)
         return Saved(True)
     try:
@@ -72,7 +75,7 @@ def overwrite_file(path: Path, text: str, expected: str | None) -> Saved:
 
 
 def back_up_file(path: Path, text: str) -> Path:
-    """Keep `text` beside `path`, as `name.~1~`, `name.~2~`, ...; where it is. Raises StorageError."""
+    """Save `text` beside `path` as `name.~1~`, `name.~2~`, ... and return that path. Raises StorageError."""
     _make_folder(path.parent)
     backup = free_name(path)
     write_atomically(backup, text)

@@ -1,4 +1,4 @@
-"""Starts an exercise: the workspace around it, and its skeleton files."""
+"""Starts an exercise: creates the workspace if necessary, and puts the skeleton files in it."""
 
 from __future__ import annotations
 
@@ -12,22 +12,22 @@ from tutor.workspace.layout import Workspace
 from tutor.workspace.placing_files import Placed, place_files
 
 TEMPLATE = Path(__file__).parent / "template"
-"""A workspace as it is before the first exercise."""
+"""The initial content of a workspace."""
 
 
 @dataclass(frozen=True, slots=True)
 class Started:
-    """What `start` did."""
+    """The result of `start` or `start_in`."""
 
     files: Placed
     created_workspace: bool
 
 
 def start(lesson: Lesson, workspace: Workspace, *, force: bool = False) -> Started:
-    """Put the skeleton of `lesson` into the workspace, and create what is missing of the workspace itself.
+    """Put the skeleton of `lesson` into the workspace, and create the parts of the workspace that are missing.
 
-    Raises WorkspaceError, with nothing written, where a differing file is in the way and `force` is not set;
-    StorageError where the machine refuses.
+    Raises WorkspaceError, with nothing written, if a differing file is in the way and `force` is not set, and
+    StorageError if the disk cannot be read or written.
     """
     created = not workspace.exists
     skeletons = {workspace.path_of(file.name): _read(file.skeleton) for file in lesson.files}
@@ -37,7 +37,7 @@ def start(lesson: Lesson, workspace: Workspace, *, force: bool = False) -> Start
     except OSError as error:
         raise StorageError.of(f"make {workspace.package / 'launch'}", error) from error
     workspace.progress().change(lambda progress: progress.with_start(lesson.id))
-    return Started(_only(placed, skeletons), created)
+    return Started(_select(placed, skeletons), created)
 
 
 def start_in(lesson: Lesson, folder: Path, *, force: bool = False) -> Started:
@@ -47,7 +47,7 @@ def start_in(lesson: Lesson, folder: Path, *, force: bool = False) -> Started:
 
 
 def _missing_template(workspace: Workspace) -> dict[Path, bytes]:
-    """The template's files that are not there. One that is there belongs to the learner, whatever is in it."""
+    """Return the template files that do not exist yet. An existing one belongs to the learner, whatever it contains."""
     files = {}
     for source in sorted(TEMPLATE.rglob("*")):
         if not source.is_file() or "__pycache__" in source.parts:
@@ -59,7 +59,7 @@ def _missing_template(workspace: Workspace) -> dict[Path, bytes]:
     return files
 
 
-def _only(placed: Placed, wanted: Mapping[Path, bytes]) -> Placed:
+def _select(placed: Placed, wanted: Mapping[Path, bytes]) -> Placed:
     return Placed(
         written=tuple(path for path in placed.written if path in wanted),
         already_there=tuple(path for path in placed.already_there if path in wanted),
