@@ -282,7 +282,7 @@ def new_lines(trial: Trial, *, since: float, usual: Sequence[Trial]) -> list[Lin
         if line.at < since:
             continue
         same_kind = [other for other in before if other.kind == line.kind]
-        others = [[other for other in lines if other.kind == line.kind] for lines in elsewhere]
+        others = [found for lines in elsewhere if (found := [other for other in lines if other.kind == line.kind])]
         if line.kind not in known or _reports_jump(line, in_summaries.get(line), same_kind, others, trial):
             reports.append(line)
     return reports

@@ -34,12 +34,11 @@ MATCH_S = 0.4
 
 SOONER_HZ = 8.0
 """The rate where none is judged."""
-JUMP_AFTER, AGAIN_AFTER, JUMP_MESSAGES = 17, 37, 43
+JUMP_AFTER, AGAIN_AFTER, JUMP_MESSAGES = 7, 27, 33
 """N jumps twice: far, and then by leaving out one number.
 
-After each jump there is a summary, and time for one that is late; between them, ten messages in a row are summed up of
-which none is missing. A node that starts counting again at the first jump has counted ten more, in time to be seen.
-Four summaries are more than any other start asks for.
+A summary is due soon after each jump; between them, ten messages in a row are summed up of which none is missing. A
+node that starts counting again at the first jump has counted ten more in time to be seen.
 """
 
 FAST_HZ, FAST_MESSAGES = 25.0, 60

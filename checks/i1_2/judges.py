@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from checks.i1_2 import backlog, rates, slowness, steps
-from checks.i1_2.facts import EVERY, FAST_HZ, FAST_MESSAGES, OURS, Trial
+from checks.i1_2.facts import EVERY, FAST_HZ, FAST_MESSAGES, OURS, STALL_S, TOPIC, Trial
 from checks.i1_2.reading import labelled, read
-from checks.i1_2.summaries import Summary, count_complete, find_summaries, in_time, milestone, totals
+from checks.i1_2.summaries import Summary, count_complete, find_summaries, in_time, is_complete, milestone, totals
 from tutor.judge import causes, ending
 from tutor.judge.trace import LogRecord
 from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped, undecided
@@ -118,7 +118,7 @@ def _miscounted(summary: Summary, trial: Trial) -> tuple[str, str, str]:
             f"it says {sent + missed}, but {missed} of these were never sent",
             "count each call of the callback, and nothing else: self.total_count += 1",
         )
-    if trial.breaks and (summary.states(last) or summary.states(last + 1)):
+    if (trial.breaks or trial.sent[0].number > 1) and (summary.states(last) or summary.states(last + 1)):
         return (
             "number taken for the count",
             f"it states the N of “Hello World: {last}”, not how many messages came",
@@ -226,12 +226,66 @@ def judge_slow_summary(steady: Trial, jump: Trial) -> Verdict:
     )
 
 
-def judge_silence(fast: Trial) -> Verdict | None:
-    """Judge `summary` by the fast stretch alone, where the node takes part in all and logs nothing of any message."""
-    if not fast.spins or fast.lines or len(fast.sent) < FAST_MESSAGES or not backlog.fast_enough(fast):
+def judge_fast_count(fast: Trial) -> Verdict | None:
+    """Judge `count` by the fast stretch alone: whether none of its summaries states anything like the true total.
+
+    What a node that lags behind may say, or one whose summary waits for a timer, is no evidence here.
+    """
+    summaries = _fast_summaries(fast)
+    if not summaries or not all(is_complete(summary, fast) for summary in summaries):
         return None
-    observed = f"none, after {len(fast.sent)} messages"
-    return failed(EXPECTED_SUMMARY, observed, diagnose_no_summary(fast), _logged(fast))
+    if any(summary.states(total) for summary in summaries for total in range(EVERY, summary.until + 1, EVERY)):
+        return None
+    if any(any(map(summary.states, totals(summary, fast))) for summary in summaries):
+        return None
+    last = summaries[-1]
+    return failed(
+        f"{EXPECTED_COUNT}: {' or '.join(map(str, totals(last, fast)))}",
+        f"the summary that came after {last.messages} messages does not say so",
+        _diagnose_count(last, fast),
+        [str(summary) for summary in summaries],
+    )
+
+
+def judge_fast_summary(fast: Trial) -> Verdict | None:
+    """Judge `summary` by the fast stretch alone.
+
+    It fails where the node takes part in all and logs nothing of any message; where it logs far too many summaries;
+    and where the same is missing from each.
+    """
+    if not fast.lines:
+        silent = fast.spins and len(fast.sent) >= FAST_MESSAGES and backlog.fast_enough(fast)
+        observed = f"none, after {len(fast.sent)} messages"
+        return failed(EXPECTED_SUMMARY, observed, diagnose_no_summary(fast), _logged(fast)) if silent else None
+    summaries = _fast_summaries(fast)
+    if not summaries:
+        return None
+    evidence = [str(summary) for summary in summaries[:8]]
+    whole = all(is_complete(summary, fast) for summary in summaries)
+    if whole and len(summaries) >= 1.5 * len(fast.sent) / EVERY:
+        when = ", ".join(str(summary.messages) for summary in summaries[:12])
+        cause = _diagnose_interval(summaries, fast, len(fast.sent))
+        observed = f"summaries after {when} messages, of {len(fast.sent)}"
+        return failed(EXPECTED_SUMMARY, observed, cause, evidence) if cause else None
+    if any(summary.messages % EVERY > 1 for summary in summaries):  # by another count than the true one, perhaps
+        return None
+    missing = [_diagnose_incomplete_summary(summary, fast) for summary in summaries[1:]]  # the first may be complete
+    cause = missing[-1]
+    if cause is None or {each and each.name for each in missing} != {cause.name}:
+        return None
+    return failed(EXPECTED_SUMMARY, f"it is incomplete {summaries[-1]}", cause, evidence)
+
+
+def _fast_summaries(fast: Trial) -> Sequence[Summary]:
+    """The summaries of a fast stretch; none where they may be few, late or torn because the messages came fast.
+
+    Nor where two subscriptions may log one message twice: what that leads to shows best when messages come slowly.
+    """
+    summaries = find_summaries(fast)
+    whole = len(fast.sent) >= FAST_MESSAGES and backlog.fast_enough(fast) and len(summaries) >= len(fast.sent) // EVERY
+    prompt = fast.spins and fast.allowance_s < STALL_S and not backlog.messages_behind(fast)
+    alone = sum(each.topic == TOPIC for each in fast.trace.graph.subscriptions) == 1
+    return summaries if whole and prompt and alone else ()
 
 
 def _diagnose_interval(summaries: Sequence[Summary], trial: Trial, messages: int) -> Cause | None:

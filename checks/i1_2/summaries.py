@@ -103,10 +103,10 @@ def find_summaries(trial: Trial) -> tuple[Summary, ...]:
     times = Counter(line.kind for line in trial.lines)
     usual = {kind for kind, count in times.items() if count >= max(3, FREQUENT_SHARE * len(trial.sent))}
     special = group_lines([line for line in trial.lines if line.kind not in usual], trial)
-    if complete := _without_break_reports([summary for summary in special if _is_complete(summary, trial)], trial):
+    if complete := _without_break_reports([summary for summary in special if is_complete(summary, trial)], trial):
         return _without_coincidences(_with_similar(complete, special), special, trial)
     everything = group_lines(trial.lines, trial)
-    complete = [summary for summary in everything if summary.messages > 1 and _is_complete(summary, trial)]
+    complete = [summary for summary in everything if summary.messages > 1 and is_complete(summary, trial)]
     if len(complete) > len(trial.sent) / 4:
         return _without_coincidences(_with_similar(complete, everything), everything, trial)
     return _without_coincidences(_find_best_family(special, trial), special, trial)
@@ -114,11 +114,11 @@ def find_summaries(trial: Trial) -> tuple[Summary, ...]:
 
 def count_complete(trial: Trial) -> int:
     """The number of summaries if they are too frequent to be distinguished from what is logged for every message."""
-    complete = [each for each in group_lines(trial.lines, trial) if each.messages > 1 and _is_complete(each, trial)]
+    complete = [each for each in group_lines(trial.lines, trial) if each.messages > 1 and is_complete(each, trial)]
     return sum(each.times for each in complete)
 
 
-def _is_complete(summary: Summary, trial: Trial) -> bool:
+def is_complete(summary: Summary, trial: Trial) -> bool:
     """Whether the summary quotes a first message and a recent one."""
     firsts = {trial.sent[index].number for index in (0, *trial.jumps)}
     oldest = min(summary.messages - MAX_AGE, milestone(summary.messages)) - 1
@@ -183,7 +183,7 @@ def _without_coincidences(
 def _without(summary: Summary, kinds: Container[tuple[int, str]], trial: Trial) -> Summary:
     """The summary without lines of these kinds, if it is just as complete without them."""
     rest = Summary(tuple(line for line in summary.lines if line.kind not in kinds))
-    return rest if rest.lines and _is_complete(rest, trial) >= _is_complete(summary, trial) else summary
+    return rest if rest.lines and is_complete(rest, trial) >= is_complete(summary, trial) else summary
 
 
 def _find_best_family(candidates: Sequence[Summary], trial: Trial) -> tuple[Summary, ...]:
@@ -225,8 +225,8 @@ def _join(one: Summary, other: Summary, trial: Trial) -> Summary | None:
     """Join two parts of a summary that was interrupted by a message; None if they do not belong together."""
     whole = Summary(one.lines + other.lines)
     soon = other.at - one.at <= SOON_S and milestone(other.messages) == milestone(one.messages) > 0
-    separate = not _is_complete(one, trial) and not _is_complete(other, trial) and not one.kinds & other.kinds
-    return whole if soon and separate and _is_complete(whole, trial) else None
+    separate = not is_complete(one, trial) and not is_complete(other, trial) and not one.kinds & other.kinds
+    return whole if soon and separate and is_complete(whole, trial) else None
 
 
 def slots(summaries: Sequence[Summary]) -> list[tuple[Number, ...]] | None:

@@ -150,11 +150,12 @@ def judged(make: Callable[[], Counter], **more: object) -> dict[str, Verdict]:
     """The verdicts on a node of which three are made."""
     even, jumped = steady(make(), **more), jump(make(), **more)  # type: ignore[arg-type]
     restarted, quick = restart(make(), **more), fast(make(), **more)
-    summary = judges.judge_summary(even, jumped, quick)
-    silent = judges.judge_silence(quick)
-    assert silent is None or summary.status is silent.status is Status.FAILED
+    count, summary = judges.judge_count(even, jumped, quick), judges.judge_summary(even, jumped, quick)
+    for early, verdict in ((judges.judge_fast_count(quick), count), (judges.judge_fast_summary(quick), summary)):
+        assert early is None or verdict.status is early.status is Status.FAILED
+        assert early is None or early.cause.split(":")[0] == verdict.cause.split(":")[0]
     return {
-        "count": judges.judge_count(even, jumped, quick),
+        "count": count,
         "rate": judges.judge_rate(even, jumped),
         "summary": summary,
         "restart": continuity.judge_restart(restarted, even, jumped),
@@ -420,11 +421,9 @@ class NumbersItsRuns(Restarting):
 
     run: int = 1
 
-    def jumped(self, last: int, number: int) -> Iterator[Log]:
-        self.run += number < last
-        for level, text in super().jumped(last, number):
-            if number > last:
-                yield level, text
+    def take(self, now: float, data: str) -> Iterator[Log]:
+        self.run += self.number is not None and int(data.split(":")[1]) < self.number
+        yield from (each for each in super().take(now, data) if "restarted" not in each[1])
 
     def summary(self) -> Iterator[Log]:
         for level, text in super().summary():
@@ -699,12 +698,12 @@ class HeldUp(EachAfterRestart):
 
 
 class ByASlowTimer(Counter):
-    """A timer sums up, once there are ten messages more: the third time it is late."""
+    """A timer sums up, once there are ten messages more: the second time it is late."""
 
     summed: int = 0
 
     def heard(self, data: str) -> Iterator[Log]:
-        if self.total // 10 > self.summed and (self.total > 33 or self.total < 30):
+        if self.total // 10 > self.summed and (self.total > 23 or self.total < 20):
             self.summed = self.total // 10
             yield from super().summary()
 
@@ -712,9 +711,9 @@ class ByASlowTimer(Counter):
         yield from ()
 
 
-def test_the_third_summary_may_wait_for_a_slow_timer() -> None:
+def test_a_later_summary_may_wait_for_a_slow_timer() -> None:
     jumped = jump(ByASlowTimer())
-    assert [summary.messages for summary in find_summaries(jumped)] == [11, 21, 35, 41]
+    assert [summary.messages for summary in find_summaries(jumped)] == [11, 25, 31]
     assert_passed(judges.judge_slow_summary(steady(Counter()), jumped))
     assert_passed(judges.judge_slow_count(steady(Counter()), jumped))
 
@@ -1044,6 +1043,40 @@ class Behind(Counter):
         before = self.last
         for level, text in super().take(now, data):
             yield level, text.replace(f"last={data}", f"last={before}")
+
+
+class TakesNForTheCount(Counter):
+    def summary(self) -> Iterator[Log]:
+        yield 20, f"{self.number} at {self.rate():.2f}/s, {self.first} to {self.last}"
+
+
+def test_a_wrong_total_shows_in_the_fast_stretch_already() -> None:
+    for make, cause in ((CountsFromOne, "off by one"), (TakesNForTheCount, "number taken for the count")):
+        early = judges.judge_fast_count(fast(make()))
+        assert early is not None
+        assert_failed(early, cause)
+
+
+def test_summaries_that_are_too_many_or_incomplete_show_in_the_fast_stretch_already() -> None:
+    cases: tuple[tuple[Callable[[], Counter], str], ...] = (
+        (lambda: Counter(every=5), "too many summaries"),
+        (FirstOverwritten, "first message overwritten"),
+        (Swapped, "first and last swapped"),
+    )
+    for make, cause in cases:
+        early = judges.judge_fast_summary(fast(make()))
+        assert early is not None
+        assert_failed(early, cause)
+
+
+@pytest.mark.parametrize("make", [Counter, CountsFromOne, FirstOverwritten])
+def test_a_stretch_that_was_not_fast_or_not_whole_shows_nothing_early(make: type[Counter]) -> None:
+    slow = fed(make(), range(7, 7 + FAST_MESSAGES), FAST_HZ / 2)
+    part = fed(make(), range(7, 7 + FAST_MESSAGES // 2), FAST_HZ)
+    held_up = replace(fast(make()), cpu_wait_s=0.12)
+    for seen in (slow, part, held_up):
+        assert judges.judge_fast_count(seen) is None
+        assert judges.judge_fast_summary(seen) is None
 
 
 class AgainAfterASecond(Counter):
@@ -1526,7 +1559,7 @@ def test_what_is_said_just_before_a_summary_is_due_is_no_part_of_it() -> None:
     early = jumped.sent[29].at - 0.01
     logs = (*jumped.trace.logs, LogRecord(40, "node", "1 lost in the last second", early, early))
     jumped = replace(jumped, trace=replace(jumped.trace, logs=logs))
-    assert [summary.messages for summary in find_summaries(jumped)] == [10, 20, 30, 40]
+    assert [summary.messages for summary in find_summaries(jumped)] == [10, 20, 30]
 
 
 def test_how_much_later_than_due_a_message_was_sent() -> None:
