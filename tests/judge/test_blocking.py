@@ -97,7 +97,7 @@ MAIN = (rclpy("spin", thread=2), own(42, "executor.spin()", "main", 2))
             "in place of line 1, rclpy.spin(node): executor = MultiThreadedExecutor(num_threads=4); "
             "executor.add_node(node); executor.spin()",
         ),
-        (node(), (own(8, "while True:"), *WORKER, *MAIN), "blocked executor", "line 8", "one round"),
+        (node(), (own(8, "while True:"), *WORKER, *MAIN), "blocked executor", "line 8", "one iteration"),
         (
             node("class N(Node):", "  def tick(self):", "    rclpy.spin_until_future_complete(self, future)"),
             MAIN,

@@ -14,10 +14,10 @@ Judge = Callable[..., Verdict]
 """A pure function from the facts of the criterion's scenarios, in their order, to a verdict."""
 
 EarlyJudge = Callable[[Any], Verdict | None]
-"""A pure function from the facts of one scenario to a failure, if that is sure whatever the others say.
+"""A pure function from the facts of one scenario to a failure that is certain whatever the other scenarios find.
 
-They may be those that the scenario has reported so far (`Bench.report_facts`). Whatever it gives besides a failure says
-nothing. It must never fail what the judge would pass.
+The facts may be partial (`Bench.report_facts`). A result other than a failure means nothing. An early judge must never
+fail what the judge would pass.
 """
 
 
@@ -25,9 +25,9 @@ nothing. It must never fail what the judge would pass.
 class Criterion:
     """One acceptance criterion.
 
-    `facts` are the scenarios whose facts `judge` takes; they run at once with all others. `after` names criteria that
-    must have passed, else this one is skipped: what it says would be about their failure. `early`: scenarios
-    that may be enough for a failure, each with the judge of its facts.
+    `facts`: the scenarios whose facts `judge` takes; they run concurrently with all others. `after`: ids of criteria
+    that must pass first, else this one is skipped, since it would only repeat their failure. `early`: scenarios that
+    may be enough to fail the criterion, each with the early judge of its facts.
     """
 
     id: str
@@ -40,11 +40,11 @@ class Criterion:
 
 @dataclass(frozen=True, slots=True)
 class Check:
-    """All criteria of one exercise, in the order to show them.
+    """All criteria of one exercise, in display order.
 
-    `expected_s`: the longest wait in seconds that a scenario asks of the clock when it meets our own solution, such as
-    three messages at 0.5 Hz; what a check takes beyond it is overhead, which a benchmark measures. `exceptions`: known
-    ones that are looked for before those that come with the program.
+    `expected_s`: the longest wall-clock wait in seconds that a scenario needs with our own solution, such as for three
+    messages at 0.5 Hz; anything a check takes beyond it is overhead, which a benchmark measures. `exceptions`: known
+    exceptions of this exercise, which take precedence over the built-in ones.
     """
 
     exercise: str

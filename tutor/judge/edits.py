@@ -1,6 +1,6 @@
-"""Next steps as edits of the learner's own file, tried on a copy first: a step that breaks the file is never given.
+"""Next steps as edits of the learner's own file, tried on a copy first: a step that breaks the file is never shown.
 
-The source serves the words of a diagnosis, never a verdict.
+The source only shapes the wording of a diagnosis, never a verdict.
 """
 
 from __future__ import annotations
@@ -8,35 +8,44 @@ from __future__ import annotations
 import ast
 import re
 import textwrap
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from pyflakes import checker, messages
 
 from tutor.judge.source import Function, SourceFile
 
-_NODE = {
-    *(
-        "add_on_set_parameters_callback",
-        "add_post_set_parameters_callback",
-        "create_client",
-        "create_publisher",
-        "create_rate",
-        "create_service",
-    ),
-    *("create_subscription", "create_timer", "declare_parameter", "declare_parameters", "destroy_node"),
-    *("destroy_timer", "executor", "get_clock", "get_logger", "get_name", "get_parameter", "get_parameter_or"),
-    *("has_parameter", "set_parameters"),
+_NODE_ATTRIBUTES = {
+    "add_on_set_parameters_callback",
+    "add_post_set_parameters_callback",
+    "create_client",
+    "create_publisher",
+    "create_rate",
+    "create_service",
+    "create_subscription",
+    "create_timer",
+    "declare_parameter",
+    "declare_parameters",
+    "destroy_node",
+    "destroy_timer",
+    "executor",
+    "get_clock",
+    "get_logger",
+    "get_name",
+    "get_parameter",
+    "get_parameter_or",
+    "has_parameter",
+    "set_parameters",
 }
-"""What a node has of its own, as far as next steps use it."""
+"""Attributes inherited from `rclpy.node.Node`, as far as next steps use them."""
 
 
 @dataclass(frozen=True, slots=True)
 class Edit:
-    """Lines `first` to `last` (counted from 1, both included) become `code`; where `last` is below `first`, none goes.
+    """Replace lines `first` to `last` (1-based, inclusive) by `code`; if `last` < `first`, insert above line `first`.
 
-    `code` has no indentation of its own but what its later lines have more than the first; it gets that of line
-    `like`, and four spaces more if it goes `deeper`.
+    `code` is dedented, so its first line starts at column 0. It gets the indentation of line `like`, plus four spaces
+    if `deeper`.
     """
 
     first: int
@@ -46,13 +55,13 @@ class Edit:
     deeper: bool = False
 
     def __str__(self) -> str:
-        """The edit in words, with its code: on the same line if it is one line, else below, four spaces indented."""
+        """The edit in words, with its code: on the same line if it is one line, else below, indented by four spaces."""
         lines = self.code.splitlines()
         code = f" {lines[0]}" if len(lines) == 1 else "".join("\n" + f"    {line}".rstrip() for line in lines)
-        return f"{self._where}:{code}"
+        return f"{self._place}:{code}"
 
     @property
-    def _where(self) -> str:
+    def _place(self) -> str:
         if self.last > self.first:
             return f"lines {self.first} to {self.last} become"
         if self.last == self.first:
@@ -69,48 +78,48 @@ class Edit:
 
 
 def replace_lines(line: int, code: str, last: int = 0) -> Edit:
-    """Line `line`, or all lines up to `last`, with other code, indented as it is now."""
+    """Replace a line, or all lines from it to `last`, keeping the indentation."""
     return Edit(line, last or line, code, like=line)
 
 
 def remove_lines(text: str, first: int, last: int = 0) -> Edit:
-    """Lines taken out; where nothing else is left of their block, `pass` takes their place."""
+    """Remove lines, leaving `pass` in their place if the block would be empty without them."""
     edit = Edit(first, last or first, "", like=first)
     return edit if _parses(apply(text, [edit])) else Edit(first, last or first, "pass", like=first)
 
 
 def replace_statement(node: ast.stmt | ast.expr | ast.excepthandler, code: str) -> Edit:
-    """All lines of a statement, with other code."""
+    """Replace all lines of a statement."""
     return replace_lines(node.lineno, code, node.end_lineno or 0)
 
 
 def remove_statement(text: str, statement: ast.stmt | ast.expr) -> Edit:
-    """A statement taken out."""
+    """Remove a statement (see `remove_lines`)."""
     return remove_lines(text, statement.lineno, statement.end_lineno or 0)
 
 
 def insert_after(statement: ast.stmt, code: str) -> Edit:
-    """Code written below a statement, indented as it is."""
+    """Insert code below a statement, with the statement's indentation."""
     return insert_below(statement.end_lineno or statement.lineno, code, like=statement.lineno)
 
 
 def insert_above(line: int, code: str) -> Edit:
-    """Code written above a line, indented as it is."""
+    """Insert code above a line, with the line's indentation."""
     return Edit(line, line - 1, code, like=line)
 
 
 def insert_below(line: int, code: str, *, like: int = 0) -> Edit:
-    """Code written below a line, indented as it is."""
+    """Insert code below a line, with the indentation of that line or of line `like`."""
     return Edit(line + 1, line, code, like=like or line)
 
 
 def insert_into_block(line: int, code: str) -> Edit:
-    """Code written below a line that ends in a colon, as the first of its block."""
+    """Insert code at the start of the block that a line ending in a colon opens."""
     return Edit(line + 1, line, code, like=line, deeper=True)
 
 
 def append_to_function(function: Function, code: str) -> Edit:
-    """Code written where a function ends: before the `return` at its end, if there is one."""
+    """Insert code at the end of a function: above its final `return` or `raise`, or in place of a final `pass`."""
     last = function.body[-1]
     if isinstance(last, ast.Return | ast.Raise):
         return insert_above(last.lineno, code)
@@ -120,7 +129,7 @@ def append_to_function(function: Function, code: str) -> Edit:
 
 
 def prepend_to_function(function: Function, code: str) -> Edit:
-    """Code written as the first of a function, below its docstring."""
+    """Insert code at the start of a function's body, below its docstring."""
     first = function.body[0]
     if isinstance(first, ast.Expr) and isinstance(first.value, ast.Constant) and isinstance(first.value.value, str):
         return insert_below(first.end_lineno or first.lineno, code, like=first.lineno)
@@ -128,11 +137,10 @@ def prepend_to_function(function: Function, code: str) -> Edit:
 
 
 def return_on_every_path(function: Function, value: str) -> list[Edit]:
-    """What makes every way through a function return this value, where it returned nothing."""
-    inside = _own(function.body)
+    """Make every path through a function that returned nothing return this value."""
     found = [
         replace_lines(each.lineno, f"return {value}")
-        for each in inside
+        for each in _walk_own(function.body)
         if isinstance(each, ast.Return) and (each.value is None or ast.unparse(each.value) == "None")
     ]
     if _falls_through(function.body):
@@ -140,21 +148,16 @@ def return_on_every_path(function: Function, value: str) -> list[Edit]:
     return found
 
 
-def _own(body: Sequence[ast.stmt]) -> Iterator[ast.AST]:
-    """What stands in these statements, without the functions inside."""
-    for each in body:
-        yield from _within(each)
-
-
-def _within(node: ast.AST) -> Iterator[ast.AST]:
-    yield node
-    if not isinstance(node, Function | ast.ClassDef | ast.Lambda):
-        for each in ast.iter_child_nodes(node):
-            yield from _within(each)
+def _walk_own(nodes: Iterable[ast.AST]) -> Iterator[ast.AST]:
+    """Walk syntax trees depth-first, without descending into nested functions, lambdas and classes."""
+    for node in nodes:
+        yield node
+        if not isinstance(node, Function | ast.ClassDef | ast.Lambda):
+            yield from _walk_own(ast.iter_child_nodes(node))
 
 
 def _falls_through(body: Sequence[ast.stmt]) -> bool:
-    """Whether there is a way past the last of these statements."""
+    """Whether control can flow past the last of these statements."""
     match body[-1] if body else None:
         case ast.Return() | ast.Raise() | ast.Continue() | ast.Break():
             return False
@@ -170,7 +173,7 @@ def _falls_through(body: Sequence[ast.stmt]) -> bool:
 
 
 def replace_pattern(text: str, pattern: str, by: str) -> list[Edit]:
-    """Each line that a pattern is found in, with it replaced."""
+    """Replace a regular expression in every line where that changes anything."""
     found = []
     for number, line in enumerate(text.splitlines(), start=1):
         code = line.strip()
@@ -180,7 +183,7 @@ def replace_pattern(text: str, pattern: str, by: str) -> list[Edit]:
 
 
 def add_import(text: str, code: str) -> list[Edit]:
-    """An import at the top of the file, below what must come first; nothing where the file has it."""
+    """Add an import at the top of the file, below any `__future__` import; no edit if the file already has it."""
     tree = SourceFile(text).tree
     if code in {ast.unparse(each) for each in tree.body if isinstance(each, ast.Import | ast.ImportFrom)}:
         return []
@@ -193,7 +196,7 @@ def add_import(text: str, code: str) -> list[Edit]:
 
 
 def replace_imports(there: ast.ImportFrom, moved: Sequence[tuple[ast.alias, str]]) -> Edit:
-    """Names taken out of an import, each with another import in its place, such as "from a.b import Name"."""
+    """Take names out of an import, each replaced by an import of its own such as "from a.b import Name"."""
     rest = [each for each in there.names if each not in [alias for alias, _ in moved]]
     lines = [ast.unparse(ast.ImportFrom(there.module, rest, there.level))] if rest else []
     lines += [code + (f" as {alias.asname}" if alias.asname else "") for alias, code in moved]
@@ -201,12 +204,12 @@ def replace_imports(there: ast.ImportFrom, moved: Sequence[tuple[ast.alias, str]
 
 
 def replace_node(text: str, node: ast.expr, new: str) -> Edit:
-    """The lines in which an expression stands, with another one in its place."""
+    """Replace an expression, as an edit of the lines that it spans."""
     return replace_nodes(text, (node, new))[0]
 
 
 def replace_nodes(text: str, *swaps: tuple[ast.expr, str]) -> list[Edit]:
-    """The lines in which expressions stand, each with another one in its place."""
+    """Replace expressions, as edits of the lines that they span; expressions that share lines share an edit."""
     groups: list[list[tuple[ast.expr, str]]] = []
     end = 0
     for each in sorted(swaps, key=lambda swap: (swap[0].lineno, swap[0].col_offset)):
@@ -214,10 +217,10 @@ def replace_nodes(text: str, *swaps: tuple[ast.expr, str]) -> list[Edit]:
             groups.append([])
         groups[-1].append(each)
         end = max(end, each[0].end_lineno or each[0].lineno)
-    return [_swapped(text.splitlines(), group) for group in groups]
+    return [_swap(text.splitlines(), group) for group in groups]
 
 
-def _swapped(lines: Sequence[str], group: Sequence[tuple[ast.expr, str]]) -> Edit:
+def _swap(lines: Sequence[str], group: Sequence[tuple[ast.expr, str]]) -> Edit:
     first, last = group[0][0].lineno, max(node.end_lineno or node.lineno for node, _ in group)
     code = list(lines[first - 1 : last])
     for node, new in reversed(group):
@@ -232,14 +235,14 @@ def _swapped(lines: Sequence[str], group: Sequence[tuple[ast.expr, str]]) -> Edi
 
 
 def apply(text: str, edits: Sequence[Edit]) -> str:
-    """The file with all edits done; their line numbers are those of the file as it is."""
+    """The text with all edits applied; their line numbers refer to the original text."""
     lines = text.splitlines()
     for edit in sorted(edits, key=lambda each: (each.first, each.last), reverse=True):
-        lines[edit.first - 1 : max(edit.last, edit.first - 1)] = _indented(lines, edit)
+        lines[edit.first - 1 : max(edit.last, edit.first - 1)] = _indent(lines, edit)
     return "\n".join(lines) + "\n"
 
 
-def _indented(lines: Sequence[str], edit: Edit) -> list[str]:
+def _indent(lines: Sequence[str], edit: Edit) -> list[str]:
     if not edit.code:
         return []
     like = lines[edit.like - 1] if edit.like else ""
@@ -248,25 +251,24 @@ def _indented(lines: Sequence[str], edit: Edit) -> list[str]:
 
 
 def describe_edits(text: str, *edits: Edit | Sequence[Edit], file: str = "") -> str | None:
-    """The edits in words, as a next step: None where they would break the file, or would change nothing.
+    """The edits in words, as a next step; None if they would break the file or change nothing.
 
-    A file is broken if Python cannot read it any more, or if the new code uses a name that nothing has given a value.
+    The file is broken if Python can no longer parse it, or if the new code uses an undefined name.
     """
     flat = [edit for each in edits for edit in ([each] if isinstance(each, Edit) else each)]
     edited = apply(text, flat)
     if not differs_in_words(text, edited) or not is_sound_change(text, edited):
         return None
-    words = [_said(text, edit) for edit in flat]
-    return (f"in {file}, " if file else "") + "\n".join(words)
+    return (f"in {file}, " if file else "") + "\n".join(_describe_edit(text, edit) for edit in flat)
 
 
 def describe_edits_of(file: SourceFile, *edits: Edit | Sequence[Edit]) -> str | None:
-    """The same of a file, called as it is there."""
+    """`describe_edits` for a source file, under its own name."""
     return describe_edits(file.text, *edits, file=file.file)
 
 
 def is_already_there(text: str, edit: Edit) -> bool:
-    """Whether an edit would write lines that stand above or below their place already."""
+    """Whether an edit would insert lines that already stand right above or below the insertion point."""
     if edit.last >= edit.first or not edit.code:
         return False
     code, lines = ([line.strip() for line in each.splitlines()] for each in (edit.code, text))
@@ -275,7 +277,7 @@ def is_already_there(text: str, edit: Edit) -> bool:
 
 
 def differs_in_words(before: str, after: str) -> bool:
-    """Whether more is another than the spaces within lines, and empty lines."""
+    """Whether two texts differ in more than blank lines and the spacing within lines."""
 
     def words(text: str) -> list[tuple[int, list[str]]]:
         return [(len(line) - len(line.lstrip()), line.split()) for line in text.splitlines() if line.strip()]
@@ -284,11 +286,11 @@ def differs_in_words(before: str, after: str) -> bool:
 
 
 def is_sound_change(before: str, after: str) -> bool:
-    """Whether Python can read the file after a change, and knows each name of it that it knew before."""
-    return _parses(after) and not _unknown(before, after)
+    """Whether the changed file still parses and uses no name that is undefined only since the change."""
+    return _parses(after) and not set(_undefined_names(after)) - set(_undefined_names(before))
 
 
-def _said(text: str, edit: Edit) -> str:
+def _describe_edit(text: str, edit: Edit) -> str:
     if edit.code:
         return str(edit)
     if edit.last > edit.first:
@@ -296,24 +298,20 @@ def _said(text: str, edit: Edit) -> str:
     return f"remove line {edit.first}: {text.splitlines()[edit.first - 1].strip()}"
 
 
-def _unknown(before: str, after: str) -> set[str]:
-    """The names that the edited file uses and never sets, where the file as it was did not."""
-    return set(_undefined(after)) - set(_undefined(before))
-
-
-def _undefined(text: str) -> Iterator[str]:
+def _undefined_names(text: str) -> Iterator[str]:
+    """The names that a file uses without defining them, attributes of `self` included ("self.publisher")."""
     tree = ast.parse(text) if _parses(text) else ast.Module([], [])
     for found in checker.Checker(tree).messages:
         if isinstance(found, messages.UndefinedName | messages.UndefinedLocal):
             yield str(found.message_args[0])
     own = [each for each in ast.walk(tree) if isinstance(each, ast.Attribute) and ast.unparse(each.value) == "self"]
-    kept = {each.attr for each in own if isinstance(each.ctx, ast.Store)} | _NODE
+    defined = {each.attr for each in own if isinstance(each.ctx, ast.Store)} | _NODE_ATTRIBUTES
     for each in ast.walk(tree):
         if isinstance(each, Function | ast.ClassDef):
-            kept.add(each.name)
+            defined.add(each.name)
         elif isinstance(each, ast.Name) and isinstance(each.ctx, ast.Store):
-            kept.add(each.id)  # of the class, not only of the object
-    yield from (f"self.{each.attr}" for each in own if each.attr not in kept)
+            defined.add(each.id)  # it may be a class attribute
+    yield from (f"self.{each.attr}" for each in own if each.attr not in defined)
 
 
 def _parses(text: str) -> bool:

@@ -1,4 +1,4 @@
-"""The `shutdown` criterion, which means the same in every exercise: a clean end on Ctrl+C."""
+"""The `shutdown` criterion, the same in every exercise: a clean exit on Ctrl+C."""
 
 from __future__ import annotations
 
@@ -11,15 +11,12 @@ from tutor.judge.bench import Bench, Scenario
 from tutor.judge.trace import Ending, Exit, Trace
 from tutor.judge.verdict import Cause, Verdict, failed, passed
 
-_CRASHES = signal.SIGSEGV, signal.SIGBUS, signal.SIGABRT
-_CONTEXT_GONE = "the given context is not valid"
-_AGAIN = 2
-"""This many more starts are looked at, at most, where it may be chance that a process did not end cleanly on Ctrl+C."""
+_CRASH_SIGNALS = signal.SIGSEGV, signal.SIGBUS, signal.SIGABRT
+_SPIN_WITHOUT_CONTEXT = "the given context is not valid"
+_MAX_RETRIES = 2
+"""How often to restart a process whose unclean exit on Ctrl+C may have been a race outside the learner's code."""
 
-_CONTEXT_OVER = "context is invalid", "context is not valid", "context argument is null"
-_ENDS_A_SPIN = "KeyboardInterrupt", "ExternalShutdownException"
-"""What rclpy ends a spin with on Ctrl+C."""
-
+_INVALID_CONTEXT = "context is invalid", "context is not valid", "context argument is null"
 _SHUT_DOWN_TWICE = "rcl_shutdown already called", "Context must be initialized before it can be shutdown"
 EXPECTED = "on Ctrl+C the process ends within {limit:g} s, without a traceback, with exit code 0 or 130"
 
@@ -30,52 +27,53 @@ class _Ended(Protocol):
 
 
 def repeat_if_doubtful[T: _Ended](scenario: Scenario[T]) -> Scenario[T]:
-    """The scenario, whose process ends on Ctrl+C; where it ended as a right program may by chance, seen on more starts.
+    """Repeat a scenario that ends with Ctrl+C when its process failed in a way that a correct program may, by a race.
 
-    Gives the facts of one that ended so again, or else of one that did not. A mistake of the learner's shows each time.
-    What was seen once in some hundred runs, most of them on a busy machine, where the learner's code is right:
+    The result is the facts of the first repetition that fails that way again, else those of the last one. A mistake of
+    the learner's shows every time. These races hit correct programs about once in some hundred runs, mostly on a busy
+    machine:
 
-    - a crash: a thread of rclpy's own walks its list of guard conditions, which `executor.shutdown()` may be freeing
+    - a crash: one of rclpy's own threads walks its list of guard conditions while `executor.shutdown()` frees them
       (signal_handler.cpp of rclpy 7.1.6);
-    - an abort: a `thread.join(timeout)` that KeyboardInterrupt ends takes the thread for stopped, so that a second
+    - an abort: a `thread.join(timeout)` interrupted by KeyboardInterrupt marks the thread as stopped, so that a second
       `join()` does not wait for it (threading.py of CPython 3.12);
-    - an RCLError from `spin()` in a thread: the context is shut down after it has asked for it, and before it waits;
-    - an RCLError from `try_shutdown()`, for the same reason. `judge` forgives it, but it hides what would come after.
+    - an RCLError from `spin()` in a thread: the context is shut down between its check of the context and its wait;
+    - an RCLError from `try_shutdown()`, for the same reason. `judge_ending` forgives it, but it hides what follows.
     """
 
     @wraps(scenario)
-    async def look(bench: Bench) -> T:
+    async def run_until_confirmed(bench: Bench) -> T:
         seen = await scenario(bench)
         if may_be_chance(seen.ending):
-            for _ in range(_AGAIN):
-                bench.report_progress(0.9, "it did not end cleanly on Ctrl+C: looking whether it does so again")
+            for _ in range(_MAX_RETRIES):
+                bench.report_progress(0.9, "it did not end cleanly on Ctrl+C: checking whether that happens again")
                 seen = await scenario(bench)
                 if may_be_chance(seen.ending):
                     break
         return seen
 
-    return look
+    return run_until_confirmed
 
 
 def may_be_chance(ending: Ending | None) -> bool:
-    """Whether the process ended as a right program may by chance (see `repeat_if_doubtful`)."""
+    """Whether the process failed in a way that a correct program may, by a race (see `repeat_if_doubtful`)."""
     found = tracebacks.find_tracebacks(ending.output) if ending is not None else []
-    return all(_spun_on(each) or _race_in_rclpy(each) for each in found) if found else _crashed(ending)
+    return all(_is_race_in_spin(each) or _is_race_in_shutdown(each) for each in found) if found else _crashed(ending)
 
 
-def _spun_on(found: tracebacks.Traceback) -> bool:
-    """Whether an executor of rclpy's was about to wait when the context was shut down."""
+def _is_race_in_spin(found: tracebacks.Traceback) -> bool:
+    """Whether the context was shut down just as an rclpy executor was about to wait."""
     executing = any(frame.path.endswith("rclpy/executors.py") for frame in found.frames)
-    return executing and _CONTEXT_GONE in found.message
+    return executing and _SPIN_WITHOUT_CONTEXT in found.message
 
 
 def _crashed(ending: Ending | None) -> bool:
-    """Whether the process died within C or C++ code."""
-    return ending is not None and ending.exit is not None and ending.exit.signal in _CRASHES
+    """Whether the process was killed by a crash in C or C++ code."""
+    return ending is not None and ending.exit is not None and ending.exit.signal in _CRASH_SIGNALS
 
 
 def judge_ending(trace: Trace, ending: Ending | None) -> Verdict:
-    """Judge how a process ended. `ending` is None where it had ended by itself before Ctrl+C could be pressed."""
+    """Judge how a process ended. `ending` is None if it exited by itself before Ctrl+C could be pressed."""
     expected = EXPECTED.format(limit=ending.limit_s if ending else 5)
     if ending is None:
         cause = causes.diagnose_process(trace) or Cause(
@@ -93,9 +91,9 @@ def judge_ending(trace: Trace, ending: Ending | None) -> Verdict:
             ),
             causes.output_tail(trace),
         )
-    found = [each for each in tracebacks.find_tracebacks(ending.output) if not _is_from_rclpy_clean_up(each, trace)]
+    found = [each for each in tracebacks.find_tracebacks(ending.output) if not _is_from_rclpy_cleanup(each, trace)]
     observed = f"ended {ending.took_s:.2f} s after Ctrl+C with {ending.exit}"
-    if found and not _race_in_rclpy(found[-1]):
+    if found and not _is_race_in_shutdown(found[-1]):
         return failed(
             expected, f"{observed} and a traceback", _diagnose_traceback(found[-1], trace), [found[-1].raised]
         )
@@ -111,28 +109,28 @@ def judge_ending(trace: Trace, ending: Ending | None) -> Verdict:
     return failed(expected, observed, cause, causes.output_tail(trace))
 
 
-def _diagnose_crash(ended: Exit, ending: Ending, trace: Trace) -> Cause:
+def _diagnose_crash(process_exit: Exit, ending: Ending, trace: Trace) -> Cause:
     own = tracebacks.own_frame(tracebacks.dumped_frames(ending.output), trace.folder)
     return Cause(
         "non-zero exit",
-        f"after Ctrl+C the process crashes with {ended}" + (f", at {own}" if own else ""),
+        f"after Ctrl+C the process crashes with {process_exit}" + (f", at {own}" if own else ""),
         shutdown_steps.exit_with_zero(trace),
     )
 
 
-def _is_from_rclpy_clean_up(found: tracebacks.Traceback, trace: Trace) -> bool:
-    """Whether Python reports this from the clean-up of an object of rclpy's, with no line of the learner's in it.
+def _is_from_rclpy_cleanup(found: tracebacks.Traceback, trace: Trace) -> bool:
+    """Whether this is an ignored exception from the cleanup of an rclpy object, without any line of the learner's.
 
     Seen once in 200 runs with a fast timer (rclpy 7.1.6).
     """
     return found.ignored and not found.at_exit and found.own(trace.folder) is None
 
 
-def _race_in_rclpy(found: tracebacks.Traceback) -> bool:
-    """Whether this is rclpy's own race, where the learner's code is right.
+def _is_race_in_shutdown(found: tracebacks.Traceback) -> bool:
+    """Whether this is rclpy's own race, which hits correct programs too.
 
-    `try_shutdown()` asks whether the context is up, and the signal handler's thread shuts it down before the next
-    instruction. Seen in 1 of 400 runs, more often with many starts at once (rclpy 7.1.6).
+    `try_shutdown()` checks that the context is up, and the signal handler's thread shuts it down before the next
+    instruction. Seen in 1 of 400 runs, more often when many processes start at once (rclpy 7.1.6).
     """
     return any(frame.function == "try_shutdown" for frame in found.frames) and "already called" in found.message
 
@@ -142,10 +140,10 @@ def _diagnose_traceback(found: tracebacks.Traceback, trace: Trace) -> Cause:
     if any(words in found.message for words in _SHUT_DOWN_TWICE):
         return Cause(
             "shutdown() after Ctrl+C",
-            "rclpy has shut its context down already when Ctrl+C arrives, so rclpy.shutdown() raises RCLError",
+            "rclpy has already shut its context down on Ctrl+C, so rclpy.shutdown() raises RCLError",
             shutdown_steps.catch_interrupt(trace),
         )
-    if any(found.type.endswith(name) for name in _ENDS_A_SPIN):
+    if any(found.type.endswith(name) for name in shutdown_steps.SPIN_ENDINGS):
         return Cause(
             "traceback on exit",
             f"{found.type.rsplit('.', 1)[-1]} reaches the end of the program" + (f" ({own})" if own else ""),
@@ -153,7 +151,7 @@ def _diagnose_traceback(found: tracebacks.Traceback, trace: Trace) -> Cause:
         )
     known = (
         causes.diagnose_known_exception(found, trace)
-        if not any(words in found.message for words in _CONTEXT_OVER)
+        if not any(words in found.message for words in _INVALID_CONTEXT)
         else None
     )
     return Cause(

@@ -1,7 +1,7 @@
-"""The stream of events of a check, which the terminal app and the command line both consume.
+"""The event stream of a check, consumed by both the terminal app and the command line.
 
-Events cross a process border as JSON, one to a line (`encode`, `decode`), so that a front end need not share a process
-with ROS.
+Events cross process boundaries as JSON lines (`encode`, `decode`), so that a front end need not share a process with
+ROS.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from tutor.judge.result import CriterionResult, ExerciseResult, Report
 
 @dataclass(frozen=True, slots=True)
 class CheckStarted:
-    """A check of one exercise begins; `criteria` are the ids that will be judged, in the order to show them."""
+    """The check of one exercise begins; `criteria` are the ids to be judged, in display order."""
 
     exercise: str
     criteria: tuple[str, ...]
@@ -25,7 +25,7 @@ class CheckStarted:
 class Progress:
     """How far one criterion is (`fraction`, 0 to 1), and what is being done to the node right now.
 
-    `so_far`: what is known of the node by now, while the criterion still waits; not final, and often empty.
+    `so_far`: preliminary findings while the criterion is still pending; often empty.
     """
 
     exercise: str

@@ -7,12 +7,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 WORD = re.compile(r"\{([a-z]\w*)\}")
-"""A word in braces stands for what the exception, or the learner's own line, has in its place."""
+"""A placeholder in braces, filled in from the exception or from the learner's own line."""
 
 
 @dataclass(frozen=True, slots=True)
 class Replace:
-    """What the learner's line becomes: `pattern` in it, replaced by `by`. Both may contain words in braces."""
+    """A fix for the learner's line: `pattern` is replaced by `by`. Both may contain placeholders in braces."""
 
     pattern: str
     by: str
@@ -20,7 +20,7 @@ class Replace:
 
 @dataclass(frozen=True, slots=True)
 class Example:
-    """A case that an entry is for: what was raised, the learner's line and file, and the step that must come out."""
+    """A case that an entry must match: the exception raised, the learner's line and file, and the expected step."""
 
     raised: str
     step: str
@@ -32,16 +32,20 @@ class Example:
 
 @dataclass(frozen=True, slots=True)
 class KnownException:
-    """One entry. All of its patterns must be found (`type` as a whole); an empty one asks for nothing.
+    """One entry. It applies if all of its patterns (regular expressions) match; an empty pattern always does.
 
-    `type` is about the last part of the exception's name, `text` about its message, `line` about the learner's own
-    line, `source` and `without` about their whole file, which must have the one and must not have the other;
-    `through` is found in "function: line" of one of the learner's lines on the way there, `at` in "path, function" of
-    the frame that raised. `source`, `without` and `replace` may use the groups of `text` and `line`.
-    `look_up` names a table of words, by whose key that is the group `name` (or, unless `exact`, is nearest to it) the
-    word `found` is given. `edits` are what `step` says as edits of the file, or several ways to do it: the first that
-    leaves the file sound is given, `step` where none does. `of_source`: it is the line that `source` has found, in its
-    group `there` if it has one, that is shown and replaced, where the exception comes from a call that rclpy makes.
+    - `type` must match the last part of the exception's name in full; the other patterns are searched for.
+    - `text` is searched for in the message, `line` in the learner's own line.
+    - `source` must be found in the learner's whole file, and `without` must not.
+    - `through` is searched for in "function: line" of each of the learner's frames in the traceback, `at` in "path,
+      function" of the frame that raised.
+    - `source`, `without` and `replace` may use the groups of `text` and `line`.
+    - `look_up` names a table of words. The entry whose key equals the group `name` (or, unless `exact`, comes closest
+      to it) becomes the placeholder `found`.
+    - `edits` express `step` as edits of the file, possibly in several alternatives: the first that leaves the file
+      sound is shown, and `step` itself if none does.
+    - `of_source`: show and replace the line that `source` matched (at its group `there`, if it has one). For
+      exceptions from a call that rclpy makes.
     """
 
     type: str
@@ -64,5 +68,5 @@ class KnownException:
 
     @property
     def placeholders(self) -> frozenset[str]:
-        """The words in braces that its texts ask for."""
+        """The names of all placeholders in `says` and `step`."""
         return frozenset(WORD.findall(f"{self.says} {self.step}"))

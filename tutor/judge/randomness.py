@@ -1,7 +1,7 @@
-"""Whether numbers vary as random ones do. Coarse but real randomness (whole degrees, a random walk) must pass.
+"""Tests whether a series of numbers is random. Coarse but real randomness (whole degrees, a random walk) must pass.
 
-Each test states how the next value would follow from those before it, and counts how often it does. `SIGNIFICANCE`
-bounds how often random values would do so by chance, also where they are drawn from a few values only.
+Each test assumes a rule by which a value follows from its predecessors, and counts how often it holds. `SIGNIFICANCE`
+bounds the probability that random values follow the rule by chance, even if they are drawn from few distinct values.
 """
 
 from __future__ import annotations
@@ -14,30 +14,30 @@ from functools import cache
 from itertools import pairwise
 
 SIGNIFICANCE = 1e-6
-"""A pattern counts when random values would show it by chance less often than this."""
+"""A pattern counts if the probability that random values show it by chance is below this."""
 
 MIN_SAMPLE_SIZE = 8
-"""This many values are enough where nothing looks suspicious."""
+"""Sample size that is enough if nothing looks suspicious."""
 
 FULL_SAMPLE_SIZE = 24
-"""This many values are enough in any case."""
+"""Sample size that is enough in any case."""
 
 VALUE_TOLERANCE = 0.01
-"""Two values are alike when they differ by less than this share of the range: jitter or rounding hides no pattern."""
+"""Two values count as equal if they differ by less than this share of the range, so that jitter hides no pattern."""
 
 SMOOTH_RESIDUAL = 5e-4
-"""Values of which all but this share of the variance follows from those before are a curve, not noise."""
+"""A series is a curve, not noise, if its predecessors explain all but this share of its variance."""
 
 LONGEST_STEPS = 6
-"""A ramp may go in a round of up to this many different steps."""
+"""Maximum number of different steps that a ramp may cycle through."""
 
 
 @dataclass(frozen=True, slots=True)
 class Pattern:
-    """A regularity: its name ("constant value", "ramp", "short cycle", "not random") and what it is here.
+    """A regularity: its name ("constant value", "ramp", "short cycle", "not random") and its description.
 
-    `significant`: random values of every kind show it less often than `SIGNIFICANCE`. Else some kind, such as a walk
-    in equal steps, shows it more often: it counts where every start of the program shows one.
+    `significant`: every kind of random series shows it less often than `SIGNIFICANCE`. If not, some kind, such as a
+    random walk in equal steps, shows it more often; then it only counts if every run of the program shows one.
     """
 
     name: str
@@ -46,9 +46,9 @@ class Pattern:
 
 
 def find_pattern(values: Sequence[float]) -> Pattern | None:
-    """The regularity in `values` (in order of time), or None where they vary as random ones do.
+    """The regularity in `values` (in order of time), or None if they vary as random ones do.
 
-    Fewer than three values show nothing either way. What is not a number is left out, unless there is nothing else.
+    Fewer than three values are not enough to find one. NaN and infinities are ignored, unless there is nothing else.
     """
     numbers = _finite(values)
     if len(values) >= 3 and not numbers:
@@ -66,18 +66,18 @@ def find_pattern(values: Sequence[float]) -> Pattern | None:
 
 
 def needs_more_values(values: Sequence[float]) -> bool:
-    """Whether more values are needed before `pattern` can be trusted to have found nothing, or something."""
+    """Whether `find_pattern` needs more values before its result, positive or negative, can be trusted."""
     values = _finite(values)
     if len(values) < MIN_SAMPLE_SIZE or find_pattern(values) is not None:
         return True
-    again = max(Counter(step for step in _steps(values) if step != 0).values(), default=0)
+    step_repeats = max(Counter(step for step in _steps(values) if step != 0).values(), default=0)
     return (
         len(set(values)) < len(values)
-        or again > 2
+        or step_repeats > 2
         or _monotone(values)
         or any(_follows_in_steps(values, period, _tolerance(values)) for period in range(1, 4))
-        or any(_comes_again(values, period, VALUE_TOLERANCE * _span(values)) for period in range(2, len(values) - 1))
-        or min(_unexplained(values, 2), _unexplained(_unfolded(values), 2)) < 0.02
+        or any(_repeats(values, period, VALUE_TOLERANCE * _span(values)) for period in range(2, len(values) - 1))
+        or min(_unexplained(values, 2), _unexplained(_unfold(values), 2)) < 0.02
     )
 
 
@@ -94,42 +94,49 @@ def _constant(values: Sequence[float]) -> Pattern | None:
 def _ramp(values: Sequence[float]) -> Pattern | None:
     steps = _steps(values)
     step, times = max(Counter(steps).items(), key=lambda item: (item[0] != 0, item[1]))
-    # Any other step must be a jump back to the start, else a random walk in equal steps would be taken for a ramp.
+    # Any other step must be a jump back to the start; otherwise a random walk in equal steps would pass for a ramp.
     others = [other for other in steps if other != step]
     wraps = all(other * step < 0 and abs(other) > 2 * abs(step) for other in others)
     if len(steps) >= 9 and step != 0 and wraps and times >= 0.6 * len(steps):
         return Pattern("ramp", f"each value is the one before it {step:+g}")
     if len(values) >= 14 and _monotone(values):
-        way = "up" if values[-1] > values[0] else "down"
-        return Pattern("ramp", f"all {len(values)} values only go {way}", significant=len(values) >= FULL_SAMPLE_SIZE)
+        direction = "up" if values[-1] > values[0] else "down"
+        significant = len(values) >= FULL_SAMPLE_SIZE
+        return Pattern("ramp", f"all {len(values)} values only go {direction}", significant=significant)
     return None
 
 
 def _cycle(values: Sequence[float]) -> Pattern | None:
-    for first in range(len(values) // 4 + 1):  # it may take a while until a program is in its round
+    for first in range(len(values) // 4 + 1):  # a program may take a while to enter its cycle
         rest = values[first:]
         tolerance = VALUE_TOLERANCE * _span(rest)
-        # A random walk chooses among its few steps, not among all the values that it has been at.
-        choices = min(_different(rest, tolerance), _different(_steps(rest), VALUE_TOLERANCE * _span(_steps(rest))))
+        # A random walk chooses among its few steps, not among all the values that it has visited.
+        choices = min(
+            _count_distinct(rest, tolerance), _count_distinct(_steps(rest), VALUE_TOLERANCE * _span(_steps(rest)))
+        )
         for period in range(2, len(rest) - 2):
             repeats = len(rest) - period
-            if not _comes_again(rest, period, tolerance):
+            if not _repeats(rest, period, tolerance):
                 continue
-            chance = max(choices**-repeats, (2 * VALUE_TOLERANCE) ** repeats)  # that alike values come in this order
-            if _distinct(rest[:period]) and _comes_again(rest, period, 1e-9):
-                chance = min(chance, _chance_of_a_round(period, repeats))
-            if chance < SIGNIFICANCE / 10:  # there are many periods, and many places to begin, to try
+            chance = max(choices**-repeats, (2 * VALUE_TOLERANCE) ** repeats)  # that equal values come in this order
+            if _all_distinct(rest[:period]) and _repeats(rest, period, 1e-9):
+                chance = min(chance, _chance_of_cycle(period, repeats))
+            if chance < SIGNIFICANCE / 10:  # a margin, since many periods and starting points are tried
                 return Pattern("short cycle", f"the same {period} values come again and again")
     return None
 
 
-def _comes_again(values: Sequence[float], period: int, tolerance: float) -> bool:
+def _repeats(values: Sequence[float], period: int, tolerance: float) -> bool:
+    """Whether each value equals the one `period` places before it, within the tolerance."""
     return all(abs(a - b) <= tolerance for a, b in zip(values, values[period:], strict=False))
 
 
 @cache
-def _chance_of_a_round(period: int, repeats: int) -> float:
-    """How often draws from a list, of whatever length, are all different at first and then come again in order."""
+def _chance_of_cycle(period: int, repeats: int) -> float:
+    """The probability that `period` draws from a list are distinct and `repeats` more repeat them in order.
+
+    The maximum over all plausible lengths of the list.
+    """
     if repeats < 3:
         return 1.0
     lengths = range(period, 40 * period)
@@ -137,7 +144,7 @@ def _chance_of_a_round(period: int, repeats: int) -> float:
 
 
 def _zigzag(values: Sequence[float]) -> Pattern | None:
-    """Up and down in equal steps, turning at the top and at the bottom only: a random walk turns far more often."""
+    """Up and down in equal steps, turning only at the top and the bottom: a random walk turns far more often."""
     steps = [step for step in _steps(values) if step != 0]
     if len(steps) < 20:
         return None
@@ -146,21 +153,21 @@ def _zigzag(values: Sequence[float]) -> Pattern | None:
         values[i] for i in range(1, len(values) - 1) if (values[i] - values[i - 1]) * (values[i + 1] - values[i]) < 0
     ]
     low, high = min(values), max(values)
-    even = times >= 0.75 * len(steps) and all(abs(step) <= size * (1 + VALUE_TOLERANCE) for step in steps)
-    at_ends = all(min(turn - low, high - turn) < 0.5 * size for turn in turns)
-    if even and at_ends and len(turns) <= 5 and high - low > 3 * size:
+    equal_steps = times >= 0.75 * len(steps) and all(abs(step) <= size * (1 + VALUE_TOLERANCE) for step in steps)
+    turns_at_ends = all(min(turn - low, high - turn) < 0.5 * size for turn in turns)
+    if equal_steps and turns_at_ends and len(turns) <= 5 and high - low > 3 * size:
         return Pattern("ramp", f"the values go up and down in steps of {size:g}", significant=False)
     return None
 
 
 def _sawtooth(values: Sequence[float]) -> Pattern | None:
-    """A ramp that starts over when it leaves its range, whatever its step: (i * 3.7) % 10, or steps taken in turn."""
+    """A ramp that wraps around at the end of its range, with any step, as (i * 3.7) % 10, or with a cycle of steps."""
     tolerance = _tolerance(values)
-    few, share = _different(values, tolerance), tolerance / (_span(values) or 1.0)
-    likely = min(0.5, max(2 / few, 4 * share))  # that one more value falls where the rule says, by chance
+    distinct, share = _count_distinct(values, tolerance), tolerance / (_span(values) or 1.0)
+    chance = min(0.5, max(2 / distinct, 4 * share))  # that a random value falls where the rule says
     for period in range(1, LONGEST_STEPS + 1):
         checked = len(values) - 1 - period
-        if checked >= 6 and likely**checked < SIGNIFICANCE and _follows_in_steps(values, period, tolerance):
+        if checked >= 6 and chance**checked < SIGNIFICANCE and _follows_in_steps(values, period, tolerance):
             return Pattern(
                 "ramp",
                 f"each value is the one before it {_steps(values)[0]:+g}, and starts over at the end of the range"
@@ -171,9 +178,9 @@ def _sawtooth(values: Sequence[float]) -> Pattern | None:
 
 
 def _follows_in_steps(values: Sequence[float], period: int, tolerance: float) -> bool:
-    """Whether the steps come again after `period` of them, but for jumps by one and the same amount.
+    """Whether the steps repeat with this period, except for jumps that are all of the same size.
 
-    The amount is the length of the range, so any two values are less far apart.
+    That size is the length of the range at whose end the ramp wraps around, so it exceeds the span of the values.
     """
     span = _span(values)
     steps = [b - a for a, b in pairwise(values)]
@@ -183,13 +190,13 @@ def _follows_in_steps(values: Sequence[float], period: int, tolerance: float) ->
     jumps = [abs(change) for change in changes if abs(change) > tolerance]
     if not jumps:
         return True
-    # Of few values, such as heads and tails, every second change is as long as the range.
-    least = span - tolerance if _different(values, tolerance) >= MIN_SAMPLE_SIZE else span * (1 + 1e-6)
-    return min(jumps) > least and max(jumps) - min(jumps) <= 2 * tolerance
+    # With few distinct values, such as heads and tails, every second change is as large as the span.
+    min_jump = span - tolerance if _count_distinct(values, tolerance) >= MIN_SAMPLE_SIZE else span * (1 + 1e-6)
+    return min(jumps) > min_jump and max(jumps) - min(jumps) <= 2 * tolerance
 
 
 def _tolerance(values: Sequence[float]) -> float:
-    """How far a change of steps may be off: what jitter does to it, or rounding to a few decimals."""
+    """Tolerance for the change from one step to another: enough for jitter, or for rounding to a few decimals."""
     span = _span(values)
     if not all(abs(value) < 1e15 for value in values):
         return VALUE_TOLERANCE * span
@@ -198,8 +205,8 @@ def _tolerance(values: Sequence[float]) -> float:
 
 
 def _curve(values: Sequence[float]) -> Pattern | None:
-    if len(values) < FULL_SAMPLE_SIZE and _different(values, VALUE_TOLERANCE * _span(values)) < MIN_SAMPLE_SIZE:
-        return None  # few values, drawn from fewer: some curve goes through them now and then
+    if len(values) < FULL_SAMPLE_SIZE and _count_distinct(values, VALUE_TOLERANCE * _span(values)) < MIN_SAMPLE_SIZE:
+        return None  # a few values, even fewer of them distinct, fit some curve now and then by chance
     smooth = (len(values) >= 10 and _unexplained(values, 2) < SMOOTH_RESIDUAL) or (
         len(values) >= 16 and _unexplained(values, 4) < SMOOTH_RESIDUAL
     )
@@ -209,7 +216,7 @@ def _curve(values: Sequence[float]) -> Pattern | None:
             "the values follow a smooth curve, such as a sine: each follows from those before it",
             significant=len(values) >= FULL_SAMPLE_SIZE,
         )
-    if len(values) >= 12 and _unexplained(_unfolded(values), 2) < SMOOTH_RESIDUAL:
+    if len(values) >= 12 and _unexplained(_unfold(values), 2) < SMOOTH_RESIDUAL:
         return Pattern(
             "not random",
             "the values go up and down between two ends: each follows from the two before it",
@@ -226,12 +233,12 @@ def _span(values: Sequence[float]) -> float:
     return max(values) - min(values)
 
 
-def _distinct(values: Sequence[float]) -> bool:
+def _all_distinct(values: Sequence[float]) -> bool:
     return len(set(values)) == len(values)
 
 
-def _different(values: Sequence[float], tolerance: float) -> int:
-    """How many values there are, taking those that are alike for one."""
+def _count_distinct(values: Sequence[float], tolerance: float) -> int:
+    """The number of distinct values, where neighbours within the tolerance count as one."""
     ordered = sorted(values)
     return 1 + sum(b - a > tolerance for a, b in pairwise(ordered))
 
@@ -241,8 +248,8 @@ def _monotone(values: Sequence[float]) -> bool:
     return all(a < b for a, b in pairs) or all(a > b for a, b in pairs)
 
 
-def _unfolded(values: Sequence[float]) -> list[float]:
-    """A triangle wave between two (whole) ends as the cosine that it is a picture of; anything else, somehow."""
+def _unfold(values: Sequence[float]) -> list[float]:
+    """Map a triangle wave between two (integer) ends to a cosine; the result is arbitrary for any other series."""
     if not all(abs(value) < 1e15 for value in values):
         return []
     low, high = math.floor(min(values)), math.ceil(max(values))
@@ -250,9 +257,9 @@ def _unfolded(values: Sequence[float]) -> list[float]:
 
 
 def _unexplained(values: Sequence[float], order: int) -> float:
-    """The share of the variance that no linear recurrence x[i] = a x[i-1] + b x[i-2] + ... + c explains (1: all of it).
+    """The share of the variance (0 to 1) that the best linear recurrence x[i] = a x[i-1] + b x[i-2] + ... + c leaves.
 
-    Ramps, sines (of order 2) and sums of two of them (of order 4) obey one exactly; random values do not.
+    Ramps and sines (order 2) and sums of two of them (order 4) obey one exactly; random values do not.
     """
     if len(values) < MIN_SAMPLE_SIZE:
         return 1.0
@@ -262,10 +269,10 @@ def _unexplained(values: Sequence[float], order: int) -> float:
         return 1.0
     series = np.asarray(values, dtype=float)
     target = series[order:]
-    before = [series[order - back : len(series) - back] for back in range(1, order + 1)]
-    basis = np.column_stack([*before, np.ones(len(target))])
-    spread = float(np.sum((target - target.mean()) ** 2))
-    if spread == 0:
+    lagged = [series[order - lag : len(series) - lag] for lag in range(1, order + 1)]
+    basis = np.column_stack([*lagged, np.ones(len(target))])
+    variation = float(np.sum((target - target.mean()) ** 2))
+    if variation == 0:
         return 1.0
     solution = np.linalg.lstsq(basis, target, rcond=None)[0]
-    return float(np.sum((target - basis @ solution) ** 2) / spread)
+    return float(np.sum((target - basis @ solution) ** 2) / variation)

@@ -1,4 +1,4 @@
-"""Rates, measured on source timestamps."""
+"""Message rates, measured from source timestamps."""
 
 from __future__ import annotations
 
@@ -10,26 +10,26 @@ from itertools import pairwise
 from tutor.judge.trace import Sample
 
 TOLERANCE = 0.2
-"""A rate is right within this fraction of what was asked for."""
+"""A rate is right within this fraction of the requested rate."""
 
 WINDOW_FILLED = 0.6
-"""The first and the last message of a window may be up to a period away from its ends."""
+"""Minimum share of a window that messages must span; the first and last may be up to a period away from its ends."""
 
 FAR_ABOVE = 1.5
-"""Messages that were held up and come together make a rate higher than it is, but not this many times."""
+"""Messages that were delayed and arrive together inflate a measured rate, but not by this factor."""
 
 EVEN_SHARE = 0.5
-"""Of messages that come one by one, half are further apart than this share of the mean period, jitter and all."""
+"""Evenly spaced messages have a median gap of more than this share of the mean period, even with jitter."""
 
 MIN_FOR_BURSTS = 5
-"""Fewer messages do not show whether they come in bursts."""
+"""Minimum number of messages that can show whether they come in bursts."""
 
 
 @dataclass(frozen=True, slots=True)
 class Rate:
-    """A measured rate: `samples` messages over `span_s` seconds, from the first one's source time to the last one's.
+    """A measured rate: `samples` messages over `span_s` seconds, from the first source time to the last.
 
-    `median_s`: how far two messages are apart, in the middle of all; None where nothing is known of it.
+    `median_s`: the median gap between consecutive messages in seconds; None if unknown.
     """
 
     hz: float
@@ -39,19 +39,19 @@ class Rate:
 
     @property
     def in_bursts(self) -> bool:
-        """Whether most messages come right after another: as many as asked for, but not at that rate."""
+        """Whether most messages directly follow another one: the mean may be right, but the spacing is not."""
         return self.samples >= MIN_FOR_BURSTS and self.median_s is not None and self.median_s * self.hz < EVEN_SHARE
 
     def agrees(self, asked_hz: float) -> bool:
-        """Whether this is the rate that was asked for, within the tolerance."""
+        """Whether this is the requested rate, within the tolerance, and not in bursts."""
         return abs(self.hz - asked_hz) <= TOLERANCE * asked_hz and not self.in_bursts
 
     def covers(self, window_s: float) -> bool:
-        """Whether the messages fill most of a window that is long enough to tell this rate, not a burst in it."""
+        """Whether the messages span most of a window, and so are not just a burst within it."""
         return self.span_s >= WINDOW_FILLED * window_s
 
     def is_far_above(self, asked_hz: float, window_s: float) -> bool:
-        """Whether it is so much faster, in a window that is long enough, that no hiccup of the machine explains it."""
+        """Whether the rate is too far above the requested one, over most of a window, for a hiccup of the machine."""
         return self.hz > FAR_ABOVE * asked_hz and self.covers(window_s) and not self.in_bursts
 
     def __str__(self) -> str:
@@ -60,7 +60,7 @@ class Rate:
 
 
 def measure(samples: Sequence[Sample]) -> Rate | None:
-    """The rate of these samples; None for fewer than two, or where they bear one and the same time."""
+    """The rate of these samples; None for fewer than two, or if all have the same source time."""
     times = sorted(sample.source_time for sample in samples)
     if len(times) < 2 or times[-1] <= times[0]:
         return None
@@ -69,7 +69,7 @@ def measure(samples: Sequence[Sample]) -> Rate | None:
 
 
 def describe(rate: Rate | None, samples: int) -> str:
-    """A rate in words, also where there were too few messages to have one."""
+    """A rate in words, also when there were too few messages to measure one."""
     if rate is not None:
         return str(rate)
     return "no message" if samples == 0 else f"only {samples} message{'s' if samples > 1 else ''}"

@@ -1,4 +1,4 @@
-"""Results: one object that every report format and front end renders."""
+"""Results of a check: one object that every report format and front end renders."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from tutor.judge.verdict import Status, Verdict
 
 @dataclass(frozen=True, slots=True)
 class CriterionResult:
-    """One criterion, judged. `duration_s` is the time in seconds from the start of the check to its verdict."""
+    """One judged criterion. `duration_s` is the time in seconds from the start of the check to the verdict."""
 
     id: str
     text: str
@@ -21,9 +21,9 @@ class CriterionResult:
 
 @dataclass(frozen=True, slots=True)
 class ExerciseResult:
-    """One exercise, judged. `submission` holds the names of the files that were judged: none where none were there.
+    """One judged exercise. `submission` holds the names of the judged files; empty if there were none.
 
-    `unjudged`: the ids of the criteria that were skipped since the check was to end at its first failure.
+    `unjudged`: the ids of criteria that were skipped because the check was to stop at its first failure.
     """
 
     id: str
@@ -35,14 +35,14 @@ class ExerciseResult:
 
     @property
     def missing(self) -> str:
-        """Why there was nothing to judge, in a few words ("not started"); empty where there was."""
+        """Why there was nothing to judge, in a few words ("not started"); empty if there was something."""
         return self.criteria[0].verdict.cause if self.criteria and not self.submission else ""
 
     @property
     def verdict(self) -> Status:
         """`PASSED` if every required criterion passed; `ERROR` if one could not be judged and none failed.
 
-        Where bonus criteria alone were asked for, nothing required is missing. What was not there is not passed.
+        A check of bonus criteria only has passed, since nothing required is missing. A missing submission has failed.
         """
         if self.missing:
             return Status.FAILED
@@ -52,7 +52,7 @@ class ExerciseResult:
 
 @dataclass(frozen=True, slots=True)
 class Environment:
-    """What the check ran on. `ros` is "bundled" or "system"."""
+    """The software that the check ran on. `ros` is "bundled" or "system"."""
 
     ros_distro: str
     ros: str
@@ -62,7 +62,7 @@ class Environment:
 
 @dataclass(frozen=True, slots=True)
 class Restriction:
-    """What the submission was kept from, if it `stands`. `detail`: how far; where it does not stand, why."""
+    """A restriction on the submission. `stands`: it is in force. `detail`: its extent or, if not in force, why not."""
 
     name: str
     stands: bool
@@ -71,7 +71,7 @@ class Restriction:
 
 @dataclass(frozen=True, slots=True)
 class Report:
-    """Everything that one `check` found. `isolation`: empty, unless it was asked for."""
+    """Everything that one `check` found. `isolation` is empty unless it was requested."""
 
     environment: Environment
     exercises: tuple[ExerciseResult, ...]
@@ -87,8 +87,8 @@ class Report:
 def overall(statuses: Iterable[Status]) -> Status:
     """Fold statuses into one of `PASSED`, `FAILED`, `ERROR`.
 
-    A failure outweighs a fault, since it is a finding; a skipped required criterion is a failure unless a fault
-    explains it. Nothing judged at all is a fault: there is no verdict to give.
+    A failure outweighs an error, since it is a finding. A skipped criterion counts as a failure unless an error
+    explains it. No status at all is an error: there is no verdict to give.
     """
     seen = set(statuses)
     if Status.FAILED in seen:

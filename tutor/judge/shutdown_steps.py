@@ -1,4 +1,4 @@
-"""The next step for a process that does not end well on Ctrl+C, as edits of the learner's own file."""
+"""The next step for a process that does not exit cleanly on Ctrl+C, as edits of the learner's own file."""
 
 from __future__ import annotations
 
@@ -11,11 +11,12 @@ from tutor.judge.rewriting.program import SPINS, clean_ending, first_sound_step,
 from tutor.judge.trace import Trace
 from tutor.judge.tracebacks import Frame
 
-_ENDS_A_SPIN = ("KeyboardInterrupt", "ExternalShutdownException")
+SPIN_ENDINGS = ("KeyboardInterrupt", "ExternalShutdownException")
+"""The exceptions that rclpy ends a spin with on Ctrl+C."""
 
 
 def catch_interrupt(trace: Trace) -> str:
-    """How what ends a spin is caught, and rclpy is shut down once."""
+    """How to catch the exceptions that end a spin, and shut rclpy down only once."""
     return first_sound_step(trace, _with_interrupt_caught, clean_ending) or (
         "write around spin(): try, and except (KeyboardInterrupt, ExternalShutdownException): pass, with from "
         "rclpy.executors import ExternalShutdownException at the top; and rclpy.try_shutdown() in place of "
@@ -24,14 +25,14 @@ def catch_interrupt(trace: Trace) -> str:
 
 
 def allow_interrupt(trace: Trace) -> str:
-    """What keeps Ctrl+C from ending the program."""
+    """How to let Ctrl+C end the program."""
     return first_sound_step(trace, clean_ending) or (
         "let KeyboardInterrupt end the program: no bare `except:` around spin, no loop without rclpy.ok()"
     )
 
 
 def exit_with_zero(trace: Trace) -> str:
-    """How the program ends with exit code 0."""
+    """How to end the program with exit code 0."""
     return first_sound_step(trace, clean_ending) or (
         "return normally from main() after Ctrl+C; call no sys.exit() with another code, and end what uses the node, "
         "such as threads, before you destroy it"
@@ -39,12 +40,12 @@ def exit_with_zero(trace: Trace) -> str:
 
 
 def is_raise(own: Frame | None) -> bool:
-    """Whether the line raises an exception by itself."""
+    """Whether the learner's line is itself a `raise` statement."""
     return own is not None and own.code.startswith("raise")
 
 
 def remove_line(trace: Trace, own: Frame | None) -> str:
-    """What to do about a line that raises, or that needs ROS when it is shut down already."""
+    """What to do about a line that raises, or that needs ROS after it has been shut down."""
     if own is not None and is_raise(own):
         instead = first_sound_step(
             trace, lambda file: [replace_lines(own.line, "return")] if own.name == trace.file else []
@@ -57,7 +58,7 @@ def remove_line(trace: Trace, own: Frame | None) -> str:
 
 
 def _with_interrupt_caught(file: NodeFile) -> list[Edit]:
-    """What the file has, with both exceptions caught around a spin, and try_shutdown() in place of shutdown()."""
+    """Edits that catch both exceptions around each spin, and replace shutdown() by try_shutdown()."""
     found = replace_pattern(file.text, r"\brclpy\.shutdown\b", "rclpy.try_shutdown")
     spins = [each for each in file.calls(*SPINS) if ast.unparse(each.func) != "self.spin"]
     tries = [each for each in ast.walk(file.tree) if isinstance(each, ast.Try)]
@@ -68,7 +69,7 @@ def _with_interrupt_caught(file: NodeFile) -> list[Edit]:
             found += guard_spin(file, call)
         for handler in handlers:
             caught = ast.unparse(handler.type) if handler.type is not None else ""
-            if any(name in caught for name in _ENDS_A_SPIN) and not all(name in caught for name in _ENDS_A_SPIN):
+            if any(name in caught for name in SPIN_ENDINGS) and not all(name in caught for name in SPIN_ENDINGS):
                 name, imported = file.own("ExternalShutdownException", "rclpy.executors")
                 line = file.text.splitlines()[handler.lineno - 1].strip()
                 both = f"except (KeyboardInterrupt, {name})"

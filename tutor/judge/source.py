@@ -1,6 +1,6 @@
-"""What a learner's source says, for the words of a diagnosis: a next step must not advise what is there already.
+"""Static analysis of a learner's source, so that a next step never advises what the file already has.
 
-Never for a verdict. A file that Python cannot read says nothing.
+It only shapes the wording of a diagnosis, never a verdict. A file that Python cannot parse counts as empty.
 """
 
 from __future__ import annotations
@@ -17,14 +17,14 @@ Function = ast.FunctionDef | ast.AsyncFunctionDef
 
 @dataclass(frozen=True)
 class SourceFile:
-    """One file, by its syntax tree; `file` is what a step calls it. All that it gives are parts of `tree`."""
+    """One file and its syntax tree; `file` is its name in a next step. Every syntax node returned is part of `tree`."""
 
     text: str
     file: str = ""
 
     @cached_property
     def tree(self) -> ast.Module:
-        """The file's syntax tree, the same one for the same text; an empty one where Python cannot read it."""
+        """The file's syntax tree, shared by equal texts; empty if Python cannot parse the file."""
         return _parsed(self.text)
 
     @cached_property
@@ -37,30 +37,30 @@ class SourceFile:
         return {child: parent for parent in self.nodes for child in ast.iter_child_nodes(parent)}
 
     def ancestors(self, node: ast.AST) -> Iterator[ast.AST]:
-        """What is around a part, from the inside out."""
+        """The ancestors of a syntax node, innermost first."""
         while (parent := self._parents.get(node)) is not None:
             yield parent
             node = parent
 
     def function_around(self, node: ast.AST) -> Function | None:
-        """The innermost function around a part."""
+        """The innermost function that contains a syntax node."""
         return next((each for each in self.ancestors(node) if isinstance(each, Function)), None)
 
     def class_of(self, function: ast.AST) -> ast.ClassDef | None:
-        """The class that a method belongs to."""
+        """The innermost class that contains a function; for a method, its class."""
         return next((each for each in self.ancestors(function) if isinstance(each, ast.ClassDef)), None)
 
     def statement(self, node: ast.AST) -> ast.stmt:
-        """The innermost statement that a part belongs to, or is."""
+        """The innermost statement that contains, or is, a syntax node."""
         return next(each for each in (node, *self.ancestors(node)) if isinstance(each, ast.stmt))
 
     def calls(self, *names: str) -> list[ast.Call]:
-        """The calls of functions and methods of these names, in the order in which they are written."""
+        """The calls of functions and methods with these names, in source order."""
         found = [each for each in self.nodes if isinstance(each, ast.Call) and called_name(each) in names]
         return sorted(found, key=lambda each: (each.lineno, each.col_offset))
 
     def assigned_to(self, call: ast.Call) -> str:
-        """What a call's result is assigned to, such as "self.timer"; empty where it is not."""
+        """The target that a call's result is assigned to, such as "self.timer"; empty if it is not assigned."""
         match self._parents.get(call):
             case ast.Assign(targets=[*_, target]) | ast.AnnAssign(target=target):
                 return ast.unparse(target)
@@ -68,26 +68,29 @@ class SourceFile:
 
     @cached_property
     def functions(self) -> list[Function]:
-        """Every function and method, in the order in which they are written."""
+        """All functions and methods, in source order."""
         return sorted((each for each in self.nodes if isinstance(each, Function)), key=lambda each: each.lineno)
 
     def function_at(self, line: int) -> Function | None:
-        """The innermost function that a line is in."""
+        """The innermost function that contains a line."""
         found = [each for each in self.functions if each.lineno <= line <= (each.end_lineno or 0)]
         return max(found, key=lambda each: each.lineno, default=None)
 
     def statement_at(self, line: int) -> ast.stmt | None:
-        """The innermost statement that a line belongs to; of a compound one, its head does."""
+        """The innermost statement that contains a line; for the header of a compound statement, that statement."""
         statements = [each for each in self.nodes if isinstance(each, ast.stmt)]
         found = [each for each in statements if each.lineno <= line <= (each.end_lineno or 0)]
         return max(found, key=lambda each: (each.lineno, -(each.end_lineno or 0)), default=None)
 
     def named(self, name: str) -> list[Function]:
-        """The functions and methods of this name."""
+        """The functions and methods with this name."""
         return [each for each in self.functions if each.name == name]
 
     def function(self, callback: ast.expr | None) -> Function | None:
-        """The function that an argument names, by itself or in a lambda or a partial: the last one of that name."""
+        """The function that a callback argument refers to, directly or within a lambda or partial().
+
+        If several have that name, the last one.
+        """
         match callback:
             case ast.Attribute(attr=name) | ast.Name(id=name):
                 return next((each for each in reversed(self.functions) if each.name == name), None)
@@ -98,18 +101,18 @@ class SourceFile:
         return None
 
     def reached(self, function: Function) -> list[Function]:
-        """The function, and those of the file that it leads to."""
+        """The function itself and all functions of the file that it calls, directly or indirectly."""
         found, todo = [], [function]
         while todo:
             each = todo.pop(0)
             if each not in found:
                 found.append(each)
-                todo += [led for inner in calls_in(each) if (led := self.function(inner.func)) is not None]
+                todo += [callee for call in calls_in(each) if (callee := self.function(call.func)) is not None]
         return found
 
     @cached_property
     def node_classes(self) -> list[str]:
-        """The names of the file's classes of nodes."""
+        """The names of the file's node classes."""
         found: list[str] = []
         for each in self.nodes:
             if isinstance(each, ast.ClassDef) and any(
@@ -120,19 +123,19 @@ class SourceFile:
 
     @cached_property
     def imports(self) -> list[tuple[ast.Import | ast.ImportFrom, ast.alias]]:
-        """Each name that is imported, with the statement that does so."""
+        """Each imported name, with its import statement."""
         found = [each for each in self.nodes if isinstance(each, ast.Import | ast.ImportFrom)]
         return [(each, alias) for each in found for alias in each.names]
 
 
 def files(trace: Trace) -> list[SourceFile]:
-    """The learner's files, with their names where there are several."""
+    """The learner's files, named only if there are several."""
     several = len(trace.sources) > 1
     return [SourceFile(text, name if several else "") for name, text in trace.sources.items()]
 
 
 def file_holding(trace: Trace, node: ast.AST) -> SourceFile:
-    """The file that a part of a syntax tree is of."""
+    """The file whose syntax tree contains a node."""
     return next(each for each in files(trace) if node in each.nodes)
 
 
@@ -143,12 +146,12 @@ def all_nodes(trace: Trace) -> Iterator[ast.AST]:
 
 
 def syntax_nodes(text: str) -> list[ast.AST]:
-    """All nodes of the syntax tree of one file, by its text: the same ones each time."""
+    """All nodes of the syntax tree of one file's text; equal texts share their nodes."""
     return list(ast.walk(_parsed(text)))
 
 
 def mentions(trace: Trace, *names: str) -> bool:
-    """Whether one of these names is used anywhere, as a variable, a function or an attribute."""
+    """Whether any of these names is used anywhere, as a variable, a function or an attribute."""
     wanted = set(names)
     return any(
         (isinstance(node, ast.Name) and node.id in wanted) or (isinstance(node, ast.Attribute) and node.attr in wanted)
@@ -157,16 +160,16 @@ def mentions(trace: Trace, *names: str) -> bool:
 
 
 def calls(trace: Trace, *names: str) -> list[ast.Call]:
-    """The calls of functions and methods of these names, in the order in which they are written."""
+    """The calls of functions and methods with these names, in order of line numbers."""
     wanted = set(names)
     found = [node for node in all_nodes(trace) if isinstance(node, ast.Call) and called_name(node) in wanted]
     return sorted(found, key=lambda call: call.lineno)
 
 
 def assigned(trace: Trace, *names: str) -> list[tuple[str, int]]:
-    """What the results of calls of these names are assigned to, such as ("self.client", 14), with the line's number.
+    """The assignments of results of calls with these names, as (target, last line), such as ("self.client", 14).
 
-    Empty where it is no single name or attribute.
+    The target is empty if it is not a single name or attribute.
     """
     wanted = set(names)
     found = []
@@ -180,44 +183,44 @@ def assigned(trace: Trace, *names: str) -> list[tuple[str, int]]:
 
 
 def callbacks(trace: Trace, create: str) -> list[Function]:
-    """The functions that are given to `create`, such as "create_subscription", and those that they call, by name."""
-    given = [each for call in calls(trace, create) for each in (*call.args, *(k.value for k in call.keywords))]
-    inside = [call for each in given if isinstance(each, ast.Lambda) for call in calls_in(each)]
-    waiting = [last_name(each) for each in given] + [called_name(call) for call in inside]
+    """The functions passed to `create`, such as "create_subscription", and all functions that they reach, by name."""
+    arguments = [each for call in calls(trace, create) for each in (*call.args, *(k.value for k in call.keywords))]
+    inside = [call for each in arguments if isinstance(each, ast.Lambda) for call in calls_in(each)]
+    todo = [last_name(each) for each in arguments] + [called_name(call) for call in inside]
     found: dict[str, list[Function]] = {}
-    while waiting:
-        name = waiting.pop(0)
+    while todo:
+        name = todo.pop(0)
         named = [each for each in all_nodes(trace) if isinstance(each, Function) and each.name == name]
         if named and name not in found:
             found[name] = named
-            waiting += [called_name(call) for function in named for call in calls_in(function)]
+            todo += [called_name(call) for function in named for call in calls_in(function)]
     return [function for named in found.values() for function in named]
 
 
 def calls_in(node: ast.AST | None, *names: str) -> list[ast.Call]:
-    """The calls within a part of a syntax tree: all, or those of functions and methods of these names."""
+    """The calls within a syntax tree: all, or only those of functions and methods with these names."""
     found = [each for each in ast.walk(node) if isinstance(each, ast.Call)] if node is not None else []
     return [each for each in found if not names or called_name(each) in names]
 
 
 def values_of(target: str, node: ast.AST) -> list[ast.expr]:
-    """What a variable or an attribute, as written, is set to within a part of a syntax tree."""
-    made = [each for each in ast.walk(node) if isinstance(each, ast.Assign)]
-    return [each.value for each in made if any(ast.unparse(one) == target for one in each.targets)]
+    """The values assigned within a syntax tree to a variable or an attribute, such as "self.count"."""
+    assignments = [each for each in ast.walk(node) if isinstance(each, ast.Assign)]
+    return [each.value for each in assignments if any(ast.unparse(one) == target for one in each.targets)]
 
 
 def where(node: ast.stmt | ast.expr) -> str:
-    """Line and code, to be put into a sentence."""
+    """The line number and code of a syntax node, for use in a sentence."""
     return f"line {node.lineno}: {ast.unparse(node)}"
 
 
 def called_name(call: ast.Call) -> str:
-    """The last part of the name of what is called; empty where it has none."""
+    """The last part of the name of the called function, such as "b" for a.b(); empty if it has no name."""
     return last_name(call.func)
 
 
 def last_name(expression: ast.AST | None) -> str:
-    """The last part of a name, such as "b" of a.b; empty where it is none."""
+    """The last part of a (dotted) name, such as "b" for a.b; empty for any other expression."""
     match expression:
         case ast.Attribute(attr=name) | ast.Name(id=name):
             return name

@@ -1,4 +1,4 @@
-"""A next step followed word for word, as a beginner would: what becomes of the learner's files."""
+"""Apply a next step to the learner's files literally, as a beginner would follow it."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 
 from tutor.judge import edits
 
-_PLACES = (
+_EDIT_FORMS = (
     ("become", re.compile(r"lines? (?P<first>\d+)(?: (?:to|and) (?P<last>\d+))?(?: becomes?)?:(?P<code>.*)")),
     ("remove", re.compile(r"remove lines? (?P<first>\d+)(?: (?:to|and) (?P<last>\d+))?(?P<code>\b.*)")),
     ("above", re.compile(r"write above line (?P<first>\d+), with the same indentation:(?P<code>.*)")),
@@ -19,13 +19,13 @@ _PLACES = (
 
 
 class NotAnEdit(Exception):
-    """A step, or a part of it, that is not an edit of a line."""
+    """Raised for a step, or a part of one, that is not an edit of lines."""
 
 
 def apply_step(step: str, files: Mapping[str, str]) -> dict[str, str]:
-    """The files after the step, done word for word; line numbers are those of the files as they are.
+    """The files after following the step literally; its line numbers refer to the original files.
 
-    Raises InWords where a part of the step names no place, or no file.
+    Raises NotAnEdit if a part of the step names no place or no file.
     """
     changed = {name: list(enumerate(text.splitlines(), start=1)) for name, text in files.items()}
     originals = {name: text.splitlines() for name, text in files.items()}
@@ -35,12 +35,12 @@ def apply_step(step: str, files: Mapping[str, str]) -> dict[str, str]:
             file, part = named["file"], part[named.end() :]
         if file not in changed:
             raise NotAnEdit(part)
-        _do(part, changed[file], originals[file])
+        _apply_part(part, changed[file], originals[file])
     return {name: "".join(f"{line}\n" for _, line in lines) for name, lines in changed.items()}
 
 
 def is_applicable(step: str, files: Mapping[str, str]) -> bool:
-    """Whether anyone can follow the step word for word, and has files then that Python can read, and not the same."""
+    """Whether the step can be followed literally, and changes files without breaking them (see `is_sound_change`)."""
     try:
         after = apply_step(step, files)
     except NotAnEdit:
@@ -50,7 +50,7 @@ def is_applicable(step: str, files: Mapping[str, str]) -> bool:
 
 
 def _parts(step: str) -> list[str]:
-    """The step's parts: each begins a line; code on lines of its own is indented."""
+    """Split a step into its parts: each starts at column 0, and the indented lines below it belong to it."""
     parts: list[str] = []
     for line in step.splitlines():
         if parts and (line.startswith(" ") or not line):
@@ -60,28 +60,28 @@ def _parts(step: str) -> list[str]:
     return parts
 
 
-def _do(part: str, lines: list[tuple[int, str]], original: Sequence[str]) -> None:
-    head = part.split("\n")[0]
-    what, found = next(((what, found) for what, each in _PLACES if (found := re.fullmatch(each, head))), ("", None))
+def _apply_part(part: str, lines: list[tuple[int, str]], original: Sequence[str]) -> None:
+    """Apply one part to `lines`, a file as (original line number, or 0 for a new line; text)."""
+    head, *below = part.split("\n")
+    kind, found = next(((kind, found) for kind, each in _EDIT_FORMS if (found := re.fullmatch(each, head))), ("", None))
     if found is None:
         raise NotAnEdit(part)
-    below = [line[4:] for line in part.split("\n")[1:]]
-    code = below if below else [found["code"].strip()]
-    if what == "top":
+    code = [line[4:] for line in below] or [found["code"].strip()]
+    if kind == "top":
         lines[:0] = [(0, line) for line in code]
         return
     first = int(found["first"])
-    last = int(found["last"] or first) if what in ("become", "remove") else first
+    last = int(found["last"] or first) if kind in ("become", "remove") else first
     if not 1 <= first <= last <= len(original):
         raise NotAnEdit(part)
-    like = original[int(found["last"] or first) - 1 if what == "below" else first - 1]
-    margin = like[: len(like) - len(like.lstrip())] + ("    " if what == "deeper" else "")
+    like = original[int(found["last"] or first) - 1 if kind == "below" else first - 1]
+    margin = like[: len(like) - len(like.lstrip())] + ("    " if kind == "deeper" else "")
     new = [(0, f"{margin}{line}" if line else "") for line in code]
     place = next((at for at, (number, _) in enumerate(lines) if number == first), None)
-    if place is None:  # it has become something else already
+    if place is None:  # an earlier part replaced or removed it
         raise NotAnEdit(part)
     end = next(at for at, (number, _) in enumerate(lines) if number == last) + 1
-    match what:
+    match kind:
         case "become":
             lines[place:end] = new
         case "remove":

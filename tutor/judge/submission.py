@@ -9,10 +9,10 @@ from pathlib import Path
 
 @dataclass(frozen=True, slots=True)
 class Submission:
-    """The files of one submission: the exercise's own file name, and where the learner's file is.
+    """The files of one submission: from the file name that the exercise uses to the path of the learner's file.
 
-    An optional file that is missing is absent from `files`. Files are run where they are, never copied, so that
-    tracebacks show the learner's own paths and other files beside them are found.
+    A missing optional file is absent from `files`. Files run in place, never as copies, so that tracebacks show the
+    learner's own paths and local imports work.
     """
 
     exercise: str

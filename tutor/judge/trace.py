@@ -1,4 +1,4 @@
-"""Facts: what was seen of a learner's process, as plain data.
+"""Facts: what was observed of a learner's process, as plain data.
 
 Times are seconds. `source_time`, `stamp` and `at` are wall-clock times since the epoch (all processes of a check share
 one clock); durations and limits are plain seconds.
@@ -37,7 +37,7 @@ class Sample:
 
 @dataclass(frozen=True, slots=True)
 class LogRecord:
-    """One message on `/rosout`. `level` is a severity number (see `Level`); `function`: where, if given."""
+    """One message on `/rosout`. `level` is a severity number (see `Level`); `function`: the function that logged it."""
 
     level: int
     name: str
@@ -65,7 +65,7 @@ class Exit:
 
 @dataclass(frozen=True, slots=True)
 class OutputLine:
-    """One line that the process wrote. `stream` is "stdout" or "stderr"; a long line is cut."""
+    """One line of output. `stream` is "stdout" or "stderr"; a long line is truncated."""
 
     stream: str
     text: str
@@ -74,10 +74,10 @@ class OutputLine:
 
 @dataclass(frozen=True, slots=True)
 class Ending:
-    """What happened from one SIGINT (as Ctrl+C sends it) on.
+    """What happened after one SIGINT (as sent by Ctrl+C).
 
-    `exit` is None where the process was still there after `limit_s` seconds; `output` is what it wrote from then on.
-    `left` holds the command lines of the processes that were still there in the end (its own included).
+    `exit` is None if the process was still running after `limit_s` seconds; `output` is what it wrote since the SIGINT.
+    `left` holds the command lines of the processes that remained at the end (including its own).
     """
 
     exit: Exit | None
@@ -89,7 +89,7 @@ class Ending:
 
 @dataclass(frozen=True, slots=True)
 class SetAnswer:
-    """The answer to setting parameters: one (successful, reason) pair, or `answered` False where none came in time."""
+    """The answer to setting parameters: one (successful, reason) pair, or `answered` False if none came in time."""
 
     values: Mapping[str, Any]
     answered: bool
@@ -100,13 +100,13 @@ class SetAnswer:
 
     @property
     def took_s(self) -> float:
-        """Seconds from the request to the answer, or to when it was given up."""
+        """Seconds from the request to the answer, or to giving up."""
         return self.answered_at - self.asked_at
 
 
 @dataclass(frozen=True, slots=True)
 class CallAnswer:
-    """The answer to one service call. `response` is None where none came within the limit, or ever would."""
+    """The answer to one service call. `response` is None if none came in time, or none could come any more."""
 
     service: str
     request: Mapping[str, Any]
@@ -116,13 +116,13 @@ class CallAnswer:
 
     @property
     def took_s(self) -> float:
-        """Seconds from the request to the answer, or to when it was given up."""
+        """Seconds from the request to the answer, or to giving up."""
         return self.answered_at - self.asked_at
 
 
 @dataclass(frozen=True, slots=True)
 class ServedRequest:
-    """One request that our server answered."""
+    """One request that our own service server answered."""
 
     service: str
     request: Mapping[str, Any]
@@ -132,7 +132,7 @@ class ServedRequest:
 
 @dataclass(frozen=True, slots=True)
 class Echo:
-    """What `ros2 topic echo` would have shown. `types` are all types on the topic; with more than one, echo refuses."""
+    """What `ros2 topic echo` would have shown. `types`: all types on the topic; with more than one, echo refuses."""
 
     topic: str
     types: tuple[str, ...]
@@ -143,13 +143,14 @@ class Echo:
 
 @dataclass(frozen=True, slots=True)
 class Trace:
-    """Everything that was seen of one start of the learner's process.
+    """Everything observed in one run of the learner's process.
 
-    `folder` is where the learner's file lies. `output` is bounded: `dropped_lines` says how many lines in its middle
-    were not kept. `uncalled_main`: the file defines `main` and calls it nowhere; `launch_arguments`: the names
-    that it declares as launch arguments; `sources`: the text of the file, and of those beside it that it imports, by
-    file name (all three for the words of a diagnosis, never for a verdict: see `tutor.judge.source`).
-    `exceptions`: known ones of the check's own.
+    `folder`: the folder of the learner's file. `output` is bounded: `dropped_lines` counts the lines dropped from its
+    middle. `exceptions`: the check's own known exceptions.
+
+    Three fields come from the source, and only shape the wording of a diagnosis, never a verdict (see
+    `tutor.judge.source`). `uncalled_main`: the file defines `main` but never calls it. `launch_arguments`: the names of
+    the launch arguments that it declares. `sources`: by file name, the text of the file and of its local imports.
     """
 
     file: str

@@ -10,7 +10,7 @@ from itertools import groupby
 from tutor.judge.trace import OutputLine, Trace
 
 MOST_CHARACTERS = 1000
-"""A longer line of a traceback is cut: there are patterns of many parts for what it says."""
+"""Maximum length of a traceback line; longer ones are cut, since the complex patterns applied to them are slow."""
 
 _AT_EXIT = "Exception ignored in atexit callback"
 _HEADER = "Traceback (most recent call last):"
@@ -18,7 +18,7 @@ _FRAME = re.compile(r'^\s*File "(?P<path>[^"]+)", line (?P<line>\d{1,9})(?:, in 
 _RAISED = re.compile(r"^(?P<type>[^\W\d][\w.]*(?:\.<locals>\.[\w.]+)*)(?:: (?P<message>.*))?$")
 _DUMPED = re.compile(r'^  File "(?P<path>[^"]+)", line (?P<line>\d{1,9}) in (?P<function>.+)$')
 _THREAD = re.compile(r"^(?:Current thread|Thread) 0x[0-9a-f]++.*\(most recent call first\):$")
-_REFUSED = re.compile(
+_HEADERLESS = re.compile(
     r"^(?P<type>SyntaxError|MemoryError|RecursionError): "
     r"(?P<message>(?:Non-UTF-8 code .* in file (?P<path>.+) on line (?P<line>\d{1,9}),|encoding problem: |"
     r"Parser stack overflowed|.* during compilation$).*)$"
@@ -34,9 +34,9 @@ _CHAINED = (
 
 @dataclass(frozen=True, slots=True)
 class Frame:
-    """One step of a traceback. `function` is empty for a syntax error, which has no function yet.
+    """One frame of a traceback. `function` is empty for a syntax error, which occurs in no function.
 
-    `thread`: in a dump of all threads' stacks, the number of the thread that it is of, from 1 on.
+    `thread`: in a stack dump of all threads, the number of the frame's thread, counted from 1.
     """
 
     path: str
@@ -58,9 +58,9 @@ class Frame:
 class Traceback:
     """One traceback: the exception's type name, its message, and its frames, outermost first.
 
-    `ignored`: Python reports it as "Exception ignored in", from an object's clean-up; it ends nothing. `at_exit`: so
-    does one from a function that the program has registered with atexit. `follows`: the exception that it was raised
-    from, or while handling.
+    `ignored`: Python reports it as "Exception ignored in", mostly from an object's cleanup; the program goes on.
+    `at_exit`: such an ignored one, from a function registered with atexit. `follows`: the exception from which, or
+    during whose handling, this one was raised.
     """
 
     type: str
@@ -72,7 +72,7 @@ class Traceback:
 
     @property
     def origin(self) -> Traceback:
-        """The first exception of the chain: the one that this one, and those between them, came from."""
+        """The first exception of the chain, from which all others followed."""
         return self if self.follows is None else self.follows.origin
 
     @property
@@ -81,20 +81,20 @@ class Traceback:
         return f"{self.type}: {self.message}" if self.message else self.type
 
     def own(self, folder: str) -> Frame | None:
-        """The innermost frame in the learner's own code: the line that they can change."""
+        """The innermost frame in the learner's own code: the line that the learner can change."""
         return own_frame(reversed(self.frames), folder)
 
 
 def find_tracebacks(output: Iterable[OutputLine]) -> tuple[Traceback, ...]:
-    """All tracebacks in the output, oldest first; those of a main file that Python refuses, without a header, included.
+    """All tracebacks in the output, oldest first, including headerless ones for a main file that fails to compile.
 
     An exception group is followed by the exceptions in it.
     """
-    return tuple(_tracebacks([line.text for line in output if line.stream == "stderr"]))
+    return tuple(_parse_tracebacks([line.text for line in output if line.stream == "stderr"]))
 
 
 def dumped_frames(output: Iterable[OutputLine]) -> tuple[Frame, ...]:
-    """The frames of a stack dump as faulthandler writes it on a fatal signal: all threads, innermost frame first."""
+    """The frames of all threads in a stack dump that faulthandler wrote on a fatal signal, innermost frame first."""
     frames: list[Frame] = []
     thread = 0
     for line in output:
@@ -113,27 +113,27 @@ def frames_by_thread(frames: Iterable[Frame]) -> tuple[tuple[Frame, ...], ...]:
 
 
 def own_frame(frames: Iterable[Frame], folder: str) -> Frame | None:
-    """The first of the frames that is in the learner's own code."""
+    """The first of these frames that is in the learner's own code."""
     return next((frame for frame in frames if is_in_folder(frame.path, folder)), None)
 
 
 def called_by_executor(stuck: Sequence[Frame], folder: str) -> bool:
-    """Whether, in frames innermost first, the learner's code is being run by an executor of rclpy's: as a callback."""
-    mine = next((i for i, frame in enumerate(stuck) if is_in_folder(frame.path, folder)), None)
-    return mine is not None and any(frame.path.endswith("rclpy/executors.py") for frame in stuck[mine + 1 :])
+    """Whether an rclpy executor is running the learner's code, as a callback. Frames are given innermost first."""
+    own = next((i for i, frame in enumerate(stuck) if is_in_folder(frame.path, folder)), None)
+    return own is not None and any(frame.path.endswith("rclpy/executors.py") for frame in stuck[own + 1 :])
 
 
 def last_traceback(trace: Trace) -> Traceback | None:
     """The last traceback that the process wrote, or None.
 
-    An ignored one counts only where there is no other: what objects say while Python goes down comes after the crash.
+    An ignored one counts only if there is no other: objects being cleaned up at exit complain after the actual crash.
     """
     found = find_tracebacks(trace.output)
     return next((each for each in reversed(found) if not each.ignored), found[-1] if found else None)
 
 
 def lines_without_tracebacks(output: Sequence[OutputLine]) -> tuple[str, ...]:
-    """The lines of the output that belong to no traceback's frames; the line that names the exception is kept."""
+    """The lines of the output without the frames of tracebacks; the line that names the exception is kept."""
     kept: list[str] = []
     inside = False
     plain = iter(_without_margins([line.text for line in output if line.stream == "stderr"]))
@@ -151,7 +151,7 @@ def lines_without_tracebacks(output: Sequence[OutputLine]) -> tuple[str, ...]:
     return tuple(kept)
 
 
-def _tracebacks(written: Sequence[str]) -> Iterable[Traceback]:
+def _parse_tracebacks(written: Sequence[str]) -> Iterable[Traceback]:
     lines = _without_margins([_COLOUR.sub("", text)[:MOST_CHARACTERS] for text in written])
     frames: list[Frame] = []
     headed = ignored = at_exit = chained = False
@@ -167,20 +167,20 @@ def _tracebacks(written: Sequence[str]) -> Iterable[Traceback]:
         elif frame:
             code = lines[number + 1].strip() if number + 1 < len(lines) else ""
             frames.append(Frame(frame["path"], int(frame["line"]), frame["function"] or "", code))
-        elif not frames and not headed and (refused := _REFUSED.match(text)):
-            at = (Frame(refused["path"], int(refused["line"]), "", ""),) if refused["path"] else ()
-            yield Traceback(refused["type"], refused["message"], at)
+        elif not frames and not headed and (error := _HEADERLESS.match(text)):
+            at = (Frame(error["path"], int(error["line"]), "", ""),) if error["path"] else ()
+            yield Traceback(error["type"], error["message"], at)
         elif frames and (raised := _RAISED.match(text)):
             follows = previous if chained else None
             previous = Traceback(raised["type"], raised["message"] or "", tuple(frames), ignored, follows, at_exit)
             yield previous
             frames, headed, ignored, at_exit, chained = [], False, False, False, False
         elif text and not text[0].isspace() and not headed:
-            frames = []  # after a header, it is another thread's line, such as a log message
+            frames = []  # right after a header, though, it is a line of another thread's, such as a log message
 
 
 def _without_margins(lines: Sequence[str]) -> list[str]:
-    """The lines with those of exception groups as if each exception stood alone."""
+    """The lines, with the margins of exception groups removed so that each exception in them stands alone."""
     plain: list[str] = []
     inside = False
     for text in lines:
@@ -199,5 +199,5 @@ def _without_margins(lines: Sequence[str]) -> list[str]:
 
 
 def is_in_folder(path: str, folder: str) -> bool:
-    """Whether a file lies in the learner's folder, and is none of an installed package."""
+    """Whether a file lies in the learner's folder and does not belong to an installed package."""
     return bool(folder) and path.startswith(folder.rstrip("/") + "/") and "/site-packages/" not in path

@@ -1,4 +1,4 @@
-"""What a criterion ends in, and why."""
+"""Verdicts: how a criterion ended, and why."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from enum import Enum
 
 MOST_CHARACTERS, MOST_OF_A_HINT, MOST_OF_A_LINE, MOST_LINES = 2000, 10_000, 500, 20
-"""How long the texts of a verdict are at most, its hint (which may be a whole program), and its evidence."""
+"""Size limits of a verdict: its texts, its hint (which may be a whole program), each line and all lines of evidence."""
 
 BUSY_HINT = "close what keeps this machine busy, then check again"
 
@@ -15,7 +15,7 @@ BUSY_HINT = "close what keeps this machine busy, then check again"
 class Status(Enum):
     """How a criterion ended.
 
-    `FAILED` speaks of the learner's code only; a fault of the tool or the machine is `ERROR`.
+    `FAILED` is always about the learner's code; a fault of the tool or the machine is `ERROR`.
     """
 
     PASSED = "passed"
@@ -28,7 +28,7 @@ class Status(Enum):
 class Cause:
     """A likely reason for a failure.
 
-    `name` is the short, stable name that a learner can look up ("no spin"), `text` says what that means here, `hint`
+    `name` is a short, stable name that a learner can look up ("no spin"), `text` says what it means here, and `hint` is
     the next step to take.
     """
 
@@ -42,10 +42,10 @@ class Cause:
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
-    """The diagnosis of one criterion: a status and what was expected, observed, concluded and advised.
+    """The diagnosis of one criterion: a status, and what was expected, observed, concluded and advised.
 
-    `observed` holds numbers with their units; `evidence` holds single lines to show as they are (log lines, samples,
-    the learner's own code line), oldest first.
+    `observed` contains numbers with units; `evidence` holds single lines to show verbatim (log lines, samples, the
+    learner's own line of code), oldest first.
     """
 
     status: Status
@@ -62,31 +62,31 @@ class Verdict:
 
 
 def bounded(verdict: Verdict) -> Verdict:
-    """The verdict with texts and evidence of bounded length: they may hold what a learner's program has written."""
+    """The verdict with its texts and evidence truncated, since they may contain output of the learner's program."""
     return replace(
         verdict,
-        expected=_cut(verdict.expected, MOST_CHARACTERS),
-        observed=_cut(verdict.observed, MOST_CHARACTERS),
-        cause=_cut(verdict.cause, MOST_CHARACTERS),
-        hint=_cut(verdict.hint, MOST_OF_A_HINT),
-        evidence=tuple(_cut(line, MOST_OF_A_LINE) for line in verdict.evidence[:MOST_LINES]),
+        expected=_truncate(verdict.expected, MOST_CHARACTERS),
+        observed=_truncate(verdict.observed, MOST_CHARACTERS),
+        cause=_truncate(verdict.cause, MOST_CHARACTERS),
+        hint=_truncate(verdict.hint, MOST_OF_A_HINT),
+        evidence=tuple(_truncate(line, MOST_OF_A_LINE) for line in verdict.evidence[:MOST_LINES]),
     )
 
 
-def _cut(text: str, most: int) -> str:
-    return text if len(text) <= most else f"{text[: most - 3]}..."
+def _truncate(text: str, limit: int) -> str:
+    return text if len(text) <= limit else f"{text[: limit - 3]}..."
 
 
 class Undecided(Verdict):
-    """The machine was too busy to tell the learner's doing from its own: see `undecided`."""
+    """The machine was too busy to tell the learner's mistakes from its own delays (see `undecided`)."""
 
     __slots__ = ()
 
 
 def undecided(to_do: str) -> Undecided:
-    """The machine was too busy to judge the criterion; `to_do` completes that sentence: "to measure the timer".
+    """The machine was too busy to judge the criterion; `to_do` completes that sentence, as in "to measure the timer".
 
-    The engine repeats the scenarios alone, and has the criterion judged again; what stays undecided is an error.
+    The engine repeats the scenarios with nothing else running and judges again; if still undecided, it is an error.
     """
     return Undecided(Status.ERROR, cause=f"this machine is too busy {to_do}", hint=BUSY_HINT)
 
@@ -102,7 +102,7 @@ def failed(expected: str, observed: str, cause: Cause, evidence: Iterable[str] =
 
 
 def skipped(because: str) -> Verdict:
-    """The criterion was not judged because something that it depends on did not pass."""
+    """The criterion was not judged, because something that it depends on did not pass."""
     return Verdict(Status.SKIPPED, cause=because)
 
 

@@ -1,4 +1,4 @@
-"""Waits that several checks share: for a node to come up, and for enough messages to tell a rate."""
+"""Waits shared by several checks: for a node to come up, and for enough messages to measure a rate."""
 
 from __future__ import annotations
 
@@ -10,46 +10,46 @@ from tutor.judge.rates import TOLERANCE, Rate, measure
 from tutor.judge.tracebacks import Frame
 
 START_S = 15.0
-"""A process on a slow, busy machine may need this long to come up."""
+"""Time limit for a node to come up, generous enough for a slow, busy machine."""
 
 SETTLE_S = 5.0
-"""A node that is up does what it does within this time, a pause of 2 s at its start included."""
+"""Time within which a node that is up shows what it does, even if it pauses for 2 s at its start."""
 
 OTHER_TYPE_S = 1.0
-"""An endpoint of the right name, but another type, is the one that the node has: two would be in each other's way."""
+"""Patience once an endpoint has the right name but the wrong type: no second one is to be expected on that name."""
 
 OTHER_NAME_S = 2.5
-"""A node that has an endpoint of the right type, but another name, has all that it will have within this time, a pause
-of 2 s included."""
+"""Patience once an endpoint has the right type but the wrong name: all others appear within this time, even if the node
+pauses for 2 s."""
 
 RARE_S = 12.0
-"""A publisher that exists may wait this long between messages."""
+"""Time that an existing publisher may take between messages."""
 
 AGAIN_S = 3.5
-"""A second listen is at least this long, so that a rate of 1 Hz, too, can be recognised."""
+"""Minimum length of a repeated rate measurement, long enough to recognise a rate of 1 Hz."""
 
 IDLE_S = 0.7
-"""What a node has sent before it fell idle has come in by then."""
+"""Time after which everything that a node sent before it fell idle has arrived."""
 
 NO_NODE_S = 2.0
-"""A node whose process has been idle for this long would be in the graph."""
+"""Once a process has been idle for this long, any node that it created would be in the graph."""
 
 RESENT_S = 3.5
-"""A message that is lost on its way is sent again within 3 s, at its writer's next heartbeat (Fast DDS's default).
+"""A lost message is resent within 3 s, at its writer's next heartbeat (Fast DDS's default).
 
-What an idle process has done, or would do for what was sent to it, is seen by then, the graph included.
+After this time, everything that an idle process did, or would do in response to us, has been observed, including
+changes to the graph.
 """
 
 STUCK_S = 1.5
-"""A node that is up has run into what it waits for within this time."""
+"""Time within which a node that is up has reached the call that blocks it."""
 
 TRIES = 3
 CPU_WAIT_SHARE = 0.2
-"""Being kept from running for less than this share of the time hardly shows in a rate."""
-
+"""Waiting for a CPU for less than this share of the time hardly affects a rate."""
 
 IN_FLIGHT_S = 0.1
-"""A message takes less than this from its source to us."""
+"""Upper bound on the latency of a message from its source to us."""
 
 
 async def wait_until_seen(
@@ -61,20 +61,20 @@ async def wait_until_seen(
     idle_s: float = RESENT_S,
     settle_s: Callable[[], float] = lambda: SETTLE_S,
 ) -> bool:
-    """Wait until `seen()`; give up when the process ends, never makes a node, or its node does nothing of the kind.
+    """Wait until `seen()`; give up if the process ends, never creates a node, or its node shows no sign of it in time.
 
-    `promised()`: something announces that it will come, such as a publisher on the topic; then `rare_s` more seconds
-    are waited for it. `idle_s`: give up, too, when the node has been idle for that long (see `Run.until`); leave it as
-    it is for what is in the graph, which may reach us later than it is done. `settle_s()`: how much
-    longer, by what is known of the node now, something may take to be seen or promised; `SETTLE_S` in all, at most.
+    `promised()`: something announces it, such as a publisher on the topic; then wait up to `rare_s` more seconds.
+    `idle_s`: also give up once the node has been idle for that long (see `Run.until`); keep the default when waiting
+    for a change to the graph, which may reach us late. `settle_s()`: how much longer, given what is known of the node
+    now, it may take to be seen or promised; the total is limited to `SETTLE_S`.
     """
     if await run.until(lambda: seen() or bool(run.graph.nodes), START_S, idle_s=NO_NODE_S) and not seen():
         limit_s, since, cpu_wait_s = SETTLE_S, run.now(), run.node_cpu_wait_s()
 
         def settled() -> bool:
             nonlocal limit_s, since, cpu_wait_s
-            if (now_s := settle_s()) != limit_s:  # what says so has just come, and more may come with it
-                limit_s, since, cpu_wait_s = now_s, run.now(), run.node_cpu_wait_s()
+            if (new_limit_s := settle_s()) != limit_s:  # something has just appeared, and more may follow
+                limit_s, since, cpu_wait_s = new_limit_s, run.now(), run.node_cpu_wait_s()
             return run.now() - since - (run.node_cpu_wait_s() - cpu_wait_s) >= limit_s
 
         await run.until(lambda: seen() or promised() or settled(), SETTLE_S, idle_s=idle_s)
@@ -85,9 +85,9 @@ async def wait_until_seen(
     return seen()
 
 
-def patience_s(there: Iterable[tuple[str, str]], name: str, type_name: str) -> float:
-    """How long to wait for an endpoint of this name and type, when the node has `there`, as (name, type) each."""
-    others = [other for other, kind in there if (other == name) != (kind == type_name)]
+def patience_s(present: Iterable[tuple[str, str]], name: str, type_name: str) -> float:
+    """How long to wait for an endpoint with this name and type, given the node's present ones as (name, type) pairs."""
+    others = [other for other, kind in present if (other == name) != (kind == type_name)]
     if name in others:
         return OTHER_TYPE_S
     return OTHER_NAME_S if others else SETTLE_S
@@ -106,7 +106,7 @@ async def wait_for_message(run: Run, topic: str, type_name: str, *, rare_s: floa
 
 
 async def wait_for_publisher(run: Run, topic: str, type_name: str) -> bool:
-    """Wait for a publisher on this topic; of another type, it is the one that the node has."""
+    """Wait for a publisher on this topic, of whatever type."""
     return await wait_until_seen(
         run,
         lambda: any(publisher.topic == topic for publisher in run.graph.publishers),
@@ -119,7 +119,7 @@ def _publisher_patience_s(run: Run, topic: str, type_name: str) -> float:
 
 
 async def find_stuck_frames(bench: Bench, file: str) -> tuple[Frame, ...]:
-    """Start a node that answered nothing once more, only to see where its threads are: innermost frames first."""
+    """Restart a node that did not respond, just to see where its threads are stuck: innermost frames first."""
     async with bench.start(file) as run:
         bench.report_progress(0.9, "looking where the node is stuck")
         await run.until(lambda: bool(run.graph.nodes), START_S)
@@ -128,7 +128,7 @@ async def find_stuck_frames(bench: Bench, file: str) -> tuple[Frame, ...]:
 
 
 async def wait_until_log_quiet(run: Run, *, quiet_s: float, most_s: float) -> None:
-    """Wait until nothing has been logged for `quiet_s`, or for `most_s` where a node logs without end."""
+    """Wait until nothing has been logged for `quiet_s`, but at most for `most_s`, since a node may log forever."""
     seen, until = -1, run.now() + most_s
     while len(run.logs) != seen and run.now() < until:
         seen = len(run.logs)
@@ -136,24 +136,24 @@ async def wait_until_log_quiet(run: Run, *, quiet_s: float, most_s: float) -> No
 
 
 def window_s(hz: float) -> float:
-    """How many seconds of messages it takes to tell this rate: two periods at least, and one second."""
+    """How many seconds of messages it takes to measure this rate: at least two periods and one second."""
     return max(1.0, (2.0 if hz < 1 else 3.0) / hz)
 
 
 async def measure_steady_rate(run: Run, topic: str, asked_hz: float, *, since: float) -> tuple[Rate | None, int]:
-    """The rate on `topic` from source time `since` on, and the number of messages it is taken from.
+    """The rate on `topic` from source time `since` on, and the number of messages that it is based on.
 
-    Listens for as long as `asked_hz` needs. Where what it hears does not agree, it listens once more, and longer, and
-    judges by that second stretch alone: a hiccup in the first is the machine's, a rate that stays wrong the learner's.
-    Raises MachineTooBusy where the machine hardly lets the node run, however often it is listened to.
+    Measures for as long as `asked_hz` requires. If the rate does not agree, measures once more, for longer, and uses
+    only that second window: a hiccup in the first is the machine's, a rate that stays wrong is the learner's.
+    Raises MachineTooBusy if the machine hardly lets the node run in any window.
     """
     start, for_s = max(since, run.now()), window_s(asked_hz) + 0.5 / asked_hz
-    rate, messages = await _listen(run, topic, start, for_s)
+    rate, messages = await _measure_window(run, topic, start, for_s)
     for _ in range(TRIES):
         if rate is not None and rate.agrees(asked_hz):
             break
         for_s, cpu_wait_s = max(window_s(asked_hz), AGAIN_S), run.node_cpu_wait_s()
-        rate, messages = await _listen(run, topic, run.now(), for_s)
+        rate, messages = await _measure_window(run, topic, run.now(), for_s)
         if not too_few_by_cpu_wait(messages, asked_hz, cpu_wait_s=run.node_cpu_wait_s() - cpu_wait_s, of_s=for_s):
             break
     else:
@@ -163,18 +163,18 @@ async def measure_steady_rate(run: Run, topic: str, asked_hz: float, *, since: f
 
 
 def too_few_by_cpu_wait(messages: int, asked_hz: float, *, cpu_wait_s: float, of_s: float) -> bool:
-    """Whether so few messages in `of_s` may be so only because the machine kept the node from running for `cpu_wait_s`.
+    """Whether the node's wait for a CPU (`cpu_wait_s` of `of_s`) alone may explain why it sent so few messages.
 
     Too many messages are never excused.
     """
     if cpu_wait_s < CPU_WAIT_SHARE * of_s:
         return False
     mean_hz = max(messages, 1) / of_s
-    ran = max(0.05, 1 - cpu_wait_s / of_s)
-    return mean_hz <= asked_hz and mean_hz / ran >= (1 - TOLERANCE) * asked_hz
+    running_share = max(0.05, 1 - cpu_wait_s / of_s)
+    return mean_hz <= asked_hz and mean_hz / running_share >= (1 - TOLERANCE) * asked_hz
 
 
-async def _listen(run: Run, topic: str, start: float, for_s: float) -> tuple[Rate | None, int]:
+async def _measure_window(run: Run, topic: str, start: float, for_s: float) -> tuple[Rate | None, int]:
     end, late_s = start + for_s, run.our_cpu_wait_s()
     await run.until(lambda: run.now() >= end + IN_FLIGHT_S + run.our_cpu_wait_s() - late_s, for_s + 2)
     samples = [sample for sample in run.samples_on(topic) if start <= sample.source_time <= end]

@@ -1,4 +1,4 @@
-"""Messages compared by their wording."""
+"""Comparison of log messages by their wording."""
 
 from __future__ import annotations
 
@@ -6,5 +6,5 @@ import re
 
 
 def shape(text: str) -> str:
-    """A message without its numbers: two messages of one shape come from the same line of code, as like as not."""
+    """A message with its numbers blanked out: messages of the same shape likely come from the same line of code."""
     return re.sub(r"-?\d+(\.\d+)?", "#", text)

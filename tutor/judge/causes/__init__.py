@@ -1,4 +1,4 @@
-"""Likely causes, by name: pure recognisers from what was seen to a `Cause`, shared by all checks."""
+"""Likely causes of failures, shared by all checks: pure functions from observed facts to a `Cause`."""
 
 from tutor.judge.causes.blocking import (
     diagnose_blocked,

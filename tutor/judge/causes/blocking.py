@@ -1,4 +1,4 @@
-"""Causes of a node that is up and no longer answers: where a callback is held up, and what it waits for."""
+"""Causes for a node that is up but does not answer (any more): where a callback is blocked, and what it waits for."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from tutor.judge import source, tracebacks
 from tutor.judge.causes import names
 from tutor.judge.edits import Edit, remove_lines
 from tutor.judge.rewriting.callbacks import (
+    WITH_CALLBACK_GROUP,
     await_lines,
     make_lock_reentrant,
     make_reentrant,
@@ -24,29 +25,28 @@ from tutor.judge.trace import Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Cause
 
-_LOCK = re.compile(
+_LOCK_LINE = re.compile(
     r"(?P<lock>[\w.]+)\.acquire\(|with (?P<with>[\w.]*(?:lock|mutex|semaphore|condition)\w*)", re.IGNORECASE
 )
-_SPIN = re.compile(r"(?:[\w.]+\.)?spin(?:_once)?_until_future_complete\(.*?,\s*(?P<future>[\w.]+)\s*[,)]")
-_POLLS = re.compile(r"while not (?P<future>[\w.]+)\.done\(\)")
-_MADE = "create_client", "create_service", "create_timer", "create_subscription"
+_SPIN_UNTIL = re.compile(r"(?:[\w.]+\.)?spin(?:_once)?_until_future_complete\(.*?,\s*(?P<future>[\w.]+)\s*[,)]")
+_POLLING_LOOP = re.compile(r"while not (?P<future>[\w.]+)\.done\(\)")
 _SPINS = "spin", "spin_once", "spin_until_future_complete"
 
 
 def diagnose_blocked(trace: Trace, stuck: Sequence[Frame], *, spins: bool = False) -> Cause | None:
-    """What holds a node up. None where nothing tells that any callback has been run.
+    """What blocks a node; None if there is no sign that any callback has run.
 
-    `stuck`: where its threads are, innermost frame first. `spins`: it has answered a request before.
+    `stuck`: a stack dump of its threads, innermost frame first. `spins`: it has answered a request before.
     """
-    if (held := _held(stuck, trace.folder)) is not None:
-        return _diagnose_callback(trace, stuck, *held)
+    if (blocked := _find_blocked_callback(stuck, trace.folder)) is not None:
+        return _diagnose_callback(trace, stuck, *blocked)
     if is_in_blocking_call(stuck):
         return _diagnose_call(trace, tracebacks.own_frame(stuck, trace.folder))
     if not spins:
         return None
     return (
-        _diagnose_taken_away(trace)
-        or _diagnose_awaiting(trace)
+        _diagnose_nested_spin(trace)
+        or _diagnose_await(trace)
         or Cause(
             names.BLOCKED_EXECUTOR,
             "the node is up, but one of its callbacks never returns; all others wait for it",
@@ -56,52 +56,58 @@ def diagnose_blocked(trace: Trace, stuck: Sequence[Frame], *, spins: bool = Fals
 
 
 def is_in_blocking_call(stuck: Sequence[Frame]) -> bool:
-    """Whether a thread waits in rclpy's blocking `Client.call()`."""
+    """Whether a thread is waiting in rclpy's blocking `Client.call()`."""
     return any(frame.function == "call" and frame.path.endswith("rclpy/client.py") for frame in stuck)
 
 
 def diagnose_lock_wait(trace: Trace, stuck: Sequence[Frame]) -> Cause | None:
-    """Whether one callback waits for a lock."""
-    held = _held(stuck, trace.folder)
-    return _diagnose_lock(trace, stuck, held[0]) if held is not None and _LOCK.search(held[0].code) else None
+    """Whether a callback waits for a lock."""
+    blocked = _find_blocked_callback(stuck, trace.folder)
+    if blocked is None or not _LOCK_LINE.search(blocked[0].code):
+        return None
+    return _diagnose_lock(trace, stuck, blocked[0])
 
 
-def _held(stuck: Sequence[Frame], folder: str) -> tuple[Frame, tuple[Frame, ...]] | None:
-    """Where a callback is: the learner's innermost line, and the frames of its thread that are within it.
+def _find_blocked_callback(stuck: Sequence[Frame], folder: str) -> tuple[Frame, tuple[Frame, ...]] | None:
+    """The learner's innermost frame in a running callback, and the frames that it has called.
 
-    A callback that waits for another one comes before one that is at work.
+    A callback that waits for another one takes precedence over one that is busy.
     """
     found = []
     for thread in tracebacks.frames_by_thread(stuck):
         if tracebacks.called_by_executor(thread, folder):
-            mine = next(i for i, frame in enumerate(thread) if tracebacks.is_in_folder(frame.path, folder))
-            found.append((thread[mine], thread[:mine]))
-    return min(found, key=lambda each: not (is_in_blocking_call(each[1]) or _LOCK.search(each[0].code)), default=None)
+            own = next(i for i, frame in enumerate(thread) if tracebacks.is_in_folder(frame.path, folder))
+            found.append((thread[own], thread[:own]))
+    return min(
+        found, key=lambda each: not (is_in_blocking_call(each[1]) or _LOCK_LINE.search(each[0].code)), default=None
+    )
 
 
 def _diagnose_callback(trace: Trace, stuck: Sequence[Frame], at: Frame, inner: Sequence[Frame]) -> Cause:
     if is_in_blocking_call(inner):
         return _diagnose_call(trace, at)
     if any(frame.path.endswith(("rclpy/executors.py", "rclpy/__init__.py")) for frame in inner):
-        return _diagnose_spinning(trace, at)
-    if _LOCK.search(at.code):
+        return _diagnose_spin_in_callback(trace, at)
+    if _LOCK_LINE.search(at.code):
         return _diagnose_lock(trace, stuck, at)
-    if (polled := _polled(trace, at)) is not None:
+    if (future := _find_polled_future(trace, at)) is not None:
         return Cause(
             names.BLOCKED_EXECUTOR,
-            f"the callback waits in a loop for the answer, at {at}, which cannot come: the executor is busy with it",
-            _edited(trace, at, partial(_in_loop, at=at, code=f"await {polled}"))
-            or f"write await {polled} in place of the loop, {_as_coroutine(trace, at)}; {use_reentrant_group(trace)}",
+            f"the callback waits in a loop, at {at}, for an answer that cannot come: the executor is busy with this "
+            "callback",
+            _edited(trace, at, partial(_await_instead_of_loop, at=at, code=f"await {future}"))
+            or f"write await {future} in place of the loop, {_as_coroutine(trace, at)}; {use_reentrant_group(trace)}",
         )
     waits = any(frame.path.endswith("/threading.py") for frame in inner) or ".wait(" in at.code
     if waits:
         return Cause(
             names.BLOCKED_EXECUTOR,
-            f"a callback waits, at {at}, for what only another callback could bring; that one is never run meanwhile",
-            first_sound_step(trace, _in_threads)
-            or f"let several be run at once: {use_threads(trace)}; {use_reentrant_group(trace)}",
+            f"a callback waits, at {at}, for something that only another callback could provide, and that one cannot "
+            "run meanwhile",
+            first_sound_step(trace, _run_concurrently)
+            or f"let callbacks run concurrently: {use_threads(trace)}; {use_reentrant_group(trace)}",
         )
-    loop = "let it do one round and return; a timer calls it again" if at.code.startswith(("while", "for")) else ""
+    loop = "let it do one iteration and return; a timer calls it again" if at.code.startswith(("while", "for")) else ""
     return Cause(
         names.BLOCKED_EXECUTOR,
         f"the node is up, but one of its callbacks never returns, at {at}; all others wait for it",
@@ -113,25 +119,25 @@ def _diagnose_callback(trace: Trace, stuck: Sequence[Frame], at: Frame, inner: S
 
 def _diagnose_call(trace: Trace, at: Frame | None) -> Cause:
     where = f", at {at}" if at else ""
-    several = source.mentions(trace, "MultiThreadedExecutor")
+    multi_threaded = source.mentions(trace, "MultiThreadedExecutor")
     becomes = ""
-    if at is not None and ".call(" in at.code:
-        becomes = f"line {at.line} becomes: {_awaited(at.code)} ({_as_coroutine(trace, at)}); "
     edited = None
     if at is not None and ".call(" in at.code:
-        edited = _edited(trace, at, lambda file: await_lines(file, at.line, _awaited(at.code)))
+        code = _await_call(at.code)
+        becomes = f"line {at.line} becomes: {code} ({_as_coroutine(trace, at)}); "
+        edited = _edited(trace, at, lambda file: await_lines(file, at.line, code))
     return Cause(
         names.DEADLOCK,
         f"the callback waits for another service's answer{where}, which cannot come: the executor is busy with this "
         "callback",
         edited
-        or ("" if several else becomes or "use await client.call_async(request), in an async def; ")
+        or ("" if multi_threaded else becomes or "use await client.call_async(request), in an async def; ")
         + use_reentrant_group(trace),
     )
 
 
-def _awaited(code: str) -> str:
-    """A line with `client.call(request)`, with `await client.call_async(request)` in its place."""
+def _await_call(code: str) -> str:
+    """Replace `client.call(request)` in a line by `await client.call_async(request)`."""
     found = re.search(r"((?:\w+\.)*\w+)\.call\(", code)
     assert found is not None
     depth, end = 1, found.end()
@@ -142,27 +148,24 @@ def _awaited(code: str) -> str:
     return code[: found.start()] + (f"({call})" if code[end:].startswith(".") else call) + code[end:]
 
 
-def _diagnose_spinning(trace: Trace, at: Frame) -> Cause:
-    future = _SPIN.search(at.code)
+def _diagnose_spin_in_callback(trace: Trace, at: Frame) -> Cause:
+    future = _SPIN_UNTIL.search(at.code)
     instead = (
         f"line {at.line} becomes: await {future['future']} ({_as_coroutine(trace, at)}); {use_reentrant_group(trace)}"
         if future
-        else f"delete line {at.line}: main() spins the node already, and it is what runs this callback"
+        else f"delete line {at.line}: main() already spins the node, and that is what runs this callback"
     )
-
-    def edits(file: NodeFile) -> list[Edit]:
-        return await_lines(file, at.line, f"await {future['future']}") if future else [remove_lines(file.text, at.line)]
-
+    edits = partial(_await_instead_of_spin, line=at.line, future=future["future"] if future else "")
     return Cause(
         names.BLOCKED_EXECUTOR,
-        f"a callback spins the node again, at {at}, and waits there for what only the end of this callback would let "
-        "through",
+        f"a callback spins the node again, at {at}, and waits there for something that cannot happen before this "
+        "callback returns",
         _edited(trace, at, edits) or instead,
     )
 
 
 def _diagnose_lock(trace: Trace, stuck: Sequence[Frame], at: Frame) -> Cause:
-    found = _LOCK.search(at.code)
+    found = _LOCK_LINE.search(at.code)
     lock = (found["lock"] or found["with"]) if found else "the lock"
     made = next((call for call in source.calls(trace, "Lock") if call.lineno), None)
     holders = [
@@ -170,7 +173,7 @@ def _diagnose_lock(trace: Trace, stuck: Sequence[Frame], at: Frame) -> Cause:
         for thread in tracebacks.frames_by_thread(stuck)
         if (frame := tracebacks.own_frame(thread, trace.folder)) is not None
         and tracebacks.called_by_executor(thread, trace.folder)
-        and not _LOCK.search(frame.code)
+        and not _LOCK_LINE.search(frame.code)
     ]
     if holders:
         return Cause(
@@ -183,7 +186,7 @@ def _diagnose_lock(trace: Trace, stuck: Sequence[Frame], at: Frame) -> Cause:
     where = f" in line {made.lineno}" if made else ""
     return Cause(
         names.BLOCKED_EXECUTOR,
-        f"a callback waits for {lock}, at {at}, forever: it is held already, by the same callback or by one that did "
+        f"a callback waits for {lock}, at {at}, forever: it is already held, by the same callback or by one that did "
         "not release it",
         _edited(trace, at, make_lock_reentrant)
         or f"write threading.RLock() in place of threading.Lock(){where}: one thread may take it twice; and with "
@@ -191,14 +194,14 @@ def _diagnose_lock(trace: Trace, stuck: Sequence[Frame], at: Frame) -> Cause:
     )
 
 
-def _diagnose_taken_away(trace: Trace) -> Cause | None:
-    """Whether a method of the node spins the node: that takes it away from the executor that runs it."""
+def _diagnose_nested_spin(trace: Trace) -> Cause | None:
+    """Whether a method of the node spins the node, which takes it away from the executor that runs it."""
     for call in source.calls(trace, *_SPINS):
         first = ast.unparse(call.args[0]) if call.args else ""
         if first != "self":
             continue
         code = ast.unparse(call)
-        future = _SPIN.search(code)
+        future = _SPIN_UNTIL.search(code)
         becomes = (
             f"await {future['future']}, in an async def; {use_reentrant_group(trace)}"
             if future
@@ -208,14 +211,17 @@ def _diagnose_taken_away(trace: Trace) -> Cause | None:
             names.BLOCKED_EXECUTOR,
             f"line {call.lineno}, {code}, spins the node within one of its own callbacks, which takes it away from the "
             "executor that runs it: from then on, no callback is called any more",
-            first_sound_step(trace, partial(_taken_back, line=call.lineno, future=future["future"] if future else ""))
+            first_sound_step(
+                trace,
+                partial(_await_instead_of_spin, line=call.lineno, future=future["future"] if future else ""),
+            )
             or f"line {call.lineno} becomes {becomes}",
         )
     return None
 
 
-def _diagnose_awaiting(trace: Trace) -> Cause | None:
-    """Whether a callback awaits something: the executor is free then, and the callback's group is not."""
+def _diagnose_await(trace: Trace) -> Cause | None:
+    """Whether a callback awaits something, which frees the executor but not the callback's group."""
     awaited = sorted(
         (each for each in source.all_nodes(trace) if isinstance(each, ast.Await)), key=lambda each: each.lineno
     )
@@ -224,50 +230,50 @@ def _diagnose_awaiting(trace: Trace) -> Cause | None:
     at = awaited[0]
     return Cause(
         "deadlock by await",
-        f"a callback awaits what never comes, at line {at.lineno}: {ast.unparse(at)}. As long as it waits, nothing "
-        "else in its callback group is run, and that is where the answer comes in",
+        f"a callback awaits something that never comes, at line {at.lineno}: {ast.unparse(at)}. While it waits, "
+        "nothing else in its callback group runs, and the answer would arrive in that group",
         first_sound_step(trace, make_reentrant) or use_reentrant_group(trace),
     )
 
 
 def _edited(trace: Trace, at: Frame, edits: Callable[[NodeFile], Sequence[Edit]]) -> str | None:
-    """The step in the file of a frame, where that is the file that was run."""
+    """The step that edits the file of a frame; None unless that file still contains the frame's line."""
     text = trace.sources.get(at.name, "").splitlines()
-    there = 0 < at.line <= len(text) and text[at.line - 1].strip() == at.code
-    return first_sound_step(trace, edits, name=at.name) if there else None
+    is_current = 0 < at.line <= len(text) and text[at.line - 1].strip() == at.code
+    return first_sound_step(trace, edits, name=at.name) if is_current else None
 
 
-def _in_loop(file: NodeFile, at: Frame, code: str) -> list[Edit]:
+def _await_instead_of_loop(file: NodeFile, at: Frame, code: str) -> list[Edit]:
     loop = outermost(file, at.line)
     return await_lines(file, loop.lineno, code, loop.end_lineno or 0) if loop is not None else []
 
 
-def _in_threads(file: NodeFile) -> list[Edit]:
+def _run_concurrently(file: NodeFile) -> list[Edit]:
     return [*whole_program(file, threads=True), *make_reentrant(file)]
 
 
-def _taken_back(file: NodeFile, line: int, future: str) -> list[Edit]:
+def _await_instead_of_spin(file: NodeFile, line: int, future: str) -> list[Edit]:
     return await_lines(file, line, f"await {future}") if future else [remove_lines(file.text, line)]
 
 
-def _polled(trace: Trace, at: Frame) -> str | None:
-    """The future that the loop around this line waits for."""
+def _find_polled_future(trace: Trace, at: Frame) -> str | None:
+    """The future that the loop around this line polls."""
     lines = trace.sources.get(at.name, "").splitlines()[: at.line]
     for line in [at.code, *reversed(lines[-6:])]:
-        if found := _POLLS.search(line):
+        if found := _POLLING_LOOP.search(line):
             return found["future"]
     return None
 
 
 def _as_coroutine(trace: Trace, at: Frame) -> str:
-    """How the function that this line is in becomes one that may await."""
+    """How to turn the function that contains this line into a coroutine."""
     if any(isinstance(each, ast.AsyncFunctionDef) and each.name == at.function for each in source.all_nodes(trace)):
-        return f"{at.function} is async def already"
+        return f"{at.function} is already async def"
     return f"with async in front of def {at.function}(...)"
 
 
 def use_threads(trace: Trace) -> str:
-    """How the callbacks are run by several threads, as far as the source does not do so."""
+    """How to run the callbacks in several threads, as far as the source does not do so yet."""
     spins = [call for call in source.calls(trace, "spin") if ast.unparse(call.func) == "rclpy.spin"]
     made = source.assigned(trace, "MultiThreadedExecutor")
     place = f"in place of line {spins[0].lineno}, {ast.unparse(spins[0])}" if spins else "in main()"
@@ -283,9 +289,9 @@ def use_threads(trace: Trace) -> str:
 
 
 def use_reentrant_group(trace: Trace) -> str:
-    """How everything comes into one reentrant group, as far as it is not in one."""
+    """How to put everything into one reentrant callback group, as far as the source does not do so yet."""
     exclusive = source.calls(trace, "MutuallyExclusiveCallbackGroup")
-    made = source.calls(trace, *_MADE)
+    made = source.calls(trace, *WITH_CALLBACK_GROUP)
     without = [call.lineno for call in made if not any(each.arg == "callback_group" for each in call.keywords)]
     steps = []
     if exclusive:

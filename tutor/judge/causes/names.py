@@ -1,6 +1,6 @@
-"""The names of the causes that the contract lists: learners look them up and tell others, so they never change.
+"""The names of the causes listed in the contract: learners look them up and share them, so they never change.
 
-Each is proved by a submission; `tests/judge/test_names.py` holds them together.
+A submission in the tests proves each one; `tests/judge/test_names.py` keeps the list and the submissions consistent.
 """
 
 from __future__ import annotations
@@ -48,4 +48,4 @@ MEANINGS: Mapping[str, str] = {
     SIGINT_IGNORED: "Ctrl+C does not end the program",
     SAME_NAME: "two nodes under one name, both at work",
 }
-"""Each name, and what it stands for."""
+"""The meaning of each name."""

@@ -1,4 +1,4 @@
-"""Causes in what was printed where a log message was asked for."""
+"""Causes for output that is printed where a log message is required."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from tutor.judge.rewriting.node import started_node
 from tutor.judge.trace import OutputLine, Trace
 from tutor.judge.verdict import Cause
 
-_LOGGED = re.compile(r"^(?:\x1b\[\d+m)?\[(?:DEBUG|INFO|WARN|ERROR|FATAL)\] \[\d+\.\d+\] \[(?P<logger>[^\]]*)\]")
-"""How the line begins that rclpy writes for a log message, beside sending it to /rosout."""
+_LOG_LINE = re.compile(r"^(?:\x1b\[\d+m)?\[(?:DEBUG|INFO|WARN|ERROR|FATAL)\] \[\d+\.\d+\] \[(?P<logger>[^\]]*)\]")
+"""Start of the line that rclpy writes to the terminal for a log message, in addition to sending it to /rosout."""
 
-_ROS_COMPLAINS = re.compile(
+_ROS_LIBRARY_OUTPUT = re.compile(
     r"^Failed to publish log message to rosout|^>>> \[rcutils|^This error state is being overwritten"
     r"|^with this new error message|^rcutils_reset_error|^Exception ignored in|, at \S+\.(?:c|cpp|hpp):\d+$"
 )
-"""What the C and C++ libraries of ROS write by themselves, mostly when something is used after the shutdown."""
+"""Messages of the ROS C and C++ libraries themselves, mostly when something is used after the shutdown."""
 
 _ROS_LOGGER = re.compile(r"^(?:rcl|rclcpp|rmw_\w+)(?:\.|$)")
 
@@ -27,25 +27,26 @@ _ROS_LOGGER = re.compile(r"^(?:rcl|rclcpp|rmw_\w+)(?:\.|$)")
 def diagnose_printed(
     trace: Trace, says: Callable[[str], object], what: str, *, after: Iterable[OutputLine] = ()
 ) -> Cause | None:
-    """Whether something that should have been logged was only printed; `says` knows it by its text.
+    """Whether something that should have been logged was only printed; `says` recognises its text.
 
-    `what` it is, to be named in a sentence. `after`: what the process wrote later, when it was ended: what appears only
-    there was held back in a buffer until then.
+    `what`: a noun phrase for it, to be used in a sentence. `after`: the output after the process was told to end;
+    whatever appears only there was held back in a buffer until then.
     """
-    printed = [text for text in _prints(trace.output) if says(text)]
+    printed = [text for text in _printed_lines(trace.output) if says(text)]
     if printed:
-        if (call := printing.python_logging(trace, printed[0])) is not None:
+        if (call := printing.find_python_logging(trace, printed[0])) is not None:
             return _diagnose_python_logging(trace, call, what)
-        wrote = printing.find_print(trace, printed[0])
-        at = f" in line {wrote.lineno}" if wrote else ""
-        reaches = "log messages reach /rosout, where others can read them, and no buffering holds them back"
-        return Cause(
-            "printed, not logged",
-            f"{what} is written with print(){at}: {printed[0]}",
-            printing.log_instead_of_print(trace, wrote) if wrote else f"use self.get_logger().info(...): {reaches}",
+        print_call = printing.find_print(trace, printed[0])
+        at = f" in line {print_call.lineno}" if print_call else ""
+        step = (
+            printing.log_instead_of_print(trace, print_call)
+            if print_call
+            else "use self.get_logger().info(...): log messages reach /rosout, where others can read them, and no "
+            "buffering holds them back"
         )
+        return Cause("printed, not logged", f"{what} is written with print(){at}: {printed[0]}", step)
     seen = {log.text for log in trace.logs}
-    matches = [found for line in trace.output if (found := _LOGGED.match(line.text)) and says(line.text)]
+    matches = [found for line in trace.output if (found := _LOG_LINE.match(line.text)) and says(line.text)]
     logged = [found for found in matches if not _ROS_LOGGER.match(found["logger"])]
     if logged and not any(found.string.endswith(each) for found in logged for each in seen):
         own = {node.strip("/").replace("/", ".") for node in trace.graph.nodes}
@@ -61,16 +62,16 @@ def diagnose_printed(
             f"{what} is logged by a logger that belongs to no node, so it does not reach /rosout: {logged[0].string}",
             "use self.get_logger(): rclpy.logging.get_logger(...) writes to the terminal only",
         )
-    late = [text for text in _prints(tuple(after)) if says(text)]
+    late = [text for text in _printed_lines(tuple(after)) if says(text)]
     if late:
-        wrote = printing.find_print(trace, late[0])
-        step = printing.log_instead_of_print(trace, wrote) if wrote else "use self.get_logger().info(...)"
+        print_call = printing.find_print(trace, late[0])
+        step = printing.log_instead_of_print(trace, print_call) if print_call else "use self.get_logger().info(...)"
         return Cause(
             names.HELD_BACK,
             f"{what} is printed, not logged, and appears only when the program ends: {late[0]}",
             f"{step}: print() into a pipe or a file waits until its buffer is full, a log message goes out at once",
         )
-    unused = None if source.calls(trace, "get_logger") else printing.python_logging(trace)
+    unused = None if source.calls(trace, "get_logger") else printing.find_python_logging(trace)
     return _diagnose_python_logging(trace, unused, what) if unused is not None else None
 
 
@@ -83,11 +84,11 @@ def _diagnose_python_logging(trace: Trace, call: ast.Call, what: str) -> Cause:
     )
 
 
-def _prints(output: Sequence[OutputLine]) -> list[str]:
-    """What the learner's code printed: no log messages, no exceptions, and nothing that ROS itself complains of."""
+def _printed_lines(output: Sequence[OutputLine]) -> list[str]:
+    """The lines that the learner's code printed, without log messages, exceptions and messages of ROS itself."""
     raised = {each.raised for each in tracebacks.find_tracebacks(output)}
     return [
         text
         for text in tracebacks.lines_without_tracebacks(output)
-        if text not in raised and not _LOGGED.match(text) and not _ROS_COMPLAINS.search(text)
+        if text not in raised and not _LOG_LINE.match(text) and not _ROS_LIBRARY_OUTPUT.search(text)
     ]

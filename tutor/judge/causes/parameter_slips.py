@@ -1,6 +1,7 @@
-"""Slips around parameters that the learner's file shows by a line: the cause, with the edit of that line.
+"""Mistakes around parameters that show in one line of the learner's file: the cause, with the edit of that line.
 
-Everything here explains a failure that is certain; the source only chooses the words. None where it says nothing.
+Everything here explains a failure that is already certain; the source only shapes the wording. Each function returns
+None if the source does not explain the failure.
 """
 
 from __future__ import annotations
@@ -18,9 +19,9 @@ _OVERWRITTEN = "value overwritten by the node"
 
 
 def diagnose_override(file: NodeFile, name: str, *whole: list[Edit]) -> Cause | None:
-    """Whether the code itself gives the parameter, or what it has read of it, another value.
+    """Whether the code itself overwrites the parameter, or its copy of the parameter's value.
 
-    `whole`: what the program becomes where no smaller edit is right.
+    `whole`: edits of the whole program, for the case that no smaller edit is right.
     """
     return (
         _diagnose_own_set(file, name)
@@ -37,22 +38,22 @@ def _diagnose_parameter_overrides(file: NodeFile, name: str, *whole: list[Edit])
             continue
         kept = [each for each in call.keywords if each.arg != "parameter_overrides"]
         removed = [replace_node(file.text, call, ast.unparse(ast.Call(call.func, call.args, kept)))]
-        declared = name in {each.value for each in _texts(file.calls("declare_parameter", "declare_parameters"))}
+        declared = name in {each.value for each in _constants(file.calls("declare_parameter", "declare_parameters"))}
         step = file.step(*([removed] if declared else []), *whole)
-        text = f"line {call.lineno}: parameter_overrides wins over what is given at start-up"
+        text = f"line {call.lineno}: parameter_overrides takes precedence over the value given at start-up"
         return Cause(_OVERWRITTEN, text, step) if step else None
     return None
 
 
-def _texts(calls: Sequence[ast.Call]) -> Iterator[ast.Constant]:
+def _constants(calls: Sequence[ast.Call]) -> Iterator[ast.Constant]:
     for call in calls:
         yield from (each for each in ast.walk(call) if isinstance(each, ast.Constant))
 
 
 def diagnose_callback_order(file: NodeFile) -> Cause | None:
-    """Whether an on-set callback takes values over that another one refuses.
+    """Whether one on-set callback applies values that another one refuses.
 
-    rclpy calls them all until one refuses, the last one added first (`Node.add_on_set_parameters_callback`).
+    rclpy calls them in turn until one refuses, the last one added first (`Node.add_on_set_parameters_callback`).
     """
     calls = file.calls(parameters.ON_SET)
     functions = [file.function(argument(call, 0, "callback")) for call in calls]
@@ -67,8 +68,8 @@ def diagnose_callback_order(file: NodeFile) -> Cause | None:
     step = file.step(changes)
     first, then = (next(f for f, may in zip(functions, refusing, strict=True) if f and may is x) for x in (False, True))
     text = (
-        f"{first.name} takes the values over, though {then.name} refuses them: of several on-set callbacks, the one "
-        "added last is called first"
+        f"{first.name} applies the values, though {then.name} refuses them: of several on-set callbacks, the one added "
+        "last is called first"
     )
     return Cause("value taken over before it is checked", text, step) if step else None
 
@@ -88,7 +89,7 @@ def _diagnose_own_set(file: NodeFile, name: str) -> Cause | None:
         if name in code and step is not None:
             return Cause(
                 _OVERWRITTEN,
-                f"{where(call)} sets {name} itself, so that the value somebody gives it does not last",
+                f"{where(call)} sets {name} itself, so a value set from outside does not last",
                 step,
             )
     return None
@@ -98,14 +99,14 @@ def _diagnose_ignored_overrides(file: NodeFile, name: str) -> Cause | None:
     found: list[tuple[ast.expr, str]] = []
     first: ast.Call | None = None
     for call in file.calls("declare_parameter", "declare_parameters"):
-        taken = next((each for each in call.keywords if each.arg == "ignore_override"), None)
-        if taken is not None and ast.unparse(taken.value) == "True":
+        keyword = next((each for each in call.keywords if each.arg == "ignore_override"), None)
+        if keyword is not None and ast.unparse(keyword.value) == "True":
             first = first or call if name in ast.unparse(call) else first
-            found.append((taken.value, "False"))
+            found.append((keyword.value, "False"))
     step = file.step(replace_nodes(file.text, *found)) if first is not None else None
     if first is None or step is None:
         return None
-    text = f"{where(first)}: with ignore_override=True, the value given at start-up is not taken"
+    text = f"{where(first)}: with ignore_override=True, the value given at start-up is ignored"
     return Cause(_OVERWRITTEN, text, step)
 
 
@@ -121,15 +122,15 @@ def _diagnose_reassignment(file: NodeFile, name: str) -> Cause | None:
         )
         target = ast.unparse(node.targets[0])
         corrected = any(isinstance(each, ast.If) and target in ast.unparse(each.test) for each in file.ancestors(node))
-        if target == ast.unparse(_target(kept)) and later and not corrected:  # a bad value may well be replaced
+        if target == ast.unparse(_target(kept)) and later and not corrected:  # replacing a bad value is fine
             step = file.step([remove_statement(file.text, node)])
-            text = f"{where(node)} overwrites what line {kept.lineno} has read of {name}"
+            text = f"{where(node)} overwrites the value of {name} that line {kept.lineno} has read"
             return Cause(_OVERWRITTEN, text, step) if step else None
     return None
 
 
 def diagnose_uncalled_callback(file: NodeFile) -> Cause | None:
-    """Whether a parameter callback that the code has is never called, or not the one that is meant."""
+    """Whether an existing parameter callback is never called, or another function than the intended one is."""
     for call in file.calls(parameters.ON_SET, parameters.POST_SET):
         given = argument(call, 0, "callback")
         if isinstance(given, ast.Call) and file.function(given.func) is not None:
@@ -141,15 +142,15 @@ def diagnose_uncalled_callback(file: NodeFile) -> Cause | None:
         function = file.function_around(call)
         if function is not None and file.setup is not None and function not in file.reached(file.setup):
             step = file.step([*file.append_to_setup(ast.unparse(call))])
-            text = f"{where(call)} stands in {function.name}, which nothing calls when the node starts"
+            text = f"{where(call)} is in {function.name}, which nothing calls when the node starts"
             return Cause("callback not registered", text, step) if step else None
     if file.calls(parameters.ON_SET, parameters.POST_SET, parameters.PRE_SET):
         return None
-    meant = _meant(file)
-    step = file.step(parameters.register_on_set(file, meant)) if meant is not None else None
-    if meant is None or step is None:
+    unused = _find_unused_callback(file)
+    step = file.step(parameters.register_on_set(file, unused)) if unused is not None else None
+    if unused is None or step is None:
         return None
-    return Cause("callback not registered", f"there is {_named(meant)}, but nothing ever calls it", step)
+    return Cause("callback not registered", f"there is {_name_and_line(unused)}, but nothing ever calls it", step)
 
 
 def _diagnose_second_definition(file: NodeFile, given: ast.expr | None) -> Cause | None:
@@ -166,26 +167,26 @@ def _diagnose_second_definition(file: NodeFile, given: ast.expr | None) -> Cause
     return Cause("callback defined twice", text, step) if step else None
 
 
-def _meant(file: NodeFile) -> Function | None:
-    """A function that nothing calls, and that looks like a parameter callback."""
-    named = {each.attr for each in ast.walk(file.tree) if isinstance(each, ast.Attribute)}
-    named |= {each.id for each in ast.walk(file.tree) if isinstance(each, ast.Name)}
+def _find_unused_callback(file: NodeFile) -> Function | None:
+    """A function that looks like a parameter callback, but is never used."""
+    used = {each.attr for each in ast.walk(file.tree) if isinstance(each, ast.Attribute)}
+    used |= {each.id for each in ast.walk(file.tree) if isinstance(each, ast.Name)}
     return next(
-        (each for each in file.functions if each.name not in named and "SetParametersResult" in ast.unparse(each)),
+        (each for each in file.functions if each.name not in used and "SetParametersResult" in ast.unparse(each)),
         None,
     )
 
 
 def diagnose_old_value_read(file: NodeFile, name: str) -> Cause | None:
-    """Whether an on-set callback reads the parameter from the node, where it has its old value still.
+    """Whether an on-set callback reads the parameter from the node, which still has the old value then.
 
-    The step is for a callback that goes through the list; where it does not, it has to be rewritten.
+    The hint is for a callback that loops over the list of parameters; for any other, it is empty.
     """
     checker = parameters.registered_callback(file, parameters.ON_SET)
     if checker is None:
         return None
-    timed = [file.function(argument(each, 1, "callback")) for each in file.timers]
-    inside = [each for each in file.reached(checker) if each not in timed]
+    timer_callbacks = [file.function(argument(each, 1, "callback")) for each in file.timers]
+    inside = [each for each in file.reached(checker) if each not in timer_callbacks]
     reads = [each for each in parameters.readings(file, name) if file.function_around(each) in inside]
     if not reads:
         return None
@@ -201,19 +202,19 @@ def diagnose_old_value_read(file: NodeFile, name: str) -> Cause | None:
 
 
 def why_accepted(file: NodeFile, bad: float) -> str:
-    """Why a bad number is not refused, as far as the parameter callbacks tell."""
+    """Why a bad number is not refused, judging by the parameter callbacks."""
     checker = parameters.registered_callback(file, parameters.ON_SET)
     if checker is None:
         later = parameters.registered_callback(file, parameters.POST_SET)
         if later is not None:
-            return f"{_named(later)} is called when the value is set already: it cannot reject any"
+            return f"{_name_and_line(later)} is called when the value is already set: it cannot reject any"
         return "nothing can reject a value: no on-set-parameters callback is registered"
     code = "".join(map(ast.unparse, file.reached(checker)))
     if "successful=False" not in code and "successful = False" not in code:
-        return f"{_named(checker)} never says no: nothing rejects {bad}"
+        return f"{_name_and_line(checker)} never says no: nothing rejects {bad}"
     return (
-        f"{_named(checker)} can say no, but does not for {bad}: it has to look at the new value, the one in its "
-        "argument, and at every number that is 0 or less"
+        f"{_name_and_line(checker)} can say no, but does not for {bad}: it has to look at the new value, the one in "
+        "its argument, and at every number that is 0 or less"
     )
 
 
@@ -226,5 +227,5 @@ def _in_init(file: NodeFile, node: ast.AST) -> bool:
     return function is None or function is file.setup
 
 
-def _named(function: Function) -> str:
+def _name_and_line(function: Function) -> str:
     return f"{function.name} (line {function.lineno})"

@@ -1,4 +1,4 @@
-"""Causes around parameters and what a node does with them."""
+"""Causes around parameters and how a node uses them."""
 
 from __future__ import annotations
 
@@ -16,9 +16,10 @@ RCLPY_REASON = re.compile(
     r"|parameter list cannot be empty, this might be due to pre_set_parameters_callback"
     r"|Invalid access to undeclared parameter\(s\): "
 )
-"""How reasons begin that rclpy gives by itself, whole sentences: a learner may say "it cannot be set to 0", too.
+"""Reasons that rclpy itself gives for rejecting a value, in contrast to a learner's own.
 
-They are not the learner's. (That a value is outside a declared range is.)
+The patterns are nearly whole sentences, since a learner's reason may well read "it cannot be set to 0". A value outside
+a declared range is not among them: the learner declared that range.
 """
 
 _TYPES = re.compile(r"(?:of type|got) '(?:Type\.)?(?P<given>\w+)'|expect(?:ing type|ed) '(?:Type\.)?(?P<wanted>\w+)'")
@@ -32,9 +33,9 @@ _DEFAULTS = {
 _RANGE = re.compile(r"out of range Min: (?P<low>[-\d.e+]+), Max: (?P<high>[-\d.e+]+)|not close enough to a valid step")
 
 
-def diagnose_types(said: str) -> Cause:
-    """A value of one type was given to a parameter of another; `said` is rclpy's message, which names both."""
-    found = list(_TYPES.finditer(said))
+def diagnose_types(message: str) -> Cause:
+    """A value of one type was given to a parameter of another; `message` is rclpy's, which names both types."""
+    found = list(_TYPES.finditer(message))
     given = next((m["given"] for m in found if m["given"]), "")
     wanted = next((m["wanted"] for m in found if m["wanted"]), "")
     if {given, wanted} == {"INTEGER", "DOUBLE"}:
@@ -43,15 +44,15 @@ def diagnose_types(said: str) -> Cause:
             if wanted == "INTEGER"
             else "the parameter is a double: give it a decimal number, such as 5.0, not 5"
         )
-        return Cause(names.INTEGER_PARAMETER, said, hint)
+        return Cause(names.INTEGER_PARAMETER, message, hint)
     default = _DEFAULTS.get(given, "a value of the type that is given")
     return Cause(
-        "wrong parameter type", said, f"the type of the default is the type of the parameter: declare {default}"
+        "wrong parameter type", message, f"the type of the default is the type of the parameter: declare {default}"
     )
 
 
 def diagnose_refusal(reason: str, step: str) -> Cause:
-    """Why a node does not take a good value, from the `reason` that it gives; `step` lets it take the value."""
+    """Why a node rejects a good value, judging by its `reason`; `step` makes it accept the value."""
     if "invalid type" in reason:
         text = "the parameter callback does not return a SetParametersResult"
         return Cause(names.CALLBACK_RETURNS_NONE, text, step)
@@ -70,7 +71,7 @@ def diagnose_refusal(reason: str, step: str) -> Cause:
 
 
 def diagnose_bursts(step: str) -> Cause:
-    """Several messages at once: of a loop in one callback, or of two timers that run together."""
+    """Several messages are sent at once, by a loop in one callback or by two timers that fire together."""
     return Cause(
         "messages in bursts",
         "several messages are sent at once, then none for a while: that is not a rate",
@@ -79,18 +80,18 @@ def diagnose_bursts(step: str) -> Cause:
 
 
 def diagnose_rate_as_period(name: str, step: str) -> Cause:
-    """The rate's number is taken for seconds."""
+    """A rate in Hz is used as a period in seconds."""
     return Cause(names.RATE_AS_PERIOD, f"{name} is given in Hz, but the timer waits that many seconds", step)
 
 
 def diagnose_period_as_rate(name: str, step: str) -> Cause:
-    """The period's number is taken for Hz."""
+    """A period in seconds is used as a rate in Hz."""
     text = f"{name} is given as a period, but the node publishes that many times a second"
     return Cause("period used as a rate", text, step)
 
 
 def diagnose_old_timer(hz: float, asked_hz: float, step: str) -> Cause:
-    """There is a new timer, and the old one as well."""
+    """A new timer was created, but the old one still runs."""
     return Cause(
         names.OLD_TIMER_KEPT,
         f"{hz:.1f} Hz is more than {asked_hz:g} Hz: an older timer publishes too, since nothing cancelled it",

@@ -1,4 +1,4 @@
-"""Slips in a timer's period that the learner's file shows by a line: the cause, with the edit of that line."""
+"""Mistakes in a timer's period that show in one line of the learner's file: the cause, with the edit of that line."""
 
 from __future__ import annotations
 
@@ -12,24 +12,24 @@ from tutor.judge.verdict import Cause
 
 
 def diagnose_integer_period(file: NodeFile) -> Cause | None:
-    """Whether a timer's period is made a whole number: by //, int() or round()."""
-    found = [(spot, right) for spot in _spots(file) if (right := _with_decimals(spot)) is not None]
-    step = file.step([replace_node(file.text, spot, right) for spot, right in found])
+    """Whether a timer's period is turned into a whole number, by //, int() or round()."""
+    found = [(period, fixed) for period in _periods(file) if (fixed := _with_decimals(period)) is not None]
+    step = file.step([replace_node(file.text, period, fixed) for period, fixed in found])
     if not found or step is None:
         return None
-    spot = found[0][0]
-    text = f"line {spot.lineno}: {ast.unparse(spot)} has no decimals: 1 // 5 is 0, and int(1 / 0.7) is 1"
+    first = found[0][0]
+    text = f"line {first.lineno}: {ast.unparse(first)} has no decimals: 1 // 5 is 0, and int(1 / 0.7) is 1"
     return Cause("period made a whole number", text, step)
 
 
 def diagnose_period_unit(file: NodeFile) -> Cause | None:
-    """Whether a period is not 1 divided by a rate, but another number."""
-    for spot in _spots(file):
-        match spot:
+    """Whether a period divides a number other than 1 by the rate, such as 1000 / hz."""
+    for period in _periods(file):
+        match period:
             case ast.BinOp(left=ast.Constant(value=int() | float() as number) as top, op=ast.Div()) if number != 1:
                 step = file.step([replace_node(file.text, top, "1.0")])
                 text = (
-                    f"line {spot.lineno}: the period {ast.unparse(spot)} is not the one of this rate: create_timer "
+                    f"line {period.lineno}: the period {ast.unparse(period)} is not the one of this rate: create_timer "
                     "takes seconds"
                 )
                 return Cause("wrong timer period", text, step) if step else None
@@ -37,14 +37,14 @@ def diagnose_period_unit(file: NodeFile) -> Cause | None:
 
 
 def diagnose_sleep(file: NodeFile, asked_hz: float) -> Cause | None:
-    """Whether the timer's callback, or what it calls, sleeps: the timer can be no faster than that.
+    """Whether the timer's callback, or a function that it calls, sleeps, which limits the rate of the timer.
 
-    A nap of less than a tenth of the period, at `asked_hz`, hardly counts.
+    A sleep of less than a tenth of the period, at `asked_hz`, is negligible.
     """
     called = file.reached(file.tick) if file.tick is not None else []
     for call in file.calls("sleep"):
         match call.args:
-            case [ast.Constant(value=int() | float() as nap_s)] if nap_s < 0.1 / asked_hz:
+            case [ast.Constant(value=int() | float() as sleep_s)] if sleep_s < 0.1 / asked_hz:
                 continue
         if file.function_around(call) in called:
             step = file.step([remove_statement(file.text, file.statement(call))])
@@ -54,6 +54,7 @@ def diagnose_sleep(file: NodeFile, asked_hz: float) -> Cause | None:
 
 
 def _with_decimals(period: ast.expr) -> str | None:
+    """The code of a period that keeps its decimals; None if it does so already."""
     match period:
         case ast.BinOp(left=left, op=ast.FloorDiv(), right=right):
             return ast.unparse(ast.BinOp(left, ast.Div(), right))
@@ -62,10 +63,10 @@ def _with_decimals(period: ast.expr) -> str | None:
     return None
 
 
-def _spots(file: NodeFile) -> Iterator[ast.expr]:
-    """Where the timers' periods are worked out."""
+def _periods(file: NodeFile) -> Iterator[ast.expr]:
+    """The expressions that compute the timers' periods: the arguments themselves, and all values assigned to them."""
     for call in file.timers:
-        given = argument(call, 0, "timer_period_sec")
-        if given is not None:
-            yield given
-            yield from values_of(ast.unparse(given), file.tree)
+        period = argument(call, 0, "timer_period_sec")
+        if period is not None:
+            yield period
+            yield from values_of(ast.unparse(period), file.tree)

@@ -1,4 +1,4 @@
-"""Causes that lie with the process and its nodes as such, whatever the exercise asks of them."""
+"""Causes that concern the process and its nodes as such, in any exercise."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ from tutor.judge.tracebacks import Frame, Traceback
 from tutor.judge.verdict import Cause
 
 QUICK_S = 3.0
-"""A process that ends by itself within this many seconds of its start ended "at once"."""
+"""A process that ends by itself within this many seconds of its start has ended "at once"."""
 
-_TORN_THREAD = ("terminate called without an active exception", "FATAL: exception not rethrown")
-"""What C++ and glibc write where Python, at its end, stops a thread that is inside rclpy."""
+_TORN_THREAD_MESSAGES = ("terminate called without an active exception", "FATAL: exception not rethrown")
+"""Messages of C++ and glibc when Python, at interpreter exit, stops a thread that is inside rclpy."""
 
 
 def diagnose_process(trace: Trace) -> Cause | None:
-    """Why the process as such did not do its work: it could not start, broke, ended, or never made a node."""
+    """Why the process as such failed: it could not start, crashed, ended, or never created a node."""
     found = tracebacks.last_traceback(trace)
     if found is not None:
         return diagnose_traceback(found, trace)
@@ -54,14 +54,14 @@ def _diagnose_exit(trace: Trace) -> Cause:
     if (torn := diagnose_torn_thread(trace.exit, trace.output)) is not None:
         return torn
     if trace.exit.signal == signal.SIGKILL:
-        who = "it happens on each start: look for what sends SIGKILL, os.kill in your code or a tool on this machine"
-        return Cause("killed", f"{ended} (SIGKILL)", who)
+        step = "it happens on each start: look for what sends SIGKILL, os.kill in your code or a tool on this machine"
+        return Cause("killed", f"{ended} (SIGKILL)", step)
     if trace.exit.signal is not None:
         return Cause("killed", f"{ended} ({_signal_name(trace.exit.signal)})", "see the last lines of its output")
-    if (refused := _diagnose_usage(trace)) is not None:
-        return refused
-    if trace.exit.code == 0 and (unspun := spinning.diagnose_early_end(trace, ended)) is not None:
-        return unspun
+    if (usage_error := _diagnose_usage(trace)) is not None:
+        return usage_error
+    if trace.exit.code == 0 and (early_end := spinning.diagnose_early_end(trace, ended)) is not None:
+        return early_end
     if trace.exit.code == 0 and trace.exit.after_s <= QUICK_S + 0.5:
         return Cause(
             names.EXIT_AT_ONCE,
@@ -77,30 +77,29 @@ def _diagnose_exit(trace: Trace) -> Cause:
 
 
 def _diagnose_usage(trace: Trace) -> Cause | None:
-    """Whether the program refused its command line, as argparse and others do: with a message, and exit code 2."""
-    said = [line.text for line in trace.output if line.stream == "stderr" and " error: " in line.text]
+    """Whether the program rejected its command line as argparse does: with a message and exit code 2."""
+    errors = [line.text for line in trace.output if line.stream == "stderr" and " error: " in line.text]
     assert trace.exit is not None
-    return (
-        diagnose_known_exception(Traceback("SystemExit", said[-1], ()), trace)
-        if trace.exit.code == 2 and said
-        else None
-    )
+    if trace.exit.code != 2 or not errors:
+        return None
+    return diagnose_known_exception(Traceback("SystemExit", errors[-1], ()), trace)
 
 
-def diagnose_torn_thread(ended: Exit, output: Sequence[OutputLine]) -> Cause | None:
-    """Whether the program aborted because it came to its end while a daemon thread of its own was inside rclpy."""
-    if ended.signal != signal.SIGABRT or not any(words in line.text for line in output for words in _TORN_THREAD):
+def diagnose_torn_thread(process_exit: Exit, output: Sequence[OutputLine]) -> Cause | None:
+    """Whether the program aborted because it ended while one of its daemon threads was inside rclpy."""
+    torn = any(message in line.text for line in output for message in _TORN_THREAD_MESSAGES)
+    if process_exit.signal != signal.SIGABRT or not torn:
         return None
     return Cause(
         "thread still running",
-        f"the process ended after {ended.after_s:.1f} s with {ended}: the program came to its end while a thread of "
-        "its own was still spinning, which aborts it",
+        f"the process ended after {process_exit.after_s:.1f} s with {process_exit}: the program ended while one of its "
+        "threads was still spinning, which aborts it",
         "end that thread first: call rclpy.shutdown() or executor.shutdown(), then thread.join(), also for a daemon",
     )
 
 
 def describe_no_answer(trace: Trace, waited_s: float) -> str:
-    """That a request got no answer in this time, or since the process had ended before."""
+    """Say that a request got no answer within this time, or because the process had already ended."""
     if trace.exit is None:
         return f"no answer in {waited_s:.2g} s"
     return f"no answer: the process ended by itself, {trace.exit.after_s:.1f} s after its start, with {trace.exit}"
@@ -119,7 +118,7 @@ def diagnose_no_spin(trace: Trace) -> Cause:
 def diagnose_no_answer(trace: Trace, stuck: Sequence[Frame], *, spins: bool = False) -> Cause:
     """Why a node that is up answers no request (any more).
 
-    `stuck`: where its threads were meanwhile, innermost frame first (`Run.dump_stacks`). `spins`: it has answered
+    `stuck`: a stack dump of its threads, innermost frame first (`Run.dump_stacks`). `spins`: it has answered a request
     before.
     """
     broken = diagnose_process(trace)
@@ -133,36 +132,37 @@ def diagnose_no_answer(trace: Trace, stuck: Sequence[Frame], *, spins: bool = Fa
 
 
 def diagnose_same_name(trace: Trace) -> Cause | None:
-    """Two nodes under one name: both publish, and anyone who asks one of them cannot tell which answers."""
+    """Two nodes have the same name: both publish, and a client cannot tell which one answers its requests."""
     nodes = trace.graph.nodes
     twice = sorted({node for node in nodes if nodes.count(node) > 1})
     if not twice:
         return None
     return Cause(
         names.SAME_NAME,
-        f"there are {nodes.count(twice[0])} nodes called {twice[0]}, and all of them are at work",
-        _one_only(trace) or "make one node only; is the class instantiated twice, or the program started twice?",
+        f"there are {nodes.count(twice[0])} nodes called {twice[0]}, and all of them are active",
+        _remove_second_node(trace)
+        or "make one node only; is the class instantiated twice, or the program started twice?",
     )
 
 
-def _one_only(trace: Trace) -> str | None:
-    """The step where a second node is made of the same class: that line goes, and those that use the node."""
+def _remove_second_node(trace: Trace) -> str | None:
+    """The step that removes further instances of a node class, and the lines that use them; None if there are none."""
     file = started_node(trace)
     made = file.calls(*file.node_classes)
     extra = [each for at, each in enumerate(made) if called_name(each) in map(called_name, made[:at])]
-    names_of = {kept for each in extra if (kept := file.assigned_to(each))}
-    used = [each for each in ast.walk(file.tree) if isinstance(each, ast.Name) and each.id in names_of]
-    statements = {file.statement(each) for each in (*extra, *used)}
+    extra_names = {name for each in extra if (name := file.assigned_to(each))}
+    uses = [each for each in ast.walk(file.tree) if isinstance(each, ast.Name) and each.id in extra_names]
+    statements = {file.statement(each) for each in (*extra, *uses)}
     return file.step([remove_statement(file.text, each) for each in statements])
 
 
 def output_tail(trace: Trace, most: int = 6) -> tuple[str, ...]:
-    """The last lines that the process wrote, as evidence."""
+    """The last non-empty lines that the process wrote, as evidence."""
     return tuple(line.text for line in trace.output if line.text.strip())[-most:]
 
 
 def node_names(trace: Trace) -> str:
-    """The nodes, to be named in a sentence."""
+    """The nodes' names, for use in a sentence."""
     return "the node " + ", ".join(trace.graph.nodes) if trace.graph.nodes else "the node"
 
 

@@ -1,4 +1,4 @@
-"""Slips of plain Python that behave wrongly without an exception, found by the learner's source, with the step."""
+"""Plain Python mistakes that raise no exception, found in the learner's source, with the step that fixes them."""
 
 from __future__ import annotations
 
@@ -7,36 +7,34 @@ import ast
 from tutor.judge import edits, source
 from tutor.judge.trace import Trace
 
-_TRUTHS = {"true": True, "1": True, "on": True, "false": False, "0": False, "off": False}
+_TRUTH_VALUES = {"true": True, "1": True, "on": True, "false": False, "0": False, "off": False}
 
 
 def boolean_compared_with_text(trace: Trace) -> str | None:
-    """The step where a parameter's value, which is True or False, is compared with a text such as 'true'."""
-    for node in source.syntax_nodes(trace.sources.get(trace.file, "")):
+    """The step for a parameter value (True or False) that is compared with a text such as 'true'; None if none is."""
+    text = trace.sources.get(trace.file, "")
+    for node in source.syntax_nodes(text):
         match node:
-            case ast.Compare(left=left, ops=[ast.Eq() | ast.NotEq() as how], comparators=[right]):
+            case ast.Compare(left=left, ops=[ast.Eq() | ast.NotEq() as operator], comparators=[right]):
                 pass
             case _:
                 continue
-        of, said = (left, right) if isinstance(right, ast.Constant) else (right, left)
-        if not (isinstance(said, ast.Constant) and isinstance(said.value, str)):
+        compared, literal = (left, right) if isinstance(right, ast.Constant) else (right, left)
+        if not (isinstance(literal, ast.Constant) and isinstance(literal.value, str)):
             continue
-        truth, value = _TRUTHS.get(said.value.lower()), _value(of)
+        truth, value = _TRUTH_VALUES.get(literal.value.lower()), _parameter_value(compared)
         if truth is None or value is None:
             continue
-        text = trace.sources.get(trace.file, "")
-        right_way = truth is isinstance(how, ast.Eq)
-        return edits.describe_edits(
-            text, edits.replace_node(text, node, f"{'' if right_way else 'not '}{ast.unparse(value)}")
-        )
+        negation = "" if truth is isinstance(operator, ast.Eq) else "not "
+        return edits.describe_edits(text, edits.replace_node(text, node, f"{negation}{ast.unparse(value)}"))
     return None
 
 
-def _value(expression: ast.expr) -> ast.expr | None:
-    """The `x.value` in `x.value` or `str(x.value)`; `str(x.value).lower()` goes well."""
+def _parameter_value(expression: ast.expr) -> ast.expr | None:
+    """The `x.value` in `x.value` or `str(x.value)`. `str(x.value).lower()` is not matched: comparing it is correct."""
     match expression:
         case ast.Call(func=ast.Name(id="str"), args=[inner]):
-            return _value(inner)
+            return _parameter_value(inner)
         case ast.Attribute(attr="value" | "bool_value"):
             return expression
     return None

@@ -1,4 +1,4 @@
-"""Causes between a publisher and a subscription: the name, the type, the QoS, or nobody at work."""
+"""Causes between a publisher and a subscription: the name, the type, the QoS, or an inactive node."""
 
 from __future__ import annotations
 
@@ -26,17 +26,17 @@ from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Cause
 from tutor.ros_model import ServiceEndpoint, TopicEndpoint, incompatible_policies
 
-_ASLEEP = "lifecycle node not activated"
+_NOT_ACTIVATED = "lifecycle node not activated"
 _PUBLISH = "publish from a timer's callback, and keep the timer in self"
 
 
 def diagnose_no_messages(
     trace: Trace, topic: str, type_name: str, *, answers: bool, stuck: Sequence[Frame] = (), step: str = ""
 ) -> Cause:
-    """Why nothing of `type_name` came on `topic`.
+    """Why no message of `type_name` arrived on `topic`.
 
-    `answers`: whether a node of the learner's answered a request; if not, `stuck` says where it was meanwhile. `step`:
-    how publisher, timer and callback are made right as a whole, where the check knows.
+    `answers`: one of the learner's nodes answered a request; if none did, `stuck` is a stack dump. `step`: how to fix
+    publisher, timer and callback as a whole, if the check knows.
     """
     if (cause := diagnose_process(trace) or diagnose_lifecycle(trace)) is not None:
         return cause
@@ -57,14 +57,14 @@ def diagnose_no_messages(
 
 
 def _diagnose_idle_publisher(trace: Trace, topic: str, step: str) -> Cause:
-    """Why a publisher that is there never sends anything."""
+    """Why an existing publisher never sends anything."""
     return diagnose_unused_publisher(trace, topic, step) or Cause(
         "no messages", f"there is a publisher on {topic}, but it sent nothing", step or _PUBLISH
     )
 
 
 def diagnose_unused_publisher(trace: Trace, topic: str, step: str = "") -> Cause | None:
-    """Whether the source shows why a publisher that is there never sends anything: nothing calls it, or too rarely."""
+    """Whether the source shows why an existing publisher never sends anything: nothing calls it, or too rarely."""
     file = started_node(trace)
     if (slip := period_slips.diagnose_period_unit(file)) is not None:
         return slip
@@ -80,7 +80,7 @@ def diagnose_unused_publisher(trace: Trace, topic: str, step: str = "") -> Cause
 def diagnose_nothing_received(
     trace: Trace, ours: TopicEndpoint, *, answers: bool, stuck: Sequence[Frame] = ()
 ) -> Cause:
-    """Why a node of the learner's took in nothing of what `ours`, a publisher, sent; see `diagnose_no_messages`."""
+    """Why the learner's node received nothing from our publisher `ours`; see `diagnose_no_messages` for the rest."""
     if (cause := diagnose_process(trace) or diagnose_lifecycle(trace)) is not None:
         return cause
     subscriptions = trace.graph.subscriptions
@@ -93,7 +93,7 @@ def diagnose_nothing_received(
             return diagnose_no_answer(trace, stuck)
         return Cause(
             "callback does nothing",
-            f"there is a subscription on {ours.topic}, but nothing follows from its messages",
+            f"there is a subscription on {ours.topic}, but its messages have no effect",
             "is the right callback given to create_subscription, and the subscription kept in self?",
         )
     return _diagnose_misplaced(trace, subscriptions, ours.topic, ours.type, "create_subscription") or Cause(
@@ -104,7 +104,7 @@ def diagnose_nothing_received(
 
 
 def diagnose_incompatible_qos(publisher: TopicEndpoint, subscription: TopicEndpoint) -> Cause | None:
-    """Whether the subscription asks for more than the publisher offers: then they are not matched at all."""
+    """Whether the subscription requests more than the publisher offers, so that the two are not matched."""
     mismatch = next(incompatible_policies(publisher.qos, subscription.qos), None)
     if mismatch is None:
         return None
@@ -112,13 +112,13 @@ def diagnose_incompatible_qos(publisher: TopicEndpoint, subscription: TopicEndpo
 
 
 def diagnose_incompatible_service(services: Iterable[ServiceEndpoint]) -> Cause | None:
-    """Whether one of the learner's service servers or clients sends best effort, where the other side is reliable."""
+    """Whether one of the learner's service servers or clients is best effort, while the other side is reliable."""
     for service in services:
         if service.reliability == "best_effort":
             return Cause(
                 names.INCOMPATIBLE_QOS,
-                f"{service.name} was made with reliability best_effort, the other side asks for reliable: they are not "
-                "connected",
+                f"{service.name} was made with reliability best_effort, but the other side requires reliable: they are "
+                "not connected",
                 "leave qos_profile out: the default of services is right",
             )
     return None
@@ -127,30 +127,31 @@ def diagnose_incompatible_service(services: Iterable[ServiceEndpoint]) -> Cause 
 def diagnose_wrong_topic(
     endpoints: Iterable[TopicEndpoint], topic: str, create: str = "create_publisher", file: NodeFile | None = None
 ) -> Cause:
-    """The endpoint is there, under another name; what kind of slip it is follows from the name."""
+    """The endpoint exists under another name, from which the kind of mistake follows."""
     file = file or node_file("")
     found = sorted({endpoint.topic for endpoint in endpoints})
     name = min(found, key=lambda each: -difflib.SequenceMatcher(None, each, topic).ratio())
     verb = "go to" if create == "create_publisher" else "are taken from"
     return Cause(
         names.WRONG_TOPIC,
-        f"messages of this type {verb} {', '.join(found)}, not {verb.split()[-1]} {topic}: {_slip(name, topic)}",
-        _renamed(file, create, topic, name) or f"use exactly '{topic}' in {create}",
+        f"messages of this type {verb} {', '.join(found)}, not {verb.split()[-1]} {topic}: "
+        f"{_naming_mistake(name, topic)}",
+        _rename_topic(file, create, topic, name) or f"use exactly '{topic}' in {create}",
     )
 
 
-def _renamed(file: NodeFile, create: str, topic: str, name: str) -> str | None:
-    """The step with the line that makes the endpoint."""
+def _rename_topic(file: NodeFile, create: str, topic: str, name: str) -> str | None:
+    """The step that corrects the topic in the line that creates the endpoint."""
     last = name.rsplit("/", 1)[-1]
     made = file.calls(create, create.replace("create_", "create_lifecycle_"))
-    written = [given for each in made if (given := argument(each, 1, "topic")) is not None]
-    said = [each for each in written if isinstance(each, ast.Constant) and str(each.value).endswith(last)]
+    given = [topic_arg for each in made if (topic_arg := argument(each, 1, "topic")) is not None]
+    literal = [each for each in given if isinstance(each, ast.Constant) and str(each.value).endswith(last)]
     return next(
-        (step for each in said or written if (step := file.step([replace_node(file.text, each, repr(topic))]))), None
+        (step for each in literal or given if (step := file.step([replace_node(file.text, each, repr(topic))]))), None
     )
 
 
-def _slip(name: str, wanted: str) -> str:
+def _naming_mistake(name: str, wanted: str) -> str:
     if name.endswith(wanted):
         return (
             "it has a namespace or the node's name in front: a name that begins with ~ or has no / in front is relative"
@@ -160,37 +161,37 @@ def _slip(name: str, wanted: str) -> str:
     if wanted.endswith(name):
         return "the first part of the name is missing"
     if name.casefold() == wanted.casefold():
-        return "capital letters make another name"
+        return "upper and lower case make different names"
     return "the name is spelled differently"
 
 
 def diagnose_lifecycle(trace: Trace) -> Cause | None:
-    """Whether there is a lifecycle node that nobody has activated."""
-    asleep = [each.node for each in trace.graph.servers if each.type == "lifecycle_msgs/srv/ChangeState"]
-    if not asleep:
+    """Whether there is a lifecycle node that nothing has activated."""
+    lifecycle_nodes = [each.node for each in trace.graph.servers if each.type == "lifecycle_msgs/srv/ChangeState"]
+    if not lifecycle_nodes:
         return None
     file = started_node(trace)
     own = next((each for each in file.functions if each.name == "on_activate"), None)
-    bare = own is not None and not any(
+    lacks_super = own is not None and not any(
         isinstance(each, ast.Call) and called_name(each) == "on_activate" for each in ast.walk(own)
     )
-    activating = _activating(own) if bare and own is not None else []
+    call_super = _call_super(own) if lacks_super and own is not None else []
     if file.calls("trigger_activate"):
-        if not bare:
+        if not lacks_super:
             return None
-        step = file.step(activating) or "end on_activate with: return super().on_activate(state)"
-        return Cause(_ASLEEP, f"{asleep[0]} keeps its publishers switched off", step)
+        step = file.step(call_super) or "end on_activate with: return super().on_activate(state)"
+        return Cause(_NOT_ACTIVATED, f"{lifecycle_nodes[0]} keeps its publishers switched off", step)
     return Cause(
-        _ASLEEP,
-        f"{asleep[0]} is a lifecycle node: it does its work only when it has been configured and activated, and nobody "
-        "does that here (an ordinary Node needs none of it)",
-        file.step([*_woken(file), *activating])
+        _NOT_ACTIVATED,
+        f"{lifecycle_nodes[0]} is a lifecycle node: it does its work only once it has been configured and activated, "
+        "and nothing does that here (an ordinary Node needs none of it)",
+        file.step([*_activate_in_program(file), *call_super])
         or "in main(), before node is spun: node.trigger_configure(), then node.trigger_activate()",
     )
 
 
-def _activating(on_activate: Function) -> list[Edit]:
-    """An `on_activate` that switches the node's publishers on at its end."""
+def _call_super(on_activate: Function) -> list[Edit]:
+    """Let `on_activate` return `super().on_activate()`, which enables the node's publishers."""
     code = f"return super().on_activate({on_activate.args.args[-1].arg})"
     last = on_activate.body[-1]
     if isinstance(last, ast.Return):
@@ -198,8 +199,8 @@ def _activating(on_activate: Function) -> list[Edit]:
     return [append_to_function(on_activate, code)]
 
 
-def _woken(file: NodeFile) -> list[Edit]:
-    """The lifecycle node is configured and activated as soon as it is made."""
+def _activate_in_program(file: NodeFile) -> list[Edit]:
+    """Configure and activate the lifecycle node as soon as it is created."""
     classes = [
         each.name
         for each in ast.walk(file.tree)
@@ -223,7 +224,7 @@ def _diagnose_misplaced(
         return Cause(
             names.WRONG_TYPE,
             f"{topic} has the type {here[0].type}, not {type_name}",
-            _everywhere(started_node(trace), _class(here[0].type), type_name)
+            _replace_type(started_node(trace), _class(here[0].type), type_name)
             or f"give {create} the type {_class(type_name)}: from {type_name.split('/')[0]}.msg import "
             f"{_class(type_name)}",
         )
@@ -233,8 +234,8 @@ def _diagnose_misplaced(
     return diagnose_wrong_topic(elsewhere, topic, create, started_node(trace)) if elsewhere else None
 
 
-def _everywhere(file: NodeFile, wrong: str, type_name: str) -> str | None:
-    """The step where another type is used throughout the file."""
+def _replace_type(file: NodeFile, wrong: str, type_name: str) -> str | None:
+    """The step that replaces a wrong message type throughout the file."""
     own, imported = file.own(_class(type_name), f"{type_name.split('/')[0]}.msg")
     used = [each for each in ast.walk(file.tree) if isinstance(each, ast.Name) and each.id == wrong]
     return file.step([*imported, *replace_nodes(file.text, *((each, own) for each in used))])

@@ -1,4 +1,4 @@
-"""Known exceptions, as data: what they mean in a node, and the step that fixes them. See CONTRIBUTING.md."""
+"""Known exceptions as data: what each one means in a node, and the step that fixes it. See CONTRIBUTING.md."""
 
 from tutor.judge.exceptions.matching import RaisedException, explain
 from tutor.judge.exceptions.table import load, load_shipped, parse

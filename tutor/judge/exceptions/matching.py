@@ -1,4 +1,4 @@
-"""Which known exception a traceback is, and what is said of it."""
+"""Match a traceback with the table of known exceptions, and explain it."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ from tutor.judge.source import Function, SourceFile
 from tutor.judge.tracebacks import Frame, Traceback, is_in_folder
 from tutor.judge.verdict import Cause
 
-_NEAR = 0.75
-"""Two names are near each other from this ratio of difflib's on."""
+_SIMILARITY = 0.75
+"""Minimum difflib ratio at which two names count as similar."""
 
 
 @dataclass(frozen=True, slots=True)
 class RaisedException:
-    """A traceback, the learner's own line in it, and the file that it is in, whose text serves the words only."""
+    """A traceback, the learner's own line in it, and the file with that line; its text only shapes the wording."""
 
     traceback: Traceback
     folder: str
@@ -33,9 +33,9 @@ class RaisedException:
 
 
 def explain(seen: RaisedException, table: Iterable[KnownException], *, cause: str, after: str = "") -> Cause | None:
-    """What the first entry that fits says of it; None where none does.
+    """The cause by the first entry that matches; None if none does.
 
-    `cause` is its name where the entry has none, `after` what the exception led to.
+    `cause`: the name of the cause, if the entry has none. `after`: words on what the exception led to.
     """
     for known in table:
         if (words := _words(known, seen)) is not None:
@@ -43,13 +43,13 @@ def explain(seen: RaisedException, table: Iterable[KnownException], *, cause: st
             if known.of_source:
                 own = f"{seen.file}, line {words['there']}: {words['there_code']}"
             raised = seen.traceback.raised + (f" ({own})" if own else "") + after
-            step = _edited(known, seen, words) or _fill_in(known.step, words)
+            step = _step_as_edits(known, seen, words) or _fill_in(known.step, words)
             return Cause(known.cause or cause, f"{raised}: {_fill_in(known.says, words)}", step)
     return None
 
 
 def _words(known: KnownException, seen: RaisedException) -> dict[str, str] | None:
-    """The words that the entry's texts ask for; None where it does not fit."""
+    """The values of the entry's placeholders; None if the entry does not match."""
     found, own = seen.traceback, seen.line
     kind = re.fullmatch(known.type, found.type.rsplit(".", 1)[-1])
     text = re.search(known.text, found.message)
@@ -62,8 +62,8 @@ def _words(known: KnownException, seen: RaisedException) -> dict[str, str] | Non
     if line is None:
         return None
     words |= _groups(line)
-    for step in (_words_of_way, _words_of_source, _words_of_table, _words_of_replacement):
-        more = step(known, seen, words)
+    for find_words in (_match_through, _match_source, _look_up, _replace):
+        more = find_words(known, seen, words)
         if more is None:
             return None
         words |= more
@@ -75,27 +75,27 @@ def _raised_at(pattern: str, found: Traceback) -> bool:
     return re.search(pattern, f"{last.path}, {last.function}" if last else "") is not None
 
 
-def _words_of_way(known: KnownException, seen: RaisedException, words: Mapping[str, str]) -> dict[str, str] | None:
-    """The first of the learner's lines, from the outermost on, that `through` is found in."""
+def _match_through(known: KnownException, seen: RaisedException, words: Mapping[str, str]) -> dict[str, str] | None:
+    """Match `through` with the learner's frames, outermost first."""
     if not known.through:
         return {}
     for frame in seen.traceback.frames:
         if is_in_folder(frame.path, seen.folder) and (
-            way := re.search(known.through, f"{frame.function}: {frame.code}")
+            found := re.search(known.through, f"{frame.function}: {frame.code}")
         ):
-            return {"via": str(frame.line), **_groups(way)}
+            return {"via": str(frame.line), **_groups(found)}
     return None
 
 
-def _words_of_source(known: KnownException, seen: RaisedException, words: Mapping[str, str]) -> dict[str, str] | None:
-    """The first place in the learner's file that `source` is found in."""
+def _match_source(known: KnownException, seen: RaisedException, words: Mapping[str, str]) -> dict[str, str] | None:
+    """Match `without` and `source` with the learner's file; the first match from the raising line on is preferred."""
     source = seen.source
     if known.without and re.search(_fill_in(known.without, words, escaped=True), source, re.MULTILINE):
         return None
     if not known.source:
         return {}
     pattern = re.compile(_fill_in(known.source, words, escaped=True), re.MULTILINE)
-    # A call goes on for lines: what is wrong in it stands on its first line, or below it.
+    # A call may span several lines: the mistake is on its first line or below.
     lines = source.splitlines(keepends=True)[: int(words.get("number", 1)) - 1] if known.of_source else []
     there = pattern.search(source, sum(map(len, lines))) or pattern.search(source)
     if there is None:
@@ -105,21 +105,19 @@ def _words_of_source(known: KnownException, seen: RaisedException, words: Mappin
     return {**_groups(there), "there": str(number), "there_code": code}
 
 
-def _words_of_table(known: KnownException, seen: RaisedException, words: Mapping[str, str]) -> dict[str, str] | None:
-    """What the table of words has for the group `name`."""
+def _look_up(known: KnownException, seen: RaisedException, words: Mapping[str, str]) -> dict[str, str] | None:
+    """Look the group `name` up in the entry's table of words."""
     if not known.look_up:
         return {}
     name = words.get("name", "")
-    near = [name] if name in known.words else []
-    if not near and not known.exact:
-        near = difflib.get_close_matches(name, known.words, n=1, cutoff=_NEAR)
-    return {"found": known.words[near[0]], "nearest": near[0]} if near else None
+    keys = [name] if name in known.words else []
+    if not keys and not known.exact:
+        keys = difflib.get_close_matches(name, known.words, n=1, cutoff=_SIMILARITY)
+    return {"found": known.words[keys[0]], "nearest": keys[0]} if keys else None
 
 
-def _words_of_replacement(
-    known: KnownException, seen: RaisedException, words: Mapping[str, str]
-) -> dict[str, str] | None:
-    """What the line becomes; None where it would stay as it is."""
+def _replace(known: KnownException, seen: RaisedException, words: Mapping[str, str]) -> dict[str, str] | None:
+    """Apply the entry's replacement to the learner's line; None if that changes nothing."""
     if known.replace is None:
         return {}
     pattern, by = _fill_in(known.replace.pattern, words, escaped=True), _fill_in(known.replace.by, words)
@@ -128,17 +126,20 @@ def _words_of_replacement(
     return {"becomes": becomes} if becomes != before else None
 
 
-def _edited(known: KnownException, seen: RaisedException, words: Mapping[str, str]) -> str | None:
-    """The step as edits of the learner's file; None where the entry has none, or they do not fit."""
-    for way in known.edits:
-        found = [_edit(seen.source, each, words) for each in way]
+def _step_as_edits(known: KnownException, seen: RaisedException, words: Mapping[str, str]) -> str | None:
+    """The step as edits of the learner's file; None if the entry has none, or none that fit."""
+    for alternative in known.edits:
+        found = [_make_edits(seen.source, each, words) for each in alternative]
         if None not in found and (step := edits.describe_edits(seen.source, *(each for each in found if each))):
             return step
     return None
 
 
-def _edit(text: str, edit: Mapping[str, str | list[str]], words: Mapping[str, str]) -> Sequence[Edit] | None:
-    """One edit, with all its words put in; None where there is no such word, line or function."""
+def _make_edits(text: str, edit: Mapping[str, str | list[str]], words: Mapping[str, str]) -> Sequence[Edit] | None:
+    """The edits for one table of an entry, with its placeholders filled in.
+
+    None if a placeholder has no value, or if there is no such line or function.
+    """
     if "every" in edit:
         pattern, by = list(edit["every"])
         return edits.replace_pattern(text, _fill_in(pattern, words, escaped=True), _fill_in(by, words))
@@ -153,35 +154,35 @@ def _edit(text: str, edit: Mapping[str, str | list[str]], words: Mapping[str, st
         case {"top": code}:
             return edits.add_import(text, code)
         case {"async": number}:
-            return _made_async(text, int(number))
+            return _make_async(text, int(number))
         case {"function": name}:
-            return _edits_of_function(_function(text, name, int(words.get("number", 0))), given)
-    return _edits_of_statement(text, given)
+            return _edit_function(_find_function(text, name, int(words.get("number", 0))), given)
+    return _edit_statement(text, given)
 
 
-def _edits_of_statement(text: str, given: Mapping[str, str]) -> Sequence[Edit] | None:
+def _edit_statement(text: str, given: Mapping[str, str]) -> Sequence[Edit] | None:
     number = next(given[key] for key in ("unwrapped", "moved", "removed", "above", "below") if key in given)
-    there = SourceFile(text).statement_at(int(number))
-    if there is None:
+    statement = SourceFile(text).statement_at(int(number))
+    if statement is None:
         return None
-    end = there.end_lineno or there.lineno
+    first, last = statement.lineno, statement.end_lineno or statement.lineno
     match given:
         case {"moved": _, **place}:
-            return _moved(text, there, place)
+            return _move(text, statement, place)
         case {"removed": _}:
-            return [edits.remove_lines(text, there.lineno, end)]
+            return [edits.remove_lines(text, first, last)]
         case {"above": _, "code": code}:
-            return [edits.insert_above(there.lineno, code)]
+            return [edits.insert_above(first, code)]
         case {"below": _, "code": code}:
-            return [edits.insert_below(end, code, like=there.lineno)]
-        case {"becomes": code} if isinstance(there, ast.With | ast.If | ast.Try):
-            body = textwrap.dedent("\n".join(text.splitlines()[there.body[0].lineno - 1 : there.body[-1].end_lineno]))
-            return [edits.replace_lines(there.lineno, f"{code}\n{body}", end)]
+            return [edits.insert_below(last, code, like=first)]
+        case {"becomes": code} if isinstance(statement, ast.With | ast.If | ast.Try):
+            lines = text.splitlines()[statement.body[0].lineno - 1 : statement.body[-1].end_lineno]
+            return [edits.replace_lines(first, f"{code}\n{textwrap.dedent('\n'.join(lines))}", last)]
     return None
 
 
-def _made_async(text: str, number: int) -> Sequence[Edit] | None:
-    """The function that a line is in, as one that may await."""
+def _make_async(text: str, number: int) -> Sequence[Edit] | None:
+    """Turn the function that contains a line into a coroutine."""
     function = SourceFile(text).function_at(number)
     if function is None:
         return None
@@ -189,14 +190,14 @@ def _made_async(text: str, number: int) -> Sequence[Edit] | None:
     return [] if code.startswith("async ") else [edits.replace_lines(function.lineno, f"async {code}")]
 
 
-def _function(text: str, name: str, line: int) -> Function | None:
-    """The function of this name: the one that `line` is in, else the last."""
+def _find_function(text: str, name: str, line: int) -> Function | None:
+    """The function with this name: the one that contains `line`, else the last."""
     found = SourceFile(text).named(name)
     around = [each for each in found if each.lineno <= line <= (each.end_lineno or 0)]
     return next(iter([*around[-1:], *found[-1:]]), None)
 
 
-def _edits_of_function(function: Function | None, given: Mapping[str, str]) -> Sequence[Edit] | None:
+def _edit_function(function: Function | None, given: Mapping[str, str]) -> Sequence[Edit] | None:
     if function is None:
         return None
     if "returns" in given:
@@ -206,17 +207,16 @@ def _edits_of_function(function: Function | None, given: Mapping[str, str]) -> S
     return [edits.append_to_function(function, given["end"])]
 
 
-def _moved(text: str, moved: ast.stmt, place: Mapping[str, str]) -> Sequence[Edit] | None:
-    """A statement taken to another place, above or below the statement of a line."""
-    there = SourceFile(text).statement_at(int(next(iter(place.values()))))
-    if there is None or moved.lineno == there.lineno:
+def _move(text: str, statement: ast.stmt, place: Mapping[str, str]) -> Sequence[Edit] | None:
+    """Move a statement above or below another one, given as {"above" or "below": line}."""
+    other = SourceFile(text).statement_at(int(next(iter(place.values()))))
+    if other is None or statement.lineno == other.lineno:
         return None
-    end = moved.end_lineno or moved.lineno
-    code = textwrap.dedent("\n".join(text.splitlines()[moved.lineno - 1 : end]))
-    below = edits.insert_after(there, code)
+    end = statement.end_lineno or statement.lineno
+    code = textwrap.dedent("\n".join(text.splitlines()[statement.lineno - 1 : end]))
     return [
-        edits.insert_above(there.lineno, code) if "above" in place else below,
-        edits.remove_lines(text, moved.lineno, end),
+        edits.insert_above(other.lineno, code) if "above" in place else edits.insert_after(other, code),
+        edits.remove_lines(text, statement.lineno, end),
     ]
 
 
@@ -225,10 +225,10 @@ def _groups(match: re.Match[str]) -> dict[str, str]:
 
 
 def _fill_in(text: str, words: Mapping[str, str], *, escaped: bool = False) -> str:
-    """The text with the words in place of their names in braces."""
+    """The text with its placeholders filled in, as far as they have a value; `escaped`: for use in a pattern."""
 
-    def word(found: re.Match[str]) -> str:
-        known = words.get(found[1])
-        return found[0] if known is None else re.escape(known) if escaped else known
+    def fill_in(placeholder: re.Match[str]) -> str:
+        value = words.get(placeholder[1])
+        return placeholder[0] if value is None else re.escape(value) if escaped else value
 
-    return WORD.sub(word, text)
+    return WORD.sub(fill_in, text)

@@ -1,4 +1,4 @@
-"""The table of known exceptions: TOML files, read and validated once."""
+"""The table of known exceptions: TOML files, loaded and validated once."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from tutor.judge.known_exception import WORD, Example, KnownException, Replace
 GIVEN = frozenset(
     {"raised", "file", "number", "code", "function", "via", "there", "there_code", "becomes", "found", "nearest"}
 )
-"""The words that `matching` gives, beside the named groups of an entry's own patterns."""
+"""The placeholders that `matching` fills in, in addition to the named groups of an entry's own patterns."""
 
 _PATTERNS = ("type", "text", "line", "source", "without", "through", "at")
 _TEXTS = ("cause", "says", "step", "look_up")
@@ -36,21 +36,22 @@ EDITS: tuple[set[str], ...] = (
     {"every"},
     {"rewritten"},
 )
-"""The kinds of edits, by their keys; `rewritten` is the name of one in `rewriting`.
+"""The kinds of edits, by their keys; the value of `rewritten` is the name of a function in `rewriting`.
 
-Lines are numbers, as the words `{number}` and `{there}` give them."""
+Lines are given by number, as in the placeholders `{number}` and `{there}`.
+"""
 
 _ORDER = ("launch", "parameters", "attributes", "calls", "messages", "process", "imports", "python")
 
 
 @cache
 def load_shipped() -> tuple[KnownException, ...]:
-    """The table that comes with the program, in the order in which it is searched."""
+    """The built-in table, in the order in which it is searched."""
     return tuple(entry for name in _ORDER for entry in load(Path(__file__).parent / f"{name}.toml"))
 
 
 def load(path: Path) -> tuple[KnownException, ...]:
-    """Read a table. Raises TableError where it cannot be read, or is not as it must be."""
+    """Load a table. Raises TableError if it cannot be read, or is not valid."""
     try:
         return parse(path.read_text(encoding="utf-8"), path.name)
     except (OSError, UnicodeError) as error:
@@ -58,14 +59,14 @@ def load(path: Path) -> tuple[KnownException, ...]:
 
 
 def parse(text: str, name: str = "exceptions.toml") -> tuple[KnownException, ...]:
-    """The entries of a table, given as TOML; `name` is for what TableError says."""
+    """The entries of a table in TOML; `name` is the file's name in the message of a TableError."""
     try:
         data = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise TableError(f"{name}: {error}") from error
     tables = data.get("words", {})
-    if strange := data.keys() - {"known", "words"}:
-        raise TableError(f"{name}: there are only [[known]] and [words.NAME], not {', '.join(sorted(strange))}")
+    if unexpected := data.keys() - {"known", "words"}:
+        raise TableError(f"{name}: there are only [[known]] and [words.NAME], not {', '.join(sorted(unexpected))}")
     entries = data.get("known", [])
     if not isinstance(entries, list) or not isinstance(tables, dict):
         raise TableError(f"{name}: write [[known]] for each entry, and [words.NAME] for a table of words")
@@ -74,20 +75,20 @@ def parse(text: str, name: str = "exceptions.toml") -> tuple[KnownException, ...
 
 def _entry(data: Mapping[str, Any], tables: Mapping[str, Mapping[str, str]], where: str) -> KnownException:
     allowed = {*_PATTERNS, *_TEXTS, "replace", "edits", "example", "exact", "of_source"}
-    if strange := data.keys() - allowed:
+    if unexpected := data.keys() - allowed:
         raise TableError(
-            f"{where}: no key is called {', '.join(sorted(strange))}; there are {', '.join(sorted(allowed))}"
+            f"{where}: unknown key {', '.join(sorted(unexpected))}; there are {', '.join(sorted(allowed))}"
         )
     for key in ("type", "says", "step"):
         if not data.get(key):
             raise TableError(f"{where}: {key} is missing")
     for key in (*_PATTERNS, *_TEXTS):
         if not isinstance(data.get(key, ""), str):
-            raise TableError(f"{where}: {key} must be a text")
+            raise TableError(f"{where}: {key} must be a string")
     table = data.get("look_up", "")
     if table and table not in tables:
         raise TableError(f"{where}: there is no [words.{table}]")
-    made = KnownException(
+    known = KnownException(
         **{key: data[key] for key in (*_PATTERNS, *_TEXTS) if key in data},
         exact=bool(data.get("exact", True)),
         of_source=bool(data.get("of_source", False)),
@@ -97,13 +98,14 @@ def _entry(data: Mapping[str, Any], tables: Mapping[str, Mapping[str, str]], whe
         words=dict(tables[table]) if table else {},
     )
     groups = frozenset(group for key in _PATTERNS for group in _groups(data.get(key, ""), f"{where}, {key}"))
-    asked = made.placeholders | frozenset(
-        WORD.findall(" ".join((made.source, made.without, *((made.replace.by,) if made.replace else ()))))
+    used = known.placeholders | frozenset(
+        WORD.findall(" ".join((known.source, known.without, *((known.replace.by,) if known.replace else ()))))
     )
-    asked |= {word for way in made.edits for edit in way for each in edit.values() for word in WORD.findall(str(each))}
-    if unknown := asked - groups - GIVEN:
-        raise TableError(f"{where}: nothing gives the word {', '.join(sorted(unknown))}")
-    return made
+    values = [str(value) for alternative in known.edits for edit in alternative for value in edit.values()]
+    used |= {word for value in values for word in WORD.findall(value)}
+    if unknown := used - groups - GIVEN:
+        raise TableError(f"{where}: unknown placeholder {', '.join(sorted(unknown))}")
+    return known
 
 
 def _replace(data: object, where: str) -> Replace | None:
@@ -116,20 +118,20 @@ def _replace(data: object, where: str) -> Replace | None:
 
 
 def _edits(data: object, where: str) -> tuple[tuple[Mapping[str, str | list[str]], ...], ...]:
-    """The ways to do a step, each a list of tables of one edit, with the keys of one of the kinds in `EDITS`."""
-    ways: list[Any] = data if isinstance(data, list) and data and isinstance(data[0], list) else [data]
-    for way in ways:
-        if not isinstance(way, list) or not all(isinstance(each, dict) and set(each) in EDITS for each in way):
+    """The alternatives for a step: lists of edits, each a table with the keys of one of the kinds in `EDITS`."""
+    alternatives: list[Any] = data if isinstance(data, list) and data and isinstance(data[0], list) else [data]
+    for edits in alternatives:
+        if not isinstance(edits, list) or not all(isinstance(each, dict) and set(each) in EDITS for each in edits):
             kinds = "; ".join(" and ".join(sorted(kind)) for kind in EDITS)
             raise TableError(f"{where}: edits must be a list of tables, each with one of these: {kinds}")
-        for each in way:
+        for each in edits:
             if "every" in each:
                 _replace(each["every"], where)
             elif not all(isinstance(value, str) for value in each.values()):
-                raise TableError(f"{where}: an edit is made of texts")
+                raise TableError(f"{where}: the values of an edit must be strings")
             elif each.get("rewritten", "log") not in REWRITERS:
                 raise TableError(f"{where}: rewritten must be one of {', '.join(REWRITERS)}")
-    return tuple(tuple(way) for way in ways if way)
+    return tuple(tuple(edits) for edits in alternatives if edits)
 
 
 def _example(data: object, where: str) -> Example:
@@ -140,7 +142,7 @@ def _example(data: object, where: str) -> Example:
 
 
 def _groups(pattern: str, where: str) -> Sequence[str]:
-    """The named groups of a pattern; a word in braces is any text."""
+    """The named groups of a pattern; a placeholder in it stands for any text."""
     try:
         return tuple(re.compile(WORD.sub("x", pattern)).groupindex)
     except re.error as error:

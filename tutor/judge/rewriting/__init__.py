@@ -1,4 +1,4 @@
-"""General edits of a learner's node: a function, or one line of it, written so that it does what is asked for.
+"""General edits of a learner's node: they rewrite a line, a function or the program so that it does what is required.
 
-Each gives a next step in words, or None where the file gives no hold for it; edits are tried before they are given.
+An edit that does not fit the file comes out empty or as None; all edits are tried out before they are shown.
 """

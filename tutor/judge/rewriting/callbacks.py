@@ -1,4 +1,4 @@
-"""Callbacks that hold up their node, rewritten: what waits is awaited, or left to a timer, and no lock is held."""
+"""Rewrite callbacks that block their node: await instead of waiting, leave repetition to a timer, hold no lock."""
 
 from __future__ import annotations
 
@@ -11,15 +11,18 @@ from tutor.judge.edits import Edit, remove_lines, replace_lines, replace_node, r
 from tutor.judge.rewriting.node import NodeFile
 from tutor.judge.source import called_name
 
-_MADE = ("create_client", "create_service", "create_timer", "create_subscription")
+WITH_CALLBACK_GROUP = ("create_client", "create_service", "create_timer", "create_subscription")
 _GROUP = "callback_group"
-_IDLE = ("sleep", "wait")
+_WAITS = ("sleep", "wait")
 
 Loop = ast.While | ast.For
 
 
 def await_lines(file: NodeFile, line: int, code: str, last: int = 0) -> list[Edit]:
-    """A line, or the lines up to `last`, that await; in a coroutine, and each callback in a reentrant group."""
+    """Replace a line, or the lines up to `last`, by code that awaits.
+
+    Its function becomes a coroutine, and every callback gets a reentrant group.
+    """
     function = file.function_at(line)
     if function is None:
         return []
@@ -31,11 +34,11 @@ def await_lines(file: NodeFile, line: int, code: str, last: int = 0) -> list[Edi
 
 
 def make_reentrant(file: NodeFile) -> list[Edit]:
-    """Every callback in a group in which it may run beside others."""
+    """Put every callback into a reentrant group, where it may run concurrently with others."""
     name, imported = file.own("ReentrantCallbackGroup", "rclpy.callback_groups")
     exclusive = file.calls("MutuallyExclusiveCallbackGroup")
     edits = [replace_node(file.text, each, f"{name}()") for each in exclusive]
-    for each in file.calls(*_MADE):
+    for each in file.calls(*WITH_CALLBACK_GROUP):
         if any(given.arg in (_GROUP, None) for given in each.keywords) or not isinstance(each.func, ast.Attribute):
             continue
         edits.append(replace_node(file.text, each, f"{ast.unparse(each)[:-1]}, {_GROUP}={name}())"))
@@ -43,7 +46,7 @@ def make_reentrant(file: NodeFile) -> list[Edit]:
 
 
 def remove_lock(file: NodeFile, line: int) -> list[Edit]:
-    """The statement around a line that holds a lock, with what it holds in its place."""
+    """Replace the innermost `with` statement around a line, which holds a lock, by its body."""
     around = [
         each
         for each in ast.walk(file.tree)
@@ -51,17 +54,17 @@ def remove_lock(file: NodeFile, line: int) -> list[Edit]:
     ]
     if not around:
         return []
-    held = max(around, key=lambda each: each.lineno)
-    return [replace_statement(held, _code(file, held.body))]
+    innermost = max(around, key=lambda each: each.lineno)
+    return [replace_statement(innermost, _code(file, innermost.body))]
 
 
 def make_lock_reentrant(file: NodeFile) -> list[Edit]:
-    """A lock that one thread may take twice."""
+    """Turn each lock into one that a thread may acquire twice."""
     return replace_pattern(file.text, r"\bLock\b", "RLock")
 
 
 def remove_loop(file: NodeFile, line: int) -> list[Edit]:
-    """What a loop around a line does, done once; without a loop, the line taken out."""
+    """Replace the outermost loop around a line by one iteration; if there is no loop, remove the line."""
     loop = outermost(file, line)
     if loop is None:
         return [remove_lines(file.text, line)]
@@ -71,7 +74,7 @@ def remove_loop(file: NodeFile, line: int) -> list[Edit]:
 
 
 def outermost(file: NodeFile, line: int) -> Loop | None:
-    """The outermost loop around a line, in its function."""
+    """The outermost loop around a line, within the line's function."""
     found = [
         each for each in ast.walk(file.tree) if isinstance(each, Loop) and each.lineno <= line <= (each.end_lineno or 0)
     ]
@@ -83,16 +86,17 @@ def outermost(file: NodeFile, line: int) -> Loop | None:
 
 
 def only_waits(statement: ast.stmt) -> bool:
-    """Whether a statement does nothing but wait."""
+    """Whether a statement does nothing, or only waits."""
     if isinstance(statement, ast.Pass | ast.Continue):
         return True
     return isinstance(statement, ast.Expr) and (
         isinstance(statement.value, ast.Constant)
-        or (isinstance(statement.value, ast.Call) and called_name(statement.value) in _IDLE)
+        or (isinstance(statement.value, ast.Call) and called_name(statement.value) in _WAITS)
     )
 
 
 def _code(file: NodeFile, body: Sequence[ast.stmt]) -> str:
+    """The code of a loop's or with statement's body, to be run outside of it."""
     lines = file.text.splitlines()
     found = [textwrap.dedent("\n".join(lines[each.lineno - 1 : each.end_lineno])) for each in body]
     code = "\n".join(found)

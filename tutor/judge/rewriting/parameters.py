@@ -1,4 +1,4 @@
-"""The parameters of a learner's node, declared and followed: their declarations and callbacks, rewritten."""
+"""Rewrite how a learner's node declares its parameters and follows their changes."""
 
 from __future__ import annotations
 
@@ -23,53 +23,53 @@ from tutor.judge.source import Function
 ON_SET = "add_on_set_parameters_callback"
 POST_SET = "add_post_set_parameters_callback"
 PRE_SET = "add_pre_set_parameters_callback"
-_READING = {"get_parameter", "get_parameter_or", "declare_parameter"}
+_READ_CALLS = {"get_parameter", "get_parameter_or", "declare_parameter"}
 
 
 def refuse_bad_rates(file: NodeFile, rate: str) -> list[Edit]:
-    """An on-set callback that refuses rates of 0 and less, before it does anything else."""
+    """Let an on-set callback refuse rates of 0 or less, before it does anything else."""
     checker = registered_callback(file, ON_SET)
     result, imported = file.own("SetParametersResult", "rcl_interfaces.msg")
     if checker is None:
-        return _new_callback(file, "check_parameters", [_check("params", rate, result), _accept(result)], imported)
-    given = _argument(checker)
-    return [*imported, *file.prepend_to(checker, _check(given, rate, result))] if given else []
+        return _add_callback(file, "check_parameters", [_check("params", rate, result), _accept(result)], imported)
+    params = _params_name(checker)
+    return [*imported, *file.prepend_to(checker, _check(params, rate, result))] if params else []
 
 
 def follow_parameters(file: NodeFile, rate: str, *others: str) -> list[Edit]:
-    """The parameter callbacks as a whole: bad rates are refused, and every other value takes effect."""
+    """Rewrite the parameter callbacks as a whole: refuse bad rates, and let every other value take effect."""
     checker, applier = registered_callback(file, ON_SET), registered_callback(file, POST_SET)
     applier = None if applier is checker else applier
     result, edits = file.own("SetParametersResult", "rcl_interfaces.msg")
-    given = (_argument(checker) if checker is not None else "") or "params"
-    body = [_check(given, rate, result)]
+    params = (_params_name(checker) if checker is not None else "") or "params"
+    body = [_check(params, rate, result)]
     if applier is not None:
-        into = _argument(applier) or "params"
-        edits += [rewrite_function(applier, _effect(file, into, rate, others), given=into)]
+        applied = _params_name(applier) or "params"
+        edits += [rewrite_function(applier, _apply_values(file, applied, rate, others), given=applied)]
     else:
-        body.append(_effect(file, given, rate, others))
+        body.append(_apply_values(file, params, rate, others))
     body.append(_accept(result))
-    keeping = _kept_timer(file, [each for each in (checker, applier) if each is not None])
+    keep_timer = _keep_timer(file, [each for each in (checker, applier) if each is not None])
     if checker is None:
-        return _new_callback(file, "check_parameters", body, [*edits, *keeping])
+        return _add_callback(file, "check_parameters", body, [*edits, *keep_timer])
     first = file.calls(ON_SET)[0]
     extra = [each for each in file.calls(ON_SET, PRE_SET) if each is not first]
-    edits += [_without(file, each) for each in extra]
-    return [*edits, *keeping, rewrite_function(checker, "\n".join(body), given=given)]
+    edits += [_remove_call(file, each) for each in extra]
+    return [*edits, *keep_timer, rewrite_function(checker, "\n".join(body), given=params)]
 
 
 def cancel_old_timer(file: NodeFile) -> list[Edit]:
-    """The timer that a parameter callback replaces is cancelled there, if that is all that is missing."""
+    """Cancel the timer that a parameter callback replaces, if nothing else is missing there."""
     callbacks = [found for kind in (ON_SET, POST_SET) if (found := registered_callback(file, kind)) is not None]
     inside = [each for callback in callbacks for each in file.reached(callback)]
     made = [each for each in file.timers if file.function_around(each) in inside]
     ended = [each for each in file.calls("cancel", "destroy_timer", "destroy") if file.function_around(each) in inside]
-    timer = _timer(file)
+    timer = _timer_target(file)
     if (
         len(made) != 1
         or ended
         or file.assigned_to(made[0]) != timer
-        or _kept_in(file) != timer
+        or _current_timer_target(file) != timer
         or made[0] is file.first_timer
     ):
         return []
@@ -77,7 +77,7 @@ def cancel_old_timer(file: NodeFile) -> list[Edit]:
 
 
 def registered_callback(file: NodeFile, kind: str) -> Function | None:
-    """The function that is registered as a parameter callback of this kind."""
+    """The function that is registered as a parameter callback of this kind, such as `ON_SET`; None if none is."""
     for call in file.calls(kind):
         given = argument(call, 0, "callback")
         if not isinstance(given, ast.Lambda | ast.Call) and (found := file.function(given)) is not None:
@@ -86,18 +86,18 @@ def registered_callback(file: NodeFile, kind: str) -> Function | None:
 
 
 def register_on_set(file: NodeFile, function: Function) -> list[Edit]:
-    """A function, registered as on-set callback."""
-    inside = file.class_of(function) is not None
-    return file.append_to_setup(f"{file.name}.{ON_SET}({'self.' if inside else ''}{function.name})")
+    """Register a function as an on-set callback."""
+    is_method = file.class_of(function) is not None
+    return file.append_to_setup(f"{file.name}.{ON_SET}({'self.' if is_method else ''}{function.name})")
 
 
 def remove_pre_set_callback(file: NodeFile) -> list[Edit]:
-    """No callback that changes the list of values before they are checked."""
-    return [_without(file, each) for each in file.calls(PRE_SET)]
+    """Remove the callbacks that change the list of values before it is checked."""
+    return [_remove_call(file, each) for each in file.calls(PRE_SET)]
 
 
 def declare_parameter(file: NodeFile, name: str, default: object, *, plain: bool = False) -> list[Edit]:
-    """A parameter, declared with its default; `plain`: without a descriptor or anything else."""
+    """Declare a parameter with this default; `plain`: without a descriptor or anything else."""
     code = f"{file.name}.declare_parameter({name!r}, {default!r})"
     for call in file.calls("declare_parameter"):
         given = argument(call, 1, "value")
@@ -116,39 +116,40 @@ def declare_parameter(file: NodeFile, name: str, default: object, *, plain: bool
 
 
 def rename_parameter(file: NodeFile, name: str, others: Sequence[str]) -> list[Edit]:
-    """A parameter that is declared under a name much like this one, called by this one wherever it is named."""
+    """Rename a parameter that is declared under a similar name, wherever that name occurs."""
     declared = [argument(each, 0, "name") for each in file.calls("declare_parameter")]
     names = [str(each.value) for each in declared if isinstance(each, ast.Constant)]
-    near = [each for each in names if each not in (name, *others) and _alike(each, name)]
-    if not near or name in names:
+    similar = [each for each in names if each not in (name, *others) and _are_similar(each, name)]
+    if not similar or name in names:
         return []
-    lines = {each.lineno for each in ast.walk(file.tree) if isinstance(each, ast.Constant) and each.value == near[0]}
-    texts = file.text.splitlines()
-    quoted = re.compile(rf"(?<=['\"]){re.escape(near[0])}(?=['\"])")
-    return [replace_lines(line, quoted.sub(name, texts[line - 1].strip())) for line in sorted(lines)]
+    old = similar[0]
+    numbers = {each.lineno for each in ast.walk(file.tree) if isinstance(each, ast.Constant) and each.value == old}
+    lines = file.text.splitlines()
+    quoted = re.compile(rf"(?<=['\"]){re.escape(old)}(?=['\"])")
+    return [replace_lines(number, quoted.sub(name, lines[number - 1].strip())) for number in sorted(numbers)]
 
 
-def _alike(one: str, other: str) -> bool:
+def _are_similar(one: str, other: str) -> bool:
     return one in other or other in one or difflib.SequenceMatcher(None, one, other).ratio() > 0.6
 
 
 def declare_once(file: NodeFile, line: int) -> list[Edit]:
-    """What the function of this line declares each time that it is called, declared with the node, and only read."""
+    """Move the declarations in this line's function, which repeats them in each call, to the setup; only read there."""
     calls = file.calls("declare_parameter")
     function = next(
         (file.function_around(each) for each in calls if each.lineno <= line <= (each.end_lineno or 0)), None
     )
-    again = [each for each in calls if function is not None and file.function_around(each) is function]
+    repeated = [each for each in calls if function is not None and file.function_around(each) is function]
     if function is None or function is file.setup:
         return []
-    elsewhere = {ast.unparse(each.args[0]) for each in calls if each not in again and each.args}
-    bare = [file.statement(each) for each in again if isinstance(file.statement(each), ast.Expr)]
+    elsewhere = {ast.unparse(each.args[0]) for each in calls if each not in repeated and each.args}
+    bare = [file.statement(each) for each in repeated if isinstance(file.statement(each), ast.Expr)]
     reads = [
         (each, f"{file.name}.get_parameter({ast.unparse(each.args[0])})")
-        for each in again
+        for each in repeated
         if each.args and file.statement(each) not in bare
     ]
-    missing = [ast.unparse(each) for each in again if each.args and ast.unparse(each.args[0]) not in elsewhere]
+    missing = [ast.unparse(each) for each in repeated if each.args and ast.unparse(each.args[0]) not in elsewhere]
     return [
         *(remove_statement(file.text, each) for each in bare),
         *replace_nodes(file.text, *reads),
@@ -157,7 +158,7 @@ def declare_once(file: NodeFile, line: int) -> list[Edit]:
 
 
 def _below_super(file: NodeFile, code: str) -> list[Edit]:
-    """Code that comes as soon as the node is there."""
+    """Insert code right below the creation of the node."""
     for call in file.calls("__init__", "create_node", "Node"):
         statement = file.statement(call)
         if file.function_around(call) is file.setup and not isinstance(statement, ast.ClassDef | ast.FunctionDef):
@@ -166,7 +167,7 @@ def _below_super(file: NodeFile, code: str) -> list[Edit]:
 
 
 def check_at_start(file: NodeFile, rate: str) -> list[Edit]:
-    """A bad rate that the node is started with, found by the parameter's name."""
+    """Let the node exit if it is started with a bad rate. `rate` is the parameter's name."""
     calls = [each for each in file.calls("declare_parameter", "declare_parameters") if rate in ast.unparse(each)]
     if not calls:
         return []
@@ -180,7 +181,7 @@ def check_at_start(file: NodeFile, rate: str) -> list[Edit]:
 
 
 def _default_beside(node: ast.AST, name: str) -> ast.expr | None:
-    """The default that stands beside a parameter's name, in a call, a tuple or a dict."""
+    """The default next to a parameter's name in a tuple, a list, a dict or a call of dict()."""
     match node:
         case ast.Tuple(elts=[first, second, *_]) | ast.List(elts=[first, second]) if _is_text(first, name):
             return second
@@ -196,24 +197,23 @@ def _is_text(node: ast.expr | None, text: str) -> bool:
     return isinstance(node, ast.Constant) and node.value == text
 
 
-def _without(file: NodeFile, call: ast.Call) -> Edit:
-    statement = file.statement(call)
-    return remove_statement(file.text, statement)
+def _remove_call(file: NodeFile, call: ast.Call) -> Edit:
+    return remove_statement(file.text, file.statement(call))
 
 
-def _argument(function: Function) -> str:
-    """What the function calls the list of parameters; empty where it takes none."""
+def _params_name(function: Function) -> str:
+    """The name of a callback's argument, the list of parameters; empty if it takes none."""
     names = [each.arg for each in function.args.args if each.arg not in ("self", "cls")]
     return names[0] if names else ""
 
 
-def _new_callback(file: NodeFile, name: str, body: Sequence[str], more: Sequence[Edit]) -> list[Edit]:
-    """A method, registered; where the node has no class, a function above the line that registers it."""
-    method = file.new_method("")
+def _add_callback(file: NodeFile, name: str, body: Sequence[str], more: Sequence[Edit]) -> list[Edit]:
+    """Add and register an on-set callback: a method, or, if the node has no class, a function in the setup."""
+    has_class = bool(file.new_method(""))
     code = "\n".join(f"    {line}" for part in body for line in part.splitlines())
-    given = file.calls(ON_SET)
-    callback = argument(given[0], 0, "callback") if given else None
-    if not method:
+    registered = file.calls(ON_SET)
+    callback = argument(registered[0], 0, "callback") if registered else None
+    if not has_class:
         register = file.append_to_setup(f"def {name}(params):\n{code}\n\n{file.name}.{ON_SET}({name})")
     elif callback is not None:
         register = [replace_node(file.text, callback, f"self.{name}")]
@@ -222,10 +222,11 @@ def _new_callback(file: NodeFile, name: str, body: Sequence[str], more: Sequence
     return [*more, *register, *file.new_method(f"def {name}(self, params):\n{code}")] if register else []
 
 
-def _check(given: str, rate: str, result: str) -> str:
-    each = _loop(given)
+def _check(params: str, rate: str, result: str) -> str:
+    """The code that refuses a bad rate in the list `params`."""
+    each = _loop_variable(params)
     return (
-        f"for {each} in {given}:\n"
+        f"for {each} in {params}:\n"
         f"    if {each}.name == '{rate}' and {each}.value <= 0.0:\n"
         f"        return {result}(successful=False, reason='{rate} must be > 0')"
     )
@@ -235,31 +236,32 @@ def _accept(result: str) -> str:
     return f"return {result}(successful=True)"
 
 
-def _loop(given: str) -> str:
-    return "param" if given == "p" else "p"
+def _loop_variable(params: str) -> str:
+    return "param" if params == "p" else "p"
 
 
-def _effect(file: NodeFile, given: str, rate: str, others: Sequence[str]) -> str:
-    """What is to be done about new values: what the file keeps of them, and the timer."""
-    each = _loop(given)
-    branches = {name: _kept(file, name, f"{each}.value") for name in (*others, rate)}
-    made = file.first_timer
-    early = ""
-    if made is not None:
-        timer = _timer(file)
-        branches[rate] += [f"{timer}.cancel()", f"{timer} = {_made_again(made, each)}"]
-        if _is_early(file):
-            early = f" and getattr({timer.rpartition('.')[0]}, '{timer.rpartition('.')[2]}', None)"
+def _apply_values(file: NodeFile, params: str, rate: str, others: Sequence[str]) -> str:
+    """The code that applies new values: it updates the attributes that hold them, and replaces the timer."""
+    each = _loop_variable(params)
+    branches = {name: _update_attributes(file, name, f"{each}.value") for name in (*others, rate)}
+    created = file.first_timer
+    has_timer = ""
+    if created is not None:
+        timer = _timer_target(file)
+        branches[rate] += [f"{timer}.cancel()", f"{timer} = {_create_with_new_period(created, each)}"]
+        if _is_registered_early(file):
+            has_timer = f" and getattr({timer.rpartition('.')[0]}, '{timer.rpartition('.')[2]}', None)"
     tests = [
-        f"{each}.name == '{name}'{early if name == rate else ''}:\n" + "\n".join(f"        {line}" for line in lines)
+        f"{each}.name == '{name}'{has_timer if name == rate else ''}:\n"
+        + "\n".join(f"        {line}" for line in lines)
         for name, lines in branches.items()
         if lines
     ]
-    return f"for {each} in {given}:\n    if " + "\n    elif ".join(tests) if tests else ""
+    return f"for {each} in {params}:\n    if " + "\n    elif ".join(tests) if tests else ""
 
 
-def _kept(file: NodeFile, name: str, value: str) -> list[str]:
-    """The attributes in which the file keeps a parameter's value, set to the new one."""
+def _update_attributes(file: NodeFile, name: str, value: str) -> list[str]:
+    """The lines that set the attributes in which the file keeps a parameter's value to the new one."""
     found: dict[str, str] = {}
     for node in ast.walk(file.tree):
         match node:
@@ -272,32 +274,32 @@ def _kept(file: NodeFile, name: str, value: str) -> list[str]:
         reading = next((each for each in ast.walk(expression) if _reads(each, name)), None)
         if reading is not None and "create_timer" not in ast.unparse(expression):
             found.setdefault(ast.unparse(target), _with_value(expression, reading, value))
-        elif _set_on(file, node, name) and ast.unparse(expression).endswith(".value"):
+        elif _is_under_name_test(file, node, name) and ast.unparse(expression).endswith(".value"):
             found.setdefault(ast.unparse(target), value)
     own = f"{file.holder}."
-    timer = _timer(file)
+    timer = _timer_target(file)
     return [f"{at} = {code}" for at, code in found.items() if at.startswith(own) and not at.startswith(timer)]
 
 
 def _reads(node: ast.AST, name: str) -> bool:
-    """Whether this is `node.get_parameter(name).value`, or another way to write it."""
+    """Whether this is `node.get_parameter(name).value`, or an equivalent expression."""
     if not isinstance(node, ast.Attribute) or not node.attr.endswith("value"):
         return False
     inner: ast.expr = node.value
     while isinstance(inner, ast.Attribute | ast.Call):
-        if isinstance(inner, ast.Call) and isinstance(inner.func, ast.Attribute) and inner.func.attr in _READING:
+        if isinstance(inner, ast.Call) and isinstance(inner.func, ast.Attribute) and inner.func.attr in _READ_CALLS:
             return _is_text(argument(inner, 0, "name"), name)
         inner = inner.func if isinstance(inner, ast.Call) else inner.value
     return False
 
 
 def readings(file: NodeFile, name: str) -> list[ast.expr]:
-    """Where a parameter's value is read from the node."""
+    """The expressions that read a parameter's value from the node."""
     return [each for each in ast.walk(file.tree) if isinstance(each, ast.expr) and _reads(each, name)]
 
 
 def find_kept_value(file: NodeFile, name: str) -> ast.Assign | ast.AnnAssign | None:
-    """Where a parameter's value is read, and kept."""
+    """The first assignment that stores a parameter's value, or something computed from it."""
     for node in ast.walk(file.tree):
         if (
             isinstance(node, ast.Assign | ast.AnnAssign)
@@ -309,14 +311,14 @@ def find_kept_value(file: NodeFile, name: str) -> ast.Assign | ast.AnnAssign | N
 
 
 def _with_value(expression: ast.expr, reading: ast.AST, value: str) -> str:
-    """What is kept, of the new value: the value itself, but for a period, which is worked out from it."""
+    """The code to store for a new value: the value itself, or the same computation with it if that is a period."""
     if not any(isinstance(each, ast.Div) for each in ast.walk(expression)):
         return value
     return ast.unparse(expression).replace(ast.unparse(reading), value)
 
 
-def _set_on(file: NodeFile, node: ast.AST, name: str) -> bool:
-    """Whether a statement stands below `if p.name == name:`."""
+def _is_under_name_test(file: NodeFile, node: ast.AST, name: str) -> bool:
+    """Whether a statement is within `if p.name == name:`."""
     for each in file.ancestors(node):
         match each:
             case ast.If(test=ast.Compare(comparators=[ast.Constant(value=str() as text)])):
@@ -324,65 +326,66 @@ def _set_on(file: NodeFile, node: ast.AST, name: str) -> bool:
     return False
 
 
-def _timer(file: NodeFile) -> str:
-    """What the timer is kept in, or shall be."""
-    return kept_in if _lasts(kept_in := _kept_in(file)) else f"{file.holder}.timer"
+def _timer_target(file: NodeFile) -> str:
+    """Where the timer is kept, or where to keep it: an attribute such as "self.timer", or an item."""
+    return target if _is_lasting(target := _current_timer_target(file)) else f"{file.holder}.timer"
 
 
-def _kept_in(file: NodeFile) -> str:
-    """What the first timer is assigned to, if by the caller of the function that makes and returns it."""
-    made = file.first_timer
-    if made is None:
+def _current_timer_target(file: NodeFile) -> str:
+    """The target that the first timer is assigned to, perhaps by the caller of a function that returns it."""
+    created = file.first_timer
+    if created is None:
         return ""
-    maker = file.function_around(made)
-    if maker is None or not isinstance(file.statement(made), ast.Return):
-        return file.assigned_to(made)
-    return next((into for call in file.calls(maker.name) if (into := file.assigned_to(call))), "")
+    maker = file.function_around(created)
+    if maker is None or not isinstance(file.statement(created), ast.Return):
+        return file.assigned_to(created)
+    return next((target for call in file.calls(maker.name) if (target := file.assigned_to(call))), "")
 
 
-def _lasts(target: str) -> bool:
+def _is_lasting(target: str) -> bool:
+    """Whether a target outlives its function: an attribute or an item."""
     return "." in target or "[" in target
 
 
-def _kept_timer(file: NodeFile, without: Sequence[Function]) -> list[Edit]:
-    """The first timer, kept in an attribute."""
-    made = file.first_timer
-    if made is None or _lasts(_kept_in(file)) or file.function_around(made) in without:
+def _keep_timer(file: NodeFile, without: Sequence[Function]) -> list[Edit]:
+    """Keep the first timer in an attribute, unless one of the functions `without`, which are rewritten, creates it."""
+    created = file.first_timer
+    if created is None or _is_lasting(_current_timer_target(file)) or file.function_around(created) in without:
         return []
-    timer = _timer(file)
-    emptied = [
+    timer = _timer_target(file)
+    resets = [
         remove_lines(file.text, each.lineno)
         for each in ast.walk(file.tree)
-        if isinstance(each, ast.Assign) and ast.unparse(each) == f"{timer} = None" and each.lineno > made.lineno
+        if isinstance(each, ast.Assign) and ast.unparse(each) == f"{timer} = None" and each.lineno > created.lineno
     ]
-    return [replace_node(file.text, made, f"{timer} = {ast.unparse(made)}"), *emptied]
+    return [replace_node(file.text, created, f"{timer} = {ast.unparse(created)}"), *resets]
 
 
 def is_followed(file: NodeFile, name: str) -> bool:
-    """Whether the timer's callback reads a parameter from the node, or a parameter callback asks for its name."""
+    """Whether the timer's callback reads a parameter from the node, or a parameter callback compares its name."""
     callbacks = [found for kind in (ON_SET, POST_SET) if (found := registered_callback(file, kind)) is not None]
     inside = [each for callback in callbacks for each in file.reached(callback)]
-    ticking = file.reached(file.tick) if file.tick is not None else []
-    asked = [each for function in inside for each in ast.walk(function) if isinstance(each, ast.Compare)]
-    return any(file.function_around(each) in ticking for each in readings(file, name)) or any(
-        _is_text(each, name) for test in asked for each in (test.left, *test.comparators)
+    timer_functions = file.reached(file.tick) if file.tick is not None else []
+    comparisons = [each for function in inside for each in ast.walk(function) if isinstance(each, ast.Compare)]
+    return any(file.function_around(each) in timer_functions for each in readings(file, name)) or any(
+        _is_text(each, name) for test in comparisons for each in (test.left, *test.comparators)
     )
 
 
-def _made_again(made: ast.Call, each: str) -> str:
-    """The call that makes the timer, with another period."""
-    period, again = f"1.0 / {each}.value", ast.parse(ast.unparse(made), mode="eval").body
-    assert isinstance(again, ast.Call)
-    code = ast.parse(period, mode="eval").body
-    if again.args:
-        again.args[0] = code
-    for keyword in again.keywords:
+def _create_with_new_period(created: ast.Call, each: str) -> str:
+    """The call that creates the timer, with the period that follows from the new value of the parameter `each`."""
+    period = ast.parse(f"1.0 / {each}.value", mode="eval").body
+    call = ast.parse(ast.unparse(created), mode="eval").body
+    assert isinstance(call, ast.Call)
+    if call.args:
+        call.args[0] = period
+    for keyword in call.keywords:
         if keyword.arg == "timer_period_sec":
-            keyword.value = code
-    return ast.unparse(again)
+            keyword.value = period
+    return ast.unparse(call)
 
 
-def _is_early(file: NodeFile) -> bool:
-    """Whether a callback is registered before parameters are declared, and so is called before there is a timer."""
+def _is_registered_early(file: NodeFile) -> bool:
+    """Whether a callback is registered before parameters are declared, and so runs before there is a timer."""
     declared = file.calls("declare_parameter", "declare_parameters")
     return any(call.lineno < each.lineno for call in file.calls(ON_SET, POST_SET) for each in declared)

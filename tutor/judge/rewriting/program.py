@@ -1,4 +1,4 @@
-"""The program around a learner's node, rewritten: what makes the node, runs its callbacks, and ends with Ctrl+C."""
+"""Rewrite the program around a learner's node: the code that creates it, spins it, and exits on Ctrl+C."""
 
 from __future__ import annotations
 
@@ -15,58 +15,58 @@ from tutor.judge.trace import Trace
 
 SPINS = ("spin", "spin_once", "spin_some", "spin_until_future_complete")
 _EXECUTORS = ("SingleThreadedExecutor", "MultiThreadedExecutor", "EventsExecutor")
-_REPLACED = {
+_REPLACED_CALLS = {
     *(*SPINS, *_EXECUTORS, "add_node", "remove_node", "destroy_node", "shutdown", "try_shutdown", "install"),
     *("sleep", "join", "wait", "signal", "register", "exit", "_exit", "abort", "kill", "terminate", "on_shutdown"),
 }
-"""What a program does to run its node, and to end: none of it is kept."""
+"""Calls by which a program spins its node and ends: a rewrite keeps none of them."""
 
 _THREADS = 8
 
 
 @dataclass(frozen=True)
 class _Scope:
-    """The statements of the program, in `main()` or at the end of the file."""
+    """The statements of the program: the body of a function such as `main()`, or the end of the file."""
 
     body: Sequence[ast.stmt]
     function: Function | None
 
 
 def whole_program(file: NodeFile, *, threads: bool = False) -> list[Edit]:
-    """The whole program: what puts the node together is kept, and what spins and ends it is written as it should be.
+    """Rewrite the whole program: keep what sets the node up, and write spinning and exit as they should be.
 
-    `threads`: by several threads; else by the executor that the file makes, if it makes one. Empty where there is no
-    such program, or no node for it.
+    `threads`: spin in several threads; otherwise, with the executor that the file creates, if any. No edits if there is
+    no such program, or no node in it.
     """
-    scope = _scope(file)
+    scope = _find_scope(file)
     if scope is None:
         return []
-    kept = list(_kept(file, scope.body))
+    kept = list(_setup_statements(file, scope.body))
     same = takewhile(lambda pair: pair[0] is pair[1], zip(scope.body, kept, strict=False))
     prefix = [each for each, _ in same]
     rest = scope.body[len(prefix) :]
     lines = [_code(file, each) for each in kept[len(prefix) :]]
-    nodes, made = _nodes(file, kept)
+    nodes, created = _name_nodes(file, kept)
     if not nodes:
         return []
-    setup = [] if _initialised(file, kept) else ["rclpy.init()"]
-    ends = [waking for each in file.calls("set") if (waking := _waking(file, scope, each))]
-    spinning, edits = _spinning(file, nodes, threads)
-    both, imported = _both(file)
+    init = [] if _is_initialised(file, kept) else ["rclpy.init()"]
+    ends = [setting for each in file.calls("set") if (setting := _event_set_at_end(file, scope, each))]
+    spin, edits = _spin_lines(file, nodes, threads)
+    except_line, imported = _except_interrupt(file)
     code = [
-        *setup,
+        *init,
         *lines,
-        *made,
-        *spinning[:-1],
+        *created,
+        *spin[:-1],
         "try:",
-        f"    {spinning[-1]}",
-        f"{both}:",
+        f"    {spin[-1]}",
+        f"{except_line}:",
         "    pass",
         "finally:",
         *(f"    {each}" for each in ends),
         "    rclpy.try_shutdown()",
     ]
-    edits = [*_imported(file), *edits, *imported, *_started(file, scope)]
+    edits = [*_import_rclpy(file), *edits, *imported, *_call_once(file, scope)]
     if not rest:
         last = scope.body[-1]
         return [*edits, insert_after(last, "\n".join(code))]
@@ -77,33 +77,35 @@ def whole_program(file: NodeFile, *, threads: bool = False) -> list[Edit]:
 
 
 def clean_ending(file: NodeFile) -> list[Edit]:
-    """The whole program, and nothing beside it that keeps the process from ending."""
+    """Rewrite the whole program, and remove everything else that keeps the process from ending."""
     whole = whole_program(file)
-    beside = [
-        each for each in _free(file) if not any(one.first <= each.first and each.last <= one.last for one in whole)
+    others = [
+        each
+        for each in _remove_obstacles(file)
+        if not any(one.first <= each.first and each.last <= one.last for one in whole)
     ]
-    return [*beside, *whole]
+    return [*others, *whole]
 
 
 def guard_spin(file: NodeFile, call: ast.Call) -> list[Edit]:
-    """A statement that spins, with what ends a spin caught around it, and rclpy shut down at last."""
+    """Catch around a spin the exceptions that end it, and shut rclpy down afterwards."""
     statement = file.statement(call)
     if not isinstance(statement, ast.Expr):
         return []
-    both, imported = _both(file)
+    except_line, imported = _except_interrupt(file)
     end = "" if file.calls("try_shutdown", "shutdown") else "\nfinally:\n    rclpy.try_shutdown()"
     body = textwrap.indent(_code(file, statement), "    ")
-    code = f"try:\n{body}\n{both}:\n    pass{end}"
+    code = f"try:\n{body}\n{except_line}:\n    pass{end}"
     return [*imported, replace_statement(statement, code)]
 
 
 def call_main(file: NodeFile) -> list[Edit]:
-    """The call of main() at the end of the file, where nothing calls it."""
+    """Add the missing call of main() at the end of the file."""
     main = next((each for each in file.tree.body if isinstance(each, Function) and each.name == "main"), None)
-    return _called(file, main) if main is not None else []
+    return _add_main_call(file, main) if main is not None else []
 
 
-def _called(file: NodeFile, main: Function) -> list[Edit]:
+def _add_main_call(file: NodeFile, main: Function) -> list[Edit]:
     code = f'if __name__ == "__main__":\n    {main.name}()'
     for each in file.tree.body:
         if isinstance(each, ast.If) and "__name__" in ast.unparse(each.test):
@@ -114,24 +116,24 @@ def _called(file: NodeFile, main: Function) -> list[Edit]:
     return [insert_below(last.end_lineno or last.lineno, f"\n\n{code}", like=main.lineno)]
 
 
-def _started(file: NodeFile, scope: _Scope) -> list[Edit]:
-    """The call of the program's function, once: where it is called in a loop, or not at all."""
+def _call_once(file: NodeFile, scope: _Scope) -> list[Edit]:
+    """Call the program's function once, if it is called in a loop or not at all."""
     main = scope.function
     if main is None or main not in file.tree.body:
         return []
     calls = [each for each in file.calls(main.name) if not isinstance(each.func, ast.Attribute)]
     if any(not isinstance(each, ast.While | ast.For | Function) for call in calls for each in file.ancestors(call)):
         looped = [each for call in calls for each in file.ancestors(call) if isinstance(each, ast.While | ast.For)]
-        return _called(file, main) if looped else []
-    return _called(file, main)
+        return _add_main_call(file, main) if looped else []
+    return _add_main_call(file, main)
 
 
-def _free(file: NodeFile) -> list[Edit]:
-    """Nothing else keeps the process from ending: threads are daemons, and Ctrl+C and the end are left to rclpy."""
+def _remove_obstacles(file: NodeFile) -> list[Edit]:
+    """Let the process end: turn threads into daemons, and leave Ctrl+C and the exit to rclpy."""
     found = []
     for each in file.calls("Thread", "Timer"):
         if not any(given.arg == "daemon" for given in each.keywords) and called_name(each) == "Thread":
-            found.append(_with_daemon(file, each))
+            found.append(_make_daemon(file, each))
     for each in file.calls("signal", "register"):
         statement = file.statement(each)
         if isinstance(statement, ast.Expr) and ast.unparse(each.func) in ("signal.signal", "atexit.register"):
@@ -139,7 +141,7 @@ def _free(file: NodeFile) -> list[Edit]:
     return found
 
 
-def _with_daemon(file: NodeFile, call: ast.Call) -> Edit:
+def _make_daemon(file: NodeFile, call: ast.Call) -> Edit:
     statement = file.statement(call)
     first, last = statement.lineno, statement.end_lineno or statement.lineno
     lines = file.text.splitlines()
@@ -151,21 +153,22 @@ def _with_daemon(file: NodeFile, call: ast.Call) -> Edit:
     return Edit(first, last, textwrap.dedent("\n".join(lines[first - 1 : last])), like=first)
 
 
-def _scope(file: NodeFile) -> _Scope | None:
-    """Where the program is: around rclpy.init(), or what spins or makes the node, outside of the node's class."""
+def _find_scope(file: NodeFile) -> _Scope | None:
+    """The program: what is around rclpy.init(), or around what spins or creates the node, outside the node's class."""
     inits = [each for each in file.calls("init") if ast.unparse(each.func) in ("rclpy.init", "init")]
     making = file.calls(*file.node_classes, "create_node", "Node")
     for each in [*inits, *file.calls(*SPINS), *making]:
         function = file.function_around(each)
         if function is None:
-            return _outside(file, each)
+            return _module_scope(file, each)
         if file.class_of(function) is None and not isinstance(function, ast.AsyncFunctionDef):
             return _Scope(function.body, function)
     main = next((each for each in file.functions if each.name == "main" and file.class_of(each) is None), None)
     return _Scope(main.body, main) if main is not None else None
 
 
-def _outside(file: NodeFile, call: ast.Call) -> _Scope | None:
+def _module_scope(file: NodeFile, call: ast.Call) -> _Scope | None:
+    """The program around a call at module level; None within the body of a class."""
     around = [each for each in file.ancestors(call) if isinstance(each, ast.stmt)]
     if any(isinstance(each, ast.ClassDef) for each in around):
         return None
@@ -175,56 +178,57 @@ def _outside(file: NodeFile, call: ast.Call) -> _Scope | None:
     return _Scope(file.tree.body[file.tree.body.index(outermost) :], None)
 
 
-def _kept(file: NodeFile, body: Sequence[ast.stmt]) -> Iterator[ast.stmt]:
-    """What puts the node together, of all that stands in a program before it spins."""
-    gone: set[str] = set()
-    for each in _flat(body):
+def _setup_statements(file: NodeFile, body: Sequence[ast.stmt]) -> Iterator[ast.stmt]:
+    """The statements of a program that set the node up, up to the one that spins."""
+    removed_names: set[str] = set()
+    for each in _flatten(body):
         if isinstance(each, ast.ClassDef):
             yield each
             continue
         calls = calls_in(each)
         read = {inner.id for inner in ast.walk(each) if isinstance(inner, ast.Name) and isinstance(inner.ctx, ast.Load)}
-        out = isinstance(each, ast.While | ast.For | ast.Return | ast.Raise | ast.Pass)
-        out = out or any(_ends(call) for call in calls) or bool(read & gone) or _only_does(file, each)
-        if not out:
+        is_removed = isinstance(each, ast.While | ast.For | ast.Return | ast.Raise | ast.Pass)
+        is_removed = is_removed or any(_is_replaced(call) for call in calls)
+        if not (is_removed or read & removed_names or _has_no_setup(file, each)):
             yield each
             continue
         if isinstance(each, Function):
-            gone.add(each.name)
-        gone |= {
+            removed_names.add(each.name)
+        removed_names |= {
             inner.id for inner in ast.walk(each) if isinstance(inner, ast.Name) and isinstance(inner.ctx, ast.Store)
         }
         if any(called_name(call) in SPINS for call in calls) and not isinstance(each, Function):
             return
 
 
-def _only_does(file: NodeFile, statement: ast.stmt) -> bool:
-    """Whether it calls a function that makes nothing of a node's, and keeps nothing of it."""
+def _has_no_setup(file: NodeFile, statement: ast.stmt) -> bool:
+    """Whether a statement only calls a function that creates nothing of a node, and discards the result."""
     if not isinstance(statement, ast.Expr) or not isinstance(call := statement.value, ast.Call):
         return False
-    led = file.function(call.func)
-    inside = [call, *(each for one in (file.reached(led) if led else []) for each in ast.walk(one))]
+    callee = file.function(call.func)
+    inside = [call, *(each for one in (file.reached(callee) if callee else []) for each in ast.walk(one))]
     names = [called_name(each) for each in inside if isinstance(each, ast.Call)]
     return not any(name.startswith(("create_", "declare_", "init", "add_on")) for name in names)
 
 
-def _ends(call: ast.Call) -> bool:
-    """Whether a call belongs to what is rewritten; a thread's target is what it may spin in."""
-    return called_name(call) in _REPLACED or any(
+def _is_replaced(call: ast.Call) -> bool:
+    """Whether a rewrite replaces a call: by its name, or because it is passed a spin, as a thread's target may be."""
+    return called_name(call) in _REPLACED_CALLS or any(
         ast.unparse(each).rpartition(".")[2] in SPINS for each in (*call.args, *(k.value for k in call.keywords))
     )
 
 
-def _flat(body: Sequence[ast.stmt]) -> Iterator[ast.stmt]:
+def _flatten(body: Sequence[ast.stmt]) -> Iterator[ast.stmt]:
+    """The statements, with the bodies of try and with statements in place of these."""
     for each in body:
         if isinstance(each, ast.Try | ast.With):
-            yield from _flat(each.body)
+            yield from _flatten(each.body)
         else:
             yield each
 
 
-def _nodes(file: NodeFile, kept: Sequence[ast.stmt]) -> tuple[list[str], list[str]]:
-    """What the nodes are called, and the lines that make those that have no name yet."""
+def _name_nodes(file: NodeFile, kept: Sequence[ast.stmt]) -> tuple[list[str], list[str]]:
+    """The names of the nodes, and the lines that create those that are not assigned to a name yet."""
     classes = file.node_classes
     makers = (*classes, "create_node", "Node")
     names = [
@@ -235,14 +239,14 @@ def _nodes(file: NodeFile, kept: Sequence[ast.stmt]) -> tuple[list[str], list[st
     ]
     if names:
         return names, []
-    calls = [each for each in file.calls(*makers) if not _of_class(file, each)]
+    calls = [each for each in file.calls(*makers) if not _is_in_class(file, each)]
     unnamed = [ast.unparse(each) for each in calls] or [f"{each}()" for each in classes[-1:]]
-    called_so = ["node"] if len(unnamed) == 1 else [f"node{number}" for number in range(1, len(unnamed) + 1)]
-    return called_so, [f"{name} = {code}" for name, code in zip(called_so, unnamed, strict=True)]
+    new_names = ["node"] if len(unnamed) == 1 else [f"node{number}" for number in range(1, len(unnamed) + 1)]
+    return new_names, [f"{name} = {code}" for name, code in zip(new_names, unnamed, strict=True)]
 
 
-def _spinning(file: NodeFile, nodes: Sequence[str], threads: bool) -> tuple[list[str], list[Edit]]:
-    """The lines that run the nodes' callbacks, the one that spins last."""
+def _spin_lines(file: NodeFile, nodes: Sequence[str], threads: bool) -> tuple[list[str], list[Edit]]:
+    """The lines that run the nodes' callbacks, the spin itself last, and the imports that they need."""
     made = next(iter(file.calls("MultiThreadedExecutor")), None)
     if not threads and made is None and len(nodes) == 1:
         return [f"rclpy.spin({nodes[0]})"], []
@@ -252,30 +256,31 @@ def _spinning(file: NodeFile, nodes: Sequence[str], threads: bool) -> tuple[list
     return [f"{executor} = {code}", *(f"{executor}.add_node({each})" for each in nodes), f"{executor}.spin()"], edits
 
 
-def _both(file: NodeFile) -> tuple[str, list[Edit]]:
+def _except_interrupt(file: NodeFile) -> tuple[str, list[Edit]]:
+    """The `except` clause, without its colon, for both exceptions that end a spin, and the imports that it needs."""
     name, edits = file.own("ExternalShutdownException", "rclpy.executors")
     return f"except (KeyboardInterrupt, {name})", edits
 
 
-def _initialised(file: NodeFile, kept: Sequence[ast.stmt]) -> bool:
-    """Whether what is kept initialises rclpy, or something outside of the program does."""
+def _is_initialised(file: NodeFile, kept: Sequence[ast.stmt]) -> bool:
+    """Whether the kept statements initialise rclpy, or a class does."""
     inits = [each for each in file.calls("init") if ast.unparse(each.func) in ("rclpy.init", "init")]
     inside = [each for one in kept for each in ast.walk(one)]
-    return any(each in inside or _of_class(file, each) for each in inits)
+    return any(each in inside or _is_in_class(file, each) for each in inits)
 
 
-def _of_class(file: NodeFile, node: ast.AST) -> bool:
+def _is_in_class(file: NodeFile, node: ast.AST) -> bool:
     return any(isinstance(each, ast.ClassDef) for each in file.ancestors(node))
 
 
-def _imported(file: NodeFile) -> list[Edit]:
-    """The import of rclpy itself, which try_shutdown() needs."""
+def _import_rclpy(file: NodeFile) -> list[Edit]:
+    """Import rclpy itself, which rclpy.try_shutdown() needs."""
     names = {alias.asname or alias.name.split(".")[0] for each, alias in file.imports if isinstance(each, ast.Import)}
     return [] if "rclpy" in names else add_import(file.text, "import rclpy")
 
 
-def _waking(file: NodeFile, scope: _Scope, call: ast.Call) -> str:
-    """What sets an event when the program ends, as it is written."""
+def _event_set_at_end(file: NodeFile, scope: _Scope, call: ast.Call) -> str:
+    """The program's own statement that sets an event, typically to wake a thread at the end; empty if it is none."""
     statement = file.statement(call)
     if not isinstance(statement, ast.Expr) or not any(statement in ast.walk(each) for each in scope.body):
         return ""
@@ -287,19 +292,20 @@ def _waking(file: NodeFile, scope: _Scope, call: ast.Call) -> str:
 
 
 def _code(file: NodeFile, statement: ast.stmt) -> str:
+    """A statement as written, dedented; if it shares its lines with other code, as unparsed."""
     lines = file.text.splitlines()[first_line(statement) - 1 : statement.end_lineno]
     code = textwrap.dedent("\n".join(lines))
     try:
-        alone = len(ast.parse(code).body) == 1
+        is_alone = len(ast.parse(code).body) == 1
     except SyntaxError:
-        alone = False
-    return code if alone else ast.unparse(statement)
+        is_alone = False
+    return code if is_alone else ast.unparse(statement)
 
 
 def first_sound_step(trace: Trace, *edits: Callable[[NodeFile], Sequence[Edit]], name: str = "") -> str | None:
-    """The first of these edits that leaves a file which Python can run, in words; usually of the one that was started.
+    """The first of these rewrites that leaves a sound file, in words; None if none does.
 
-    `name`: the file's, where it is another one.
+    `name`: the file to edit, by default the one that was run.
     """
     name = name or trace.file
     file = node_file(trace.sources.get(name, ""))

@@ -1,4 +1,4 @@
-"""What a publisher sends, and when: the message, the timer and the timer's callback, rewritten."""
+"""Rewrite what a publisher sends, and when: the message, the timer and the timer's callback."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from tutor.judge.source import Function, called_name, calls_in
 
 
 def send_data(file: NodeFile, code: str) -> list[Edit]:
-    """The message that the timer's callback publishes, with this code as its `data`."""
+    """Set the `data` of the message that the timer's callback publishes to this code."""
     if file.tick is None:
         return []
     within = file.reached(file.tick)
-    found = list(_data(file, within))
+    found = list(_data_expressions(file, within))
     if found:
-        return [each for expression in found for each in _in_place(file, expression, code)]
+        return [_replace_data(file, expression, code) for expression in found]
     sent = [each for each in file.calls("publish") if file.function_around(each) in within and each.args]
     if not sent or not isinstance(sent[0].args[0], ast.Name | ast.Attribute):
         return []
@@ -25,11 +25,11 @@ def send_data(file: NodeFile, code: str) -> list[Edit]:
 
 
 def published_data(file: NodeFile) -> ast.expr | None:
-    """What the timer's callback puts into the message."""
-    return next(_data(file, file.reached(file.tick)), None) if file.tick is not None else None
+    """The expression that the timer's callback puts into the message's `data`."""
+    return next(_data_expressions(file, file.reached(file.tick)), None) if file.tick is not None else None
 
 
-def _data(file: NodeFile, within: list[Function]) -> Iterator[ast.expr]:
+def _data_expressions(file: NodeFile, within: list[Function]) -> Iterator[ast.expr]:
     for node in ast.walk(file.tree):
         if file.function_around(node) not in within:
             continue
@@ -40,44 +40,46 @@ def _data(file: NodeFile, within: list[Function]) -> Iterator[ast.expr]:
                 yield value
 
 
-def _in_place(file: NodeFile, expression: ast.expr, code: str) -> list[Edit]:
-    """A statement of one line keeps its other parts; one of more lines is rewritten where it only assigns."""
+def _replace_data(file: NodeFile, expression: ast.expr, code: str) -> Edit:
+    """Replace an expression: an assignment is rewritten as a whole, in any other statement the rest stays as it is."""
     statement = file.statement(expression)
     if isinstance(statement, ast.Assign) and statement.value is expression:
         target = ast.unparse(statement.targets[0])
-        return [replace_statement(statement, f"{target} = {code}")]
-    return [replace_node(file.text, expression, code)]
+        return replace_statement(statement, f"{target} = {code}")
+    return replace_node(file.text, expression, code)
 
 
 def waiting_while_off(file: NodeFile, enabled: str) -> list[Edit]:
-    """The timer's callback, with nothing to do while a parameter is false; without a timer, only no publishing."""
+    """Let the timer's callback return at once while a parameter is false; without a timer, only skip publishing."""
     if file.first_timer is not None and file.tick is not None and file.tick is not file.setup:
         return file.prepend_to(file.tick, f"if not {file.value(enabled)}:\n    return")
     return [
-        replace_statement(each, f"if {file.value(enabled)}:\n    {ast.unparse(each)}") for each in _publishing(file)
+        replace_statement(each, f"if {file.value(enabled)}:\n    {ast.unparse(each)}")
+        for each in _publish_statements(file)
     ]
 
 
 def log_value(file: NodeFile, parameter: str) -> list[Edit]:
-    """A log message with a parameter's value, for each message that is published."""
+    """Log a parameter's value whenever a message is published."""
     code = f"{file.name}.get_logger().info(str({file.value(parameter)}))"
-    return [insert_above(each.lineno, code) for each in _publishing(file)[:1]]
+    return [insert_above(each.lineno, code) for each in _publish_statements(file)[:1]]
 
 
-def _publishing(file: NodeFile) -> list[ast.stmt]:
-    """The statements that publish: in what the timer's callback leads to, if there is one."""
+def _publish_statements(file: NodeFile) -> list[ast.stmt]:
+    """The statements that publish: those reached from the timer's callback, if there is one, else all."""
     within = file.reached(file.tick) if file.tick is not None else []
     sent = [each for each in file.calls("publish") if not within or file.function_around(each) in within]
     return [file.statement(each) for each in sent]
 
 
 def text_with(file: NodeFile, prefix: str) -> str:
-    """The code of a text that begins with a parameter's value, and goes on with the callback's counter, if any."""
+    """The code of a text that starts with a parameter's value, followed by the callback's counter, if any."""
     counter = _counter(file)
-    return f"f'{{{_quoted(file.value(prefix))}}} {{{counter}}}'" if counter else file.value(prefix)
+    return f"f'{{{_double_quoted(file.value(prefix))}}} {{{counter}}}'" if counter else file.value(prefix)
 
 
 def _counter(file: NodeFile) -> str:
+    """The counter that the timer's callback increments, such as "self.count"; empty if there is none."""
     counted = [
         ast.unparse(node.target)
         for function in (file.reached(file.tick) if file.tick is not None else [])
@@ -88,16 +90,18 @@ def _counter(file: NodeFile) -> str:
 
 
 def whole_timer_callback(file: NodeFile, data: str, *, enabled: str = "", log: str = "") -> list[Edit]:
-    """The whole callback of the timer: one message each time, and none while a parameter is false.
+    """Rewrite the timer's whole callback: it sends one message per call, and none while a parameter is false.
 
-    `data` is the code of what is sent, `log` a parameter that is logged each time.
+    `data`: the code of the message's data. `enabled`, `log`: the parameters that switch publishing off, and that are
+    logged with each message.
     """
     if file.tick is None or not file.publisher or not file.message_class or file.tick is file.setup:
         return []
-    return [rewrite_function(file.tick, _ticking(file, file.publisher, file.message_class, data, enabled, log))]
+    return [rewrite_function(file.tick, _callback_body(file, file.publisher, file.message_class, data, enabled, log))]
 
 
-def _ticking(file: NodeFile, publisher: str, message_class: str, data: str, enabled: str, log: str) -> str:
+def _callback_body(file: NodeFile, publisher: str, message_class: str, data: str, enabled: str, log: str) -> str:
+    """The code of a timer callback's body (see `whole_timer_callback`)."""
     counter, body = _counter(file), file.tick.body if file.tick is not None else []
     lines = [
         *(ast.unparse(each) for each in body if isinstance(each, ast.Global | ast.Nonlocal)),
@@ -105,7 +109,11 @@ def _ticking(file: NodeFile, publisher: str, message_class: str, data: str, enab
         f"message = {message_class}()",
         f"message.data = {data}",
         f"{publisher}.publish(message)",
-        *([f"{file.name}.get_logger().info(f'{{{_quoted(file.value(log))}}}: {{message.data}}')"] if log else []),
+        *(
+            [f"{file.name}.get_logger().info(f'{{{_double_quoted(file.value(log))}}}: {{message.data}}')"]
+            if log
+            else []
+        ),
         *([f"{counter} += 1"] if counter else []),
     ]
     return "\n".join(lines)
@@ -114,62 +122,62 @@ def _ticking(file: NodeFile, publisher: str, message_class: str, data: str, enab
 def whole_publishing(
     file: NodeFile, topic: str, type_name: str, data: str, rate: str, *, enabled: str = "", log: str = ""
 ) -> list[Edit]:
-    """Publisher, timer and callback as a whole: what is missing is added, the callback is rewritten.
+    """Fix publisher, timer and callback as a whole: add what is missing, and rewrite the callback.
 
-    `type_name` is like "std_msgs/msg/String", `data` is code; `rate`, `enabled` and `log` are names of parameters,
-    which are used as far as the file has them.
+    `type_name` is like "std_msgs/msg/String", and `data` is code. `rate`, `enabled` and `log` are names of parameters;
+    they are only used if they occur in the file.
     """
-    named = {each.value for each in ast.walk(file.tree) if isinstance(each, ast.Constant)}
-    enabled, log = enabled if enabled in named else "", log if log in named else ""
-    period = f"1.0 / {file.value(rate)}" if rate in named else "1.0"
+    constants = {each.value for each in ast.walk(file.tree) if isinstance(each, ast.Constant)}
+    enabled, log = enabled if enabled in constants else "", log if log in constants else ""
+    period = f"1.0 / {file.value(rate)}" if rate in constants else "1.0"
     package, _, name = type_name.partition("/msg/")
     own, edits = file.own(name, f"{package}.msg")
     made = file.calls("create_publisher", "create_lifecycle_publisher")
-    kept = next((each for each in made if file.assigned_to(each)), None)
-    publisher = file.assigned_to(kept) if kept is not None else f"{file.holder}.publisher"
+    existing = next((each for each in made if file.assigned_to(each)), None)
+    publisher = file.assigned_to(existing) if existing is not None else f"{file.holder}.publisher"
     create = f"{file.name}.create_publisher({own}, {topic!r}, 10)"
-    given = argument(kept, 1, "topic") if kept is not None else None
-    written = str(given.value) if isinstance(given, ast.Constant) else ""
-    if kept is not None and (file.message_class, written.lstrip("/")) != (own, topic.lstrip("/")):
-        edits.append(replace_node(file.text, kept, create))
-    missing = [f"{publisher} = {create}"] if kept is None else []
-    body = _ticking(file, publisher, own, data, enabled, log)
+    topic_arg = argument(existing, 1, "topic") if existing is not None else None
+    present_topic = str(topic_arg.value) if isinstance(topic_arg, ast.Constant) else ""
+    if existing is not None and (file.message_class, present_topic.lstrip("/")) != (own, topic.lstrip("/")):
+        edits.append(replace_node(file.text, existing, create))
+    missing = [f"{publisher} = {create}"] if existing is None else []
+    body = _callback_body(file, publisher, own, data, enabled, log)
     tick = file.tick if file.tick is not file.setup and file.tick is not None else None
-    of_class = file.setup is not None and file.class_of(file.setup) is not None
+    in_class = file.setup is not None and file.class_of(file.setup) is not None
     method = tick.name if tick is not None else "timer_callback"
     indented = "\n".join(f"    {line}" for line in body.splitlines())
     if tick is not None:
         edits.append(rewrite_function(tick, body))
-    elif of_class:
+    elif in_class:
         edits += file.new_method(f"def {method}(self):\n{indented}")
     else:
         missing.append(f"def {method}():\n{indented}\n")
     if not file.timers or tick is None:
-        callback = f"{'self.' if of_class else ''}{method}"
+        callback = f"{'self.' if in_class else ''}{method}"
         missing.append(f"{file.holder}.timer = {file.name}.create_timer({period}, {callback})")
-    if not of_class and not any(called_name(each).startswith("spin") for each in calls_in(file.tree)):
+    if not in_class and not any(called_name(each).startswith("spin") for each in calls_in(file.tree)):
         missing.append(f"rclpy.spin({file.name})")
     return [*edits, *(file.append_to_setup("\n".join(missing)) if missing else [])]
 
 
 def use_one_type(file: NodeFile, topic: str, type_name: str) -> list[Edit]:
-    """Publishers of another type on a topic get one of their own."""
+    """Move publishers of any other type on a topic to a topic of their own."""
     own, _ = file.own(type_name.rpartition("/")[2], type_name.partition("/")[0] + ".msg")
     edits = []
     for call in file.calls("create_publisher"):
         kind, name = argument(call, 0, "msg_type"), argument(call, 1, "topic")
         if kind is None or name is None or ast.unparse(kind) == own:
             continue
-        if _text(file, name) == topic.lstrip("/"):
+        if _topic_text(file, name) == topic.lstrip("/"):
             edits.append(replace_node(file.text, name, repr(f"{topic}_{ast.unparse(kind).lower()}")))
     return edits
 
 
-def _text(file: NodeFile, code: ast.expr | None) -> str:
-    """The topic's name that an expression stands for, without a slash, as far as one assignment tells it."""
+def _topic_text(file: NodeFile, code: ast.expr | None) -> str:
+    """The topic's name, without its leading slash, given as a literal or a name that a literal is assigned to."""
     match code:
-        case ast.Constant(value=str() as written):
-            return written.lstrip("/")
+        case ast.Constant(value=str() as text):
+            return text.lstrip("/")
         case ast.Name(id=name) | ast.Attribute(attr=name):
             for each in ast.walk(file.tree):
                 match each:
@@ -181,32 +189,32 @@ def _text(file: NodeFile, code: ast.expr | None) -> str:
     return ""
 
 
-def _quoted(code: str) -> str:
-    """Code that can stand in a text with single quotation marks."""
+def _double_quoted(code: str) -> str:
+    """The code with double quotation marks only, for use within an f-string in single ones."""
     return code.replace("'", '"')
 
 
 def set_period(file: NodeFile, code: str) -> list[Edit]:
-    """The timer's period in seconds; where a loop sleeps instead, the time it sleeps."""
+    """Set the timer's period in seconds; without a timer, the duration of the only sleep."""
     if file.first_timer is not None:
-        given = argument(file.first_timer, 0, "timer_period_sec")
-        return [replace_node(file.text, given, code)] if given is not None else []
-    naps = [call for call in file.calls("sleep") if call.args]
-    return [replace_node(file.text, naps[0].args[0], code)] if len(naps) == 1 else []
+        period = argument(file.first_timer, 0, "timer_period_sec")
+        return [replace_node(file.text, period, code)] if period is not None else []
+    sleeps = [call for call in file.calls("sleep") if call.args]
+    return [replace_node(file.text, sleeps[0].args[0], code)] if len(sleeps) == 1 else []
 
 
 def keep_one_timer(file: NodeFile) -> list[Edit]:
-    """Without the other timers that call the same function, beside the first one."""
+    """Remove the timers that are created beside the first one with the same callback."""
     if file.first_timer is None:
         return []
-    same = argument(file.first_timer, 1, "callback")
+    callback = argument(file.first_timer, 1, "callback")
     others = [
         file.statement(each)
         for each in file.timers
         if each is not file.first_timer
         and file.function_around(each) is file.function_around(file.first_timer)
-        and same is not None
+        and callback is not None
         and (other := argument(each, 1, "callback")) is not None
-        and ast.unparse(other) == ast.unparse(same)
+        and ast.unparse(other) == ast.unparse(callback)
     ]
     return [remove_statement(file.text, each) for each in others]

@@ -1,4 +1,4 @@
-"""A learner's program as a whole, in its own names: the step that is left where no edit of its parts helps."""
+"""Rewrite a learner's program as a whole, keeping its names: the last resort if no edit of its parts helps."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ from tutor.judge.trace import Trace
 from tutor.judge.verdict import Status, Verdict
 
 _IDENTIFIER = re.compile(r"[A-Za-z]\w*")
-_TAKEN = re.compile(
+_RESERVED = re.compile(
     r"_?(?:publishers|timers|clients|services|subscriptions|guards|waitables|parameters|executor|handle|context|clock"
     r"|logger|default_callback_group)|(?:create|get|set|declare|undeclare|add|destroy|count|has|describe|list|wait"
     r"|remove|resolve)_\w+"
 )
-"""What a node has itself, or may have: nothing of the learner's is called so."""
+"""Names of attributes that `rclpy.node.Node` has, or may have: the learner's own attributes must not reuse them."""
 
 MAIN = """\
 
@@ -43,7 +43,7 @@ if __name__ == '__main__':
 
 @dataclass(frozen=True)
 class Names:
-    """What a node's program calls its parts, without `self.`."""
+    """The names that a node's program gives its parts, without `self.`."""
 
     node_class: str
     node: str
@@ -56,16 +56,16 @@ class Names:
 
 
 def names_of(file: NodeFile, node: str) -> Names:
-    """The learner's names; those that the file lacks, or that a node has itself, are the usual ones.
+    """The learner's names; usual names replace missing ones and those that collide with a node's own attributes.
 
-    `node` is the node's name, where the file has none.
+    `node`: the node's name, in case the file gives none.
     """
     owner = file.class_of(file.setup) if file.setup is not None else None
     taken: set[str] = {"main"}
 
     def own(name: str, usual: str) -> str:
-        fits = _IDENTIFIER.fullmatch(name.lstrip("_")) and not _TAKEN.fullmatch(name) and name not in taken
-        taken.add(chosen := name if fits and not name.startswith("__") else usual)
+        is_usable = _IDENTIFIER.fullmatch(name.lstrip("_")) and not _RESERVED.fullmatch(name) and name not in taken
+        taken.add(chosen := name if is_usable and not name.startswith("__") else usual)
         return chosen
 
     def attribute(code: str) -> str:
@@ -77,29 +77,28 @@ def names_of(file: NodeFile, node: str) -> Names:
         for first in call.args
         if isinstance(first, ast.Constant) and isinstance(first.value, str)
     ]
-    fitting = next((each for each in given if _IDENTIFIER.fullmatch(each)), node)
-    made = file.first_timer
-    counted = (
+    node_name = next((each for each in given if _IDENTIFIER.fullmatch(each)), node)
+    timer = file.first_timer
+    counters = (
         ast.unparse(each.target)
         for each in ast.walk(file.tree)
         if isinstance(each, ast.AugAssign) and isinstance(each.op, ast.Add) and isinstance(each.value, ast.Constant)
     )
-    ticking = file.tick if file.tick is not file.setup else None
-    usual = "".join(part.capitalize() for part in fitting.split("_"))
-    fits = owner is not None and owner.name not in ("Node", "String", "Float64")
+    tick = file.tick if file.tick is not file.setup else None
+    usual_class = "".join(part.capitalize() for part in node_name.split("_"))
     return Names(
-        node_class=owner.name if owner is not None and fits else usual,
-        node=fitting,
+        node_class=owner.name if owner is not None and owner.name not in ("Node", "String", "Float64") else usual_class,
+        node=node_name,
         publisher=own(attribute(file.publisher), "publisher"),
-        timer=own(attribute(file.assigned_to(made)) if made is not None else "", "timer"),
-        tick=own(ticking.name if ticking is not None else "", "timer_callback"),
-        counter=own(next((found for each in counted if (found := attribute(each))), ""), "count"),
-        check=own(_checking(file), "check_parameters"),
-        main=_main(file),
+        timer=own(attribute(file.assigned_to(timer)) if timer is not None else "", "timer"),
+        tick=own(tick.name if tick is not None else "", "timer_callback"),
+        counter=own(next((found for each in counters if (found := attribute(each))), ""), "count"),
+        check=own(_on_set_callback_name(file), "check_parameters"),
+        main=_main_name(file),
     )
 
 
-def _checking(file: NodeFile) -> str:
+def _on_set_callback_name(file: NodeFile) -> str:
     for call in file.calls("add_on_set_parameters_callback"):
         for given in call.args[:1]:
             if isinstance(given, ast.Attribute):
@@ -107,55 +106,55 @@ def _checking(file: NodeFile) -> str:
     return ""
 
 
-def _main(file: NodeFile) -> str:
-    """What the program's function is called."""
-    starting = [
+def _main_name(file: NodeFile) -> str:
+    """The name of the function that calls rclpy.init(); "main" if there is none."""
+    mains = [
         each
         for each in file.tree.body
         if isinstance(each, Function) and any(ast.unparse(one.func) == "rclpy.init" for one in calls_in(each))
     ]
-    return starting[0].name if starting else "main"
+    return mains[0].name if mains else "main"
 
 
 def rewrite_file(file: SourceFile, code: str) -> list[Edit]:
-    """All of a file below its docstring, with other code in its place."""
+    """Replace everything in a file below its docstring."""
     body = file.tree.body
     if not body:
         return []
-    described = ast.get_docstring(file.tree) is not None and len(body) > 1
-    return [Edit(first_line(body[1 if described else 0]), len(file.text.splitlines()), code)]
+    has_docstring = ast.get_docstring(file.tree) is not None and len(body) > 1
+    return [Edit(first_line(body[1 if has_docstring else 0]), len(file.text.splitlines()), code)]
 
 
 def is_usual(file: NodeFile) -> bool:
-    """Whether a node is built as usual: one class, its timer kept in an attribute, its callbacks methods.
+    """Whether a node has the usual structure: one class, its timer kept in an attribute, its callbacks methods.
 
-    Only of such a node is it sure that its callbacks, rewritten, do what is asked for.
+    Only for such a node is it certain that rewriting its callbacks makes them do what is required.
     """
-    setup, made, tick = file.setup, file.first_timer, file.tick
+    setup, timer, tick = file.setup, file.first_timer, file.tick
     owner = file.class_of(setup) if setup is not None else None
-    if owner is None or made is None or tick is None or tick is setup or file.class_of(tick) is not owner:
+    if owner is None or timer is None or tick is None or tick is setup or file.class_of(tick) is not owner:
         return False
-    waits = ("sleep", "create_rate", "wait", "parse_args", "parse_known_args", "Thread", "Timer", "partial")
-    looping = any(isinstance(each, ast.While) for each in ast.walk(file.tree))
+    unusual_calls = ("sleep", "create_rate", "wait", "parse_args", "parse_known_args", "Thread", "Timer", "partial")
+    has_loop = any(isinstance(each, ast.While) for each in ast.walk(file.tree))
     return (
         file.name == "self"
-        and not looping
-        and re.fullmatch(r"self\.\w+", file.assigned_to(made)) is not None
+        and not has_loop
+        and re.fullmatch(r"self\.\w+", file.assigned_to(timer)) is not None
         and len([each for each in file.tree.body if isinstance(each, ast.ClassDef)]) == 1
-        and not file.calls(*waits)
+        and not file.calls(*unusual_calls)
     )
 
 
 def with_applicable_steps[**P](
     judge: Callable[P, Verdict], found: Callable[..., Sequence[Trace]], step: Callable[[Trace], str]
 ) -> Callable[P, Verdict]:
-    """The judge, with next steps that can all be followed: where one is in words only, `step` gives another.
+    """Wrap a judge so that all its next steps are edits: if a hint is only words, `step` provides one.
 
-    `found` gives the runs that a judge's facts are of; the words are then added to the cause.
+    The words are then appended to the cause. `found` returns the traces in the judge's facts.
     """
 
     @wraps(judge)
-    def judged(*args: P.args, **kwargs: P.kwargs) -> Verdict:
+    def judge_with_step(*args: P.args, **kwargs: P.kwargs) -> Verdict:
         verdict = judge(*args, **kwargs)
         trace = next((each for each in found(*args, **kwargs) if each.sources), None)
         if verdict.status is not Status.FAILED or trace is None or is_applicable(verdict.hint, trace.sources):
@@ -166,4 +165,4 @@ def with_applicable_steps[**P](
         words = verdict.hint if "\n" not in verdict.hint else ""
         return replace(verdict, hint=hint, cause="; ".join(each for each in (verdict.cause, words) if each))
 
-    return judged
+    return judge_with_step
