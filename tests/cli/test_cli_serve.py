@@ -145,7 +145,10 @@ async def test_this_machine_alone_gets_a_page_that_needs_no_internet_and_ctrl_c_
             async with asyncio.timeout(LIMIT_S):
                 _, said = await server.communicate()
         assert server.returncode == 130
-        assert said.decode() == "ros-tutor: Ctrl+C ends it\nros-tutor: ending the app and everything that was started in it\n"
+        assert (
+            said.decode()
+            == "ros-tutor: Ctrl+C ends it\nros-tutor: ending the app and everything that was started in it\n"
+        )
         assert processes_with(str(workspace.root)) == {}
 
 
@@ -196,7 +199,7 @@ def test_a_taken_usual_port_is_replaced_by_a_free_one(taken: int, monkeypatch: p
 def test_anyone_who_opens_it_to_others_is_warned(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     from tutor.serve.server import AppServer
 
-    async def run_shortly(self: AppServer, on_ready: Callable[[], None], on_stop: Callable[[], None]) -> None:
+    async def run_shortly(self: AppServer, on_ready: Callable[[], None]) -> None:
         on_ready()
 
     monkeypatch.setattr(AppServer, "run", run_shortly)

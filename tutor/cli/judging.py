@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
-import signal
 import sys
 from collections.abc import Callable, Coroutine, Sequence
 from typing import TYPE_CHECKING, Protocol
@@ -12,11 +10,10 @@ from tutor.cli import terminal
 from tutor.judge.events import Event
 from tutor.judge.result import Report
 from tutor.judge.submission import Submission
+from tutor.stop_signals import Stopped, run_until_stopped
 
 if TYPE_CHECKING:
     from tutor.content import Course
-
-_STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
 class Engine(Protocol):
@@ -70,34 +67,11 @@ def judge(
 def interruptible[T](work: Callable[[], Coroutine[None, None, T]], display: Display) -> T | None:
     """Run `work` to completion; return None if it was interrupted, after its cleanup. Always closes the display."""
     try:
-        return asyncio.run(_until_stopped(work, display))
-    finally:
-        display.close()
-
-
-async def _until_stopped[T](work: Callable[[], Coroutine[None, None, T]], display: Display) -> T | None:
-    task = asyncio.ensure_future(work())
-    interrupted = False
-
-    def stop() -> None:
-        nonlocal interrupted
-        if not interrupted:  # an impatient second Ctrl+C must not abort the cleanup
-            interrupted = True
-            display.stopping()
-            task.cancel()
-
-    loop = asyncio.get_running_loop()
-    for signum in _STOP_SIGNALS:
-        loop.add_signal_handler(signum, stop)
-    try:
-        return await task
-    except asyncio.CancelledError:
-        if not interrupted:
-            raise RuntimeError("the check was cancelled without a stop signal") from None
+        return run_until_stopped(work, display.stopping)
+    except Stopped:
         return None
     finally:
-        for signum in _STOP_SIGNALS:
-            loop.remove_signal_handler(signum)
+        display.close()
 
 
 def display_for(course: Course, *, report_follows: bool) -> Display:

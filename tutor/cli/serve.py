@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import secrets
 
 from tutor import interpreter
@@ -22,10 +23,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Serve until Ctrl+C; each open page gets its own app."""
-    import asyncio
-
     from tutor.errors import ServeError
     from tutor.serve import address, is_loopback, listen
+    from tutor.stop_signals import Stopped, run_until_stopped
 
     try:
         from tutor.serve.server import AppServer
@@ -52,8 +52,8 @@ def run(arguments: argparse.Namespace) -> int:
     def stopping() -> None:
         terminal.say("ending the app and everything that was started in it")
 
-    with listener:
-        asyncio.run(AppServer(argv, listener, token).run(ready, stopping))
+    with listener, contextlib.suppress(Stopped):
+        run_until_stopped(lambda: AppServer(argv, listener, token).run(ready), stopping)
     return INTERRUPTED
 
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
-import signal
 import sys
 from collections.abc import Callable
 from difflib import get_close_matches
@@ -20,36 +18,19 @@ from tutor.plain.speech import counted
 from tutor.ros import stale_segments
 from tutor.session import Session
 from tutor.session.paths import short_path
+from tutor.stop_signals import Stopped, run_until_stopped
 from tutor.terminal_text import printable
 
 INTERRUPTED = 130
 
 _PROMPT = "Command: "
-_STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
 def run_dialog(session: Session, out: Callable[[str], None]) -> int:
     """Run the dialog. Return 0 at its end, or 130 after Ctrl+C. In either case, no process is left running."""
-    return asyncio.run(_run_until_stopped(session, out))
-
-
-async def _run_until_stopped(session: Session, out: Callable[[str], None]) -> int:
-    dialog = Dialog(session, LineReader.from_stdin(), out)
-    task = asyncio.ensure_future(dialog.run())
-    stopped = False
-
-    def stop() -> None:
-        nonlocal stopped
-        if not stopped:  # an impatient second Ctrl+C must not interrupt the cleanup
-            stopped = True
-            task.cancel()
-
-    loop = asyncio.get_running_loop()
-    for number in _STOP_SIGNALS:
-        loop.add_signal_handler(number, stop)
     try:
-        await task
-    except asyncio.CancelledError:
+        run_until_stopped(lambda: Dialog(session, LineReader.from_stdin(), out).run())
+    except Stopped:
         out("\nStopped; nothing is left running.\n")
         return INTERRUPTED
     return 0

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import asyncio
 import shlex
-import signal
 import socket
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -20,7 +19,6 @@ PAGE = Path(__file__).parent / "page"
 WIDEST, HIGHEST = 500, 200
 """Limits in columns and lines: more than any screen has, but not too much for an app to draw."""
 
-_STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 _GOODBYE_S = 2.0
 
 
@@ -35,12 +33,8 @@ class AppServer(Server):
         self._token = token
         self._sessions: set[Session] = set()
 
-    async def run(self, on_ready: Callable[[], None], on_stop: Callable[[], None]) -> None:
-        """Serve until stopped by a signal. Call `on_ready` once pages can be opened, `on_stop` when apps are ending."""
-        stopped = asyncio.Event()
-        loop = asyncio.get_running_loop()
-        for number in _STOP_SIGNALS:
-            loop.add_signal_handler(number, stopped.set)
+    async def run(self, on_ready: Callable[[], None]) -> None:
+        """Serve until cancelled, then end the apps. Call `on_ready` once pages can be opened."""
         # No access log: what a learner types is nobody's business.
         runner = web.AppRunner(await self._make_app(), access_log=None, shutdown_timeout=_GOODBYE_S)
         await runner.setup()
@@ -48,9 +42,10 @@ class AppServer(Server):
             site = web.SockSite(runner, self._listener)
             await site.start()
             on_ready()
-            await stopped.wait()
-            on_stop()
-            await site.stop()  # accept no new page while the open ones are being closed
+            try:
+                await asyncio.Event().wait()
+            finally:
+                await site.stop()  # accept no new page while the open ones are being closed
         finally:
             await asyncio.gather(*(session.stop() for session in self._sessions))
             await runner.cleanup()
