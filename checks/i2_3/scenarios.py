@@ -133,6 +133,18 @@ async def _make_call(run: Run, operands: Mapping[str, int], limit_s: float) -> _
     return answer, _cpu_wait_s(run) - waited_s
 
 
+async def _make_first_call(run: Run, suspect: Callable[[bool], None], limit_s: float) -> _TimedAnswer:
+    """Make a call; `suspect` is called if it is not answered while a correct node would have answered."""
+    call = asyncio.ensure_future(_make_call(run, _random_operands(), limit_s))
+    try:
+        done, _ = await asyncio.wait({call}, timeout=LONGEST_S + 2 * EXCUSED_S)
+        if not done:
+            suspect(False)
+        return await call
+    finally:
+        call.cancel()
+
+
 async def _call_first(
     bench: Bench,
     run: Run,
@@ -149,7 +161,9 @@ async def _call_first(
     series: Sequence[Series] = ()
     while not calls or (run.exit is None and needs_repeat(run.logs, calls, series, MOST_TRIES)):
         await asyncio.gather(*second)  # must not overlap with a repetition
-        answer, waited_s = await _make_call(run, _random_operands(), limit_s)
+        answer, waited_s = await (
+            _make_call(run, _random_operands(), limit_s) if calls else _make_first_call(run, suspect, limit_s)
+        )
         if not calls and _is_wrong(answer):
             bench.report_facts(SingleCalls(run.trace(), (Call(answer, run.now(), waited_s),)))
         series = (await bench.facts(run_idle)).series
