@@ -1,4 +1,4 @@
-"""I1.2 Message Counter and Statistics: a subscriber that sums up what it hears, and notices what it missed."""
+"""I1.2 Message Counter and Statistics: a subscriber that summarises its messages and notices gaps."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""I1.2: what is sent to the node, and the facts that are gathered."""
+"""I1.2: what we send to the node, and the facts that are gathered about it."""
 
 from __future__ import annotations
 
@@ -17,60 +17,58 @@ FILE = "message_stats.py"
 TOPIC, TYPE = "/chatter", "std_msgs/msg/String"
 OURS = TopicEndpoint(TOPIC, TYPE, "/talker")
 EVERY = 10
-"""A summary is asked for after this many messages."""
+"""Number of messages after which the exercise asks for another summary."""
 
 STEADY_HZ = (4.9, 5.0)
-"""The rate at which a steady talker sends: between these, by chance, evenly.
+"""Bounds of the steady talker's constant, random rate.
 
-Slow enough that a rate taken over the last second is true as soon as ten messages are there. Ten and twenty are no such
-rate, nor are ten and twenty messages by the seconds that it took, 1.8 and 3.8, when these are cut off.
+Slow enough that a rate over the last second is right once ten messages have come. No common mistake gives this rate:
+neither a count (10, 20), nor a count divided by the whole seconds of the time that it took (1 of 1.8 s, 3 of 3.8 s).
 """
 STEADY_MESSAGES = 20
 QUIET_S = 1.0
-"""A node is up for this long before the first message: a rate counted from its start is then too low to be true."""
+"""How long a node is up before the first message, so that a rate counted from its start is clearly too low."""
 
 MATCH_S = 0.4
-"""A best-effort subscription that we have met has met us this much later."""
+"""Once we have discovered a best-effort subscription, it has discovered our publisher within this time."""
 
 SOONER_HZ = 8.0
-"""The rate where none is judged."""
+"""The rate of messages in scenarios that do not judge rates."""
 JUMP_AFTER, AGAIN_AFTER, JUMP_MESSAGES = 7, 27, 33
-"""N jumps twice: far, and then by leaving out one number.
+"""N jumps twice: first far, then by leaving out one number.
 
-A summary is due soon after each jump; between them, ten messages in a row are summed up of which none is missing. A
-node that starts counting again at the first jump has counted ten more in time to be seen.
+A summary is due soon after each jump. Between the jumps, one summary covers ten consecutive messages. A node that
+restarts its count at the first jump reaches ten again before the end.
 """
 
 FAST_HZ, FAST_MESSAGES = 25.0, 60
-"""A stretch at a rate that is ordinary on a robot: a node that takes ten a second loses a third."""
+"""A stretch at a rate that is common on robots: a node that handles only ten messages per second loses a third."""
 FAST_ENOUGH_HZ = 20.0
-"""A machine that does not let us send so fast, on the whole, is too busy."""
+"""A machine on which our average rate stays below this is too busy."""
 
 RESTART_AFTER, RESTART_MESSAGES = 13, 25
 ABSENT_S = 0.7
-"""Nobody restarts a talker in less time."""
+"""How long there is no publisher: nobody restarts a talker faster."""
 
 LATE_S = 1.1
-"""A summary comes this soon after its message: it may wait for a timer of one second, as people choose."""
+"""Time limit of a summary after its message: it may wait for a one-second timer, which is a common choice."""
 
 SOON_S = 0.5
-"""What is logged of a message at once is there within this time."""
+"""Latency bound of a log message that the callback writes immediately."""
 
 MOST_CPU_WAIT_S = 1.0
-"""However busy the machine: what comes later than this excuses belongs to no message."""
+"""Maximum excuse for a late log message, however busy the machine: a later one belongs to no message."""
 
 ROUGH_S = 0.15
-"""A node kept from running for longer may have lost messages, and one that was fed so unevenly measured no one rate."""
+"""If the node waits longer for a CPU it may lose messages; if ours are more uneven, there is no single true rate."""
 
 STALL_S = 0.1
-"""A node that was kept from running for this long between two messages may not have been back in time for the
-second.
-"""
+"""A node that waited this long for a CPU between two messages may still have been late for the second one."""
 
 
 @dataclass(frozen=True, slots=True)
 class Sent:
-    """One of our `Hello World: N`: N, when it was sent, and how much of the CPU the machine had owed by then."""
+    """One of our `Hello World: N`: N, when it was sent, and for how long the node had waited for a CPU by then."""
 
     number: int
     at: float
@@ -78,18 +76,19 @@ class Sent:
 
     @property
     def content(self) -> str:
-        """What a subscriber gets."""
+        """The data of the message."""
         return f"Hello World: {self.number}"
 
 
 @dataclass(frozen=True)
 class Trial:
-    """A start of the node, and what it was fed.
+    """One run of the node, and the messages that it was sent.
 
-    `breaks`: how many messages were sent before N jumped or another publisher took over; 0 where neither happened.
-    `again`: how many were sent before N jumped once more; 0 where it did not. `gone_at`: when the first publisher went
-    away. `cpu_wait_s`: what the machine kept the node, or us, from running until all had come. `spins`: whether
-    the node answered a request; if not, `stuck` says where it was.
+    `breaks`: the number of messages sent before N jumped or another publisher took over; 0 if neither happened.
+    `again`: the number sent before N jumped once more; 0 if it did not. `first_publisher_left_at`: when the first
+    publisher left (seconds since the epoch; 0.0 if it stayed). `cpu_wait_s`: for how long the node waited for a CPU
+    while the messages were sent. `spins`: whether the node answered a request; if not, `stuck` holds the stack frames
+    where it was.
     """
 
     trace: Trace
@@ -104,7 +103,7 @@ class Trial:
 
     @cached_property
     def lines(self) -> tuple[Line, ...]:
-        """What the node logged from the first message on, oldest first."""
+        """What the node logged since the first message, oldest first."""
         times = [each.at for each in self.sent]
         logs = sorted(self.trace.logs, key=lambda log: log.stamp)
         numbered = ((log, bisect_right(times, log.stamp)) for log in logs)
@@ -112,30 +111,30 @@ class Trial:
 
     @property
     def allowance_s(self) -> float:
-        """How much later than usual anything may be logged on this machine."""
+        """How much later than usual anything may be logged, because of the machine."""
         return min(max(self.cpu_wait_s, 0.0), MOST_CPU_WAIT_S)
 
     @property
     def summary_limit_s(self) -> float:
-        """How long after its message a summary may come on this machine."""
+        """How long after its message a summary may come, given this machine."""
         return LATE_S + self.allowance_s
 
     @cached_property
     def most_late_s(self) -> float:
-        """How much later than due a message was sent, at worst: our fault, and the machine's."""
+        """The greatest delay with which a message was sent, which is our fault, or the machine's."""
         spans = [b.at - a.at for index, (a, b) in enumerate(pairwise(self.sent), start=1) if index != self.breaks]
         return max(spans) - median(spans) if spans else 0.0
 
     @property
     def slowed(self) -> bool:
-        """Whether the machine may be why the node did not do well: see `tutor.judge.bench.was_slowed`."""
+        """Whether the machine may be why the node fails (see `tutor.judge.bench.was_slowed`)."""
         return bool(self.sent) and max(self.cpu_wait_s, self.most_late_s) >= ROUGH_S
 
     def delay_s(self, index: int) -> float:
-        """How late the machine may have let the node take in this message: what it was kept from running thereafter."""
-        owed = [each.cpu_wait_s for each in self.sent[index:]] + [self.sent[0].cpu_wait_s + self.cpu_wait_s]
+        """How late the node may have received this message, given its waits for a CPU from then on."""
+        waits = [each.cpu_wait_s for each in self.sent[index:]] + [self.sent[0].cpu_wait_s + self.cpu_wait_s]
         late = 0.0
-        for before, after in pairwise(owed):
+        for before, after in pairwise(waits):
             late += max(after - before, 0.0)
             if after - before < STALL_S:
                 break
@@ -143,10 +142,10 @@ class Trial:
 
     @property
     def jumps(self) -> tuple[int, ...]:
-        """How many messages were sent before each jump, if one came after it."""
+        """For each jump after which a message was sent, the number of messages sent before it."""
         return tuple(before for before in (self.breaks, self.again) if 0 < before < len(self.sent))
 
     def missed(self, messages: int) -> tuple[int, ...]:
-        """How many numbers each jump left out, of those jumps that were due when this many messages had been sent."""
+        """How many numbers each jump left out, for the jumps within the first `messages` messages."""
         due = [before for before in self.jumps if before <= messages]
         return tuple(self.sent[before].number - self.sent[before - 1].number - 1 for before in due)

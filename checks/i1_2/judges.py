@@ -1,4 +1,4 @@
-"""I1.2: what must have been seen while N rises by one."""
+"""I1.2: the verdicts on `count`, `rate`, `summary` and `shutdown`."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped, undecid
 
 EXPECTED_SUMMARY = f"one summary for every {EVERY} messages, with the first and the last message's content"
 BUSY_S = 0.5
-"""Where the machine held up the node or us for longer, fewer summaries may be its doing."""
+"""If the node waited longer for a CPU, missing summaries may be the machine's fault."""
 
 EXPECTED_COUNT = "each summary states how many messages have come"
 NO_SUMMARY = "not judged, because there is no summary to read: see `summary`"
@@ -39,14 +39,14 @@ def judge_count(steady: Trial, jump: Trial, fast: Trial) -> Verdict:
 
 
 def judge_slow_count(steady: Trial, jump: Trial) -> Verdict:
-    """Judge what `count` asks for where the messages come slowly."""
+    """Judge `count` by the messages that come slowly."""
     expected = EXPECTED_COUNT
     if not find_summaries(steady):
         return skipped(NO_SUMMARY)
     seen = [(trial, summary) for trial in (steady, jump) for summary in find_summaries(trial)]
     wrong = [(trial, summary) for trial, summary in seen if not true_total(summary, trial)]
     if wrong:
-        trial, summary = wrong[-1]  # after the jump, N and the count are far apart: there the cause shows best
+        trial, summary = wrong[-1]  # after the jump, N and the count differ most, so that the cause is clearest
         return failed(
             f"{expected}: {' or '.join(map(str, totals(summary, trial)))}",
             f"the summary that came after {summary.messages} messages does not say so",
@@ -63,40 +63,40 @@ def counts_truly(*trials: Trial) -> bool:
 
 
 def true_total(summary: Summary, trial: Trial, *, before: int = 0) -> int:
-    """The true total that a summary states, when the first `before` messages do not count; 0 where it states none.
+    """The true total that a summary states, if the first `before` messages do not count; 0 if it states none.
 
-    One that comes later than its message must quote no newer one: which of the older ones it quotes as the last is no
-    matter of the count. One that also quotes the message that it has counted last may be as late as it likes.
+    A summary that is logged later than its message must not quote a newer one; which older message it quotes as the
+    last does not matter here. If it also quotes the message that it counted last, it may be arbitrarily late.
     """
     true = totals(summary, trial, before=before)
     for total in true:
         late = summary.messages > before + total
-        if summary.states(total) and (not late or _may_be_of(before + total, summary, trial, before=before)):
+        if summary.states(total) and (not late or _may_be_made_after(before + total, summary, trial, before=before)):
             return total
-    before_that = {*range(EVERY, true.start, EVERY), *range(max(1, true.start - EVERY), true.start)}
-    held_back = [total for total in sorted(before_that) if summary.states(total)]
-    return next((t for t in held_back if _is_of(before + t, summary, trial, before=before)), 0)
+    earlier_totals = {*range(EVERY, true.start, EVERY), *range(max(1, true.start - EVERY), true.start)}
+    held_back = [total for total in sorted(earlier_totals) if summary.states(total)]
+    return next((t for t in held_back if _is_made_after(before + t, summary, trial, before=before)), 0)
 
 
-def _may_be_of(messages: int, summary: Summary, trial: Trial, *, before: int) -> bool:
-    """Whether nothing that it quotes tells against its being made when this many messages had come."""
+def _may_be_made_after(messages: int, summary: Summary, trial: Trial, *, before: int) -> bool:
+    """Whether its quotations are consistent with a summary that was made after this many messages."""
     newer = {each.number for each in trial.sent[messages : summary.until]}
-    later = newer.intersection(_quoted_but_first(summary, trial, before=before))
-    return not later or _is_of(messages, summary, trial, before=before)
+    later = newer.intersection(_quoted_without_first(summary, trial, before=before))
+    return not later or _is_made_after(messages, summary, trial, before=before)
 
 
-def _is_of(messages: int, summary: Summary, trial: Trial, *, before: int) -> bool:
-    """Whether it quotes the last of this many messages, and what it quotes had come by then.
+def _is_made_after(messages: int, summary: Summary, trial: Trial, *, before: int) -> bool:
+    """Whether the summary quotes the last of this many messages, and none that came later.
 
-    A new publisher sends some numbers once more: what was there before is none of the newer ones.
+    A new publisher repeats some numbers; one that had come before does not count as later.
     """
-    sent, quoted = trial.sent, _quoted_but_first(summary, trial, before=before)
+    sent, quoted = trial.sent, _quoted_without_first(summary, trial, before=before)
     newer = {each.number for each in sent[messages : summary.until]} - {each.number for each in sent[:messages]}
     return sent[messages - 1].number in quoted and not newer.intersection(quoted)
 
 
-def _quoted_but_first(summary: Summary, trial: Trial, *, before: int) -> list[int]:
-    """What it quotes, without a first message."""
+def _quoted_without_first(summary: Summary, trial: Trial, *, before: int) -> list[int]:
+    """The numbers that the summary quotes, without one quotation of a first message."""
     quoted = list(summary.quoted)
     for first in {trial.sent[0].number, trial.sent[before].number}.intersection(quoted):
         quoted.remove(first)
@@ -109,7 +109,7 @@ def _diagnose_count(summary: Summary, trial: Trial) -> Cause:
 
 
 def _miscounted(summary: Summary, trial: Trial) -> tuple[str, str, str]:
-    """The name of the cause, what it says, and a step in words."""
+    """Return name and text of the cause, and a step in words."""
     sent, last = summary.messages, trial.sent[summary.messages - 1].number
     missed = sum(trial.missed(sent - 1))
     if missed and summary.states(sent + missed):
@@ -122,14 +122,14 @@ def _miscounted(summary: Summary, trial: Trial) -> tuple[str, str, str]:
         return (
             "number taken for the count",
             f"it states the N of “Hello World: {last}”, not how many messages came",
-            "anyone who starts late hears the N of others: count yourself, self.total_count += 1 in the callback",
+            "a node that starts late misses messages, so N is not the count: self.total_count += 1 in the callback",
         )
     near = next((sent + by for by in (1, -1) if summary.states(sent + by)), None)
     if near is not None:
         return (
             "off by one",
             f"it says {near} after {sent} messages",
-            "begin with 0, and count each message once, before you write the summary",
+            "start at 0, and count each message once, before you write the summary",
         )
     if not summary.numbers:
         return ("no count", "there is no number in it", "put self.total_count into the text of the summary")
@@ -141,7 +141,7 @@ def _miscounted(summary: Summary, trial: Trial) -> tuple[str, str, str]:
 
 
 def judge_rate(steady: Trial, jump: Trial) -> Verdict:
-    summaries = [summary for summary in find_summaries(steady) if summary.messages > 1]  # one message has no rate yet
+    summaries = [summary for summary in find_summaries(steady) if summary.messages > 1]  # one message gives no rate yet
     if not summaries:
         return skipped(NO_SUMMARY)
     allowed = [rates.true_rates(summary, steady) for summary in summaries]
@@ -164,7 +164,7 @@ def judge_rate(steady: Trial, jump: Trial) -> Verdict:
 
 def judge_summary(steady: Trial, jump: Trial, fast: Trial) -> Verdict:
     verdict = judge_slow_summary(steady, jump)
-    if not verdict.passed or backlog.find_lost(fast, steady) is not None:  # `count` reports what is lost
+    if not verdict.passed or backlog.find_lost(fast, steady) is not None:  # `count` reports lost messages
         return verdict
     if not backlog.missing_summary(fast, steady):
         return verdict
@@ -179,7 +179,7 @@ def judge_summary(steady: Trial, jump: Trial, fast: Trial) -> Verdict:
 
 
 def _diagnose_fewer_summaries(fast: Trial) -> Cause:
-    """Why there are fewer summaries when messages come fast."""
+    """Find out why there are fewer summaries when messages come fast."""
     throttled = steps.remove_throttle(fast.trace)
     text = "most of them are left out when messages come fast"
     if throttled is not None:
@@ -193,7 +193,7 @@ def _diagnose_fewer_summaries(fast: Trial) -> Cause:
 
 
 def judge_slow_summary(steady: Trial, jump: Trial) -> Verdict:
-    """Judge what `summary` asks for where the messages come slowly."""
+    """Judge `summary` by the messages that come slowly."""
     expected = EXPECTED_SUMMARY
     if not find_summaries(steady):
         if (many := count_complete(steady)) > len(steady.sent) // EVERY:
@@ -203,14 +203,14 @@ def judge_slow_summary(steady: Trial, jump: Trial) -> Verdict:
         return failed(
             expected, f"none, after {len(steady.sent)} messages", diagnose_no_summary(steady), _logged(steady)
         )
-    # A node that ends with the jump, or miscounts from then on, breaks other criteria.
-    all_along = jump.trace.exit is None and counts_truly(jump)
-    for trial, messages in ((steady, len(steady.sent)), (jump, len(jump.sent) if all_along else jump.breaks)):
+    # A node that exits or miscounts from the jump on fails other criteria.
+    survives_jump = jump.trace.exit is None and counts_truly(jump)
+    for trial, messages in ((steady, len(steady.sent)), (jump, len(jump.sent) if survives_jump else jump.breaks)):
         summaries = [summary for summary in find_summaries(trial) if summary.messages <= messages]
         evidence = [str(summary) for summary in summaries[:8]]
         if (cause := _diagnose_interval(summaries, trial, messages)) is not None:
             if _counts_wrongly(summaries, trial):
-                return skipped("not judged, because `count` did not pass: it sums up by a count that is not true")
+                return skipped("not judged, because `count` did not pass: summaries are timed by a wrong count")
             observed = (
                 f"summaries after {', '.join(str(summary.messages) for summary in summaries[:12]) or 'no'} messages"
             )
@@ -227,9 +227,9 @@ def judge_slow_summary(steady: Trial, jump: Trial) -> Verdict:
 
 
 def judge_fast_count(fast: Trial) -> Verdict | None:
-    """Judge `count` by the fast stretch alone: whether none of its summaries states anything like the true total.
+    """Judge `count` by the fast stretch alone: fail if no summary states anything like the true total.
 
-    What a node that lags behind may say, or one whose summary waits for a timer, is no evidence here.
+    A total that a lagging node may state, or one whose summary waits for a timer, is not held against it.
     """
     summaries = _fast_summaries(fast)
     if not summaries or not all(is_complete(summary, fast) for summary in summaries):
@@ -250,8 +250,8 @@ def judge_fast_count(fast: Trial) -> Verdict | None:
 def judge_fast_summary(fast: Trial) -> Verdict | None:
     """Judge `summary` by the fast stretch alone.
 
-    It fails where the node takes part in all and logs nothing of any message; where it logs far too many summaries;
-    and where the same is missing from each.
+    Fail a node that responds but logs nothing about any message, one that logs far too many summaries, and one whose
+    summaries all lack the same thing.
     """
     if not fast.lines:
         silent = fast.spins and len(fast.sent) >= FAST_MESSAGES and backlog.fast_enough(fast)
@@ -267,7 +267,7 @@ def judge_fast_summary(fast: Trial) -> Verdict | None:
         cause = _diagnose_interval(summaries, fast, len(fast.sent))
         observed = f"summaries after {when} messages, of {len(fast.sent)}"
         return failed(EXPECTED_SUMMARY, observed, cause, evidence) if cause else None
-    if any(summary.messages % EVERY > 1 for summary in summaries):  # by another count than the true one, perhaps
+    if any(summary.messages % EVERY > 1 for summary in summaries):  # perhaps timed by a wrong count
         return None
     missing = [_diagnose_incomplete_summary(summary, fast) for summary in summaries[1:]]  # the first may be complete
     cause = missing[-1]
@@ -277,9 +277,9 @@ def judge_fast_summary(fast: Trial) -> Verdict | None:
 
 
 def _fast_summaries(fast: Trial) -> Sequence[Summary]:
-    """The summaries of a fast stretch; none where they may be few, late or torn because the messages came fast.
+    """The summaries of a fast stretch; none if some may be missing, late or torn because the messages came fast.
 
-    Nor where two subscriptions may log one message twice: what that leads to shows best when messages come slowly.
+    Nor if there are two subscriptions that may log each message twice: the slow messages show the cause of that better.
     """
     summaries = find_summaries(fast)
     whole = len(fast.sent) >= FAST_MESSAGES and backlog.fast_enough(fast) and len(summaries) >= len(fast.sent) // EVERY
@@ -302,27 +302,27 @@ def _diagnose_interval(summaries: Sequence[Summary], trial: Trial, messages: int
             _every_ten(trial),
         )
     for number in due:
-        of_it = [each for each in summaries if milestone(each.messages) == number]
-        if not any(in_time(each, trial) for each in of_it):
+        candidates = [each for each in summaries if milestone(each.messages) == number]
+        if not any(in_time(each, trial) for each in candidates):
             early = [each for each in when if number - EVERY < each < number]
             late = [each for each in when if number < each < number + EVERY]
-            said = f"it comes after {(early or late)[-1]}" if early or late else "and none comes later"
-            return Cause("missing summary", f"there is none after {number} messages, {said}", _every_ten(trial))
+            when_instead = f"it comes after {(early or late)[-1]}" if early or late else "and none comes later"
+            return Cause("missing summary", f"there is none after {number} messages, {when_instead}", _every_ten(trial))
     return None
 
 
 def _every_ten(trial: Trial) -> str:
-    """The step to one summary for every ten messages."""
+    """The step towards one summary for every ten messages."""
     return steps.summarise_every_ten(trial.trace) or (
         f"if self.total_count % {EVERY} == 0: write the summary, in the callback, after counting"
     )
 
 
 def _counts_wrongly(summaries: Sequence[Summary], trial: Trial) -> bool:
-    """Whether each summary comes when its own count says so, and that count is not true.
+    """Whether each summary is timed by the node's own count, and that count is wrong.
 
-    By chance one may be true: in a node that counts one too many, the summary after 9 messages may come late, after the
-    10th.
+    A single count may be right by chance: if a node counts one too many, its summary after 9 messages may come late,
+    after the 10th.
     """
     by_its_count = all(summary.states(EVERY * number) for number, summary in enumerate(summaries, start=1))
     return by_its_count and any(not true_total(summary, trial) for summary in summaries)
@@ -353,9 +353,9 @@ def _diagnose_incomplete_summary(summary: Summary, trial: Trial) -> Cause | None
             steps.summarise_every_ten(trial.trace)
             or "self.last_message = msg.data for each message, before you write the summary",
         )
-    called = {(name, number) for line in summary.lines for name, number in labelled(line.text)}
+    labels = {(name, number) for line in summary.lines for name, number in labelled(line.text)}
     swapped = [("first", each.number) for each in recent if each.number != first.number]
-    if ("last", first.number) in called and called.intersection(swapped) and ("first", first.number) not in called:
+    if ("last", first.number) in labels and labels.intersection(swapped) and ("first", first.number) not in labels:
         return Cause(
             "first and last swapped",
             f"it calls “{first.content}” the last one, and the last one the first",
@@ -366,7 +366,7 @@ def _diagnose_incomplete_summary(summary: Summary, trial: Trial) -> Cause | None
 
 
 def diagnose_no_summary(trial: Trial) -> Cause:
-    """Why the node logs no summary."""
+    """Find out why the node logs no summary."""
     trace = trial.trace
     if trace.exit is not None or not trial.sent or not (trial.lines or trial.spins):
         return steps.keep_node_up(

@@ -1,4 +1,4 @@
-"""`check --isolate`: what an isolated submission can reach, and that it says so where isolation is not possible."""
+"""`check --isolate`: what an isolated submission can reach, and the error if isolation is not possible."""
 
 from __future__ import annotations
 
@@ -22,8 +22,8 @@ from tutor.interpreter import module_command
 
 FILE = "temperature_publisher.py"
 
-# Run as a program of ours: isolates PROBE.
-BEHIND = """
+# Runs PROBE in isolation, as the engine runs a submission.
+ISOLATOR = """
 import os, subprocess, sys
 from pathlib import Path
 from tutor.engine.isolation import Isolation
@@ -78,22 +78,22 @@ print(json.dumps({
 
 
 @cache
-def _refused() -> str:
-    """Why nothing can be isolated here; empty where it can."""
-    prove = "from tutor.engine.isolation import Isolation; print(Isolation.set_up())"
-    ran = subprocess.run([sys.executable, "-c", prove], capture_output=True, text=True, check=False)
+def _why_unavailable() -> str:
+    """Return why isolation is impossible on this machine; empty if it is possible."""
+    code = "from tutor.engine.isolation import Isolation; print(Isolation.set_up())"
+    ran = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     return ran.stderr.strip().rpartition("\n")[2]
 
 
 @pytest.fixture
 def isolation() -> None:
-    """Skips where there can be none."""
-    if _refused():
-        pytest.skip(_refused())
+    """Skip the test if isolation is impossible here."""
+    if _why_unavailable():
+        pytest.skip(_why_unavailable())
 
 
 def check(*arguments: str, **variables: str) -> tuple[int, Any, str]:
-    """Check from the command line. Gives the exit code, the report and what was said on stderr."""
+    """Check from the command line; return the exit code, the report and stderr."""
     ran = subprocess.run(
         [*module_command("tutor"), "check", "i1.1", *arguments, "--format", "json"],
         capture_output=True, text=True, timeout=120, check=False, env={**os.environ, **variables},
@@ -101,15 +101,15 @@ def check(*arguments: str, **variables: str) -> tuple[int, Any, str]:
     return ran.returncode, json.loads(ran.stdout) if ran.stdout else None, ran.stderr
 
 
-def reached(tmp_path: Path, outsider: int, port: int) -> Mapping[str, Any]:
-    """What PROBE, handed in as a submission, can do."""
+def run_probe(tmp_path: Path, outsider: int, port: int) -> Mapping[str, Any]:
+    """Run PROBE as an isolated submission and return what it could do."""
     secret, submission, logs = tmp_path / "home" / "secret", tmp_path / "submission", tmp_path / "logs"
     for folder in (secret.parent, submission, logs):
         folder.mkdir()
     secret.write_text("the grades")
     (submission / "probe.py").write_text(PROBE)
     ran = subprocess.run(
-        [sys.executable, "-c", BEHIND, submission, logs, "probe.py", secret, submission, str(port), str(outsider)],
+        [sys.executable, "-c", ISOLATOR, submission, logs, "probe.py", secret, submission, str(port), str(outsider)],
         capture_output=True, text=True, timeout=60, check=False, env={**os.environ, "PYTHONPATH": os.getcwd()},
     )  # fmt: skip
     assert not ran.returncode, ran.stderr
@@ -119,9 +119,9 @@ def reached(tmp_path: Path, outsider: int, port: int) -> Mapping[str, Any]:
 
 
 @pytest.mark.usefixtures("isolation")
-def test_a_submission_reaches_nothing_but_what_it_needs(tmp_path: Path) -> None:
+def test_a_submission_reaches_only_what_it_needs(tmp_path: Path) -> None:
     with socket.create_server(("127.0.0.1", 0)) as outside:
-        found = reached(tmp_path, os.getpid(), outside.getsockname()[1])
+        found = run_probe(tmp_path, os.getpid(), outside.getsockname()[1])
     assert found == {
         "secret": "FileNotFoundError",
         "home": "FileNotFoundError",
@@ -140,36 +140,36 @@ def test_a_submission_reaches_nothing_but_what_it_needs(tmp_path: Path) -> None:
 
 
 @pytest.mark.usefixtures("isolation")
-def test_our_solution_passes_behind_them_and_the_report_names_them() -> None:
-    code, report, said = check("--solution", "--isolate")
-    assert code == 0, (report, said)
+def test_our_solution_passes_in_isolation_and_the_report_lists_the_walls() -> None:
+    code, report, stderr = check("--solution", "--isolate")
+    assert code == 0, (report, stderr)
     assert_report_shape(report)
     stands = {each["name"]: each["stands"] for each in report["walls"]}
-    process_limit = stands.pop("process limit")  # the kernel sets root no such limit
+    process_limit = stands.pop("process limit")  # the kernel does not apply this limit to root
     assert process_limit or os.geteuid() == 0
     assert stands == dict.fromkeys(("user", "network", "processes", "files", "memory limit", "file limit"), True)
 
 
 @pytest.mark.usefixtures("isolation")
-def test_what_a_submission_does_to_its_own_files_is_undone(tmp_path: Path) -> None:
+def test_a_submissions_changes_to_its_own_files_are_undone(tmp_path: Path) -> None:
     solution = load_course().find("i1.1").folder / "solution" / FILE
     source = f"import pathlib\npathlib.Path(__file__).write_text('gone')\n{solution.read_text()}"
     (tmp_path / FILE).write_text(source)
-    code, report, said = check(str(tmp_path), "--isolate", "--criterion", "publishes")
-    assert code == 0, (report, said)
+    code, report, stderr = check(str(tmp_path), "--isolate", "--criterion", "publishes")
+    assert code == 0, (report, stderr)
     assert (tmp_path / FILE).read_text() == source
 
 
 @pytest.mark.usefixtures("isolation")
-def test_a_node_that_dies_or_hangs_is_reported_as_without_isolation(tmp_path: Path) -> None:
+def test_crashes_and_hangs_are_reported_as_without_isolation(tmp_path: Path) -> None:
     (tmp_path / FILE).write_text("import os, signal\nos.kill(os.getpid(), signal.SIGSEGV)\n")
-    dies = [check(str(tmp_path), *options, "--criterion", "publishes") for options in ([], ["--isolate"])]
+    crashes = [check(str(tmp_path), *options, "--criterion", "publishes") for options in ([], ["--isolate"])]
     (tmp_path / FILE).write_text(
         "import rclpy, time\nrclpy.init()\nn = rclpy.create_node('n')\nwhile True: time.sleep(1)\n"
     )
     hangs = [check(str(tmp_path), *options, "--criterion", "publishes") for options in ([], ["--isolate"])]
-    for (code, one, _), (isolated_code, isolated, said) in (dies, hangs):
-        assert code == isolated_code == 1, said
+    for (code, one, _), (isolated_code, isolated, stderr) in (crashes, hangs):
+        assert code == isolated_code == 1, stderr
         assert cause(one) == cause(isolated)
 
 
@@ -178,7 +178,7 @@ def cause(report: Any) -> str:
 
 
 @pytest.mark.usefixtures("isolation")
-def test_a_folder_too_large_to_be_copied_is_not_the_learners_fault(tmp_path: Path) -> None:
+def test_a_folder_too_large_to_copy_is_not_the_learners_fault(tmp_path: Path) -> None:
     (tmp_path / FILE).write_text("print('hello')\n")
     with (tmp_path / "large").open("wb") as file:
         file.truncate(65 << 20)
@@ -188,19 +188,19 @@ def test_a_folder_too_large_to_be_copied_is_not_the_learners_fault(tmp_path: Pat
 
 
 def test_without_bubblewrap_nothing_is_checked(tmp_path: Path) -> None:
-    code, report, said = check("--solution", "--isolate", PATH=str(tmp_path))
+    code, report, stderr = check("--solution", "--isolate", PATH=str(tmp_path))
     assert (code, report) == (3, None)
-    assert "bubblewrap" in said
-    assert "sudo apt install bubblewrap" in said
+    assert "bubblewrap" in stderr
+    assert "sudo apt install bubblewrap" in stderr
 
 
-def test_where_bubblewrap_is_refused_nothing_is_checked(tmp_path: Path) -> None:
+def test_if_bubblewrap_fails_nothing_is_checked(tmp_path: Path) -> None:
     prlimit = shutil.which("prlimit")
     if prlimit is None:
         pytest.skip("there is no prlimit")
     (tmp_path / "prlimit").symlink_to(prlimit)
     (tmp_path / "bwrap").write_text("#!/bin/sh\necho 'bwrap: Creating new namespace failed' >&2\nexit 1\n")
     (tmp_path / "bwrap").chmod(0o755)
-    code, report, said = check("--solution", "--isolate", PATH=str(tmp_path))
+    code, report, stderr = check("--solution", "--isolate", PATH=str(tmp_path))
     assert (code, report) == (3, None)
-    assert "Creating new namespace failed" in said or "no network of its own" in said
+    assert "Creating new namespace failed" in stderr or "no private network namespace" in stderr

@@ -1,4 +1,4 @@
-"""The engine: runs checks on real processes and real DDS, and streams events to what shows them."""
+"""The engine: runs checks on real processes over real DDS, and streams events to the front end."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The engine as a process of its own: `python -m tutor.engine EXERCISE PATH` prints one event as JSON to a line.
+"""The engine as a separate process: `python -m tutor.engine EXERCISE PATH` prints events as JSON lines.
 
 The terminal app runs checks this way, so that it never shares a process with ROS.
 """
@@ -6,7 +6,6 @@ The terminal app runs checks this way, so that it never shares a process with RO
 from __future__ import annotations
 
 import argparse
-import asyncio
 import contextlib
 import signal
 import sys
@@ -18,13 +17,15 @@ from tutor.errors import ContentError, EngineError, SubmissionError, UnknownExer
 from tutor.interpreter import collect_garbage_seldom
 from tutor.judge.events import Event, encode
 from tutor.process.prctl import die_with_parent
+from tutor.stop_signals import Stopped, run_until_stopped
 from tutor.workspace import find_submission
 
 
 def main() -> int:
     """Run one check.
 
-    Exit code 0: judged (whatever the verdict); 2: wrong usage, 3: a fault, each explained on stderr; 130: interrupted.
+    Exit code 0: judged, whatever the verdict; 2: wrong usage; 3: a fault; 130: interrupted. 2 and 3 are explained on
+    stderr.
     """
     collect_garbage_seldom()
     parser = argparse.ArgumentParser(prog="python -m tutor.engine")
@@ -41,29 +42,22 @@ def main() -> int:
         print(error, file=sys.stderr)
         return 2
     only = frozenset(arguments.criterion) if arguments.criterion else None
-    die_with_parent(signal.SIGINT)  # an app that is killed takes its check along; SIGINT is what ends one cleanly
+    die_with_parent(signal.SIGINT)  # a killed app takes its check with it; SIGINT ends the check cleanly
 
-    async def judge() -> None:
-        loop = asyncio.get_running_loop()
-
-        def show(event: Event) -> None:
-            try:
-                print(encode(event), flush=True)
-            except BrokenPipeError:  # nobody is there any more: all that is left to do is to clean up
-                task.cancel()
-
-        check = run_check([submission], course, only=only, on_event=show, first=arguments.first)
-        task = asyncio.ensure_future(check)
-        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-            loop.add_signal_handler(number, task.cancel)
-        await task
+    def print_event(event: Event) -> None:
+        try:
+            print(encode(event), flush=True)
+        except BrokenPipeError:  # the reader is gone: only cleanup is left to do
+            signal.raise_signal(signal.SIGINT)
 
     try:
-        asyncio.run(judge())
+        run_until_stopped(
+            lambda: run_check([submission], course, only=only, on_event=print_event, first=arguments.first)
+        )
     except EngineError as error:
         print(f"{error}. {error.hint}", file=sys.stderr)
         return 3
-    except asyncio.CancelledError:
+    except Stopped:
         return 130
     return 0
 

@@ -1,4 +1,4 @@
-"""Repeating a scenario alone: what could not be judged while others were at work may be, once they have ended."""
+"""Run a scenario alone, when a busy machine kept it from being judged while others were running."""
 
 from __future__ import annotations
 
@@ -6,23 +6,24 @@ import asyncio
 from collections.abc import AsyncIterator, Iterator
 from contextlib import asynccontextmanager, contextmanager
 
-LOOK_EVERY_S = 0.05
+POLL_S = 0.05
+"""Poll interval of a scenario that waits for all others to end."""
 
 
-class ScenariosAtWork:
-    """How many scenarios are at work: one that is to be alone waits for all others."""
+class RunningScenarios:
+    """Counts the running scenarios, so that one that must run alone can wait for all others to end."""
 
     def __init__(self) -> None:
         self._count = 0
-        self._next = asyncio.Lock()
+        self._alone_lock = asyncio.Lock()
 
     @asynccontextmanager
-    async def at_work(self, *, alone: bool = False) -> AsyncIterator[None]:
-        """A scenario is at work; `alone`: as soon as no other is."""
+    async def running(self, *, alone: bool = False) -> AsyncIterator[None]:
+        """Count as running within the block; with `alone`, first wait until no other scenario is running."""
         if alone:
-            async with self._next:
+            async with self._alone_lock:
                 while self._count:
-                    await asyncio.sleep(LOOK_EVERY_S)
+                    await asyncio.sleep(POLL_S)
                 self._count += 1
         else:
             self._count += 1
@@ -33,7 +34,7 @@ class ScenariosAtWork:
 
     @contextmanager
     def waiting(self) -> Iterator[None]:
-        """A scenario at work waits for another one, which may have to be alone."""
+        """Do not count as running within the block: this scenario waits for another, which may have to run alone."""
         self._count -= 1
         try:
             yield

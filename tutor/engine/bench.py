@@ -1,4 +1,4 @@
-"""The bench on real processes and real DDS: each start has a domain of its own, watched from the first moment."""
+"""The bench on real processes and real DDS: each run gets a private domain, observed from the first moment."""
 
 from __future__ import annotations
 
@@ -30,14 +30,14 @@ T = TypeVar("T")
 
 _MakeArgv = Callable[[dict[str, str], Path], list[str]]
 
-UP_S = 1.5
-"""A process that has no node after this long (and what the machine kept it from running) need not be waited for."""
+NODE_UP_LIMIT_S = 1.5
+"""A process without a node after this time, plus any wait for a CPU, no longer holds up other starts."""
 
-LAUNCH_S = 3.0
-"""A launch starts and ends three processes, so it has this much longer a way to go than one node."""
+LAUNCH_OVERHEAD_S = 3.0
+"""How much longer a launch takes than a node, since it starts and ends three processes."""
 
-_WHO_KILLS = (
-    "see what else runs on this machine, and whether your program itself takes much memory or kills processes; then "
+_KILLED_HINT = (
+    "see what else runs on this machine, and whether your program itself uses a lot of memory or kills processes; then "
     "check again"
 )
 
@@ -46,16 +46,16 @@ _WHO_KILLS = (
 class RosBench:
     """The `Bench` of `tutor.judge.bench` for one scenario.
 
-    `expected_s`: how many seconds of the clock its check asks for; where several are to start, the longest goes first
-    (a start may say how many it asks for itself). `exceptions`: the check's own known ones. `sigkilled`: the
-    files whose process was ended by SIGKILL. `follow`: what looks on while a start runs, given its watched topics.
-    `take_facts`: gets what the scenario reports before it ends.
+    `get_facts` returns the facts of another scenario. `on_progress` gets (fraction, text), and `on_facts` what
+    the scenario reports before it ends. `expected_s`: the check's; of several waiting starts, the one with the longest
+    goes first (a start may give its own). `exceptions`: known exceptions of the check. `follow`: entered for each run,
+    with its watched topics and their types. `sigkilled`: the files whose process was ended by SIGKILL.
     """
 
     submission: Submission
     ros: RosEnvironment
-    share: Callable[[Scenario[Any]], Any]
-    tell: Callable[[float, str], None]
+    get_facts: Callable[[Scenario[Any]], Any]
+    on_progress: Callable[[float, str], None]
     start_limiter: StartLimiter = field(default_factory=StartLimiter)
     expected_s: float = 0.0
     exceptions: tuple[KnownException, ...] = ()
@@ -63,7 +63,7 @@ class RosBench:
     follow: Callable[[RosRun, Mapping[str, str]], AbstractAsyncContextManager[None]] = lambda run, watched: (
         nullcontext()
     )
-    take_facts: Callable[[object], None] = lambda facts: None
+    on_facts: Callable[[object], None] = lambda facts: None
     sigkilled: list[Path] = field(default_factory=list)
 
     @asynccontextmanager
@@ -76,15 +76,13 @@ class RosBench:
         expected_s: float | None = None,
     ) -> AsyncIterator[Run]:
         path = self.submission.files[file].resolve()
-        program = [str(self.ros.python), str(path), *ros_arguments(parameters or {})]
+        argv = [str(self.ros.python), str(path), *ros_arguments(parameters or {})]
 
-        def command(env: dict[str, str], log_dir: Path) -> list[str]:
-            return program
+        def make_argv(env: dict[str, str], log_dir: Path) -> list[str]:
+            return argv
 
-        given = (parameters or {}, watch or {})
-        async with self._start(
-            path, command, *given, expected_s=self.expected_s if expected_s is None else expected_s
-        ) as run:
+        expected_s = self.expected_s if expected_s is None else expected_s
+        async with self._start(path, make_argv, parameters or {}, watch or {}, expected_s=expected_s) as run:
             yield run
 
     @asynccontextmanager
@@ -92,13 +90,13 @@ class RosBench:
         path = self.submission.files[file].resolve()
         given = [f"{name}:={value}" for name, value in (arguments or {}).items()]
 
-        def command(env: dict[str, str], log_dir: Path) -> list[str]:
-            if self.ros.kind == "system":  # ours does this by itself
+        def make_argv(env: dict[str, str], log_dir: Path) -> list[str]:
+            if self.ros.kind == "system":  # our own launch does this by itself
                 overlay.make_overlay(log_dir / "overlay", path, env, python=str(self.ros.python))
             return [*ros2_command(self.ros, env), "launch", str(path), *given]
 
         async with self._start(
-            path, command, {}, {}, terminal=True, nodes=2, expected_s=self.expected_s + LAUNCH_S
+            path, make_argv, {}, {}, terminal=True, nodes=2, expected_s=self.expected_s + LAUNCH_OVERHEAD_S
         ) as run:
             yield run
 
@@ -106,7 +104,7 @@ class RosBench:
     async def _start(
         self,
         path: Path,
-        command: _MakeArgv,
+        make_argv: _MakeArgv,
         parameters: Mapping[str, Any],
         watch: Mapping[str, str],
         *,
@@ -114,10 +112,10 @@ class RosBench:
         nodes: int = 1,
         expected_s: float,
     ) -> AsyncIterator[Run]:
-        """Run a command as `_run` does, when it is its turn: others may start when it has this many nodes."""
+        """Run a command as `_run` does once it has a start slot; free the slot once the run has this many nodes."""
         async with (
             self.start_limiter.slot(expected_s) as up,
-            self._run(path, command, parameters, watch, terminal=terminal) as run,
+            self._run(path, make_argv, parameters, watch, terminal=terminal) as run,
             _report_when_up(run, nodes, up),
             self.follow(run, watch),
         ):
@@ -127,20 +125,20 @@ class RosBench:
     async def _run(
         self,
         path: Path,
-        command: _MakeArgv,
+        make_argv: _MakeArgv,
         parameters: Mapping[str, Any],
         watch: Mapping[str, str],
         *,
         terminal: bool,
     ) -> AsyncIterator[RosRun]:
-        """Run a command, made from its environment and a folder for its logs, on a domain of its own."""
+        """Run a command on a private domain; `make_argv` builds it from its environment and log folder."""
         facts = CollectedFacts()
         with (
             _as_engine_errors(),
             reserve_domain() as domain_id,
             temporary_log_folder() as log_dir,
         ):
-            observer = Observer(domain_id, facts.change)
+            observer = Observer(domain_id, facts.notify)
             try:
                 observer.watch_logs()
                 for topic, type_name in watch.items():
@@ -153,16 +151,16 @@ class RosBench:
                     isolated=True,
                     environ=os.environ,
                 )
-                env["TMPDIR"] = str(log_dir)  # what is left there goes with the run
+                env["TMPDIR"] = str(log_dir)  # temporary files are deleted with the run
                 env["PYTHONFAULTHANDLER"] = "1"  # see RosRun.dump_stacks
-                argv = command(env, log_dir)
+                argv = make_argv(env, log_dir)
                 wrapper = self.isolation.wrap(package_folder(path), log_dir, env) if self.isolation else ()
-                # A program may have removed its own folder: then the next start of it says so.
+                # A program may have deleted its own folder: its next start then reports that.
                 cwd = path.parent if path.parent.is_dir() else log_dir
                 async with await LearnerProcess.start(
-                    argv, env=env, cwd=cwd, terminal=terminal, wrapper=wrapper, on_change=facts.change
+                    argv, env=env, cwd=cwd, terminal=terminal, wrapper=wrapper, on_change=facts.notify
                 ) as process:
-                    with _unless_ended_by_others(process):
+                    with _raise_if_killed(process):
                         yield RosRun(path, parameters, domain_id, process, observer, facts, self.exceptions)
                     if process.killed:
                         self.sigkilled.append(path)
@@ -173,23 +171,23 @@ class RosBench:
         return file in self.submission.files
 
     async def facts(self, scenario: Scenario[T]) -> T:
-        found: T = await self.share(scenario)
+        found: T = await self.get_facts(scenario)
         return found
 
     def report_progress(self, fraction: float, text: str) -> None:
-        self.tell(min(1.0, max(0.0, fraction)), text[:MOST_CHARACTERS])
+        self.on_progress(min(1.0, max(0.0, fraction)), text[:MOST_CHARACTERS])
 
     def report_facts(self, facts: object) -> None:
-        self.take_facts(facts)
+        self.on_facts(facts)
 
 
 @asynccontextmanager
 async def _report_when_up(run: Run, nodes: int, up: Callable[[], None]) -> AsyncIterator[None]:
-    """Call `up` as soon as there are this many nodes, the process has ended, or it is not going to make them."""
+    """Call `up` once the run has this many nodes or has ended, or after `NODE_UP_LIMIT_S`."""
 
     async def watch() -> None:
-        with suppress(EngineError):  # the next use of the run raises it
-            await run.until(lambda: len(run.graph.nodes) >= nodes or run.exit is not None, UP_S)
+        with suppress(EngineError):  # the next use of the run raises it again
+            await run.until(lambda: len(run.graph.nodes) >= nodes or run.exit is not None, NODE_UP_LIMIT_S)
         up()
 
     watching = asyncio.ensure_future(watch())
@@ -201,20 +199,20 @@ async def _report_when_up(run: Run, nodes: int, up: Callable[[], None]) -> Async
 
 
 @contextmanager
-def _unless_ended_by_others(process: LearnerProcess) -> Iterator[None]:
-    """Whatever was seen of a process that the machine or others have ended: an EngineError says so."""
+def _raise_if_killed(process: LearnerProcess) -> Iterator[None]:
+    """Raise EngineError if the machine or another process ended this one, whatever the block did or raised."""
     try:
         yield
     except Exception:
         if not process.fault:
             raise
     if process.fault:
-        raise EngineError(process.fault, _WHO_KILLS)
+        raise EngineError(process.fault, _KILLED_HINT)
 
 
 @contextmanager
 def _as_engine_errors() -> Iterator[None]:
-    """What the machine refuses us, as an EngineError."""
+    """Turn what the machine refuses us into an EngineError."""
     try:
         yield
     except NoFreeDomain as error:
@@ -224,22 +222,24 @@ def _as_engine_errors() -> Iterator[None]:
 
 
 def ros_arguments(parameters: Mapping[str, Any]) -> list[str]:
-    """The command-line arguments that set these parameters, as a user would type them."""
+    """Return the command-line arguments that set these parameters, as a user would type them."""
     if not parameters:
         return []
     arguments = ["--ros-args"]
     for name, value in parameters.items():
-        written = str(value).lower() if isinstance(value, bool) else str(value)
-        arguments += ["-p", f"{name}:={written}"]
+        text = str(value).lower() if isinstance(value, bool) else str(value)
+        arguments += ["-p", f"{name}:={text}"]
     return arguments
 
 
 def package_folder(path: Path) -> Path:
-    """The folder of all that belongs to the file: its package's, where it is in one, else the one that it is in."""
-    near = [path.parent, *path.parents[1:3]]
-    return next((folder for folder in near if (folder / "package.xml").is_file()), package_root(path) or path.parent)
+    """Return the folder of the file's ROS package, else the parent of its Python package, else its own folder."""
+    candidates = [path.parent, *path.parents[1:3]]
+    return next(
+        (folder for folder in candidates if (folder / "package.xml").is_file()), package_root(path) or path.parent
+    )
 
 
 def package_root(path: Path) -> Path | None:
-    """The folder from which the file's own package can be imported, where the file is a module of one."""
+    """Return the folder from which the file's package can be imported; None if the file is not in a package."""
     return path.parent.parent if (path.parent / "__init__.py").is_file() else None

@@ -1,4 +1,4 @@
-"""Check submissions, all at once, and report."""
+"""Check submissions in parallel, and report."""
 
 from __future__ import annotations
 
@@ -20,8 +20,8 @@ from tutor.judge.events import CheckFinished, Event
 from tutor.judge.result import Environment, Report
 from tutor.judge.submission import Submission
 
-LEAST_DESCRIPTORS, ENOUGH_DESCRIPTORS = 512, 4096
-"""A check of all exercises has some 350 files and sockets open. With fewer allowed, Fast DDS goes on without some."""
+MIN_DESCRIPTORS, WANTED_DESCRIPTORS = 512, 4096
+"""Limits on open files: a check of all exercises needs about 350, and Fast DDS does not report that it lacks some."""
 
 _INTERFACES = (
     "std_msgs",
@@ -31,14 +31,17 @@ _INTERFACES = (
     "type_description_interfaces",
     "example_interfaces",
 )
-_LATE = (
+_LAZY_MODULES = (
     "rclpy.serialization",
     "rosidl_generator_py",
     *(f"{package}.{kind}" for package in _INTERFACES for kind in ("msg", "srv")),
     *(f"{package}.{package}_s__rosidl_typesupport_c" for package in _INTERFACES),
 )
-"""What would else be imported with the first message: a module whose file changes during a check is refused, even if
-only uv has linked another environment to it."""
+"""Modules that would otherwise be imported with the first message.
+
+`refuse_changed_modules` refuses a module whose file changes during a check, even if uv has merely hard-linked the file
+into another environment.
+"""
 
 
 async def run_check(
@@ -51,12 +54,12 @@ async def run_check(
     isolation: Isolation | None = None,
     first: bool = False,
 ) -> Report:
-    """Judge each submission, in parallel; nothing that was started is left when this returns, is cancelled or raises.
+    """Judge the submissions in parallel. No process is left when this returns, is cancelled or raises.
 
-    `only`: the ids of the criteria to show (None: all). `start_limiter`: shared among checks that run at once.
-    `isolation`: isolates all that is started of the submissions. `first`: each submission's check ends at the first
-    required criterion that fails; those not judged by then are skipped. The environment of this process is the user's
-    again afterwards. Raises EngineError where checks cannot be run here.
+    `only`: ids of the criteria to show (None: all). `start_limiter`: shared among checks that run concurrently.
+    `isolation`: isolates all processes of the submissions. `first`: end each submission's check at the first required
+    criterion that fails, and skip those not judged by then. This process's environment variables are restored
+    afterwards. Raises EngineError if checks cannot run here.
     """
     from tutor.ros import process_setup
 
@@ -88,7 +91,7 @@ async def _run_check(
     from tutor.ros.discovery import require_loopback
     from tutor.ros.environment import detect
 
-    together = start_limiter or StartLimiter()
+    shared_limiter = start_limiter or StartLimiter()
     try:
         require_loopback()
     except OSError as error:
@@ -100,29 +103,29 @@ async def _run_check(
         process_setup.prepare_for_rclpy(ros, isolated=True)
         process_setup.keep_stdout()
         await asyncio.to_thread(bytecode.compile_ros_modules, ros)
-        from tutor.engine.runner import Runner  # brings in rclpy, which must find its environment chosen
+        from tutor.engine.runner import Runner  # imports rclpy, whose environment must be set by then
     except (ImportError, OSError, RuntimeError) as error:
         raise EngineError(f"ROS 2 cannot be used here: {error}") from error
 
-    for name in _LATE:
+    for name in _LAZY_MODULES:
         with suppress(ImportError):
             importlib.import_module(name)
     unchanged.refuse_changed_modules()
 
-    def runner_of(submission: Submission) -> Runner:
+    def make_runner(submission: Submission) -> Runner:
         lesson = course.find(submission.exercise)
-        found: Check = load_check(lesson)
-        return Runner(found, lesson, submission, ros, only, on_event, together, isolation, first=first)
+        check: Check = load_check(lesson)
+        return Runner(check, lesson, submission, ros, only, on_event, shared_limiter, isolation, first=first)
 
-    runners = [runner_of(submission) for submission in submissions]
+    runners = [make_runner(submission) for submission in submissions]
 
-    def tell_waiting() -> None:
+    def announce_waiting() -> None:
         for runner in runners:
-            runner.wait_for_turn()
+            runner.announce_waiting()
 
-    # A caller that shares a limiter among checks decides how many run at once.
-    own = isolation.turn_socket if isolation else None
-    async with turns.turn(own, on_wait=tell_waiting) if start_limiter is None else nullcontext():
+    # A caller that shares a limiter among checks decides itself how many run concurrently.
+    turn_socket = isolation.turn_socket if isolation else None
+    async with turns.turn(turn_socket, on_wait=announce_waiting) if start_limiter is None else nullcontext():
         started = time.monotonic()
         tasks = [asyncio.ensure_future(runner.run()) for runner in runners]
         try:
@@ -142,13 +145,13 @@ async def _run_check(
 
 
 def _require_descriptors() -> None:
-    """Allow this process as many open files as a check needs. Raises EngineError where that is impossible."""
+    """Raise this process's limit on open files as far as a check needs. Raises EngineError if that is impossible."""
     soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
     unlimited = resource.RLIM_INFINITY
-    most = ENOUGH_DESCRIPTORS if hard == unlimited else min(hard, ENOUGH_DESCRIPTORS)
-    if soft != unlimited and soft < most:
-        resource.setrlimit(resource.RLIMIT_NOFILE, (most, hard))
-        soft = most
-    if soft != unlimited and soft < LEAST_DESCRIPTORS:
-        text = f"only {soft} files may be open in a process here, and a check needs {LEAST_DESCRIPTORS}"
-        raise EngineError(text, f"allow more (ulimit -n {ENOUGH_DESCRIPTORS}, or nofile in /etc/security/limits.conf)")
+    wanted = WANTED_DESCRIPTORS if hard == unlimited else min(hard, WANTED_DESCRIPTORS)
+    if soft != unlimited and soft < wanted:
+        resource.setrlimit(resource.RLIMIT_NOFILE, (wanted, hard))
+        soft = wanted
+    if soft != unlimited and soft < MIN_DESCRIPTORS:
+        text = f"only {soft} files may be open in a process here, and a check needs {MIN_DESCRIPTORS}"
+        raise EngineError(text, f"allow more (ulimit -n {WANTED_DESCRIPTORS}, or nofile in /etc/security/limits.conf)")

@@ -1,4 +1,4 @@
-"""A check that ends at its first failure: what is judged by then, and why the rest is not."""
+"""A check that ends at its first failure: collect the results up to then, and explain why the rest was not judged."""
 
 from __future__ import annotations
 
@@ -13,16 +13,17 @@ from tutor.judge.verdict import Status, Verdict, skipped
 async def judge_until_failure(
     shown: Sequence[Criterion], judge: Callable[[Criterion], Awaitable[CriterionResult]]
 ) -> tuple[Mapping[str, CriterionResult], str]:
-    """Judge all at once, and stop when one has failed: the results by then, and the id of that one ("" if none has).
+    """Judge all criteria concurrently, and stop at the first failure.
 
-    A bonus criterion that fails ends nothing, unless nothing else is asked for. Whatever `judge` raises ends all of it.
+    Return the results by then (id to result), and the id of the failed criterion ("" if none failed). The failure of a
+    bonus criterion counts only if all of `shown` are bonus criteria. An exception raised by `judge` is passed on.
     """
     tasks = {asyncio.ensure_future(judge(criterion)): criterion for criterion in shown}
     only_bonus = all(criterion.bonus for criterion in shown)
-    waiting, failure = set(tasks), ""
+    pending, failure = set(tasks), ""
     try:
-        while waiting and not failure:
-            _, waiting = await asyncio.wait(waiting, return_when=asyncio.FIRST_COMPLETED)
+        while pending and not failure:
+            _, pending = await asyncio.wait(pending, return_when=asyncio.FIRST_COMPLETED)
             failed = [
                 criterion.id
                 for task, criterion in tasks.items()
@@ -30,20 +31,20 @@ async def judge_until_failure(
             ]
             failure = next(iter(failed), "")
     finally:
-        for task in waiting:
+        for task in pending:
             task.cancel()
-        await asyncio.gather(*waiting, return_exceptions=True)
+        await asyncio.gather(*pending, return_exceptions=True)
     return {criterion.id: task.result() for task, criterion in tasks.items() if not task.cancelled()}, failure
 
 
-def skip(criterion: Criterion, results: Mapping[str, CriterionResult], failure: str) -> Verdict:
-    """Why a criterion was not judged: one that it comes after did not pass, or the check ended at another."""
+def skipped_verdict(criterion: Criterion, results: Mapping[str, CriterionResult], failure: str) -> Verdict:
+    """The verdict on a criterion that was not judged: a dependency did not pass, or the check ended at `failure`."""
     for dependency in criterion.after:
         if dependency in results and not results[dependency].verdict.passed:
-            return skip_after(dependency)
+            return skipped_after(dependency)
     return skipped(f"not judged, because the check ended at its first failure, `{failure}`")
 
 
-def skip_after(dependency: str) -> Verdict:
-    """A criterion that comes after one that did not pass."""
+def skipped_after(dependency: str) -> Verdict:
+    """The verdict on a criterion whose dependency did not pass."""
     return skipped(f"not judged, because `{dependency}` did not pass")

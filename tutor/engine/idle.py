@@ -1,4 +1,4 @@
-"""Whether what is waited for can still come: a node that does nothing, and waits for no time, sends no more."""
+"""Detect an idle process: a node whose threads are all blocked, none of them with a timeout, sends nothing more."""
 
 from __future__ import annotations
 
@@ -7,36 +7,37 @@ from collections.abc import Callable
 
 from tutor.process import NextWake
 
-LOOK_EVERY_S = 0.1
+POLL_S = 0.1
+"""Minimum interval between two readings of the process's threads."""
 
 
 class Idle:
-    """Watches a process that somebody waits for.
+    """Detects whether a process is idle.
 
-    `for_s`: how long it must have done nothing; `cpu_wait_s()`: for how long we were not let run so far, in which its
-    messages may have come in unseen.
+    `for_s`: how long its threads must have been blocked, in seconds. `cpu_wait_s()`: how long we have waited for a CPU
+    so far; that time does not count, since messages may have arrived that we have not seen.
     """
 
     def __init__(self, next_wake: Callable[[], NextWake], cpu_wait_s: Callable[[], float], for_s: float) -> None:
         self._next_wake = next_wake
         self._cpu_wait_s = cpu_wait_s
         self._for_s = for_s
-        self._looked = 0.0
+        self._read_at = 0.0
         self._timeslices = -1
-        self._since = self._waited_s = 0.0
+        self._idle_since = self._waited_before_s = 0.0
         self._idle = False
 
     def until(self, deadline: float) -> bool:
-        """Whether it is idle, and will be until then (seconds since the epoch). To be asked again and again."""
+        """Whether the process is idle and will stay so until `deadline` (seconds since the epoch). Must be polled."""
         now = time.monotonic()
-        if now - self._looked < LOOK_EVERY_S:
+        if now - self._read_at < POLL_S:
             return self._idle
-        self._looked = now
-        seen = self._next_wake()
-        if seen.at <= deadline or seen.timeslices != self._timeslices:
-            self._timeslices = seen.timeslices
-            self._since, self._waited_s = now, self._cpu_wait_s()
+        self._read_at = now
+        wake = self._next_wake()
+        if wake.at <= deadline or wake.timeslices != self._timeslices:
+            self._timeslices = wake.timeslices
+            self._idle_since, self._waited_before_s = now, self._cpu_wait_s()
             self._idle = False
         else:
-            self._idle = now - self._since >= self._for_s + self._cpu_wait_s() - self._waited_s
+            self._idle = now - self._idle_since >= self._for_s + self._cpu_wait_s() - self._waited_before_s
         return self._idle

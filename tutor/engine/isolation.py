@@ -1,6 +1,7 @@
-"""Isolates a learner's processes for `ros-tutor check --isolate`, by bubblewrap's namespaces and the kernel's limits.
+"""Isolates a learner's processes for `ros-tutor check --isolate` with bubblewrap's namespaces and the kernel's limits.
 
-We stay outside, with the user's files and the report; only the network is shared, where the observers meet the nodes.
+Our own process stays outside, with the user's files and the report. It shares only a network namespace with the
+isolated processes, so that our observers can discover the nodes.
 """
 
 from __future__ import annotations
@@ -22,23 +23,25 @@ from tutor.errors import EngineError
 from tutor.judge.result import Restriction
 
 MEMORY_MB, FILE_MB, PROCESSES = 2048, 64, 512
-"""The memory that a process may write to (our solutions' nodes: 165 to 230 MB), the size of a file, and how many
-processes and threads one start may have (ours: 13 to 60)."""
-_MOST_FILES, _MOST_MB = 2000, 64
-"""What there may be to copy of a submission."""
-_INSTALL = "install it (sudo apt install bubblewrap), or check without --isolate only code that you would run yourself"
-_ALLOW = (
+"""Limits on the writable memory of a process (our solutions' nodes use 165 to 230 MB), the size of a file, and the
+number of processes and threads in one run (ours have 13 to 60)."""
+_MAX_FILES, _MAX_MB = 2000, 64
+"""Limits on the copy of a submission."""
+_INSTALL_HINT = (
+    "install it (sudo apt install bubblewrap), or check without --isolate only code that you would run yourself"
+)
+_ALLOW_HINT = (
     "if the kernel refuses, allow user namespaces (on Ubuntu 24.04: sudo sysctl "
     "kernel.apparmor_restrict_unprivileged_userns=0), or check on another machine"
 )
-_SYSTEM = ("/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/opt/ros")
-_OF_ETC = ("ld.so.cache", "alternatives", "passwd", "group", "hosts", "nsswitch.conf", "localtime", "timezone")
+_SYSTEM_FOLDERS = ("/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/opt/ros")
+_ETC_FILES = ("ld.so.cache", "alternatives", "passwd", "group", "hosts", "nsswitch.conf", "localtime", "timezone")
 _SIOCSIFFLAGS, _IFF_UP = 0x8914, 0x1
 
 
 @dataclass(frozen=True, slots=True)
 class Isolation:
-    """How processes are isolated on this machine: `Isolation.set_up` has tried it. `turn_socket`: see `turns`."""
+    """A working way to isolate processes on this machine; made by `Isolation.set_up`. `turn_socket`: see `turns`."""
 
     bwrap: str
     prlimit: str
@@ -47,94 +50,100 @@ class Isolation:
 
     @classmethod
     def set_up(cls) -> Isolation:
-        """Move this process into a network of its own, and try to isolate another. It must have one thread only.
+        """Move this process into a private network namespace, and try to isolate a child process.
 
-        Raises EngineError where it fails: nothing must then be checked as if it were isolated.
+        This process must be single-threaded. Raises EngineError if isolation fails; then nothing may be checked.
         """
         bwrap, prlimit = shutil.which("bwrap"), shutil.which("prlimit")
         if bwrap is None or prlimit is None:
-            raise EngineError(f"--isolate needs {'prlimit' if bwrap else 'bubblewrap'}, which is not here", _INSTALL)
-        isolation = cls(bwrap, prlimit, turns.turn_socket())  # of the network that all checks have in common
+            raise EngineError(
+                f"--isolate needs {'prlimit' if bwrap else 'bubblewrap'}, which is not installed", _INSTALL_HINT
+            )
+        isolation = cls(bwrap, prlimit, turns.turn_socket())  # made in the network namespace that all checks share
         try:
-            _own_network()
+            _enter_private_network()
         except OSError as error:
             raise EngineError(
-                f"--isolate: this machine allows no network of its own ({error.strerror})", _ALLOW
+                f"--isolate: this machine allows no private network namespace ({error.strerror})", _ALLOW_HINT
             ) from error
-        tried = subprocess.run([*isolation._command([], {}), "true"], capture_output=True, text=True, check=False)
-        if tried.returncode:
-            said = (tried.stderr.strip().splitlines() or [f"exit code {tried.returncode}"])[-1]
-            raise EngineError(f"--isolate: bubblewrap cannot isolate anything here ({said})", _ALLOW)
+        trial = subprocess.run([*isolation._bwrap_command([], {}), "true"], capture_output=True, text=True, check=False)
+        if trial.returncode:
+            reason = (trial.stderr.strip().splitlines() or [f"exit code {trial.returncode}"])[-1]
+            raise EngineError(f"--isolate: bubblewrap cannot isolate anything here ({reason})", _ALLOW_HINT)
         forked = subprocess.run(
-            [*isolation._command([], {}, processes=1), "sh", "-c", "(true); true"], capture_output=True, check=False
+            [*isolation._bwrap_command([], {}, processes=1), "sh", "-c", "(true); true"],
+            capture_output=True,
+            check=False,
         )
         return replace(isolation, limits_processes=forked.returncode != 0)
 
     def wrap(self, submission: Path, logs: Path, env: dict[str, str]) -> list[str]:
-        """The command to put in front of another to isolate it; to be run with `env`, which is changed to fit.
+        """Return the command prefix that isolates a command; adapts `env`, with which that must be run.
 
-        It may write to a copy of the submission, which it finds in its own place, and to `logs`. Raises
-        EngineError where the submission cannot be copied.
+        The command may write to `logs`, and to a copy of the submission that is mounted in its place. Raises
+        EngineError if the submission cannot be copied.
         """
         env |= {"HOME": "/tmp", "TMPDIR": "/tmp"}
         copy = logs / "submission"
-        _copy(submission, copy)
-        return self._command(list(_readable(env)), {submission: copy, logs: logs})
+        _copy_submission(submission, copy)
+        return self._bwrap_command(list(_readable_folders(env)), {submission: copy, logs: logs})
 
     @property
     def restrictions(self) -> tuple[Restriction, ...]:
-        """For the report: what is restricted, and why something is not."""
-        count = f"{PROCESSES} of one start, threads included"
-        root = "the kernel sets root no such limit: check as another user"
+        """What is restricted, for the report, and why something is not."""
+        count = f"{PROCESSES} per run, threads included"
+        root = "the kernel sets no such limit for root: check as another user"
         return (
-            Restriction("user", True, "a namespace of its own, without the user's rights"),
-            Restriction("network", True, "the loopback interface of the check's own network, and no other"),
-            Restriction("processes", True, "only its own can be seen or ended"),
+            Restriction("user", True, "a private namespace, without the user's privileges"),
+            Restriction("network", True, "only the loopback interface of the check's private network"),
+            Restriction("processes", True, "only its own can be seen or killed"),
             Restriction(
-                "files", True, "the system and ROS to read, no home; a copy of the submission and /tmp to write"
+                "files", True, "the system and ROS read-only, no home; a copy of the submission and /tmp writable"
             ),
-            Restriction("memory limit", True, f"{MEMORY_MB} MB for each process"),
-            Restriction("file limit", True, f"{FILE_MB} MB for each file"),
+            Restriction("memory limit", True, f"{MEMORY_MB} MB per process"),
+            Restriction("file limit", True, f"{FILE_MB} MB per file"),
             Restriction("process limit", self.limits_processes, count if self.limits_processes else root),
         )
 
-    def _command(self, readable: list[Path], writable: Mapping[Path, Path], processes: int = PROCESSES) -> list[str]:
-        in_memory = ("--size", str(FILE_MB << 20), "--tmpfs")
-        words = [self.bwrap, "--die-with-parent", "--unshare-user", "--unshare-pid", "--unshare-ipc", "--unshare-uts"]
-        words += [
+    def _bwrap_command(
+        self, readable: list[Path], writable: Mapping[Path, Path], processes: int = PROCESSES
+    ) -> list[str]:
+        tmpfs = ("--size", str(FILE_MB << 20), "--tmpfs")
+        command = [self.bwrap, "--die-with-parent", "--unshare-user", "--unshare-pid", "--unshare-ipc", "--unshare-uts"]
+        command += [
             "--unshare-cgroup-try",
             "--proc",
             "/proc",
             "--dev",
             "/dev",
-            *in_memory,
+            *tmpfs,
             "/dev/shm",
-            *in_memory,
+            *tmpfs,
             "/tmp",
         ]
-        for folder in _SYSTEM:
-            if os.path.islink(folder):  # such as /bin, to usr/bin
-                words += ["--symlink", os.readlink(folder), folder]
+        for folder in _SYSTEM_FOLDERS:
+            if os.path.islink(folder):  # such as /bin to usr/bin
+                command += ["--symlink", os.readlink(folder), folder]
             elif os.path.isdir(folder):
-                words += ["--ro-bind", folder, folder]
-        for name in _OF_ETC:
-            words += ["--ro-bind-try", f"/etc/{name}", f"/etc/{name}"]
+                command += ["--ro-bind", folder, folder]
+        for name in _ETC_FILES:
+            command += ["--ro-bind-try", f"/etc/{name}", f"/etc/{name}"]
         for each in readable:
-            words += ["--ro-bind", str(each), str(each)]
-        for place, real in writable.items():
-            words += ["--bind", str(real), str(place)]
-        words += ["--remount-ro", "/dev", "--remount-ro", "/", "--chdir", "/", "--"]
+            command += ["--ro-bind", str(each), str(each)]
+        for mount_point, folder_outside in writable.items():
+            command += ["--bind", str(folder_outside), str(mount_point)]
+        command += ["--remount-ro", "/dev", "--remount-ro", "/", "--chdir", "/", "--"]
         limits = (f"--data={MEMORY_MB << 20}", f"--fsize={FILE_MB << 20}", f"--nproc={processes}", "--core=0")
-        return [*words, self.prlimit, *limits, "--"]
+        return [*command, self.prlimit, *limits, "--"]
 
 
-def _own_network() -> None:
-    """Leave the machine's network for one that has only a loopback interface. Raises OSError."""
+def _enter_private_network() -> None:
+    """Move this process into a network namespace that has only a loopback interface. Raises OSError."""
     uid, gid = os.geteuid(), os.getegid()
     try:
         os.unshare(os.CLONE_NEWNET)
     except PermissionError:
-        if uid == 0:  # in a user namespace of its own, root would lose what belongs to other users
+        if uid == 0:  # in a private user namespace, root would lose access to other users' files
             raise
         os.unshare(os.CLONE_NEWUSER | os.CLONE_NEWNET)
         for name, text in (("setgroups", "deny"), ("uid_map", f"{uid} {uid} 1"), ("gid_map", f"{gid} {gid} 1")):
@@ -143,20 +152,20 @@ def _own_network() -> None:
         fcntl.ioctl(any_socket, _SIOCSIFFLAGS, struct.pack("16sh14x", b"lo", _IFF_UP))
 
 
-def _readable(env: Mapping[str, str]) -> Iterator[Path]:
-    """Python, our own code and ROS, where they are outside of the system's folders."""
+def _readable_folders(env: Mapping[str, str]) -> Iterator[Path]:
+    """Yield the folders of Python, our own code and ROS, as far as they are outside the system folders."""
     python = Path(sys.executable)
     hops = [python]
     while hops[-1].is_symlink():
         hops.append(Path(os.path.normpath(hops[-1].parent / os.readlink(hops[-1]))))
-    named = [
+    from_env = [
         entry
         for name in ("PYTHONPATH", "AMENT_PREFIX_PATH", "LD_LIBRARY_PATH")
         for entry in env.get(name, "").split(":")
     ]
     homes = (Path(os.path.expanduser("~")), Path("/"), Path("/tmp"))
     wanted = [Path(sys.prefix), Path(sys.base_prefix), *(hop.parent.parent for hop in hops)]
-    wanted += [Path(__file__).resolve().parents[1], *map(Path, filter(os.path.isabs, named))]
+    wanted += [Path(__file__).resolve().parents[1], *map(Path, filter(os.path.isabs, from_env))]
     for folder in dict.fromkeys(wanted):
         if (
             folder.is_dir()
@@ -166,23 +175,23 @@ def _readable(env: Mapping[str, str]) -> Iterator[Path]:
             yield folder
 
 
-def _copy(submission: Path, copy: Path) -> None:
-    """Copy files and folders; links stay links, and whatever else there is stays away."""
+def _copy_submission(submission: Path, copy: Path) -> None:
+    """Copy files, folders and symbolic links as such; leave out anything else, such as sockets and FIFOs."""
     count = size = 0
 
-    def left_out(folder: str, names: list[str]) -> list[str]:
+    def find_special(folder: str, names: list[str]) -> list[str]:
         nonlocal count, size
-        kinds = {name: os.lstat(os.path.join(folder, name)) for name in names}
-        count, size = count + len(names), size + sum(each.st_size for each in kinds.values())
-        if count > _MOST_FILES or size > _MOST_MB << 20:
+        stats = {name: os.lstat(os.path.join(folder, name)) for name in names}
+        count, size = count + len(names), size + sum(each.st_size for each in stats.values())
+        if count > _MAX_FILES or size > _MAX_MB << 20:
             raise EngineError(
-                f"--isolate: {submission} holds more than {_MOST_FILES} files or {_MOST_MB} MB, too much to be copied",
+                f"--isolate: {submission} is too large to copy: more than {_MAX_FILES} files or {_MAX_MB} MB",
                 "put the submission into a folder of its own",
             )
-        usual = (stat.S_IFREG, stat.S_IFDIR, stat.S_IFLNK)
-        return [name for name, each in kinds.items() if stat.S_IFMT(each.st_mode) not in usual]
+        copied = (stat.S_IFREG, stat.S_IFDIR, stat.S_IFLNK)
+        return [name for name, each in stats.items() if stat.S_IFMT(each.st_mode) not in copied]
 
     try:
-        shutil.copytree(submission, copy, symlinks=True, ignore=left_out)
+        shutil.copytree(submission, copy, symlinks=True, ignore=find_special)
     except (OSError, shutil.Error) as error:
         raise EngineError(f"--isolate: {submission} cannot be copied: {error}", "make its files readable") from error

@@ -1,4 +1,4 @@
-"""The check that belongs to a lesson."""
+"""Load the check of a lesson."""
 
 from __future__ import annotations
 
@@ -14,20 +14,20 @@ from tutor.judge.check import Check
 
 
 def load_check(lesson: Lesson) -> Check:
-    """The check of a lesson: `CHECK` in the package or module `lesson.check`.
+    """Load the check of a lesson: `CHECK` in the package or module `lesson.check`.
 
-    Raises EngineError where there is none.
+    Raises EngineError if it is missing or cannot be loaded.
     """
     source = lesson.check
     if not source.is_file():
         raise EngineError(f"there is no check for {lesson.id}: {source} is missing", f"write {source}")
     try:
-        check = getattr(_module(lesson.folder.name, source), "CHECK", None)
+        check = getattr(_import_check(lesson.folder.name, source), "CHECK", None)
     except TableError as error:
         raise EngineError(f"the check of {lesson.id} has a table that cannot be used: {error}", "fix it") from error
     except Exception as error:
         raise EngineError(
-            f"the check of {lesson.id} cannot be loaded: {_where(error, source)}: {type(error).__name__}: {error}",
+            f"the check of {lesson.id} cannot be loaded: {_location(error, source)}: {type(error).__name__}: {error}",
             "fix the check",
         ) from error
     if not isinstance(check, Check):
@@ -35,22 +35,22 @@ def load_check(lesson: Lesson) -> Check:
     return check
 
 
-def _module(name: str, source: Path) -> ModuleType:
-    """The module `checks.NAME`, of our own course or of another, whose folder of checks joins the package."""
+def _import_check(name: str, source: Path) -> ModuleType:
+    """Import `checks.NAME`, from our own course or from another, whose folder is put first in the package's path."""
     import checks
 
     folder = str((source.parent.parent if source.name == "__init__.py" else source.parent).resolve())
     checks.__path__[:] = [folder, *(path for path in checks.__path__ if path != folder)]
     loaded = sys.modules.get(f"checks.{name}")
-    if loaded is not None and Path(loaded.__file__ or "") != source.resolve():  # of another course, loaded before
+    if loaded is not None and Path(loaded.__file__ or "") != source.resolve():  # from a course loaded before
         for module in [each for each in sys.modules if f"{each}.".startswith(f"checks.{name}.")]:
             del sys.modules[module]
     importlib.invalidate_caches()
     return importlib.import_module(f"checks.{name}")
 
 
-def _where(error: Exception, source: Path) -> str:
-    """The file and line of the check's that the exception came through last."""
+def _location(error: Exception, source: Path) -> str:
+    """The innermost file and line of the check itself in the exception's traceback."""
     if isinstance(error, SyntaxError) and error.filename:
         return f"{error.filename}:{error.lineno}"
     frames = [

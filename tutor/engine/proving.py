@@ -1,4 +1,4 @@
-"""Runs the skeletons and solutions of lessons, a few at a time, for the author of a course."""
+"""Check the skeletons and solutions of lessons, a few at a time, for the author of a course."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from tutor.engine.start_limiter import StartLimiter
 from tutor.judge.result import ExerciseResult
 from tutor.judge.submission import Submission
 
-AT_ONCE = 6
-"""How many checks run at a time: they mostly wait, and more would only starve each other."""
+MAX_CONCURRENT_CHECKS = 6
+"""More than one, since checks mostly wait; not more, since they would only starve each other of CPU time."""
 
 
 class Kind(StrEnum):
-    """What of a lesson is judged."""
+    """Which of a lesson's files are judged."""
 
     SKELETON = "skeleton"
     SOLUTION = "solution"
@@ -26,7 +26,7 @@ class Kind(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Proof:
-    """One skeleton or solution, judged."""
+    """The result for one skeleton or solution."""
 
     lesson: Lesson
     kind: Kind
@@ -34,22 +34,23 @@ class Proof:
 
 
 async def prove(lessons: Sequence[Lesson], course: Course, on_proof: Callable[[Proof], None]) -> list[Proof]:
-    """Judge each lesson's skeleton and solution; the proofs come in the lessons' order, `on_proof` as they come.
+    """Judge each lesson's skeleton and solution: all skeletons first, then all solutions, each in the lessons' order.
 
-    Nothing that was started is left when this returns, is cancelled or raises. Raises EngineError.
+    `on_proof` gets each proof as soon as it is there, in any order. No process that was started is left when this
+    returns, is cancelled or raises. Raises EngineError.
     """
-    free, start_limiter = asyncio.Semaphore(AT_ONCE), StartLimiter()
+    slots, start_limiter = asyncio.Semaphore(MAX_CONCURRENT_CHECKS), StartLimiter()
 
-    async def one(lesson: Lesson, kind: Kind) -> Proof:
-        async with free:
+    async def prove_one(lesson: Lesson, kind: Kind) -> Proof:
+        async with slots:
             report = await run_check([_submission(lesson, kind)], course, start_limiter=start_limiter)
         proof = Proof(lesson, kind, report.exercises[0])
         on_proof(proof)
         return proof
 
-    # Skeletons first: a check waits longest for what does not come.
+    # Skeletons first: they take longest, since a check waits until the timeout for what never comes.
     wanted = [(lesson, kind) for kind in Kind for lesson in lessons]
-    tasks = [asyncio.ensure_future(one(*each)) for each in wanted]
+    tasks = [asyncio.ensure_future(prove_one(*each)) for each in wanted]
     try:
         return list(await asyncio.gather(*tasks))
     finally:

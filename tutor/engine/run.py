@@ -1,4 +1,4 @@
-"""One start of the learner's process, and what an observer on its domain sees of it."""
+"""One run of the learner's process, with everything that an observer on its domain sees of it."""
 
 from __future__ import annotations
 
@@ -45,39 +45,39 @@ from tutor.ros_model import Graph, Parameter, echo_qos
 
 T = TypeVar("T")
 
-LOOK_EVERY_S = 0.05
-"""How often a wait looks again where no fact comes in by itself: the graph has to be asked."""
+POLL_S = 0.05
+"""Poll interval for what raises no events of its own, such as the graph; also the maximum age of cached readings."""
 
-MOST_EXTENSIONS = 5
-"""A limit is extended by what the node was kept from running, up to this many times the limit."""
+MAX_EXTENSION_FACTOR = 5
+"""A limit is extended by the node's and our own waits for a CPU, by at most this many times the limit."""
 
-TOO_BUSY = "this machine is too busy: the node, or what watches it, did not get to run"
+TOO_BUSY = "this machine is too busy: the node, or the process that observes it, did not get to run"
 
 LITTLE_CPU_S = 0.5
-"""A node that had less CPU time than this while it was waited for may not have been let run."""
+"""A node that got less CPU time than this during a wait may have been starved by the machine."""
 
 ENOUGH_CPU_S = 2.0
-"""No wait is for something that takes a node more CPU time than this: its start takes 0.3 s."""
+"""Nothing that is waited for takes a node more CPU time than this: its start, for example, takes 0.3 s."""
 
-IN_TRANSIT_S = 1.0
-"""What a process has sent on its way before it ended may take this long to be gone."""
+CHILD_EXIT_S = 1.0
+"""Grace period for child processes that are about to exit after the first process has."""
 
 IN_FLIGHT_S = 0.5
-"""What a process sent before it ended may arrive this much later."""
+"""Upper bound on the latency of a message that a process sent before it ended."""
 
-NEVER_S = 1e6
-"""The limit of a request whose time is kept by `until`."""
+NO_TIMEOUT_S = 1e6
+"""Timeout of a request whose time limit `until` enforces."""
 
 
 class CollectedFacts:
-    """What has been collected of one run, and a signal for each new fact."""
+    """The facts about one run that are kept here, and an event that is set for every new fact about it."""
 
     def __init__(self) -> None:
         self.changed = asyncio.Event()
         self.served: list[ServedRequest] = []
 
-    def change(self) -> None:
-        """Wake everything that waits for a new fact."""
+    def notify(self) -> None:
+        """Wake up all waits for a new fact."""
         self.changed.set()
 
 
@@ -104,14 +104,14 @@ class RosRun:
         self._graph: tuple[float, Graph] = (0.0, Graph())
         self._meter = CpuMeter(process.pid)
         self._cpu_time: tuple[float, CpuTime] = (0.0, CpuTime())
-        self._asking = 0
+        self._pending_requests = 0
         self.interrupted_at: float | None = None
         """When Ctrl+C was pressed, in seconds since the epoch."""
 
     @property
     def unanswered(self) -> bool:
-        """Whether one of our requests waits for its answer."""
-        return self._asking > 0
+        """Whether one of our requests is waiting for its response."""
+        return self._pending_requests > 0
 
     @property
     def started_at(self) -> float:
@@ -123,17 +123,17 @@ class RosRun:
 
     @property
     def graph(self) -> Graph:
-        asked, seen = self._graph
+        read_at, seen = self._graph
         now = time.monotonic()
-        if now - asked >= LOOK_EVERY_S:
+        if now - read_at >= POLL_S:
             seen = graph.read_graph(self._observer.node)
             self._graph = (now, seen)
         return seen
 
     def peek_graph(self) -> Graph:
-        """The graph now, for the words of the moment: no check ever hears of it, as the last that was seen."""
-        asked, seen = self._graph
-        if self.exit is not None or time.monotonic() - asked < LOOK_EVERY_S:
+        """The current graph, for preliminary findings. It is not kept as the last one, so it affects no verdict."""
+        read_at, seen = self._graph
+        if self.exit is not None or time.monotonic() - read_at < POLL_S:
             return seen
         return graph.read_graph(self._observer.node)
 
@@ -156,7 +156,7 @@ class RosRun:
         if topic in self._observer.samples:
             return True
         offered = echo_qos(each.qos for each in self.graph.publishers if each.topic == topic)
-        # What was published before we came is got only from a publisher that keeps it.
+        # Samples published before we subscribed are delivered only by a transient-local publisher.
         requested = offered if offered.durability == "transient_local" else ANY_PUBLISHER
         try:
             self._observer.watch(topic, type, requested)
@@ -165,36 +165,36 @@ class RosRun:
         return True
 
     def serve(self, service: str, type: str, handler: Handler) -> None:
-        def served(request: Mapping[str, Any], response: Mapping[str, Any]) -> None:
+        def record(request: Mapping[str, Any], response: Mapping[str, Any]) -> None:
             if len(self._facts.served) < MOST_SAMPLES:
                 self._facts.served.append(ServedRequest(service, request, response, time.time()))
-            self._facts.change()
+            self._facts.notify()
 
-        self._observer.serve(service, type, handler, served)
+        self._observer.serve(service, type, handler, record)
 
     def now(self) -> float:
         return time.time()
 
     def node_cpu_wait_s(self) -> float:
-        return self._cpu().waited_s
+        return self._read_cpu_time().waited_s
 
     def our_cpu_wait_s(self) -> float:
         return own_cpu_time().waited_s
 
-    def _cpu(self) -> CpuTime:
+    def _read_cpu_time(self) -> CpuTime:
         if self.exit is not None:
             return CpuTime()
-        asked, had = self._cpu_time
+        read_at, cpu_time = self._cpu_time
         now = time.monotonic()
-        if now - asked >= LOOK_EVERY_S:
-            had = self._meter.read()
-            self._cpu_time = (now, had)
-        return had
+        if now - read_at >= POLL_S:
+            cpu_time = self._meter.read()
+            self._cpu_time = (now, cpu_time)
+        return cpu_time
 
     async def until(self, seen: Callable[[], bool], limit_s: float, *, idle_s: float | None = None) -> bool:
-        # The limit is for the node, not for a machine that does not let it run, or us see it.
+        # The limit is for the node: time in which the machine let neither it nor us run does not count.
         idle = Idle(self._process.next_wake, self.our_cpu_wait_s, idle_s) if idle_s is not None else None
-        return await self._until(seen, limit_s, lambda: (self._cpu().waited_s, self.our_cpu_wait_s()), idle)
+        return await self._until(seen, limit_s, lambda: (self._read_cpu_time().waited_s, self.our_cpu_wait_s()), idle)
 
     async def wait_for_exit(
         self,
@@ -207,10 +207,10 @@ class RosRun:
             meanwhile()
             return self.exit is not None
 
-        # Its other threads are kept waiting by the machine while the main thread sleeps: no excuse for a late end. Nor
-        # are we: what we see late has its time all the same.
+        # Only the main thread's wait for a CPU excuses a late exit. Other threads may wait while it sleeps, and a delay
+        # of ours changes nothing, since an exit that we see late still has its own time.
         idle = Idle(self._process.next_wake, self.our_cpu_wait_s, RESENT_S)
-        return await self._until(ended, limit_s, lambda: (self._cpu().main_waited_s,), idle, all_sent)
+        return await self._until(ended, limit_s, lambda: (self._read_cpu_time().main_waited_s,), idle, all_sent)
 
     async def _until(
         self,
@@ -220,14 +220,14 @@ class RosRun:
         idle: Idle | None = None,
         all_sent: Callable[[], bool] = lambda: True,
     ) -> bool:
-        """Wait as `until` does; the limit grows by what each of `waited_s` grows meanwhile, in seconds.
+        """Wait as `until` does; the growth of each of `waited_s` during the wait, in seconds, extends the limit.
 
-        That the process is idle counts from when `all_sent()`: there is nothing more from us to come.
+        Idleness counts only once `all_sent()`, that is, when nothing more is to come from us.
         """
         loop = asyncio.get_running_loop()
-        began, granted_s = loop.time(), 0.0
+        began, extended_by_s = loop.time(), 0.0
         deadline = began + limit_s
-        ran_s, before_s = self._cpu().ran_s, waited_s()
+        ran_before_s, waited_before_s = self._read_cpu_time().ran_s, waited_s()
         ended_at: float | None = None
         while True:
             self._facts.changed.clear()
@@ -243,26 +243,27 @@ class RosRun:
             if idle is not None and all_sent() and idle.until(time.time() + deadline - now):
                 return False
             if now >= deadline:
-                if self._cpu().ran_s - ran_s >= ENOUGH_CPU_S:  # one that has used this much of the CPU has run
+                if self._read_cpu_time().ran_s - ran_before_s >= ENOUGH_CPU_S:  # it was not starved
                     return False
-                late_s = [after - before for after, before in zip(waited_s(), before_s, strict=True)]
-                most_s = MOST_EXTENSIONS * limit_s
-                owed_s = min(sum(late_s), most_s) - granted_s
-                if owed_s < LOOK_EVERY_S:
-                    # A shorter wait is a look, from which nothing follows; a node that has had CPU time was let run.
-                    let_run = limit_s < 1.0 or self._cpu().ran_s - ran_s >= LITTLE_CPU_S
-                    if not let_run and sum(late_s) > most_s and free_s(now - began, late_s) < limit_s:
+                cpu_waits_s = [after - before for after, before in zip(waited_s(), waited_before_s, strict=True)]
+                max_extension_s = MAX_EXTENSION_FACTOR * limit_s
+                extension_s = min(sum(cpu_waits_s), max_extension_s) - extended_by_s
+                if extension_s < POLL_S:
+                    # With a limit below 1 s, no verdict depends on the result; with enough CPU time, the node did run.
+                    ran_enough = limit_s < 1.0 or self._read_cpu_time().ran_s - ran_before_s >= LITTLE_CPU_S
+                    starved = sum(cpu_waits_s) > max_extension_s and free_s(now - began, cpu_waits_s) < limit_s
+                    if not ran_enough and starved:
                         raise MachineTooBusy(TOO_BUSY)
                     return False
-                deadline, granted_s = deadline + owed_s, granted_s + owed_s
+                deadline, extended_by_s = deadline + extension_s, extended_by_s + extension_s
             with contextlib.suppress(TimeoutError):
-                await asyncio.wait_for(self._facts.changed.wait(), min(LOOK_EVERY_S, deadline - now))
+                await asyncio.wait_for(self._facts.changed.wait(), min(POLL_S, deadline - now))
 
     async def parameters(self, limit_s: float) -> tuple[Parameter, ...] | None:
-        # Each for itself, that one which never answers does not hide the others; up to three requests, in turn.
+        # One task per node, so that one that never answers does not hide the others. Each makes up to three requests.
         answers = await asyncio.gather(
             *(
-                self._while_alive(parameters.get_parameters(self._observer, [node], NEVER_S), 2 * limit_s, None)
+                self._while_alive(parameters.get_parameters(self._observer, [node], NO_TIMEOUT_S), 2 * limit_s, None)
                 for node in self.graph.parameter_nodes
             )
         )
@@ -274,21 +275,25 @@ class RosRun:
     ) -> SetAnswer:
         asked = time.time()
         answer = await self._while_alive(
-            parameters.set_parameters(self._observer, node, values, atomic=atomic, limit_s=NEVER_S),
+            parameters.set_parameters(self._observer, node, values, atomic=atomic, limit_s=NO_TIMEOUT_S),
             limit_s,
             None,
         )
         return answer or SetAnswer(values, False, False, "", asked, time.time())
 
     async def call(self, service: str, type: str, request: Mapping[str, Any], *, limit_s: float) -> CallAnswer:
-        # A client that has just been made needs a moment to find the server: no part of what the service takes.
+        # A new client needs a moment to discover the server, which is no part of the service's response time.
         asked = time.time()
-        if matched := await self._while_alive(self._observer.wait_for_server(service, type, NEVER_S), limit_s, False):
+        if matched := await self._while_alive(
+            self._observer.wait_for_server(service, type, NO_TIMEOUT_S), limit_s, False
+        ):
             asked = time.time()
         response = None
         with contextlib.suppress(AnswerTooLarge):
             if matched:
-                response = await self._while_alive(self._observer.call(service, type, request, NEVER_S), limit_s, None)
+                response = await self._while_alive(
+                    self._observer.call(service, type, request, NO_TIMEOUT_S), limit_s, None
+                )
         return CallAnswer(
             service=service,
             request=dict(request),
@@ -310,14 +315,14 @@ class RosRun:
         echoing = asyncio.ensure_future(
             echo.echo_topic(self._domain_id, topic, samples=samples, limit_s=limit_s, over=over)
         )
-        echoing.add_done_callback(lambda _: self._facts.change())
+        echoing.add_done_callback(lambda _: self._facts.notify())
         try:
             await self.until(echoing.done, limit_s, idle_s=RESENT_S)
             over.set()
             shown = await echoing
         finally:
             echoing.cancel()
-        # echo asks a graph that has long settled; a newcomer may not have met every publisher yet.
+        # The real echo reads a graph that has long settled; our new participant may not have discovered all publishers.
         settled = {endpoint.type for endpoint in self.graph.publishers if endpoint.topic == topic}
         return replace(shown, types=tuple(sorted(settled.union(shown.types))))
 
@@ -328,14 +333,14 @@ class RosRun:
         await self.wait_for_exit(limit_s)
         ended = self.exit
         took = (self.started_at + ended.after_s if ended is not None else time.time()) - pressed
-        left = await self._left()
+        left = await self._survivors()
         return Ending(ended, took, limit_s, tuple(line for line in self.output if line.at >= pressed), left)
 
-    async def _left(self) -> tuple[str, ...]:
-        """What is still there. Once the first process has ended, those that are about to follow it are waited for."""
-        deadline = time.monotonic() + (IN_TRANSIT_S if self.exit is not None else 0.0)
+    async def _survivors(self) -> tuple[str, ...]:
+        """The command lines of surviving processes, after a grace period if the first process has ended."""
+        deadline = time.monotonic() + (CHILD_EXIT_S if self.exit is not None else 0.0)
         while (left := await self._process.survivors()) and time.monotonic() < deadline:
-            await asyncio.sleep(LOOK_EVERY_S)
+            await asyncio.sleep(POLL_S)
         return tuple(survivor.command for survivor in left)
 
     async def command_lines(self) -> tuple[str, ...]:
@@ -344,19 +349,19 @@ class RosRun:
     async def dump_stacks(self) -> tuple[Frame, ...]:
         if self.exit is not None:
             return ()
-        asked = time.time()
+        aborted_at = time.time()
         # PYTHONFAULTHANDLER (set by the bench) makes a fatal signal write all threads' stacks to stderr.
         with contextlib.suppress(ProcessLookupError):
             os.kill(self._process.pid, signal.SIGABRT)
         await self._process.wait(2.0)
-        frames = tracebacks.dumped_frames(line for line in self.output if line.at >= asked)
+        frames = tracebacks.dumped_frames(line for line in self.output if line.at >= aborted_at)
         return with_code(frames)
 
     def trace(self) -> Trace:
         return self.trace_of(self._final_graph())
 
     def trace_of(self, graph: Graph) -> Trace:
-        """All facts so far, with this graph."""
+        """A snapshot of all facts so far, with this graph."""
         return Trace(
             file=self._path.name,
             folder=str(self._path.parent),
@@ -372,22 +377,22 @@ class RosRun:
             exit=self.exit,
         )
 
-    async def _while_alive(self, asking: Coroutine[Any, Any, T], limit_s: float, otherwise: T) -> T:
-        """The answer, or `otherwise` where none comes within the limit, or before the process ends or falls idle."""
-        task = asyncio.ensure_future(asking)
-        task.add_done_callback(lambda _: self._facts.change())
-        self._asking += 1
+    async def _while_alive(self, request: Coroutine[Any, Any, T], limit_s: float, default: T) -> T:
+        """Await a response; return `default` if none comes within the limit, or before the process exits or is idle."""
+        task = asyncio.ensure_future(request)
+        task.add_done_callback(lambda _: self._facts.notify())
+        self._pending_requests += 1
         try:
-            # Whoever waits without a time-out does not answer, unless our message has yet to arrive.
+            # A process that is idle for longer than a lost request takes to be resent is not going to respond.
             await self.until(task.done, limit_s, idle_s=RESENT_S)
-            return task.result() if task.done() else otherwise
+            return task.result() if task.done() else default
         finally:
-            self._asking -= 1
+            self._pending_requests -= 1
             task.cancel()
 
     @cached_property
     def _source(self) -> dict[str, Any]:
-        """What the file says about itself."""
+        """What the file's source says; read once, at the first trace."""
         path = self._path
         return {
             "uncalled_main": uncalled_main(path),
@@ -396,5 +401,5 @@ class RosRun:
         }
 
     def _final_graph(self) -> Graph:
-        """The graph now, or, where the process has ended, the last that was seen of it."""
+        """The current graph, or, once the process has ended, the last one seen."""
         return self._graph[1] if self.exit is not None else self.graph

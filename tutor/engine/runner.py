@@ -1,4 +1,4 @@
-"""Runs the scenarios of a check at once, judges each criterion as soon as its facts are there, and streams events."""
+"""Run the scenarios of a check concurrently, judge each criterion as soon as its facts are in, and stream events."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import Any
 
 from tutor.content import Lesson
 from tutor.engine.bench import RosBench
-from tutor.engine.first_failure import judge_until_failure, skip, skip_after
+from tutor.engine.first_failure import judge_until_failure, skipped_after, skipped_verdict
 from tutor.engine.isolation import Isolation
 from tutor.engine.provisional import Provisional
 from tutor.engine.run import TOO_BUSY
@@ -30,17 +30,18 @@ OnEvent = Callable[[Event], None]
 
 WAITING = "waiting for other checks on this machine"
 
-MOST_REPEATS = 2
-"""A scenario is repeated at most this many times because of a busy machine."""
+MAX_REPEATS = 2
+"""Maximum repetitions of a scenario because of a busy machine."""
 
 REPEAT_WITHIN_S = 60.0
-"""Nothing is repeated once the check has taken this long: the machine, or the node itself, stays busy."""
+"""No repetition starts after this much of the check: the machine, or the node itself, is not going to calm down."""
 
 
 class Runner:
-    """One check of one submission. `only`: the criteria to show; those that they depend on are judged in silence.
+    """One check of one submission.
 
-    `first`: it ends at the first required criterion that fails.
+    `only`: ids of the criteria to show (None: all); their dependencies are judged too, but not shown. `first`: stop at
+    the first required criterion that fails.
     """
 
     def __init__(
@@ -76,14 +77,14 @@ class Runner:
         self._announced = False
         self._started = time.monotonic()
 
-    def wait_for_turn(self) -> None:
-        """Tell that the check is to begin, once others are done."""
+    def announce_waiting(self) -> None:
+        """Emit events: the check is going to start, but is waiting for its turn."""
         self._announce()
         for criterion in self._shown:
             self._on_event(Progress(self._check.exercise, criterion.id, 0.0, WAITING))
 
     async def run(self) -> ExerciseResult:
-        """Judge; gives the result when every scenario has ended and nothing of the learner's is left."""
+        """Judge all criteria. When this returns, every scenario has ended and no process of the learner's is left."""
         exercise = self._check.exercise
         self._announce()
         self._started = time.monotonic()
@@ -91,80 +92,80 @@ class Runner:
         try:
             for criterion in needed:
                 for scenario in criterion.facts:
-                    self._share(scenario)
+                    self._task_of(scenario)
             for criterion in needed:
                 self._early[criterion.id] = asyncio.get_running_loop().create_future()
                 self._verdicts[criterion.id] = asyncio.create_task(self._judge(criterion))
             results, unjudged = await self._judge_shown()
         finally:
-            await _end([*self._verdicts.values(), *self._scenarios.values()])
+            await _cancel([*self._verdicts.values(), *self._scenarios.values()])
         result = ExerciseResult(
             id=exercise,
             title=self._lesson.title,
             submission=tuple(self._submission.files),
             criteria=tuple(results),
-            duration_s=self._elapsed(),
+            duration_s=self._elapsed_s(),
             unjudged=unjudged,
         )
         self._on_event(ExerciseJudged(result))
         return result
 
     async def _judge_shown(self) -> tuple[Sequence[CriterionResult], tuple[str, ...]]:
-        """The results of all that is shown, and which of them were not judged, because the check ends before."""
+        """Judge the criteria to show; return their results, and the ids of those skipped at the first failure."""
         if not self._first:
-            return await asyncio.gather(*(self._show(criterion) for criterion in self._shown)), ()
-        judged, failure = await judge_until_failure(self._shown, self._show)
-        rest = [criterion for criterion in self._shown if criterion.id not in judged]
-        results = {**judged, **{each.id: self._tell_verdict(each, skip(each, judged, failure)) for each in rest}}
-        return [results[criterion.id] for criterion in self._shown], tuple(each.id for each in rest)
+            return await asyncio.gather(*(self._result_of(criterion) for criterion in self._shown)), ()
+        judged, failure = await judge_until_failure(self._shown, self._result_of)
+        unjudged = [criterion for criterion in self._shown if criterion.id not in judged]
+        skipped = {each.id: self._emit_verdict(each, skipped_verdict(each, judged, failure)) for each in unjudged}
+        results = {**judged, **skipped}
+        return [results[criterion.id] for criterion in self._shown], tuple(each.id for each in unjudged)
 
     def _announce(self) -> None:
         if not self._announced:
             self._announced = True
             self._on_event(CheckStarted(self._check.exercise, tuple(c.id for c in self._shown)))
 
-    def _share(self, scenario: Scenario[Any]) -> asyncio.Task[Any]:
+    def _task_of(self, scenario: Scenario[Any]) -> asyncio.Task[Any]:
+        """Return the task that gathers a scenario's facts; start it on first use."""
         if scenario not in self._scenarios:
-            self._scenarios[scenario] = asyncio.ensure_future(self._facts(scenario))
+            self._scenarios[scenario] = asyncio.ensure_future(self._gather_facts(scenario))
         return self._scenarios[scenario]
 
     def _repeat(self, scenario: Scenario[Any], last: asyncio.Task[Any], *, alone: bool) -> bool:
-        """Run the scenario again, unless this was done since its `last` run, or too often. Gives whether it was run."""
+        """Start the scenario again, unless its `last` run already was repeated. Return False if out of repetitions."""
         if self._scenarios[scenario] is last:
-            if self._repeats[scenario] >= MOST_REPEATS or self._elapsed() > REPEAT_WITHIN_S:
+            if self._repeats[scenario] >= MAX_REPEATS or self._elapsed_s() > REPEAT_WITHIN_S:
                 return False
             self._repeats[scenario] += 1
-            self._scenarios[scenario] = asyncio.ensure_future(self._facts(scenario, alone=alone))
+            self._scenarios[scenario] = asyncio.ensure_future(self._gather_facts(scenario, alone=alone))
         return True
 
-    async def _ask(self, scenario: Scenario[Any]) -> Any:
-        # Shielded: one scenario that is cancelled must not take down another that was asked by several.
-        return await asyncio.shield(self._share(scenario))
-
-    async def _ask_from_scenario(self, scenario: Scenario[Any]) -> Any:
+    async def _facts_for_scenario(self, scenario: Scenario[Any]) -> Any:
+        """Return the facts of a scenario that another scenario asks for."""
         with self._start_limiter.scenarios.waiting():
-            return await self._ask(scenario)
+            # Shielded: the cancellation of one waiter must not cancel a scenario that others are waiting for, too.
+            return await asyncio.shield(self._task_of(scenario))
 
-    async def _facts(self, scenario: Scenario[Any], *, alone: bool = False) -> Any:
-        """The facts of a scenario; repeated alone where the machine did not let the node run in it."""
-        for _ in range(MOST_REPEATS):
+    async def _gather_facts(self, scenario: Scenario[Any], *, alone: bool = False) -> Any:
+        """Run a scenario for its facts, and repeat it alone if the machine was too busy to let the node run."""
+        for _ in range(MAX_REPEATS):
             try:
                 return await self._run_scenario(scenario, alone=alone)
             except MachineTooBusy:
-                if self._elapsed() > REPEAT_WITHIN_S:
+                if self._elapsed_s() > REPEAT_WITHIN_S:
                     raise
                 alone = True
         return await self._run_scenario(scenario, alone=alone)
 
     async def _run_scenario(self, scenario: Scenario[Any], *, alone: bool) -> Any:
-        def tell(fraction: float, text: str, so_far: SoFar) -> None:
-            self._tell(scenario, fraction, text, so_far)
+        def on_progress(fraction: float, text: str, so_far: SoFar) -> None:
+            self._emit_progress(scenario, fraction, text, so_far)
 
-        provisional = Provisional(tell, self._lesson.live, self._published)
+        provisional = Provisional(on_progress, self._lesson.live, self._published)
         bench = RosBench(
             self._submission,
             self._ros,
-            self._ask_from_scenario,
+            self._facts_for_scenario,
             provisional.report,
             self._start_limiter,
             self._check.expected_s,
@@ -173,11 +174,11 @@ class Runner:
             provisional.follow,
             lambda facts: self._take_facts(scenario, facts),
         )
-        async with self._start_limiter.scenarios.at_work(alone=alone):
-            if alone and self._elapsed() > REPEAT_WITHIN_S:
+        async with self._start_limiter.scenarios.running(alone=alone):
+            if alone and self._elapsed_s() > REPEAT_WITHIN_S:
                 raise MachineTooBusy(TOO_BUSY)
             facts = await scenario(bench)
-            if bench.sigkilled:  # who did it cannot be known from one
+            if bench.sigkilled:  # one run does not show who sent the signal
                 facts = await scenario(bench)
         self._take_facts(scenario, facts)
         return facts
@@ -185,87 +186,86 @@ class Runner:
     async def _judge(self, criterion: Criterion) -> Verdict:
         for dependency in criterion.after:
             if not (await asyncio.shield(self._verdicts[dependency])).passed:
-                return skip_after(dependency)
+                return skipped_after(dependency)
         try:
-            verdict = await self._judge_whole_or_early(criterion)
+            verdict = await self._judge_early_or_fully(criterion)
             text = self._texts.get(criterion.id)
             return point_to_todo(verdict, self._todo, text.hint if text else "")
         except Fault as error:
             return fault(str(error), error.hint)
-        except Exception as error:  # the check's boundary: our fault must not be shown as the learner's
-            where = _where(error)
+        except Exception as error:  # the check's boundary: our bug must not be reported as the learner's
             return fault(
                 f"the check itself failed: {type(error).__name__}: {error}",
                 "this is a fault of ros-tutor, not of your code; please report it with the line below",
-                [where],
+                [_raising_line(error)],
             )
 
     def _take_facts(self, scenario: Scenario[Any], facts: object) -> None:
-        """Judge what a scenario has seen so far: a failure that is sure by now is final."""
+        """Pass a scenario's facts so far to its early judges: a failure that is already certain is final."""
         if was_slowed(facts):
             return
         for criterion in self._check.criteria:
             early = self._early.get(criterion.id)
-            for reports, judge in criterion.early:
-                if early is None or early.done() or reports is not scenario:
+            for source, judge in criterion.early:
+                if early is None or early.done() or source is not scenario:
                     continue
                 verdict = judge(facts)
                 if verdict is not None and verdict.status is Status.FAILED:
                     early.set_result(verdict)
 
-    async def _judge_whole_or_early(self, criterion: Criterion) -> Verdict:
-        early, whole = self._early[criterion.id], asyncio.ensure_future(self._judge_facts(criterion))
+    async def _judge_early_or_fully(self, criterion: Criterion) -> Verdict:
+        early, full = self._early[criterion.id], asyncio.ensure_future(self._judge_fully(criterion))
         try:
-            await asyncio.wait({early, whole}, return_when=asyncio.FIRST_COMPLETED)
-            return whole.result() if whole.done() else early.result()
+            await asyncio.wait({early, full}, return_when=asyncio.FIRST_COMPLETED)
+            return full.result() if full.done() else early.result()
         finally:
-            await _end([whole])
+            await _cancel([full])
 
-    async def _judge_facts(self, criterion: Criterion) -> Verdict:
-        """Judge; again with new facts, where the machine may be why the criterion is not met."""
+    async def _judge_fully(self, criterion: Criterion) -> Verdict:
+        """Judge a criterion, and repeat its scenarios if the machine may be the reason why it is not met."""
         while True:
-            runs = [self._share(scenario) for scenario in criterion.facts]
+            runs = [self._task_of(scenario) for scenario in criterion.facts]
             facts = [await asyncio.shield(run) for run in runs]
             if any(self._scenarios[scenario] is not run for scenario, run in zip(criterion.facts, runs, strict=True)):
-                continue  # repeated meanwhile
+                continue  # a scenario was repeated in the meantime
             verdict = criterion.judge(*facts)
             undecided = isinstance(verdict, Undecided)
-            again = [
+            repeated = [
                 self._repeat(scenario, run, alone=undecided)
                 for scenario, run, seen in zip(criterion.facts, runs, facts, strict=True)
                 if undecided or (verdict.status is Status.FAILED and was_slowed(seen))
             ]
-            if not any(again):
+            if not any(repeated):
                 return verdict
 
-    async def _show(self, criterion: Criterion) -> CriterionResult:
-        return self._tell_verdict(criterion, bounded(await self._verdicts[criterion.id]))
+    async def _result_of(self, criterion: Criterion) -> CriterionResult:
+        return self._emit_verdict(criterion, bounded(await self._verdicts[criterion.id]))
 
-    def _tell_verdict(self, criterion: Criterion, verdict: Verdict) -> CriterionResult:
+    def _emit_verdict(self, criterion: Criterion, verdict: Verdict) -> CriterionResult:
         text = self._texts.get(criterion.id)
         result = CriterionResult(
-            criterion.id, text.text if text else criterion.id, criterion.bonus, verdict, self._elapsed()
+            criterion.id, text.text if text else criterion.id, criterion.bonus, verdict, self._elapsed_s()
         )
         self._on_event(CriterionJudged(self._check.exercise, result))
         return result
 
-    def _tell(self, scenario: Scenario[Any], fraction: float, text: str, so_far: SoFar) -> None:
+    def _emit_progress(self, scenario: Scenario[Any], fraction: float, text: str, so_far: SoFar) -> None:
         if self._progress.get(scenario) == (fraction, text, so_far):
             return
         self._progress[scenario] = (fraction, text, so_far)
         for criterion in self._shown:
-            if scenario in criterion.facts and not self._judged(criterion):
-                told = [self._progress.get(each, (0.0, "", SoFar())) for each in criterion.facts]
-                fraction = sum(each for each, _, _ in told) / len(told)
-                doing = text or next((each for _, each, _ in told if each), "")
-                known = max((each for _, _, each in told), key=lambda each: each.weight)
+            if scenario in criterion.facts and not self._is_judged(criterion):
+                progress = [self._progress.get(each, (0.0, "", SoFar())) for each in criterion.facts]
+                fraction = sum(each for each, _, _ in progress) / len(progress)
+                doing = text or next((each for _, each, _ in progress if each), "")
+                known = max((each for _, _, each in progress), key=lambda each: each.weight)
                 self._on_event(Progress(self._check.exercise, criterion.id, fraction, doing, known.text))
 
-    def _judged(self, criterion: Criterion) -> bool:
+    def _is_judged(self, criterion: Criterion) -> bool:
         task = self._verdicts.get(criterion.id)
         return task is not None and task.done()
 
-    def _elapsed(self) -> float:
+    def _elapsed_s(self) -> float:
         return time.monotonic() - self._started
 
 
@@ -277,13 +277,13 @@ def _with_dependencies(check: Check, shown: Iterable[Criterion]) -> tuple[Criter
     return tuple(criterion for criterion in check.criteria if criterion.id in wanted)
 
 
-async def _end(tasks: list[asyncio.Task[Any]]) -> None:
+async def _cancel(tasks: list[asyncio.Task[Any]]) -> None:
     for task in tasks:
         task.cancel()
     await asyncio.gather(*tasks, return_exceptions=True)
 
 
-def _where(error: BaseException) -> str:
+def _raising_line(error: BaseException) -> str:
     step = error.__traceback__
     while step is not None and step.tb_next is not None:
         step = step.tb_next

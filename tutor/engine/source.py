@@ -1,4 +1,4 @@
-"""What a learner's file says about itself: for the words of a diagnosis, never for a verdict."""
+"""Read a learner's source files, for the wording of a diagnosis, never for a verdict."""
 
 from __future__ import annotations
 
@@ -15,32 +15,32 @@ from tutor.judge.tracebacks import Frame
 from tutor.workspace.regular import read_regular
 
 _NAME = re.compile(r"[\w.-]+")
-MOST_FILES, MOST_BYTES = 20, 100_000
-"""No diagnosis needs more source than this: what is bigger is not read."""
+_MAX_FILES, _MAX_BYTES = 20, 100_000
+"""Limits on the number of files and the size of each; larger ones are not read. No diagnosis needs more source."""
 
-MOST_BYTES_OF_LIBRARY = 1_000_000
-"""Of a file that is only looked at for one of its lines."""
+_MAX_LIBRARY_BYTES = 1_000_000
+"""Size limit of a file from which only single lines are shown."""
 
-DEEPEST = 100
-"""Nor such with a syntax tree deeper than this, which would exhaust the stack of those who walk it."""
+_MAX_TREE_DEPTH = 100
+"""Files with deeper syntax trees are ignored: they would exhaust the stack of recursive visitors."""
 
-LONGEST_LINE = 2_000
-"""Nor such with longer lines, on which a pattern may take minutes."""
+_MAX_LINE_LENGTH = 2_000
+"""Files with longer lines are ignored: a regular expression might take minutes on them."""
 
 
 def uncalled_main(path: Path) -> bool:
-    """Whether the file defines a function `main` and calls it nowhere. False where it cannot be read or parsed."""
-    tree = _parsed(path)
+    """Whether the file defines a function `main` but never mentions it. False if it cannot be read or parsed."""
+    tree = _parse_file(path)
     defined = any(
         isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef) and node.name == "main" for node in tree.body
     )
-    named = any(isinstance(node, ast.Name) and node.id == "main" for node in ast.walk(tree))
-    return defined and not named
+    mentioned = any(isinstance(node, ast.Name) and node.id == "main" for node in ast.walk(tree))
+    return defined and not mentioned
 
 
 def launch_arguments(path: Path) -> tuple[str, ...]:
-    """The names of the launch arguments that the file declares in plain words."""
-    calls = [node for node in ast.walk(_parsed(path)) if isinstance(node, ast.Call)]
+    """Return the names of the launch arguments that the file declares with string literals."""
+    calls = [node for node in ast.walk(_parse_file(path)) if isinstance(node, ast.Call)]
     names = []
     for call in calls:
         if ast.unparse(call.func).endswith("DeclareLaunchArgument"):
@@ -50,73 +50,73 @@ def launch_arguments(path: Path) -> tuple[str, ...]:
 
 
 def sources(path: Path) -> Mapping[str, str]:
-    """The text of the file and of those beside it that it imports, by file name; what cannot be read is left out.
+    """Map file names to source texts: those of the file and of the modules beside it that it imports.
 
-    Beside a launch file, those that it names are its programs, and other launch files.
+    For a launch file, also those of the nodes and launch files beside it that it names. Unreadable files are left out.
     """
     found: dict[str, str] = {}
-    waiting = [path]
-    while waiting and len(found) < MOST_FILES:
-        file = waiting.pop(0)
-        if file.name in found or (text := _source(file)) is None:
+    pending = [path]
+    while pending and len(found) < _MAX_FILES:
+        file = pending.pop(0)
+        if file.name in found or (text := _read_source(file)) is None:
             continue
         found[file.name] = text
-        tree = _parsed(file)
-        waiting += [path.parent / f"{name}.py" for name in (*_imported(tree), *_launched(tree))]
+        tree = _parse_file(file)
+        pending += [path.parent / f"{name}.py" for name in (*_imported_names(tree), *_launched_names(tree))]
     return found
 
 
 def with_code(frames: Collection[Frame]) -> tuple[Frame, ...]:
-    """The frames of a stack dump, each with its line of source; empty where that cannot be read.
+    """Add its source line to each frame of a stack dump; "" if that cannot be read.
 
-    A program may write what looks like a dump, and name any file in it.
+    The paths are not to be trusted: a program can print a fake dump that names any file.
     """
     lines: dict[str, Sequence[str]] = {}
     for frame in frames:
-        if frame.path not in lines and len(lines) < MOST_FILES:
-            lines[frame.path] = (_text(Path(frame.path), MOST_BYTES_OF_LIBRARY) or "").splitlines()
+        if frame.path not in lines and len(lines) < _MAX_FILES:
+            lines[frame.path] = (_read_text(Path(frame.path), _MAX_LIBRARY_BYTES) or "").splitlines()
     return tuple(
-        replace(frame, code="".join(lines.get(frame.path, ())[frame.line - 1 : frame.line]).strip()[:LONGEST_LINE])
+        replace(frame, code="".join(lines.get(frame.path, ())[frame.line - 1 : frame.line]).strip()[:_MAX_LINE_LENGTH])
         for frame in frames
     )
 
 
-def _launched(tree: ast.Module) -> Iterator[str]:
-    """The texts of a launch file, each of which may be the name of a file."""
+def _launched_names(tree: ast.Module) -> Iterator[str]:
+    """Yield the strings of a launch file that may be file names; nothing for other files."""
     if any(isinstance(node, ast.FunctionDef) and node.name == "generate_launch_description" for node in tree.body):
         for node in ast.walk(tree):
             if isinstance(node, ast.Constant) and isinstance(node.value, str) and _NAME.fullmatch(node.value):
                 yield node.value.removesuffix(".py")
 
 
-def _imported(tree: ast.Module) -> Iterator[str]:
-    """The last parts of the names that are imported: of what lies beside the file, these are files."""
+def _imported_names(tree: ast.Module) -> Iterator[str]:
+    """Yield the last part of each imported name, which for a module beside the file is its file name."""
     for node in ast.walk(tree):
         if isinstance(node, ast.Import | ast.ImportFrom):
             names = [alias.name for alias in node.names]
             yield from (name.rpartition(".")[2] for name in (*names, getattr(node, "module", None) or ""))
 
 
-def _parsed(path: Path) -> ast.Module:
-    """The file's syntax tree; an empty one where it cannot be read or parsed."""
-    text = _source(path)
-    return _tree(text) if text else ast.Module([], [])
+def _parse_file(path: Path) -> ast.Module:
+    """Return the file's syntax tree; an empty one if it cannot be read or parsed."""
+    text = _read_source(path)
+    return _parse(text) if text else ast.Module([], [])
 
 
-def _source(path: Path) -> str | None:
-    """The text of a file; None where it cannot be read, or reading it would take too long or too much memory."""
-    text = _text(path, MOST_BYTES)
-    if text is None or max(map(len, text.splitlines()), default=0) > LONGEST_LINE:
+def _read_source(path: Path) -> str | None:
+    """Return the text of a file; None if it cannot be read, or exceeds a limit on time or memory."""
+    text = _read_text(path, _MAX_BYTES)
+    if text is None or max(map(len, text.splitlines()), default=0) > _MAX_LINE_LENGTH:
         return None
     try:
-        return text if _depth(_tree(text)) <= DEEPEST else None
+        return text if _depth(_parse(text)) <= _MAX_TREE_DEPTH else None
     except (RecursionError, MemoryError):
         return None
 
 
-@lru_cache(maxsize=MOST_FILES)
-def _tree(text: str) -> ast.Module:
-    """The syntax tree; an empty one where Python refuses the text. Raises RecursionError and MemoryError."""
+@lru_cache(maxsize=_MAX_FILES)
+def _parse(text: str) -> ast.Module:
+    """Return the syntax tree; an empty one on a syntax error. Raises RecursionError and MemoryError."""
     try:
         return ast.parse(text)
     except (SyntaxError, ValueError):
@@ -130,14 +130,14 @@ def _depth(tree: ast.AST) -> int:
     return depth
 
 
-def _text(path: Path, most: int) -> str | None:
+def _read_text(path: Path, max_bytes: int) -> str | None:
     try:
-        data = read_regular(path, most)
+        data = read_regular(path, max_bytes)
         if data is None:
             return None
         encoding, _ = tokenize.detect_encoding(io.BytesIO(data).readline)
         text = io.TextIOWrapper(io.BytesIO(data), encoding).read()
-        text.encode()  # some encodings, such as unicode_escape, give what is not text
+        text.encode()  # some encodings, such as unicode_escape, decode to surrogates
     except (LookupError, OSError, SyntaxError, ValueError):
         return None
     return text

@@ -1,8 +1,9 @@
-"""Limits how many processes start at a time; those whose scenario takes longest go first.
+"""Limits how many processes start at a time; those with the longest scenarios go first.
 
-A start costs about half a second of CPU time: Python, rclpy, a participant of its own, and ours to watch it.
-Thirty starts at once on two cores would all be up only when the last one is, and each then begins to wait for what
-physics asks of it. One after the other, the first is up in half a second, and waits while the others start.
+A start costs about half a second of CPU time: for Python, rclpy, its participant, and ours that observes it. If thirty
+processes start at once on two cores, none is up before all are, and only then does each begin to wait for what takes
+real time, such as its messages. One after the other, the first is up after half a second, and waits while the rest
+start.
 """
 
 from __future__ import annotations
@@ -14,32 +15,32 @@ import os
 from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager
 
-from tutor.engine.alone import ScenariosAtWork
+from tutor.engine.alone import RunningScenarios
 
-MORE_THAN_CORES = 1
-"""Starts in flight beyond one for each core: a start waits, too, for the disk and for its peers."""
+EXTRA_SLOTS = 1
+"""Concurrent starts beyond one per core, since a start also waits for the disk and for discovery."""
 
 ITERATIONS = 5
-"""Those who ask within this many iterations of the event loop ask at once: a scenario may begin several starts."""
+"""Requests within this many iterations of the event loop are sorted together: a scenario may request several starts."""
 
 
 class StartLimiter:
-    """How many may start at a time: `slots` (by default one for each core that is ours, and one more).
+    """Lets `slots` processes start at a time (default: one per core available to us, plus `EXTRA_SLOTS`).
 
-    `scenarios`: those that are at work, of all checks that share this.
+    `scenarios`: the running scenarios of all checks that share this limiter.
     """
 
     def __init__(self, slots: int | None = None) -> None:
-        self._free = slots or len(os.sched_getaffinity(0)) + MORE_THAN_CORES
+        self._free = slots or len(os.sched_getaffinity(0)) + EXTRA_SLOTS
         self._waiting: list[tuple[float, int, asyncio.Future[None]]] = []
         self._number = itertools.count()
-        self.scenarios = ScenariosAtWork()
+        self.scenarios = RunningScenarios()
 
     @asynccontextmanager
     async def slot(self, expected_s: float) -> AsyncIterator[Callable[[], None]]:
-        """Wait for a slot; the start that is expected to take longest goes first.
+        """Wait for a slot; the request with the greatest `expected_s` goes first.
 
-        Gives what to call when the process is up; the slot is free then, or at the end of the block.
+        Yield a function to call once the process is up. That frees the slot, and so does the end of the block.
         """
         await self._acquire(expected_s)
         held = True
@@ -58,22 +59,22 @@ class StartLimiter:
     async def _acquire(self, expected_s: float) -> None:
         turn = asyncio.get_running_loop().create_future()
         if not self._waiting:
-            self._give_soon(ITERATIONS)
+            self._grant_after(ITERATIONS)
         heapq.heappush(self._waiting, (-expected_s, next(self._number), turn))
         try:
             await turn
         except asyncio.CancelledError:
-            if turn.done() and not turn.cancelled():  # it was given a slot at the same moment
+            if turn.done() and not turn.cancelled():  # it was granted a slot in the same iteration
                 self._release()
             raise
 
-    def _give_soon(self, iterations: int) -> None:
+    def _grant_after(self, iterations: int) -> None:
         if iterations:
-            asyncio.get_running_loop().call_soon(self._give_soon, iterations - 1)
+            asyncio.get_running_loop().call_soon(self._grant_after, iterations - 1)
         else:
-            self._give()
+            self._grant_slots()
 
-    def _give(self) -> None:
+    def _grant_slots(self) -> None:
         while self._free and self._waiting:
             _, _, turn = heapq.heappop(self._waiting)
             if not turn.done():
@@ -82,4 +83,4 @@ class StartLimiter:
 
     def _release(self) -> None:
         self._free += 1
-        self._give()
+        self._grant_slots()

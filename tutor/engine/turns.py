@@ -1,6 +1,6 @@
-"""Checks of one machine take turns: two at once for each core.
+"""Checks on one machine take turns: at most two per core run at a time.
 
-A dozen at once on two cores would keep each other from running for so long that none could be judged.
+A dozen checks at once on two cores would starve each other so badly that none could be judged.
 """
 
 from __future__ import annotations
@@ -13,39 +13,39 @@ from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager
 
 LIMIT_S = 300.0
-"""A check that has waited this long goes on without a turn."""
+"""Maximum wait for a turn: after it, a check runs without one."""
 
-_LOOK_EVERY_S = 0.1
+_POLL_S = 0.1
 
 
 def turn_socket() -> socket.socket:
-    """What a turn is taken with; it counts among those of the network that this process is in now."""
+    """Create the socket with which to take a turn, among the checks in this process's current network namespace."""
     return socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
 
 
 @asynccontextmanager
 async def turn(
-    own: socket.socket | None = None, limit_s: float = LIMIT_S, on_wait: Callable[[], None] = lambda: None
+    unbound: socket.socket | None = None, limit_s: float = LIMIT_S, on_wait: Callable[[], None] = lambda: None
 ) -> AsyncIterator[None]:
-    """Wait until fewer checks are under way on this machine, and count as one until the end of the block.
+    """Wait for a turn, and hold it until the end of the block, or of the process.
 
-    It ends with the process at the latest. `on_wait` is called once, where it has to wait.
+    `unbound`: the socket to take it with (default: a new `turn_socket()`). `on_wait` is called once if there is a wait.
     """
     deadline = time.monotonic() + limit_s
-    with own or turn_socket() as held:
-        if not _taken(held):
+    with unbound or turn_socket() as held:
+        if not _take_turn(held):
             on_wait()
             while time.monotonic() < deadline:
-                await asyncio.sleep(_LOOK_EVERY_S)
-                if _taken(held):
+                await asyncio.sleep(_POLL_S)
+                if _take_turn(held):
                     break
         yield
 
 
-def _taken(held: socket.socket) -> bool:
+def _take_turn(held: socket.socket) -> bool:
     for number in range(2 * len(os.sched_getaffinity(0))):
         try:
-            held.bind(f"\0ros-tutor-check-{number}")  # a name in the kernel alone, as that of a domain is
+            held.bind(f"\0ros-tutor-check-{number}")  # an abstract name, as for domain ids
         except OSError:
             continue
         return True

@@ -1,4 +1,4 @@
-"""What we import while learners' programs run, or after that, is as it was before: they may write where we can."""
+"""Refuse to import modules that changed since learners' programs began to run: they may write wherever we can."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from types import ModuleType
 
 
 def refuse_changed_modules() -> None:
-    """From now on, refuse to import a module whose file changes from now on (ImportError)."""
-    others = [finder for finder in sys.meta_path if not isinstance(finder, _Unchanged)]
-    sys.meta_path[:] = [_Unchanged(), *others]
+    """Raise ImportError for any module that is imported from now on and whose file has changed since now."""
+    others = [finder for finder in sys.meta_path if not isinstance(finder, _UnchangedFinder)]
+    sys.meta_path[:] = [_UnchangedFinder(), *others]
 
 
-class _Unchanged(MetaPathFinder):
-    """Has the finders behind it find modules, and looks at what they have found."""
+class _UnchangedFinder(MetaPathFinder):
+    """Delegates to the finders after it, and refuses what they find if its file has changed."""
 
     def __init__(self) -> None:
         self._since = time.time()
@@ -26,26 +26,26 @@ class _Unchanged(MetaPathFinder):
     def find_spec(
         self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
     ) -> ModuleSpec | None:
-        behind = sys.meta_path[sys.meta_path.index(self) + 1 :]
-        specs = (finder.find_spec(fullname, path, target) for finder in behind)
+        finders_after = sys.meta_path[sys.meta_path.index(self) + 1 :]
+        specs = (finder.find_spec(fullname, path, target) for finder in finders_after)
         spec = next((spec for spec in specs if spec is not None), None)
         if spec is None or not spec.has_location or spec.origin is None:
             return spec
         if self._has_changed(spec.origin):
             raise ImportError(f"{spec.origin} was changed while a program was checked", name=fullname)
         if type(spec.loader) is SourceFileLoader and spec.cached and self._has_changed(spec.cached):
-            spec.loader = _NotCompiled(fullname, spec.origin)  # another check may just have compiled it; or the program
+            spec.loader = _SourceOnlyLoader(fullname, spec.origin)  # compiled by another check, or forged
         return spec
 
     def _has_changed(self, file: str) -> bool:
-        try:  # the time of a change is the system's: nobody can set it, but a clock that was wrong may be ahead
+        try:  # programs cannot set st_ctime, but it may be in the future if the clock was wrong
             return self._since <= os.stat(file).st_ctime <= time.time()
         except OSError:
             return False
 
 
-class _NotCompiled(SourceFileLoader):
-    """Compiles the source itself."""
+class _SourceOnlyLoader(SourceFileLoader):
+    """Ignores cached bytecode and compiles the source."""
 
     def path_stats(self, path: str) -> dict[str, float]:
         raise OSError

@@ -1,4 +1,4 @@
-"""A skeleton that nobody has begun to fill in: what to do next is in the file itself."""
+"""Untouched skeletons: the next step is the first TODO in the file."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from tutor.workspace.regular import read_regular
 
 
 def first_todo(lesson: Lesson, submission: Submission) -> str:
-    """Where the first TODO is ("server.py, line 8"), if every file is still as the lesson gave it; empty where not."""
+    """The place of the first TODO ("server.py, line 8") if every present file is an untouched skeleton, else ""."""
     todos = []
     for file in lesson.files:
         path = submission.files.get(file.name)
@@ -29,7 +29,10 @@ def first_todo(lesson: Lesson, submission: Submission) -> str:
 
 
 def point_to_todo(verdict: Verdict, todo: str, hint: str) -> Verdict:
-    """A failed verdict on such a skeleton, with the criterion's hint as the next step, instead of the code itself."""
+    """Point a failed verdict on an untouched skeleton (`todo` is not "") to `todo` and the criterion's `hint`.
+
+    This replaces a step that would give away the code. Other verdicts are returned unchanged.
+    """
     if verdict.status is not Status.FAILED or not todo:
         return verdict
     return replace(verdict, hint=f"work through the TODOs of the skeleton, from {todo} on. {hint}".strip())
