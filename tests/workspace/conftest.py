@@ -1,4 +1,4 @@
-"""A small course of made lessons, and a workspace in an empty home."""
+"""Generated lessons, and a workspace in an empty home directory."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from tutor.content import CriterionText, Difficulty, Lesson, LessonFile
 from tutor.workspace import Workspace
 
 
-def make_lesson(folder: Path, identity: str, names: list[str], optional: tuple[str, ...] = ()) -> Lesson:
+def make_lesson(folder: Path, lesson_id: str, names: list[str], optional: tuple[str, ...] = ()) -> Lesson:
     files = []
     for name in names:
         for kind in ("skeleton", "solution"):
@@ -19,8 +19,8 @@ def make_lesson(folder: Path, identity: str, names: list[str], optional: tuple[s
             (folder / kind / name).write_text(f"# {kind} of {name}\n")
         files.append(LessonFile(name, name not in optional, folder / "skeleton" / name, folder / "solution" / name))
     return Lesson(
-        id=identity,
-        title=f"Lesson {identity}",
+        id=lesson_id,
+        title=f"Lesson {lesson_id}",
         difficulty=Difficulty.EASY,
         unit="A unit",
         objective="Learn.",
@@ -47,12 +47,12 @@ def home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 @pytest.fixture
-def bound_by_permissions(tmp_path: Path) -> None:
-    """Skip where permissions do not bind: root may do everything."""
+def permissions_enforced(tmp_path: Path) -> None:
+    """Skip the test if file permissions do not restrict this user, as for root."""
     probe = tmp_path / "probe"
     probe.touch(mode=0o000)
     if os.access(probe, os.R_OK):
-        pytest.skip("this user is above file permissions")
+        pytest.skip("file permissions do not restrict this user")
 
 
 @pytest.fixture

@@ -1,4 +1,4 @@
-"""How far a learner is: one answer for the app, the command line and the checklist."""
+"""The state of an exercise: one answer for the app, the command line and the checklist."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def progress(*attempts: Attempt) -> ExerciseProgress:
     return ExerciseProgress("2026-01-01T00:00:00Z", attempts, best)
 
 
-def test_a_criterion_that_passed_alone_counts_everywhere() -> None:
+def test_a_criterion_checked_on_its_own_counts_everywhere() -> None:
     one = progress(attempt("range", judged=("range",)))
     found = exercise_state(LESSON, one)
     assert (found.state, found.met, found.missed) == (State.NOT_PASSED, ("range",), ())
@@ -32,18 +32,18 @@ def test_a_criterion_that_passed_alone_counts_everywhere() -> None:
     assert wording.progress_label(found) == ("◐", "1 of 6 met")
 
 
-def test_the_last_check_that_judged_a_criterion_counts() -> None:
+def test_the_latest_check_of_each_criterion_counts() -> None:
     found = exercise_state(LESSON, progress(attempt("publishes", "range"), attempt("rate", judged=("rate", "range"))))
     assert found.met == ("publishes", "rate")
     assert found.missed == tuple(id for id in REQUIRED if id not in ("publishes", "rate"))
 
 
-def test_what_has_been_passed_stays_so() -> None:
+def test_a_passed_exercise_stays_passed() -> None:
     found = exercise_state(LESSON, progress(attempt(*REQUIRED, "shutdown"), attempt()))
     assert (found.state, found.met, found.missed, found.bonus_met) == (State.PASSED, REQUIRED, (), ())
 
 
-def test_without_a_check_it_is_started_or_not() -> None:
+def test_state_before_the_first_check() -> None:
     assert exercise_state(LESSON, ExerciseProgress("2026-01-01T00:00:00Z")).state is State.STARTED
     assert exercise_state(LESSON, ExerciseProgress(), has_files=True).state is State.STARTED
     assert exercise_state(LESSON, ExerciseProgress()).state is State.NOT_STARTED

@@ -1,4 +1,4 @@
-"""A file is written as a whole or not at all."""
+"""A file is written whole or not at all."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def folder(tmp_path: Path) -> Path:
     return folder
 
 
-def test_it_writes_and_replaces_and_leaves_nothing_else(folder: Path) -> None:
+def test_writing_and_replacing_leaves_no_other_files(folder: Path) -> None:
     file = folder / "report.json"
     write_atomically(file, "one")
     file.chmod(0o640)
@@ -28,7 +28,7 @@ def test_it_writes_and_replaces_and_leaves_nothing_else(folder: Path) -> None:
     assert list(folder.iterdir()) == [file]
 
 
-def test_a_link_stays_a_link(tmp_path: Path) -> None:
+def test_a_symlink_is_written_through(tmp_path: Path) -> None:
     (tmp_path / "link").symlink_to(tmp_path / "real")
     write_atomically(tmp_path / "link", "text")
     assert (tmp_path / "link").is_symlink()
@@ -37,7 +37,7 @@ def test_a_link_stays_a_link(tmp_path: Path) -> None:
 
 def test_a_pipe_is_written_to(tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "pipe")
-    reader = os.open(tmp_path / "pipe", os.O_RDONLY | os.O_NONBLOCK)  # from now on, somebody reads
+    reader = os.open(tmp_path / "pipe", os.O_RDONLY | os.O_NONBLOCK)  # a reader, without which the writer would block
     try:
         write_atomically(tmp_path / "pipe", "text")
         assert os.read(reader, 100) == b"text"
@@ -45,7 +45,7 @@ def test_a_pipe_is_written_to(tmp_path: Path) -> None:
         os.close(reader)
 
 
-def test_a_missing_folder_is_said(tmp_path: Path) -> None:
+def test_a_missing_folder_is_reported(tmp_path: Path) -> None:
     with pytest.raises(StorageError, match=r"cannot write .*/no/report\.json: No such file or directory"):
         write_atomically(tmp_path / "no" / "report.json", "text")
 

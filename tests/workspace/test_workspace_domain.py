@@ -1,4 +1,4 @@
-"""The ROS domain of a workspace: its own, for good, and nobody else's."""
+"""The ROS domain ID of a workspace: stable, and not shared with other workspaces."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ from tutor.workspace import Workspace, claims, domain_of
 
 ROOT = Path(claims.__file__).parents[2]
 
-# Waits until all are there, and asks for the domain of its workspace.
-ASK = """
+# A program that reports itself ready, waits for a line on stdin, and prints the domain ID of its workspace.
+PRINT_DOMAIN = """
 import sys
 from pathlib import Path
 from tutor.workspace import Workspace, claims, domain_of
@@ -36,26 +36,26 @@ def registry(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return folder
 
 
-def made(root: Path) -> Workspace:
+def make_workspace(root: Path) -> Workspace:
     (root / ".ros-tutor").mkdir(parents=True)
     return Workspace(root)
 
 
-def kept(workspace: Workspace) -> int:
+def stored_domain(workspace: Workspace) -> int:
     return int((workspace.root / ".ros-tutor" / "domain").read_text())
 
 
-def test_it_is_one_of_its_own_and_stays(tmp_path: Path) -> None:
-    ada, bob = made(tmp_path / "ada"), made(tmp_path / "bob")
+def test_each_workspace_gets_its_own_stable_domain(tmp_path: Path) -> None:
+    ada, bob = make_workspace(tmp_path / "ada"), make_workspace(tmp_path / "bob")
     of_ada, of_bob = domain_of(ada, {}), domain_of(bob, {})
     assert of_ada != of_bob
-    assert {of_ada, of_bob} <= set(range(1, 102))  # 0 is where everybody else is
-    assert (kept(ada), kept(bob)) == (of_ada, of_bob)
+    assert {of_ada, of_bob} <= set(range(1, 102))  # 0 is ROS's default, which everybody else uses
+    assert (stored_domain(ada), stored_domain(bob)) == (of_ada, of_bob)
     assert (domain_of(ada, {}), domain_of(bob, {})) == (of_ada, of_bob)
 
 
-def test_it_stays_when_the_machine_has_forgotten(tmp_path: Path, registry: Path) -> None:
-    ada = made(tmp_path / "ada")
+def test_domain_survives_the_loss_of_the_registry(tmp_path: Path, registry: Path) -> None:
+    ada = make_workspace(tmp_path / "ada")
     before = domain_of(ada, {})
     for file in registry.iterdir():
         file.unlink()
@@ -63,57 +63,59 @@ def test_it_stays_when_the_machine_has_forgotten(tmp_path: Path, registry: Path)
     assert claims.claimed_by(ada.root, registry) == before
 
 
-def test_what_the_variable_says_wins(tmp_path: Path) -> None:
-    ada = made(tmp_path / "ada")
+def test_ros_domain_id_takes_precedence_if_valid(tmp_path: Path) -> None:
+    ada = make_workspace(tmp_path / "ada")
     assert domain_of(ada, {"ROS_DOMAIN_ID": " 7 "}) == 7
     assert domain_of(ada, {"ROS_DOMAIN_ID": "0"}) == 0
     assert not (ada.root / ".ros-tutor" / "domain").exists()
     own = domain_of(ada, {"ROS_DOMAIN_ID": "seven"})
-    assert own == domain_of(ada, {"ROS_DOMAIN_ID": ""}) == domain_of(ada, {"ROS_DOMAIN_ID": "233"}) == kept(ada)
+    assert (
+        own == domain_of(ada, {"ROS_DOMAIN_ID": ""}) == domain_of(ada, {"ROS_DOMAIN_ID": "233"}) == stored_domain(ada)
+    )
 
 
-def test_a_workspace_that_is_made_later_keeps_it(tmp_path: Path) -> None:
+def test_domain_claimed_before_the_workspace_exists_is_kept(tmp_path: Path) -> None:
     before = domain_of(Workspace(tmp_path / "ada"), {})
-    assert domain_of(made(tmp_path / "ada"), {}) == before == kept(Workspace(tmp_path / "ada"))
+    assert domain_of(make_workspace(tmp_path / "ada"), {}) == before == stored_domain(Workspace(tmp_path / "ada"))
 
 
-def test_it_is_the_same_by_any_path(tmp_path: Path) -> None:
-    ada = made(tmp_path / "ada")
+def test_domain_is_the_same_through_a_symlink(tmp_path: Path) -> None:
+    ada = make_workspace(tmp_path / "ada")
     (tmp_path / "link").symlink_to(ada.root, target_is_directory=True)
     assert domain_of(Workspace(tmp_path / "link"), {}) == domain_of(ada, {})
 
 
-def test_a_copy_of_a_workspace_gets_another(tmp_path: Path) -> None:
-    ada = made(tmp_path / "ada")
+def test_a_copied_workspace_gets_another_domain(tmp_path: Path) -> None:
+    ada = make_workspace(tmp_path / "ada")
     first = domain_of(ada, {})
-    copy = made(tmp_path / "copy")
+    copy = make_workspace(tmp_path / "copy")
     (copy.root / ".ros-tutor" / "domain").write_text(f"{first}\n")
     assert domain_of(copy, {}) != first
     assert domain_of(ada, {}) == first
-    assert kept(copy) == domain_of(copy, {})
+    assert stored_domain(copy) == domain_of(copy, {})
 
 
-def test_an_id_that_the_learner_wrote_there_is_taken(tmp_path: Path) -> None:
-    ada = made(tmp_path / "ada")
+def test_an_id_written_by_the_learner_is_used(tmp_path: Path) -> None:
+    ada = make_workspace(tmp_path / "ada")
     domain_of(ada, {})
     (ada.root / ".ros-tutor" / "domain").write_text("101\n")
     assert domain_of(ada, {}) == 101
 
 
 @pytest.mark.parametrize("damage", [b"", b"\xff\xfe", b"forty", b"-3", b"999", "٣".encode()])
-def test_a_damaged_file_is_replaced(tmp_path: Path, damage: bytes) -> None:
-    ada = made(tmp_path / "ada")
+def test_a_damaged_domain_file_is_replaced(tmp_path: Path, damage: bytes) -> None:
+    ada = make_workspace(tmp_path / "ada")
     before = domain_of(ada, {})
     (ada.root / ".ros-tutor" / "domain").write_bytes(damage)
-    assert domain_of(ada, {}) == before == kept(ada)
+    assert domain_of(ada, {}) == before == stored_domain(ada)
 
 
 def test_an_id_in_use_is_avoided(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("tutor.workspace.domain._in_use", lambda: frozenset(range(102)) - {33})
-    assert domain_of(made(tmp_path / "ada"), {}) == 33
+    assert domain_of(make_workspace(tmp_path / "ada"), {}) == 33
 
 
-def test_a_node_that_runs_is_seen() -> None:
+def test_a_running_node_marks_its_domain_as_in_use() -> None:
     from tutor.ros.domain import domains_in_use
 
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as node:
@@ -126,29 +128,29 @@ def test_a_node_that_runs_is_seen() -> None:
         assert domain in domains_in_use()
 
 
-def test_more_workspaces_than_ids_still_get_one(tmp_path: Path) -> None:
-    got = [domain_of(made(tmp_path / str(number)), {}) for number in range(103)]
+def test_ids_are_shared_once_all_are_claimed(tmp_path: Path) -> None:
+    got = [domain_of(make_workspace(tmp_path / str(number)), {}) for number in range(103)]
     assert len(set(got[:101])) == 101
     assert set(got[101:]) <= set(range(1, 102))
 
 
-def test_ids_of_workspaces_that_are_gone_come_back(tmp_path: Path, registry: Path) -> None:
+def test_claims_of_deleted_workspaces_expire(tmp_path: Path, registry: Path) -> None:
     domain_of(Workspace(tmp_path / "gone"), {})
     [claim] = [file for file in registry.iterdir() if file.name != "lock"]
     long_ago = time.time() - 2 * 86400
     os.utime(claim, (long_ago, long_ago))
-    domain_of(made(tmp_path / "ada"), {})
+    domain_of(make_workspace(tmp_path / "ada"), {})
     assert not claim.exists()
 
 
-# --- many at once ---
+# --- concurrency ---
 
 
-def together(registry: Path, roots: list[Path]) -> list[int]:
-    """Processes that ask at the same moment, one for each root; what each was told."""
+def ask_concurrently(registry: Path, roots: list[Path]) -> list[int]:
+    """Ask for the domain ID of each root, all at the same moment and each in its own process."""
     env = {**os.environ, "PYTHONPATH": str(ROOT)}
     started = [
-        subprocess.Popen([sys.executable, "-c", ASK, registry, root], env=env, stdin=-1, stdout=-1, text=True)
+        subprocess.Popen([sys.executable, "-c", PRINT_DOMAIN, registry, root], env=env, stdin=-1, stdout=-1, text=True)
         for root in roots
     ]
     for process in started:
@@ -161,63 +163,73 @@ def together(registry: Path, roots: list[Path]) -> list[int]:
     return [int(process.communicate(timeout=60)[0]) for process in started]
 
 
-def test_twenty_at_once_on_one_workspace_agree(tmp_path: Path, registry: Path) -> None:
-    ada = made(tmp_path / "ada")
-    got = together(registry, [ada.root] * 10)
+def test_concurrent_processes_and_threads_agree_on_one_workspace(tmp_path: Path, registry: Path) -> None:
+    ada = make_workspace(tmp_path / "ada")
+    got = ask_concurrently(registry, [ada.root] * 10)
     with ThreadPoolExecutor(20) as pool:
         got += pool.map(lambda _: domain_of(ada, {}), range(20))
-    assert set(got) == {kept(ada)}
+    assert set(got) == {stored_domain(ada)}
 
 
-def test_twenty_threads_on_one_new_workspace_agree(tmp_path: Path) -> None:
-    ada = made(tmp_path / "ada")
+def test_concurrent_threads_agree_on_a_new_workspace(tmp_path: Path) -> None:
+    ada = make_workspace(tmp_path / "ada")
     with ThreadPoolExecutor(20) as pool:
         got = set(pool.map(lambda _: domain_of(ada, {}), range(20)))
-    assert got == {kept(ada)}
+    assert got == {stored_domain(ada)}
 
 
-def test_twenty_workspaces_at_once_get_twenty(tmp_path: Path, registry: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(claims, "preferred", lambda workspace: list(claims.USABLE))  # all of them want the first
-    workspaces = [made(tmp_path / str(number)) for number in range(20)]
+def test_concurrent_workspaces_get_distinct_ids(
+    tmp_path: Path, registry: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(claims, "preferred", lambda workspace: list(claims.USABLE))  # all prefer the same IDs
+    workspaces = [make_workspace(tmp_path / str(number)) for number in range(20)]
     with ThreadPoolExecutor(20) as pool:
         got = list(pool.map(lambda workspace: domain_of(workspace, {}), workspaces))
     assert sorted(got) == list(range(1, 21))
-    assert len({*got, *together(registry, [made(tmp_path / f"more-{number}").root for number in range(10)])}) == 30
+    assert (
+        len(
+            {
+                *got,
+                *ask_concurrently(registry, [make_workspace(tmp_path / f"more-{number}").root for number in range(10)]),
+            }
+        )
+        == 30
+    )
 
 
-# --- a registry that cannot be used ---
+# --- unusable registries ---
 
 
-def usual(workspace: Workspace) -> None:
-    """Without a registry: still an id, kept in the workspace, and the same one each time."""
+def assert_stable_domain(workspace: Workspace) -> None:
+    """Assert that the workspace gets a valid domain ID and keeps it, even without a usable registry."""
     first = domain_of(workspace, {})
     assert first in claims.USABLE
-    assert domain_of(workspace, {}) == first == kept(workspace)
+    assert domain_of(workspace, {}) == first == stored_domain(workspace)
 
 
-def test_a_link_in_its_place_is_not_followed(tmp_path: Path, registry: Path) -> None:
+def test_a_symlink_in_place_of_the_registry_is_not_followed(tmp_path: Path, registry: Path) -> None:
     elsewhere = tmp_path / "elsewhere"
     elsewhere.mkdir(mode=0o755)
     registry.symlink_to(elsewhere, target_is_directory=True)
-    usual(made(tmp_path / "ada"))
+    assert_stable_domain(make_workspace(tmp_path / "ada"))
     assert list(elsewhere.iterdir()) == []
     assert elsewhere.stat().st_mode & 0o7777 == 0o755
 
 
-def test_a_file_in_its_place_does_no_harm(tmp_path: Path, registry: Path) -> None:
+def test_a_file_in_place_of_the_registry_does_no_harm(tmp_path: Path, registry: Path) -> None:
     registry.write_text("mine\n")
-    usual(made(tmp_path / "ada"))
+    assert_stable_domain(make_workspace(tmp_path / "ada"))
     assert registry.read_text() == "mine\n"
 
 
-def test_a_lock_that_is_a_link_is_not_followed(tmp_path: Path, registry: Path) -> None:
+def test_a_symlinked_lock_is_not_followed(tmp_path: Path, registry: Path) -> None:
     registry.mkdir()
     (registry / "lock").symlink_to(tmp_path / "target")
-    usual(made(tmp_path / "ada"))
+    assert_stable_domain(make_workspace(tmp_path / "ada"))
     assert not (tmp_path / "target").exists()
 
 
-def test_a_claim_that_is_a_link_or_a_pipe_or_no_claim_is_passed_over(
+def test_links_pipes_and_malformed_claims_are_ignored(
     tmp_path: Path, registry: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     registry.mkdir()
@@ -231,28 +243,28 @@ def test_a_claim_that_is_a_link_or_a_pipe_or_no_claim_is_passed_over(
     (registry / f"{uid + 1}-forged").write_text('{"domain": 5, "workspace": "/"}')
     monkeypatch.setattr(claims, "preferred", lambda workspace: [5, 6])
     assert domain_of(Workspace(tmp_path / "nobody else's"), {}) == 5
-    usual(made(tmp_path / "ada"))
+    assert_stable_domain(make_workspace(tmp_path / "ada"))
 
 
 @pytest.mark.skipif(os.getuid() != 0, reason="only root may become two other users")
-def test_two_users_share_it_and_cannot_change_each_others(tmp_path: Path, registry: Path) -> None:
+def test_two_users_share_the_registry_but_not_their_claims(tmp_path: Path, registry: Path) -> None:
     os.chmod(tmp_path, 0o777)
     for parent in list(tmp_path.parents)[:-2]:  # below /tmp
         os.chmod(parent, 0o755)
-    got = []
+    programs = []
     for user in (20001, 20002):
-        root = made(tmp_path / str(user)).root
+        root = make_workspace(tmp_path / str(user)).root
         for path in (root, root / ".ros-tutor"):
             os.chown(path, user, user)
-        code = f"import os; os.setgid({user}); os.setuid({user}); os.umask(0o077)\n{ASK}"
-        got.append((user, root, code))
+        code = f"import os; os.setgid({user}); os.setuid({user}); os.umask(0o077)\n{PRINT_DOMAIN}"
+        programs.append((root, code))
     domains = []
-    for _, root, code in got:
+    for root, code in programs:
         code = code.replace('print("here", flush=True)\ninput()\n', "")
         code = code.replace(
             "print(domain_of", "claims.preferred = lambda workspace: list(claims.USABLE)\nprint(domain_of"
         )
-        # Imported as root: the other users may not look into this folder.
+        # Import while still root: the other users may not read the source folder.
         code = f"import tutor.workspace, tutor.ros.domain\n{code}"
         done = subprocess.run(
             [sys.executable, "-c", code, registry, root],
@@ -272,12 +284,12 @@ def test_two_users_share_it_and_cannot_change_each_others(tmp_path: Path, regist
 
 
 @pytest.mark.skipif(os.getuid() != 0, reason="only root may become another user")
-def test_a_folder_of_somebody_elses_that_cannot_be_written_to_does_no_harm(tmp_path: Path, registry: Path) -> None:
+def test_an_unwritable_registry_of_another_user_does_no_harm(tmp_path: Path, registry: Path) -> None:
     registry.mkdir(mode=0o755)
     os.chmod(tmp_path, 0o755)
     for parent in list(tmp_path.parents)[:-2]:  # below /tmp
         os.chmod(parent, 0o755)
-    root = made(tmp_path / "ada").root
+    root = make_workspace(tmp_path / "ada").root
     for path in (root, root / ".ros-tutor"):
         os.chown(path, 20001, 20001)
     code = (
@@ -296,5 +308,5 @@ def test_a_folder_of_somebody_elses_that_cannot_be_written_to_does_no_harm(tmp_p
     )
     assert done.returncode == 0, done.stderr
     assert len(set(done.stdout.split())) == 1
-    assert kept(Workspace(root)) == int(done.stdout.split()[0])
+    assert stored_domain(Workspace(root)) == int(done.stdout.split()[0])
     assert list(registry.iterdir()) == []

@@ -1,4 +1,4 @@
-"""Progress is bounded, survives kills and other writers, and is never silently lost."""
+"""Progress is bounded, survives kills and concurrent writers, and is never silently lost."""
 
 from __future__ import annotations
 
@@ -30,21 +30,21 @@ def result(status: Status, bonus: Status = Status.PASSED) -> ExerciseResult:
 
 
 @pytest.fixture
-def said() -> list[str]:
+def messages() -> list[str]:
     return []
 
 
 @pytest.fixture
-def file(workspace: Workspace, said: list[str]) -> ProgressFile:
-    return workspace.progress(said.append)
+def file(workspace: Workspace, messages: list[str]) -> ProgressFile:
+    return workspace.progress(messages.append)
 
 
-def test_nothing_yet_is_empty_and_reading_creates_nothing(file: ProgressFile) -> None:
+def test_reading_without_a_file_is_empty_and_creates_nothing(file: ProgressFile) -> None:
     assert file.read() == Progress()
     assert not file.path.parent.exists()
 
 
-def test_what_is_written_is_read(file: ProgressFile) -> None:
+def test_written_progress_is_read_back(file: ProgressFile) -> None:
     file.change(lambda p: p.with_start("i1.1").with_attempt(result(Status.FAILED), whole=True).with_tick("timers"))
     progress = file.read()
     attempt = progress.of("i1.1").last
@@ -55,7 +55,7 @@ def test_what_is_written_is_read(file: ProgressFile) -> None:
     assert json.loads(file.path.read_text())["schema"] == "ros-tutor/progress/1"
 
 
-def test_the_best_result_stays_and_only_a_whole_check_makes_it(file: ProgressFile) -> None:
+def test_best_result_is_kept_and_set_only_by_whole_checks(file: ProgressFile) -> None:
     def attempt(status: Status, whole: bool) -> Status | None:
         return file.change(lambda p: p.with_attempt(result(status), whole=whole)).of("i1.1").best
 
@@ -66,7 +66,7 @@ def test_the_best_result_stays_and_only_a_whole_check_makes_it(file: ProgressFil
     assert len(file.read().of("i1.1").attempts) == 4
 
 
-def test_what_was_not_judged_after_the_first_failure_is_as_it_was(file: ProgressFile) -> None:
+def test_criteria_left_unjudged_after_a_failure_make_the_check_partial(file: ProgressFile) -> None:
     file.change(lambda p: p.with_attempt(result(Status.PASSED), whole=True))
     ended = replace(result(Status.FAILED, bonus=Status.SKIPPED), unjudged=("shutdown",))
     last = file.change(lambda p: p.with_attempt(ended, whole=True)).of("i1.1").last
@@ -74,7 +74,7 @@ def test_what_was_not_judged_after_the_first_failure_is_as_it_was(file: Progress
     assert (last.whole, last.judged, last.passed) == (False, ("publishes",), ())
 
 
-def test_a_fault_of_the_tool_is_no_attempt(file: ProgressFile) -> None:
+def test_a_tool_fault_is_not_an_attempt(file: ProgressFile) -> None:
     file.change(lambda p: p.with_attempt(result(Status.ERROR), whole=True))
     assert file.read().of("i1.1").attempts == ()
 
@@ -91,7 +91,7 @@ def test_hints_come_one_by_one_and_the_last_repeats(file: ProgressFile) -> None:
     assert shown == [(1, False), (2, False), (3, False), (3, True), (3, True)]
 
 
-def test_ticks_come_and_go(file: ProgressFile) -> None:
+def test_ticks_can_be_set_and_removed(file: ProgressFile) -> None:
     first = file.change(lambda p: p.with_tick("a").with_tick("b"))
     assert file.change(lambda p: p.with_tick("a")).ticks == first.ticks
     assert set(file.change(lambda p: p.with_tick("a", ticked=False)).ticks) == {"b"}
@@ -113,7 +113,7 @@ def test_ticks_come_and_go(file: ProgressFile) -> None:
         b'{"schema": "ros-tutor/progress/1", "exercises": {}, "checklist": {"a": 1}}',
     ],
 )
-def test_a_damaged_file_is_set_aside_with_one_message(file: ProgressFile, said: list[str], content: bytes) -> None:
+def test_a_damaged_file_is_set_aside_with_one_message(file: ProgressFile, messages: list[str], content: bytes) -> None:
     file.path.parent.mkdir(parents=True)
     file.path.write_bytes(content)
 
@@ -122,22 +122,22 @@ def test_a_damaged_file_is_set_aside_with_one_message(file: ProgressFile, said: 
 
     aside = list(file.path.parent.glob("progress.json.damaged-*"))
     assert [path.read_bytes() for path in aside] == [content]
-    assert len(said) == 1
-    assert "damaged" in said[0]
-    assert str(aside[0]) in said[0]
+    assert len(messages) == 1
+    assert "damaged" in messages[0]
+    assert str(aside[0]) in messages[0]
 
 
-def test_a_newer_file_is_kept_and_said_to_be_newer(file: ProgressFile, said: list[str]) -> None:
+def test_a_file_of_a_newer_version_is_set_aside_and_reported(file: ProgressFile, messages: list[str]) -> None:
     file.path.parent.mkdir(parents=True)
     file.path.write_text('{"schema": "ros-tutor/progress/2", "everything": "else"}')
     file.change(lambda p: p.with_tick("a"))
     assert set(file.read().ticks) == {"a"}
     assert len(list(file.path.parent.glob("progress.json.damaged-*"))) == 1
-    assert len(said) == 1
-    assert "a newer ros-tutor wrote it" in said[0]
+    assert len(messages) == 1
+    assert "a newer ros-tutor wrote it" in messages[0]
 
 
-def test_a_folder_in_its_place_is_a_clear_error(file: ProgressFile) -> None:
+def test_a_folder_in_place_of_the_file_is_a_clear_error(file: ProgressFile) -> None:
     file.path.mkdir(parents=True)
     with pytest.raises(StorageError, match=r"cannot read .*progress\.json: Is a directory"):
         file.read()
@@ -149,9 +149,9 @@ def tick_many(path: Path, name: str, times: int) -> None:
         file.change(lambda p, item=f"{name}-{number}": p.with_tick(item))  # type: ignore[misc]
 
 
-def test_two_processes_lose_nothing_of_each_other(file: ProgressFile) -> None:
-    spawn = multiprocessing.get_context("fork")
-    writers = [spawn.Process(target=tick_many, args=(file.path, name, 100)) for name in ("a", "b")]
+def test_concurrent_processes_lose_no_updates(file: ProgressFile) -> None:
+    fork = multiprocessing.get_context("fork")
+    writers = [fork.Process(target=tick_many, args=(file.path, name, 100)) for name in ("a", "b")]
     for writer in writers:
         writer.start()
     for writer in writers:
@@ -160,7 +160,7 @@ def test_two_processes_lose_nothing_of_each_other(file: ProgressFile) -> None:
     assert set(file.read().ticks) == {f"{name}-{number}" for name in ("a", "b") for number in range(100)}
 
 
-WRITE_FOR_EVER = """
+WRITE_FOREVER = """
 import sys
 from pathlib import Path
 from tutor.workspace import ProgressFile
@@ -173,10 +173,10 @@ while True:
 """
 
 
-def test_a_kill_at_any_moment_leaves_a_whole_file(file: ProgressFile, said: list[str]) -> None:
+def test_a_kill_at_any_moment_leaves_a_valid_file(file: ProgressFile, messages: list[str]) -> None:
     for kill_after in (1, 7, 13):
         writer = subprocess.Popen(
-            [sys.executable, "-c", WRITE_FOR_EVER, str(file.path)], stdout=subprocess.PIPE, text=True
+            [sys.executable, "-c", WRITE_FOREVER, str(file.path)], stdout=subprocess.PIPE, text=True
         )
         assert writer.stdout is not None
         for line in writer.stdout:
@@ -189,11 +189,11 @@ def test_a_kill_at_any_moment_leaves_a_whole_file(file: ProgressFile, said: list
         numbers = {int(item.split("-")[0]) for item in file.read().ticks}
         assert numbers >= set(range(written + 1))
     file.change(lambda p: p.with_tick("and on"))
-    assert said == []
+    assert messages == []
     assert {path.name for path in file.path.parent.iterdir()} == {"progress.json", "progress.lock"}
 
 
-@pytest.mark.usefixtures("bound_by_permissions")
+@pytest.mark.usefixtures("permissions_enforced")
 def test_an_unwritable_workspace_is_a_clear_error(file: ProgressFile) -> None:
     file.path.parent.parent.mkdir()
     file.path.parent.mkdir(mode=0o500)
@@ -221,17 +221,17 @@ progresses = st.builds(
 
 
 @given(progresses)
-def test_every_progress_survives_the_disk(progress: Progress) -> None:
+def test_every_progress_round_trips(progress: Progress) -> None:
     assert decode(encode(progress)) == progress
 
 
 @given(st.text() | st.recursive(st.none() | st.integers() | st.text(), st.lists).map(json.dumps))
-def test_no_text_breaks_the_reader(text: str) -> None:
+def test_any_other_text_is_reported_as_damaged(text: str) -> None:
     with pytest.raises(ValueError, match="it is damaged"):
         decode(text)
 
 
-BEFORE = """{
+EARLIER_FILE = """{
  "schema": "ros-tutor/progress/1",
  "exercises": {
   "i1.1": {
@@ -246,7 +246,7 @@ BEFORE = """{
 
 
 def test_a_file_of_an_earlier_version_is_read() -> None:
-    progress = decode(BEFORE)
+    progress = decode(EARLIER_FILE)
     attempt = Attempt("2026-01-02T03:04:06Z", Status.FAILED, ("node",))
     assert progress.of("i1.1") == ExerciseProgress("2026-01-02T03:04:05Z", (attempt,), Status.FAILED, 2)
     assert progress.ticks == {"topics": "2026-01-02T03:04:07Z"}
@@ -254,10 +254,10 @@ def test_a_file_of_an_earlier_version_is_read() -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "becomes"),
+    ("text", "replacement"),
     [('"hints": 2', '"hints": -1'), ('"whole": true', '"whole": 1'), ('"failed", "passed"', '"maybe", "passed"')],
 )
-def test_a_value_that_cannot_be_is_damage(text: str, becomes: str) -> None:
-    assert text in BEFORE
+def test_an_invalid_value_is_reported_as_damaged(text: str, replacement: str) -> None:
+    assert text in EARLIER_FILE
     with pytest.raises(ValueError, match="damaged"):
-        decode(BEFORE.replace(text, becomes))
+        decode(EARLIER_FILE.replace(text, replacement))

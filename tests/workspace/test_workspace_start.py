@@ -1,4 +1,4 @@
-"""Starting an exercise: what lies in the workspace afterwards, and what is never overwritten."""
+"""Starting an exercise: which files it creates, and which it never overwrites."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ from tutor.errors import StorageError, WorkspaceError
 from tutor.workspace import Workspace, find_workspace, start, start_in
 
 
-def everything_in(folder: Path) -> dict[str, bytes]:
+def read_tree(folder: Path) -> dict[str, bytes]:
     return {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
 
 
-def test_the_first_start_makes_a_whole_ros_workspace(publisher: Lesson, workspace: Workspace) -> None:
+def test_the_first_start_creates_a_complete_ros_workspace(publisher: Lesson, workspace: Workspace) -> None:
     started = start(publisher, workspace)
 
     assert started.created_workspace
     assert workspace.exists
     package = workspace.root / "src" / "my_package"
     assert started.files.written == (package / "my_package" / "temperature_publisher.py",)
-    assert set(everything_in(workspace.root)) == {
+    assert set(read_tree(workspace.root)) == {
         ".gitignore",
         ".ros-tutor/progress.json",
         ".ros-tutor/progress.lock",
@@ -48,21 +48,19 @@ def test_a_launch_file_goes_where_ros2_launch_looks(launch: Lesson, workspace: W
     assert (workspace.root / "src/my_package/launch/my_launch.py").read_text() == "# skeleton of my_launch.py\n"
 
 
-def test_starting_again_is_no_harm_and_changes_nothing(publisher: Lesson, workspace: Workspace) -> None:
+def test_starting_again_changes_nothing(publisher: Lesson, workspace: Workspace) -> None:
     start(publisher, workspace)
-    before = everything_in(workspace.root)
+    before = read_tree(workspace.root)
 
     again = start(publisher, workspace)
 
     assert not again.created_workspace
     assert again.files.written == ()
     assert [path.name for path in again.files.already_there] == ["temperature_publisher.py"]
-    assert everything_in(workspace.root) == before
+    assert read_tree(workspace.root) == before
 
 
-def test_a_learners_work_is_never_overwritten_and_nothing_else_is_written_then(
-    calculator: Lesson, workspace: Workspace
-) -> None:
+def test_an_existing_file_stops_the_start_before_anything_is_written(calculator: Lesson, workspace: Workspace) -> None:
     mine = workspace.path_of("calculator_server.py")
     mine.parent.mkdir(parents=True)
     mine.write_text("my work")
@@ -70,10 +68,10 @@ def test_a_learners_work_is_never_overwritten_and_nothing_else_is_written_then(
     with pytest.raises(WorkspaceError, match=r"calculator_server\.py already exists.*--force"):
         start(calculator, workspace)
 
-    assert everything_in(workspace.root) == {"src/my_package/my_package/calculator_server.py": b"my work"}
+    assert read_tree(workspace.root) == {"src/my_package/my_package/calculator_server.py": b"my work"}
 
 
-def test_force_keeps_every_version_it_replaces(publisher: Lesson, workspace: Workspace) -> None:
+def test_force_backs_up_every_version_it_replaces(publisher: Lesson, workspace: Workspace) -> None:
     start(publisher, workspace)
     file = workspace.path_of("temperature_publisher.py")
     for version in ("first", "second"):
@@ -93,7 +91,7 @@ def test_force_leaves_the_learners_own_package_files_alone(publisher: Lesson, wo
     assert (workspace.package / "setup.py").read_text() == "# mine"
 
 
-def test_a_link_to_nothing_is_not_written_through(publisher: Lesson, tmp_path: Path) -> None:
+def test_a_dangling_symlink_is_not_written_through(publisher: Lesson, tmp_path: Path) -> None:
     folder = tmp_path / "d"
     folder.mkdir()
     (folder / "temperature_publisher.py").symlink_to(tmp_path / "elsewhere.py")
@@ -104,29 +102,29 @@ def test_a_link_to_nothing_is_not_written_through(publisher: Lesson, tmp_path: P
 
 def test_bare_files_go_into_any_folder(calculator: Lesson, tmp_path: Path) -> None:
     start_in(calculator, tmp_path / "new" / "folder")
-    assert set(everything_in(tmp_path / "new" / "folder")) == {"calculator_server.py", "calculator_client.py"}
+    assert set(read_tree(tmp_path / "new" / "folder")) == {"calculator_server.py", "calculator_client.py"}
 
 
-def test_a_file_in_place_of_a_folder_is_named(publisher: Lesson, tmp_path: Path) -> None:
+def test_a_file_in_place_of_the_workspace_is_reported(publisher: Lesson, tmp_path: Path) -> None:
     (tmp_path / "ws").write_text("")
     with pytest.raises(WorkspaceError, match=r"/ws is a file, but a folder"):
         start(publisher, Workspace(tmp_path / "ws"))
 
 
 @pytest.fixture
-def locked_folder(tmp_path: Path, bound_by_permissions: None) -> Iterator[Path]:
+def locked_folder(tmp_path: Path, permissions_enforced: None) -> Iterator[Path]:
     folder = tmp_path / "locked"
     folder.mkdir(mode=0o500)
     yield folder
     folder.chmod(0o700)
 
 
-def test_an_unwritable_place_is_a_clear_error(publisher: Lesson, locked_folder: Path) -> None:
+def test_an_unwritable_folder_is_a_clear_error(publisher: Lesson, locked_folder: Path) -> None:
     with pytest.raises(StorageError, match=r"cannot write to .*/locked: permission denied"):
         start(publisher, Workspace(locked_folder / "ws"))
 
 
-def test_a_write_that_fails_half_way_is_undone(
+def test_a_write_that_fails_halfway_is_rolled_back(
     calculator: Lesson, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     (tmp_path / "calculator_server.py").write_text("my work")
@@ -146,7 +144,7 @@ def test_a_write_that_fails_half_way_is_undone(
     assert (tmp_path / "calculator_server.py").read_text() == "my work"
 
 
-def test_the_package_builds_with_whatever_exercises_are_there(
+def test_setup_py_covers_the_exercises_that_were_started(
     publisher: Lesson, launch: Lesson, workspace: Workspace, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     start(publisher, workspace)
@@ -176,7 +174,7 @@ def test_the_package_builds_with_whatever_exercises_are_there(
         assert all((package / source).is_file() for source in sources)
 
 
-def test_where_the_workspace_is(home: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_precedence_of_workspace_locations(home: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert find_workspace() == home / "ros_tutor_ws"
 
     around = tmp_path / "around"
@@ -194,9 +192,7 @@ def test_where_the_workspace_is(home: Path, tmp_path: Path, monkeypatch: pytest.
     assert find_workspace() == around
 
 
-def test_a_deleted_current_folder_is_not_an_obstacle(
-    home: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_deleted_current_folder_is_tolerated(home: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     gone = tmp_path / "gone"
     gone.mkdir()
     monkeypatch.chdir(gone)

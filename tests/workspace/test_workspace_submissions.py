@@ -1,8 +1,9 @@
-"""Which files are checked, and what is said when they are not there."""
+"""Which files are checked, and the errors for missing ones."""
 
 from __future__ import annotations
 
 import os
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -19,7 +20,7 @@ def folder(tmp_path: Path) -> Path:
     return folder
 
 
-def test_a_folder_holds_files_of_the_exercises_names(calculator: Lesson, folder: Path) -> None:
+def test_files_in_a_folder_are_found_by_the_exercises_names(calculator: Lesson, folder: Path) -> None:
     for name in ("calculator_server.py", "calculator_client.py", "helpers.py"):
         (folder / name).touch()
     submission = find_submission(calculator, folder, None)
@@ -32,14 +33,14 @@ def test_an_optional_file_may_be_missing(calculator: Lesson, folder: Path) -> No
     assert set(find_submission(calculator, folder, None).files) == {"calculator_server.py"}
 
 
-def test_one_file_of_any_name_stands_for_the_first(publisher: Lesson, folder: Path) -> None:
+def test_a_single_file_of_any_name_stands_for_the_first(publisher: Lesson, folder: Path) -> None:
     (folder / "try2.py").touch()
     assert find_submission(publisher, folder / "try2.py", None).files == {
         "temperature_publisher.py": folder / "try2.py"
     }
 
 
-def test_one_file_brings_the_exercises_other_files_beside_it(calculator: Lesson, folder: Path) -> None:
+def test_a_single_file_brings_the_exercises_other_files_beside_it(calculator: Lesson, folder: Path) -> None:
     for name in ("calculator_server.py", "calculator_client.py"):
         (folder / name).touch()
     submission = find_submission(calculator, folder / "calculator_client.py", None)
@@ -55,7 +56,7 @@ def test_a_relative_path_is_made_absolute(publisher: Lesson, folder: Path, monke
         }
 
 
-def test_the_workspace_is_found_as_a_path_too(publisher: Lesson, workspace: Workspace) -> None:
+def test_the_workspace_may_be_given_as_a_path(publisher: Lesson, workspace: Workspace) -> None:
     start(publisher, workspace)
     expected = find_submission(publisher, None, workspace)
     assert expected.files == {"temperature_publisher.py": workspace.path_of("temperature_publisher.py")}
@@ -64,7 +65,7 @@ def test_the_workspace_is_found_as_a_path_too(publisher: Lesson, workspace: Work
     assert is_own(find_submission(publisher, workspace.path_of("temperature_publisher.py"), None), workspace)
 
 
-def test_what_lies_elsewhere_is_not_the_workspaces_own(publisher: Lesson, workspace: Workspace, folder: Path) -> None:
+def test_a_file_elsewhere_is_not_the_workspaces_own(publisher: Lesson, workspace: Workspace, folder: Path) -> None:
     start(publisher, workspace)
     (folder / "temperature_publisher.py").touch()
     assert not is_own(find_submission(publisher, folder, workspace), workspace)
@@ -80,7 +81,7 @@ def test_what_lies_elsewhere_is_not_the_workspaces_own(publisher: Lesson, worksp
         (["src/pkg/temperature_publisher.py"], r"found it in .*/answer/src/pkg: give that folder"),
     ],
 )
-def test_a_missing_file_is_named_with_what_was_found(
+def test_a_missing_file_is_reported_with_what_was_found(
     publisher: Lesson, folder: Path, present: list[str], message: str
 ) -> None:
     for name in present:
@@ -90,7 +91,7 @@ def test_a_missing_file_is_named_with_what_was_found(
         find_submission(publisher, folder, None)
 
 
-def test_the_other_file_of_the_exercise_is_not_a_misspelling(calculator: Lesson, folder: Path) -> None:
+def test_the_exercises_other_file_is_not_taken_for_a_misspelling(calculator: Lesson, folder: Path) -> None:
     (folder / "calculator_client.py").touch()
     with pytest.raises(SubmissionError) as caught:
         find_submission(calculator, folder, None)
@@ -98,18 +99,27 @@ def test_the_other_file_of_the_exercise_is_not_a_misspelling(calculator: Lesson,
     assert "rename" not in str(caught.value)
 
 
-def test_a_path_that_is_not_there(publisher: Lesson, folder: Path) -> None:
+def test_none_of_the_exercises_other_files_is_taken_for_a_misspelling(calculator: Lesson, folder: Path) -> None:
+    server, client = calculator.files
+    lesson = replace(calculator, files=(server, client, replace(client, name="calculator_sender.py")))
+    for name in ("calculator_client.py", "calculator_sender.py"):
+        (folder / name).touch()
+    with pytest.raises(SubmissionError, match=r"i1\.3 needs calculator_server\.py, but it is not in .*/answer$"):
+        find_submission(lesson, folder, None)
+
+
+def test_a_missing_path_is_reported(publisher: Lesson, folder: Path) -> None:
     (folder / "temperature_publisher.py").touch()
     with pytest.raises(SubmissionError, match=r"no file or folder .*/temperature_publsher\.py \(found temperature_"):
         find_submission(publisher, folder / "temperature_publsher.py", None)
 
 
-def test_no_workspace_yet(publisher: Lesson, workspace: Workspace) -> None:
+def test_a_missing_workspace_is_reported(publisher: Lesson, workspace: Workspace) -> None:
     with pytest.raises(SubmissionError, match=r"no workspace at .*/ws yet: `ros-tutor start i1\.1` creates it"):
         find_submission(publisher, None, workspace)
 
 
-def test_an_exercise_that_was_not_started(publisher: Lesson, launch: Lesson, workspace: Workspace) -> None:
+def test_an_exercise_not_started_is_reported(publisher: Lesson, launch: Lesson, workspace: Workspace) -> None:
     start(publisher, workspace)
     with pytest.raises(SubmissionError, match=r"launch/my_launch\.py does not exist; `ros-tutor start i2\.2`"):
         find_submission(launch, None, workspace)
@@ -117,23 +127,23 @@ def test_an_exercise_that_was_not_started(publisher: Lesson, launch: Lesson, wor
     assert not is_started(launch, None, workspace)
 
 
-def test_what_cannot_be_run_is_said(publisher: Lesson, folder: Path, tmp_path: Path) -> None:
-    place = folder / "temperature_publisher.py"
-    place.mkdir()
+def test_a_file_that_cannot_run_is_reported(publisher: Lesson, folder: Path, tmp_path: Path) -> None:
+    path = folder / "temperature_publisher.py"
+    path.mkdir()
     with pytest.raises(SubmissionError, match="is a folder, not a Python file"):
         find_submission(publisher, folder, None)
-    place.rmdir()
-    place.symlink_to(tmp_path / "nothing")
+    path.rmdir()
+    path.symlink_to(tmp_path / "nothing")
     with pytest.raises(SubmissionError, match="link to a file that does not exist"):
         find_submission(publisher, folder, None)
-    place.unlink()
-    os.mkfifo(place)
+    path.unlink()
+    os.mkfifo(path)
     with pytest.raises(SubmissionError, match="not a regular file"):
         find_submission(publisher, folder, None)
 
 
-@pytest.mark.usefixtures("bound_by_permissions")
-def test_an_unreadable_file_is_said(publisher: Lesson, folder: Path) -> None:
+@pytest.mark.usefixtures("permissions_enforced")
+def test_an_unreadable_file_is_reported(publisher: Lesson, folder: Path) -> None:
     (folder / "temperature_publisher.py").touch(mode=0o000)
     with pytest.raises(SubmissionError, match=r"cannot read .*temperature_publisher\.py: Permission denied"):
         find_submission(publisher, folder, None)

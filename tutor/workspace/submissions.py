@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from difflib import get_close_matches
 from pathlib import Path
 
@@ -86,7 +86,7 @@ def _make_submission(lesson: Lesson, places: dict[str, Path], workspace: Workspa
 
 
 def _describe_missing(lesson: Lesson, file: LessonFile, place: Path, workspace: Workspace | None) -> str:
-    similar = _suggest_similar(file.name, place.parent, known=(other.name for other in lesson.files))
+    similar = _suggest_similar(file.name, place.parent, known=[other.name for other in lesson.files])
     if workspace is not None:
         advice = similar or f"; `{command('start', lesson.id)}` puts the skeleton there"
         return f"{lesson.id} needs {file.name}, but {place} does not exist{advice}"
@@ -95,12 +95,12 @@ def _describe_missing(lesson: Lesson, file: LessonFile, place: Path, workspace: 
     return f"{lesson.id} needs {file.name}, but it is not in {place.parent}{similar}"
 
 
-def _suggest_similar(name: str, folder: Path, known: Iterable[str] = ()) -> str:
-    """Suggest what was probably meant: a file with a similar name in `folder`, or the file one or two levels below."""
+def _suggest_similar(name: str, folder: Path, known: Collection[str] = ()) -> str:
+    """Suggest what was probably meant: a similarly named file in `folder` (none of `known`), or one further below."""
     if not folder.is_dir():
         return ""
     try:
-        beside = sorted(file.name for file in folder.glob("*.py") if file.name not in set(known))
+        beside = sorted(file.name for file in folder.glob("*.py") if file.name not in known)
         by_lower_case = {other.lower(): other for other in beside}
         near = get_close_matches(name.lower(), by_lower_case, n=1, cutoff=0.6)
         if near:
