@@ -1,4 +1,4 @@
-"""Launch files whose actions need a ROS node of the launch's own, on real nodes, as a process."""
+"""Launch files whose actions need a ROS node in the launch process, run with real nodes."""
 
 from __future__ import annotations
 
@@ -77,11 +77,11 @@ BY_TRANSITIONS = """
 
 @pytest.fixture
 def env(tmp_path: Path) -> Iterator[dict[str, str]]:
-    """A learner's environment on a domain of its own, with a package that has a lifecycle node."""
+    """A learner's environment on a domain of its own, with a lifecycle node in my_package."""
     (tmp_path / "lamp.py").write_text(NODE)
     with reserve_domain() as domain_id:
-        made = learner_env(detect(), domain_id=domain_id, log_dir=tmp_path / "log", package_root=None, isolated=True)
-        yield {**made, "HOME": str(tmp_path), "ROS_TUTOR_WORKSPACE": str(tmp_path / "ws")}
+        env = learner_env(detect(), domain_id=domain_id, log_dir=tmp_path / "log", package_root=None, isolated=True)
+        yield {**env, "HOME": str(tmp_path), "ROS_TUTOR_WORKSPACE": str(tmp_path / "ws")}
 
 
 def launch(text: str, env: dict[str, str], folder: Path, name: str = "my_launch.py") -> tuple[int, str]:
@@ -93,12 +93,12 @@ def launch(text: str, env: dict[str, str], folder: Path, name: str = "my_launch.
     return ran.returncode, ran.stdout
 
 
-@pytest.mark.parametrize(("text", "says"), [(BY_EVENTS, ["ready", "on"]), (BY_TRANSITIONS, ["on"])])
-def test_a_lifecycle_node_is_led_through_its_states(
-    tmp_path: Path, env: dict[str, str], text: str, says: list[str]
+@pytest.mark.parametrize(("text", "messages"), [(BY_EVENTS, ["ready", "on"]), (BY_TRANSITIONS, ["on"])])
+def test_a_lifecycle_node_goes_through_its_states(
+    tmp_path: Path, env: dict[str, str], text: str, messages: list[str]
 ) -> None:
     code, out = launch(IMPORTS + text, env, tmp_path)
-    assert [line.partition("]: ")[2] for line in out.splitlines() if "[launch.user]" in line] == says, out
+    assert [line.partition("]: ")[2] for line in out.splitlines() if "[launch.user]" in line] == messages, out
     for state in ("configured", "activated"):
         assert f"[lamp]: {state}" in out
     assert "process has finished cleanly" in out
@@ -106,7 +106,7 @@ def test_a_lifecycle_node_is_led_through_its_states(
 
 
 @pytest.mark.parametrize(
-    ("actions", "told"),
+    ("actions", "error"),
     [
         (
             "[ComposableNodeContainer(package='rclcpp_components', executable='component_container', name='c', "
@@ -131,17 +131,15 @@ def test_a_lifecycle_node_is_led_through_its_states(
         ),
     ],
 )
-def test_containers_are_refused_as_far_as_they_are_not_python(
-    tmp_path: Path, env: dict[str, str], actions: str, told: str
-) -> None:
+def test_component_containers_are_refused(tmp_path: Path, env: dict[str, str], actions: str, error: str) -> None:
     code, out = launch(f"{IMPORTS}    return LaunchDescription({actions})", env, tmp_path)
     errors = [line for line in out.splitlines() if line.startswith("[ERROR]")]
     assert len(errors) == 1
-    assert told in errors[0]
+    assert error in errors[0]
     assert code == 1
 
 
-def test_the_rest_of_launch_ros_in_xml(tmp_path: Path, env: dict[str, str]) -> None:
+def test_other_actions_of_launch_ros_in_xml(tmp_path: Path, env: dict[str, str]) -> None:
     text = """<launch>
     <set_parameter name="rate" value="5"/><log message="rate $(param rate), $(param nowhere none)"/>
     <group><set_ros_log_dir new_log_dir="deep"/>

@@ -1,4 +1,4 @@
-"""The ros2 command, as a process."""
+"""The ros2 command, run as a process."""
 
 from __future__ import annotations
 
@@ -33,12 +33,12 @@ def generate_launch_description():
 
 @pytest.fixture
 def env(tmp_path: Path) -> Iterator[dict[str, str]]:
-    """A learner's environment on a domain of its own; temporary files are in `tmp_path`."""
+    """A learner's environment on a domain of its own, with temporary files in `tmp_path`."""
     with reserve_domain() as domain_id:
-        made = learner_env(detect(), domain_id=domain_id, log_dir=tmp_path / "log", package_root=None, isolated=True)
+        env = learner_env(detect(), domain_id=domain_id, log_dir=tmp_path / "log", package_root=None, isolated=True)
         (tmp_path / "log").mkdir()
         yield {
-            **made,
+            **env,
             "HOME": str(tmp_path),
             "TMPDIR": str(tmp_path / "log"),
             "ROS_TUTOR_WORKSPACE": str(tmp_path / "ws"),
@@ -51,8 +51,8 @@ def ros2(*words: str, env: dict[str, str], cwd: Path) -> subprocess.CompletedPro
 
 
 @contextmanager
-def started(*words: str, env: dict[str, str], cwd: Path) -> Iterator[subprocess.Popen[str]]:
-    """`ros2` in a process group of its own, which is gone in the end."""
+def start(*words: str, env: dict[str, str], cwd: Path) -> Iterator[subprocess.Popen[str]]:
+    """Start `ros2` in its own process group, which is killed after the block."""
     command = [sys.executable, "-P", "-m", "tutor.bundled_ros.ros2", *words]
     process = subprocess.Popen(
         command, env=env, cwd=cwd, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, process_group=0
@@ -65,8 +65,8 @@ def started(*words: str, env: dict[str, str], cwd: Path) -> Iterator[subprocess.
         process.communicate()
 
 
-def until(process: subprocess.Popen[str], *words: str) -> str:
-    """The first line that has all these words."""
+def read_until(process: subprocess.Popen[str], *words: str) -> str:
+    """Read up to the first line that contains all these words, and return it."""
     assert process.stdout is not None
     deadline, seen = time.monotonic() + LIMIT_S, []
     for line in process.stdout:
@@ -95,7 +95,7 @@ def until(process: subprocess.Popen[str], *words: str) -> str:
         (["launch", "my_launch.py", "word:="], 1, "malformed launch argument 'word:='"),
     ],
 )
-def test_what_is_wrong_is_told_in_one_line(
+def test_errors_are_reported_in_one_line(
     tmp_path: Path, env: dict[str, str], words: list[str], code: int, message: str
 ) -> None:
     (tmp_path / "my_launch.py").write_text(LAUNCH_FILE)
@@ -107,23 +107,23 @@ def test_what_is_wrong_is_told_in_one_line(
 
 
 @pytest.mark.parametrize(
-    ("words", "asked"),
+    ("words", "suggestion"),
     [
         (["run", "demo_nodes_py", "taker"], "No executable found (is it talker?)"),
         (["run", "demo_node_py", "talker"], "Package 'demo_node_py' not found (is it demo_nodes_py"),
         (["launch", "demo_nodes_cpp", "talker_listener.py"], "(is it talker_listener_launch"),
     ],
 )
-def test_a_name_that_is_nearly_right_is_told_what_is_there(
-    tmp_path: Path, env: dict[str, str], words: list[str], asked: str
+def test_a_misspelled_name_gets_a_suggestion(
+    tmp_path: Path, env: dict[str, str], words: list[str], suggestion: str
 ) -> None:
     ran = ros2(*words, env=env, cwd=tmp_path)
     assert (ran.returncode, ran.stderr.count("\n")) == (1, 1)
-    assert asked in ran.stderr
+    assert suggestion in ran.stderr
 
 
 @pytest.mark.parametrize("code", [0, 3, -9])
-def test_run_tells_how_a_program_has_failed(tmp_path: Path, env: dict[str, str], code: int) -> None:
+def test_run_reports_how_a_program_failed(tmp_path: Path, env: dict[str, str], code: int) -> None:
     module = tmp_path / "ws/src/birds/birds/sing.py"
     module.parent.mkdir(parents=True)
     (module.parent / "__init__.py").touch()
@@ -133,11 +133,11 @@ def test_run_tells_how_a_program_has_failed(tmp_path: Path, env: dict[str, str],
         "[options.entry_points]\nconsole_scripts =\n  sing = birds.sing:main\n"
     )
     ran = ros2("run", "--prefix", "env A=b", "birds", "sing", env=env, cwd=tmp_path / "ws")
-    says = {0: "", 3: "[ros2run]: Process exited with failure 3\n", -9: "[ros2run]: Killed\n"}
-    assert (ran.stdout, ran.stderr, ran.returncode) == (says[code], "", code % 256)
+    message = {0: "", 3: "[ros2run]: Process exited with failure 3\n", -9: "[ros2run]: Killed\n"}
+    assert (ran.stdout, ran.stderr, ran.returncode) == (message[code], "", code % 256)
 
 
-SHOWS = """
+LAUNCH_FILE_WITH_HANDLER = """
 import os
 from launch import LaunchDescription
 from launch.actions import EmitEvent, ExecuteProcess, LogInfo, RegisterEventHandler
@@ -156,10 +156,10 @@ def generate_launch_description():
 """
 
 
-def test_what_a_launch_file_describes_is_shown_and_it_can_import_its_own_package(
+def test_print_shows_the_description_of_a_launch_file_that_imports_its_package(
     tmp_path: Path, env: dict[str, str]
 ) -> None:
-    (tmp_path / "my_launch.py").write_text(SHOWS)
+    (tmp_path / "my_launch.py").write_text(LAUNCH_FILE_WITH_HANDLER)
     (tmp_path / "settings.py").write_text("TOPIC = 'chatter'")
     ran = ros2("launch", "-p", "my_launch.py", env=env, cwd=tmp_path)
     assert [line.partition(" object at ")[0] for line in ran.stdout.splitlines()] == [
@@ -177,17 +177,17 @@ def test_what_a_launch_file_describes_is_shown_and_it_can_import_its_own_package
 
 
 @pytest.mark.parametrize(("value", "shown"), [("1", ["1", "b"]), ("ros-tutor", ["b"])])
-def test_output_is_held_back_unless_a_check_wants_it_otherwise(
+def test_unbuffered_output_is_inherited_only_if_the_user_set_it(
     tmp_path: Path, env: dict[str, str], value: str, shown: list[str]
 ) -> None:
-    text = SHOWS.replace("from my_package.settings import TOPIC", "TOPIC = ''")
+    text = LAUNCH_FILE_WITH_HANDLER.replace("from my_package.settings import TOPIC", "TOPIC = ''")
     (tmp_path / "my_launch.py").write_text(text.replace('Node(package="my_package", executable="x"), ', ""))
     words = ["launch", "-a", "--launch-prefix", "env A=b", "my_launch.py"]
     ran = ros2(*words, env={**env, "PYTHONUNBUFFERED": value}, cwd=tmp_path)
     assert [line.removeprefix("[env-1] ") for line in ran.stdout.splitlines() if line.startswith("[env-1]")] == shown
 
 
-def test_a_launch_file_by_its_path_takes_arguments(tmp_path: Path, env: dict[str, str]) -> None:
+def test_a_launch_file_given_by_path_takes_arguments(tmp_path: Path, env: dict[str, str]) -> None:
     (tmp_path / "my_launch.py").write_text(LAUNCH_FILE)
     ran = ros2("launch", "my_launch.py", "word:=one", "word:=two", env=env, cwd=tmp_path)
     assert ran.returncode == 0, ran.stderr
@@ -206,7 +206,7 @@ def test_a_launch_file_of_a_package_is_found(tmp_path: Path, env: dict[str, str]
 
 
 @pytest.mark.parametrize("option", ["-s", "--show-args"])
-def test_the_arguments_are_shown(tmp_path: Path, env: dict[str, str], option: str) -> None:
+def test_launch_arguments_are_listed(tmp_path: Path, env: dict[str, str], option: str) -> None:
     (tmp_path / "my_launch.py").write_text(LAUNCH_FILE)
     ran = ros2("launch", option, "my_launch.py", env=env, cwd=tmp_path)
     assert ran.returncode == 0
@@ -219,14 +219,16 @@ def test_the_arguments_are_shown(tmp_path: Path, env: dict[str, str], option: st
     ("package", "first"),
     [("demo_nodes_py", 'Publishing: "Hello World: 0"'), ("demo_nodes_cpp", "Publishing: 'Hello World: 1'")],
 )
-def test_a_talker_is_heard_under_another_name(tmp_path: Path, env: dict[str, str], package: str, first: str) -> None:
+def test_remapped_talker_and_listener_communicate(
+    tmp_path: Path, env: dict[str, str], package: str, first: str
+) -> None:
     names = ("--ros-args", "-r", "chatter:=news", "-r", "__ns:=/robot1")
     with (
-        started("run", package, "listener", *names, env=env, cwd=tmp_path) as listener,
-        started("run", package, "talker", *names, env=env, cwd=tmp_path) as talker,
+        start("run", package, "listener", *names, env=env, cwd=tmp_path) as listener,
+        start("run", package, "talker", *names, env=env, cwd=tmp_path) as talker,
     ):
-        assert "[robot1.talker]" in until(talker, first)
-        assert "[robot1.listener]" in until(listener, "I heard: [Hello World: ")
+        assert "[robot1.talker]" in read_until(talker, first)
+        assert "[robot1.listener]" in read_until(listener, "I heard: [Hello World: ")
         for process in (talker, listener):
             os.killpg(process.pid, signal.SIGINT)
             assert process.wait(LIMIT_S) == 0
@@ -246,15 +248,15 @@ def test_an_exit_code_is_passed_on(tmp_path: Path, env: dict[str, str]) -> None:
 
 def test_ctrl_c_ends_the_whole_launch(tmp_path: Path, env: dict[str, str]) -> None:
     solution = Path(__file__).parents[2] / "lessons/i2_2/solution/my_launch.py"
-    with started("launch", str(solution), "topic:=news", env=env, cwd=tmp_path) as process:
-        until(process, "[minimal_subscriber]: I heard")
+    with start("launch", str(solution), "topic:=news", env=env, cwd=tmp_path) as process:
+        read_until(process, "[minimal_subscriber]: I heard")
         os.killpg(process.pid, signal.SIGINT)
         assert process.wait(LIMIT_S) == 0
         with pytest.raises(ProcessLookupError):
             os.killpg(process.pid, 0)
 
 
-def test_the_tutors_own_command_becomes_it(tmp_path: Path, env: dict[str, str]) -> None:
+def test_ros_tutor_ros2_runs_our_ros2(tmp_path: Path, env: dict[str, str]) -> None:
     command = [sys.executable, "-P", "-c", "import sys, tutor.cli; sys.exit(tutor.cli.main())", "ros2"]
 
     def tutor(*words: str) -> subprocess.CompletedProcess[str]:

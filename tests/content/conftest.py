@@ -1,4 +1,4 @@
-"""A small course made on the spot, right in every way; each test breaks one thing in it."""
+"""A small generated course without faults, in which each test breaks one thing."""
 
 from __future__ import annotations
 
@@ -76,19 +76,19 @@ groups:
 
 
 def make_course(root: Path, lesson: str = LESSON, folder: str = "x1_1") -> Path:
-    """Write a course with one lesson below `root`. Returns the lesson's folder."""
+    """Write a course with one lesson below `root`. Return the lesson's folder."""
     lessons = root / "lessons"
-    made = lessons / folder
+    target = lessons / folder
     for kind, code in (("skeleton", "pass\n"), ("solution", "print('moved')\n")):
-        (made / kind).mkdir(parents=True)
-        (made / kind / "mover.py").write_text(code)
-    (made / "lesson.md").write_text(lesson)
+        (target / kind).mkdir(parents=True)
+        (target / kind / "mover.py").write_text(code)
+    (target / "lesson.md").write_text(lesson)
     (lessons / "checklist.yaml").write_text(CHECKLIST)
-    return made
+    return target
 
 
 @pytest.fixture
 def lesson_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """The folder of the only lesson of a made course, which `load_course()` takes for the bundled one."""
+    """The folder of the only lesson of a generated course, which `load_course()` takes for the bundled one."""
     monkeypatch.setattr(loader, "BUNDLED", tmp_path)
     return make_course(tmp_path)

@@ -1,4 +1,4 @@
-"""What `author check` proves beyond the lessons: checks, commands, test submissions, verdicts on our own code."""
+"""What `author check` verifies besides the lessons: checks, commands, test submissions, verdicts on our own code."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def check(*criteria: str, exercise: str = "x1.1", bonus: tuple[str, ...] = ("sto
 
 
 @pytest.mark.parametrize(
-    ("made", "place", "text"),
+    ("exercise_check", "file", "text"),
     [
         (check("moves", "stops"), "", ""),
         (check("moves", "stops", exercise="x1.2"), "checks/x1_1/__init__.py", "it judges x1.2"),
@@ -64,13 +64,15 @@ def check(*criteria: str, exercise: str = "x1.1", bonus: tuple[str, ...] = ("sto
         ),
     ],
 )
-def test_a_lesson_and_its_check_agree(course: Course, made: Check, place: str, text: str) -> None:
-    found = list(find_disagreements(course.lessons[0], made))
+def test_disagreements_of_lesson_and_check_are_found(
+    course: Course, exercise_check: Check, file: str, text: str
+) -> None:
+    found = list(find_disagreements(course.lessons[0], exercise_check))
     assert [problem.text for problem in found] == ([text] if text else [])
-    assert all(str(problem.file).endswith(place) for problem in found)
+    assert all(str(problem.file).endswith(file) for problem in found)
 
 
-def test_a_check_names_the_lessons_files(course: Course) -> None:
+def test_a_check_must_name_the_lessons_files(course: Course) -> None:
     lesson = course.lessons[0]
     lesson.check.write_text('FILE = "walker.py"\n')
     assert [problem.text for problem in find_disagreements(lesson, check("moves", "stops"))] == [
@@ -80,7 +82,7 @@ def test_a_check_names_the_lessons_files(course: Course) -> None:
     assert list(find_disagreements(lesson, check("moves", "stops"))) == []
 
 
-def test_strays_beside_lessons_and_checks_are_found(course: Course, lesson_folder: Path) -> None:
+def test_stray_files_beside_lessons_and_checks_are_found(course: Course, lesson_folder: Path) -> None:
     root = lesson_folder.parents[1]
     assert list(find_stray_files(course, course.lessons)) == []
     for stray in ("lessons/notes.txt", "checks/x1_2.py", "checks/__init__.py"):
@@ -107,7 +109,7 @@ def test_strays_beside_lessons_and_checks_are_found(course: Course, lesson_folde
         ("ros-tutor chek x1.1", "no such command"),
     ],
 )
-def test_a_lessons_commands_can_be_typed(course: Course, line: str, text: str) -> None:
+def test_commands_that_cannot_work_are_found(course: Course, line: str, text: str) -> None:
     lesson = replace(course.lessons[0], body=f"```bash\n{line}\n```\n\n```python\nopen('other.py')\n```\n")
 
     def usage(argv: list[str]) -> str:
@@ -128,8 +130,9 @@ GOOD = {
 }
 
 
-def submissions(root: Path, course: Course, made: Mapping[str, str]) -> list[str]:
-    for name, expect in made.items():
+def lint_submissions(root: Path, course: Course, expectations: Mapping[str, str]) -> list[str]:
+    """Write submissions with these expect.yaml files, and return the problems found in them."""
+    for name, expect in expectations.items():
         folder = root / name
         folder.mkdir(parents=True)
         (folder / "mover.py").touch()
@@ -140,11 +143,11 @@ def submissions(root: Path, course: Course, made: Mapping[str, str]) -> list[str
     ]
 
 
-def test_right_submissions_have_no_problem(course: Course, tmp_path: Path) -> None:
+def test_correct_submissions_have_no_problems(course: Course, tmp_path: Path) -> None:
     root = tmp_path / "submissions"
     root.mkdir()
     (root / "README.md").touch()
-    assert submissions(root, course, GOOD) == []
+    assert lint_submissions(root, course, GOOD) == []
 
 
 @pytest.mark.parametrize(
@@ -168,16 +171,14 @@ def test_right_submissions_have_no_problem(course: Course, tmp_path: Path) -> No
         ("x1_1/maybe/a", RIGHT, "x1_1/maybe: this is not a submission"),
     ],
 )
-def test_what_is_wrong_with_a_submission_is_found(
-    course: Course, tmp_path: Path, name: str, expect: str, text: str
-) -> None:
-    (found,) = submissions(tmp_path / "submissions", course, {**GOOD, name: expect})
+def test_a_faulty_submission_is_reported(course: Course, tmp_path: Path, name: str, expect: str, text: str) -> None:
+    (found,) = lint_submissions(tmp_path / "submissions", course, {**GOOD, name: expect})
     assert text in found
 
 
-def test_files_that_are_no_submission_are_found(course: Course, tmp_path: Path) -> None:
+def test_stray_and_missing_files_of_submissions_are_found(course: Course, tmp_path: Path) -> None:
     root = tmp_path / "submissions"
-    submissions(root, course, GOOD)
+    lint_submissions(root, course, GOOD)
     (root / "x1_1/right/empty").mkdir()
     (root / "x1_1/right/mover.py").touch()
     (root / "x1_1/right/plain/mover.py").unlink()
@@ -188,15 +189,15 @@ def test_files_that_are_no_submission_are_found(course: Course, tmp_path: Path) 
     ]
 
 
-def test_each_criterion_is_kept_and_broken_by_one(course: Course, tmp_path: Path) -> None:
-    made = {"x1_1/right/plain": RIGHT + "bonus_failed: [stops]\n"}
-    assert submissions(tmp_path / "submissions", course, made) == [
+def test_each_criterion_needs_a_passing_and_a_failing_submission(course: Course, tmp_path: Path) -> None:
+    expectations = {"x1_1/right/plain": RIGHT + "bonus_failed: [stops]\n"}
+    assert lint_submissions(tmp_path / "submissions", course, expectations) == [
         "x1_1/wrong: no submission breaks moves",
         "x1_1/right: no submission keeps stops",
     ]
 
 
-def test_what_a_submission_must_be_judged_as(tmp_path: Path) -> None:
+def test_expect_yaml_is_parsed(tmp_path: Path) -> None:
     file = tmp_path / "expect.yaml"
     file.write_text("says: x\nfails: [a]\ncause: {a: one, b: [two, three]}\n")
     expected = read_expected(file)
@@ -235,7 +236,7 @@ def result(lesson: Lesson, **verdicts: Verdict) -> ExerciseResult:
         ("skeleton", skipped("no"), skipped("no"), "no criterion fails"),
     ],
 )
-def test_our_own_code_is_judged_as_the_lesson_says(
+def test_verdicts_on_our_own_code_must_match_the_lesson(
     course: Course, kind: str, moves: Verdict, stops: Verdict, text: str
 ) -> None:
     lesson = course.lessons[0]
@@ -246,7 +247,7 @@ def test_our_own_code_is_judged_as_the_lesson_says(
     assert [c.id for c in faults(judged)] == (["moves"] if moves.status is Status.ERROR else [])
 
 
-def test_a_skeleton_that_passes_what_is_open_is_found(course: Course) -> None:
+def test_a_skeleton_that_passes_an_open_criterion_is_found(course: Course) -> None:
     lesson = course.lessons[0]
     found = find_disproofs(lesson, "skeleton", result(lesson, moves=passed("", ""), stops=passed("", "")))
     assert [problem.text for problem in found] == [

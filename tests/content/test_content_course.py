@@ -1,4 +1,4 @@
-"""The course as it is shipped."""
+"""The course as shipped."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ CRITERIA = {
     "i2.2": ("starts topic namespace communicates", "shutdown"),
     "i2.3": ("blocks timer concurrent shutdown", "parallel shutdown-busy"),
 }
-"""Required and bonus criteria of each exercise: stable ids, which reports and learners' progress files hold."""
+"""Required and bonus criteria of each exercise: stable ids, stored in reports and learners' progress files."""
 
 FILES = {
     "i1.1": ("temperature_publisher.py",),
@@ -36,30 +36,30 @@ def sources() -> list[tuple[str, LessonFile]]:
     return [(lesson.id, file) for lesson in lessons() for file in lesson.files]
 
 
-def test_the_course_is_right() -> None:
+def test_the_course_has_no_lint_problems() -> None:
     assert [str(problem) for problem in lint_course(load_course())] == []
 
 
 @pytest.mark.parametrize("lesson", lessons(), ids=lambda lesson: lesson.id)
-def test_criteria_and_files_are_those_of_the_contract(lesson: Lesson) -> None:
+def test_criteria_and_files_keep_their_names(lesson: Lesson) -> None:
     required, bonus = CRITERIA[lesson.id]
     assert [criterion.id for criterion in lesson.criteria if not criterion.bonus] == required.split()
     assert [criterion.id for criterion in lesson.criteria if criterion.bonus] == bonus.split()
     assert tuple(file.name for file in lesson.files) == FILES[lesson.id]
 
 
-def test_the_first_three_exercises_are_there() -> None:
+def test_the_first_three_exercises_exist() -> None:
     assert {"i1.1", "i1.3", "i2.1"} <= {lesson.id for lesson in lessons()}
 
 
-def test_only_the_calculators_client_may_be_missing() -> None:
+def test_only_the_calculators_client_is_optional() -> None:
     assert [(exercise, file.name) for exercise, file in sources() if not file.required] == [
         ("i1.3", "calculator_client.py")
     ]
 
 
 @pytest.mark.parametrize(("exercise", "file"), sources(), ids=lambda value: getattr(value, "name", value))
-def test_a_learner_reads_plain_ros_code(exercise: str, file: LessonFile) -> None:
+def test_skeletons_and_solutions_are_plain_ros_code(exercise: str, file: LessonFile) -> None:
     for path in (file.skeleton, file.solution):
         source = path.read_text()
         compile(source, path, "exec")
@@ -100,8 +100,8 @@ def test_every_item_of_a_lesson_is_shown_by_one_of_its_criteria() -> None:
     assert load_course().checklist.ready_title == "Ready for Advanced?"
 
 
-def test_no_line_of_a_skeleton_is_wider_than_the_code_page_of_the_app() -> None:
-    """72 columns: at 120x36 the page has 80, of which line numbers and scrollbar take some."""
+def test_lines_of_skeletons_fit_the_code_page_of_the_app() -> None:
+    """72 columns: at 120x36 the code page has 80, less those for the line numbers and the scrollbar."""
     skeletons = [file.skeleton for lesson in load_course().lessons for file in lesson.files]
     assert skeletons
     wide = [

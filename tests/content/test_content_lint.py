@@ -1,4 +1,4 @@
-"""The linter: silent on a right course, and one plain sentence for each thing that is wrong."""
+"""The linter: silent on a correct course, and one plain sentence for each problem."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ import pytest
 from tutor.content import Checklist, Course, lint_course, load_course
 
 
-def problems(folder: Path) -> list[tuple[str, str]]:
-    """What lint finds, each with the path of the file below the lesson's folder."""
+def find_problems(folder: Path) -> list[tuple[str, str]]:
+    """Return the linter's problems as (file, text), the file relative to the folder of all lessons."""
     return [(str(problem.file.relative_to(folder.parent)), problem.text) for problem in lint_course(load_course())]
 
 
-def test_a_right_course_has_no_problems(lesson_folder: Path) -> None:
-    assert problems(lesson_folder) == []
+def test_a_correct_course_has_no_problems(lesson_folder: Path) -> None:
+    assert find_problems(lesson_folder) == []
 
 
 @pytest.mark.parametrize(
@@ -64,7 +64,7 @@ def test_a_problem_in_the_lesson_is_found(lesson_folder: Path, old: str, new: st
     file = lesson_folder / "lesson.md"
     assert file.read_text().count(old) == 1
     file.write_text(file.read_text().replace(old, new))
-    assert ("x1_1/lesson.md", text) in problems(lesson_folder)
+    assert ("x1_1/lesson.md", text) in find_problems(lesson_folder)
 
 
 def test_bonus_criteria_come_last(lesson_folder: Path) -> None:
@@ -77,25 +77,25 @@ def test_bonus_criteria_come_last(lesson_folder: Path) -> None:
 def test_a_code_block_that_never_closes_is_found(lesson_folder: Path) -> None:
     with (lesson_folder / "lesson.md").open("a") as file:
         file.write("```python\n")
-    assert problems(lesson_folder) == [("x1_1/lesson.md", "a code block is never closed")]
+    assert find_problems(lesson_folder) == [("x1_1/lesson.md", "a code block is never closed")]
 
 
-def test_html_and_titles_in_code_are_no_problem(lesson_folder: Path) -> None:
+def test_html_and_titles_in_code_are_allowed(lesson_folder: Path) -> None:
     with (lesson_folder / "lesson.md").open("a") as file:
         file.write("Use `<name>`.\n\n```text\n# <b>\n```\n")
-    assert problems(lesson_folder) == []
+    assert find_problems(lesson_folder) == []
 
 
 @pytest.mark.parametrize("kind", ["skeleton", "solution"])
 def test_a_missing_file_is_found(lesson_folder: Path, kind: str) -> None:
     (lesson_folder / kind / "mover.py").unlink()
-    assert problems(lesson_folder) == [(f"x1_1/{kind}/mover.py", "this file is missing")]
+    assert find_problems(lesson_folder) == [(f"x1_1/{kind}/mover.py", "this file is missing")]
 
 
 @pytest.mark.parametrize("kind", ["skeleton", "solution"])
 def test_a_file_that_does_not_compile_is_found(lesson_folder: Path, kind: str) -> None:
     (lesson_folder / kind / "mover.py").write_text("def move(:\n")
-    ((file, text),) = problems(lesson_folder)
+    ((file, text),) = find_problems(lesson_folder)
     assert file == f"x1_1/{kind}/mover.py"
     assert text.startswith("it does not compile: ")
     assert "line 1" in text
@@ -103,12 +103,12 @@ def test_a_file_that_does_not_compile_is_found(lesson_folder: Path, kind: str) -
 
 def test_a_tab_in_code_is_found(lesson_folder: Path) -> None:
     (lesson_folder / "solution" / "mover.py").write_text("if True:\n\tpass\n")
-    assert problems(lesson_folder) == [("x1_1/solution/mover.py", "there is a tab in it")]
+    assert find_problems(lesson_folder) == [("x1_1/solution/mover.py", "there is a tab in it")]
 
 
 def test_a_skeleton_that_is_the_solution_is_found(lesson_folder: Path) -> None:
     (lesson_folder / "skeleton" / "mover.py").write_bytes((lesson_folder / "solution" / "mover.py").read_bytes())
-    assert problems(lesson_folder) == [("x1_1/skeleton/mover.py", "the skeleton is the solution")]
+    assert find_problems(lesson_folder) == [("x1_1/skeleton/mover.py", "the skeleton is the solution")]
 
 
 def test_a_stray_file_is_found_and_bytecode_is_not(lesson_folder: Path) -> None:
@@ -116,7 +116,7 @@ def test_a_stray_file_is_found_and_bytecode_is_not(lesson_folder: Path) -> None:
     (lesson_folder / "solution" / "helper.py").touch()
     (lesson_folder / "solution" / "__pycache__").mkdir()
     (lesson_folder / "solution" / "__pycache__" / "mover.cpython-312.pyc").touch()
-    assert problems(lesson_folder) == [
+    assert find_problems(lesson_folder) == [
         ("x1_1/notes.txt", "this file belongs to no lesson"),
         ("x1_1/solution/helper.py", "this file belongs to no lesson"),
     ]
@@ -143,7 +143,7 @@ def test_an_exercise_id_used_twice_is_found(lesson_folder: Path) -> None:
 def test_a_problem_in_the_checklist_is_found(lesson_folder: Path, old: str, new: str, text: str) -> None:
     file = lesson_folder.parent / "checklist.yaml"
     file.write_text(file.read_text().replace(old, new))
-    assert ("checklist.yaml", text) in problems(lesson_folder)
+    assert ("checklist.yaml", text) in find_problems(lesson_folder)
 
 
 def test_a_problem_is_one_line_with_its_file(lesson_folder: Path) -> None:

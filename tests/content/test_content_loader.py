@@ -1,4 +1,4 @@
-"""Reading a course: what is read, and how what is wrong is said."""
+"""Loading a course: what is read, and how errors are reported."""
 
 from __future__ import annotations
 
@@ -19,17 +19,17 @@ def edit(file: Path, old: str, new: str) -> None:
 
 
 def copy_course(lesson_folder: Path, root: Path, folder: str, lesson_id: str) -> Path:
-    """Write a second course with one lesson, which differs from the first in its id only."""
-    made = root / "lessons" / folder
+    """Write a second course, whose one lesson differs from the first only in its id. Return the lesson's folder."""
+    copied = root / "lessons" / folder
     for kind in ("skeleton", "solution"):
-        (made / kind).mkdir(parents=True)
-        (made / kind / "mover.py").write_text((lesson_folder / kind / "mover.py").read_text())
+        (copied / kind).mkdir(parents=True)
+        (copied / kind / "mover.py").write_text((lesson_folder / kind / "mover.py").read_text())
     text = (lesson_folder / "lesson.md").read_text()
-    (made / "lesson.md").write_text(text.replace("id: x1.1", f"id: {lesson_id}"))
-    return made
+    (copied / "lesson.md").write_text(text.replace("id: x1.1", f"id: {lesson_id}"))
+    return copied
 
 
-def test_a_lesson_is_read_whole(lesson_folder: Path) -> None:
+def test_every_field_of_a_lesson_is_read(lesson_folder: Path) -> None:
     (lesson,) = load_course().lessons
     assert (lesson.id, lesson.title, lesson.unit) == ("x1.1", "First Steps", "X1: Beginnings")
     assert lesson.difficulty is Difficulty.EASY
@@ -55,17 +55,17 @@ def test_the_checklist_is_read(lesson_folder: Path) -> None:
     assert [(item.id, item.text) for item in checklist.items] == [("move", "Make things move")]
 
 
-def test_the_check_lies_beside_the_lessons(lesson_folder: Path, tmp_path: Path) -> None:
+def test_the_checks_folder_is_beside_the_lessons(lesson_folder: Path, tmp_path: Path) -> None:
     assert load_course().lessons[0].check == tmp_path / "checks" / "x1_1.py"
 
 
-def test_windows_line_ends_are_read(lesson_folder: Path) -> None:
+def test_windows_line_endings_are_read(lesson_folder: Path) -> None:
     file = lesson_folder / "lesson.md"
     file.write_bytes(file.read_bytes().replace(b"\n", b"\r\n"))
     assert load_course().lessons[0].title == "First Steps"
 
 
-def test_lessons_come_in_the_order_to_do_them(lesson_folder: Path) -> None:
+def test_lessons_are_sorted_by_number(lesson_folder: Path) -> None:
     for folder in ("x1_10", "x10_1", "x2_1", "x1_2"):
         copy_course(lesson_folder, lesson_folder.parents[1], folder, folder.replace("_", "."))
     assert [lesson.id for lesson in load_course().lessons] == ["x1.1", "x1.2", "x1.10", "x2.1", "x10.1"]
@@ -77,14 +77,14 @@ def test_a_lesson_is_found_however_its_id_is_written(lesson_folder: Path, text: 
 
 
 @pytest.mark.parametrize(("text", "meant"), [("i1.11", "i1.1"), ("i11", "i1.1"), ("1.3", "i1.3"), ("I2_2x", "i2.2")])
-def test_an_unknown_exercise_is_answered_with_what_was_meant(text: str, meant: str) -> None:
+def test_an_unknown_exercise_suggests_the_nearest(text: str, meant: str) -> None:
     known = ["i1.1", "i1.3", "i2.2"]
     error = UnknownExercise(text, known)
     assert error.nearest == meant
     assert f"Did you mean {meant}?" in str(error)
 
 
-def test_an_exercise_like_none_is_answered_with_the_known_ones(lesson_folder: Path) -> None:
+def test_an_unknown_exercise_unlike_any_lists_the_known_ones(lesson_folder: Path) -> None:
     with pytest.raises(UnknownExercise) as caught:
         load_course().find("temperature")
     assert str(caught.value) == "There is no exercise 'temperature'. The exercises are: x1.1."
@@ -92,14 +92,14 @@ def test_an_exercise_like_none_is_answered_with_the_known_ones(lesson_folder: Pa
 
 def test_another_course_comes_after_the_bundled_one(lesson_folder: Path, tmp_path: Path) -> None:
     extra = tmp_path / "extra"
-    made = copy_course(lesson_folder, extra, "a1_1", "a1.1")
+    copied = copy_course(lesson_folder, extra, "a1_1", "a1.1")
     (extra / "lessons" / "checklist.yaml").write_text(
         "groups: [{id: more, title: More, items: [{id: jump, text: Make things jump}]}]"
     )
     course = load_course(extra)
     assert [lesson.id for lesson in course.lessons] == ["x1.1", "a1.1"]
     assert course.find("a1.1").check == extra / "checks" / "a1_1.py"
-    assert course.find("a1.1").folder == made
+    assert course.find("a1.1").folder == copied
     assert [item.id for item in course.checklist.items] == ["move", "jump"]
 
 
@@ -109,13 +109,13 @@ def test_another_course_needs_no_checklist(lesson_folder: Path, tmp_path: Path) 
 
 
 def test_another_course_may_not_replace_an_exercise(lesson_folder: Path, tmp_path: Path) -> None:
-    made = copy_course(lesson_folder, tmp_path / "extra", "x1_1", "x1.1")
+    copied = copy_course(lesson_folder, tmp_path / "extra", "x1_1", "x1.1")
     with pytest.raises(ContentError, match=r"there already is an exercise x1\.1") as caught:
         load_course(tmp_path / "extra")
-    assert caught.value.file == made / "lesson.md"
+    assert caught.value.file == copied / "lesson.md"
 
 
-def test_another_course_that_is_not_there_is_named(lesson_folder: Path, tmp_path: Path) -> None:
+def test_a_missing_course_is_reported(lesson_folder: Path, tmp_path: Path) -> None:
     with pytest.raises(ContentError, match="nowhere/lessons: there is no such folder"):
         load_course(tmp_path / "nowhere")
 
@@ -139,7 +139,7 @@ def test_another_course_that_is_not_there_is_named(lesson_folder: Path, tmp_path
         ('unit: "X1', "unit: X1", 5, "", "not valid YAML: mapping values are not allowed in this context"),
     ],
 )
-def test_what_is_wrong_is_said_with_its_line_and_field(
+def test_an_error_names_its_line_and_field(
     lesson_folder: Path, old: str, new: str, line: int, field: str, message: str
 ) -> None:
     file = lesson_folder / "lesson.md"
@@ -181,7 +181,7 @@ def test_text_that_is_not_utf8_is_refused(lesson_folder: Path) -> None:
         load_course()
 
 
-def test_a_broken_checklist_is_named(lesson_folder: Path) -> None:
+def test_an_error_in_the_checklist_names_its_line_and_field(lesson_folder: Path) -> None:
     file = lesson_folder.parent / "checklist.yaml"
     edit(file, "title: Moving", "titel: Moving")
     with pytest.raises(ContentError) as caught:
@@ -189,7 +189,7 @@ def test_a_broken_checklist_is_named(lesson_folder: Path) -> None:
     assert (caught.value.file, caught.value.line, caught.value.field) == (file, 2, "groups[1].title")
 
 
-def test_yaml_cannot_make_objects(lesson_folder: Path) -> None:
+def test_yaml_cannot_construct_python_objects(lesson_folder: Path) -> None:
     edit(lesson_folder / "lesson.md", "title: First Steps", "title: !!python/object/apply:os.getcwd []")
     with pytest.raises(ContentError, match="not valid YAML"):
         load_course()

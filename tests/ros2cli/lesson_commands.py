@@ -1,4 +1,4 @@
-"""The commands of a lesson's text, with what the lesson shows of their output."""
+"""The shell commands in a lesson's text, with the output that the lesson shows for them."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 _BLOCK = re.compile(r"^```(bash|sh|shell|console)\n(.*?)^```", re.MULTILINE | re.DOTALL)
-_ELSEWHERE = "..."
-# What differs from run to run, or from machine to machine.
-_VARIES = (
+_ELLIPSIS = "..."
+# Text that differs between runs or machines, and its placeholders.
+_VOLATILE = (
     (re.compile(r"\[\d{10}\.\d{6,}\]"), "[time]"),
     (re.compile(r"-?\d+\.\d{3,}"), "<number>"),
     (re.compile(r"window: \d+"), "window: <number>"),
@@ -22,27 +22,27 @@ _VARIES = (
 
 @dataclass(frozen=True)
 class Command:
-    """A command as it is typed, and the lines that the lesson shows below it; `...` stands for any."""
+    """A command as typed, and the output lines that the lesson shows below it; `...` stands for any text."""
 
     line: str
     shown: tuple[str, ...]
 
-    def shows(self, output: str) -> bool:
-        """Whether the output begins as the lesson shows it, but for what varies."""
-        pattern = "".join(_pattern(line) for line in self.shown)
-        return re.match(pattern, _steady(output)) is not None
+    def matches(self, output: str) -> bool:
+        """Return whether the output begins as the lesson shows it, apart from volatile text."""
+        pattern = "".join(_line_pattern(line) for line in self.shown)
+        return re.match(pattern, _mask_volatile(output)) is not None
 
 
-def commands(body: str) -> Iterator[Command]:
-    """The commands of all shell blocks, in order."""
+def find_commands(body: str) -> Iterator[Command]:
+    """Yield the commands of all shell blocks, in order."""
     for kind, block in _BLOCK.findall(body):
         lines = block.splitlines()
         while lines:
             line = lines.pop(0)
             if kind == "console" and not line.startswith("$ "):
-                raise ValueError(f"{line!r} is below no command")
+                raise ValueError(f"{line!r} does not follow a command")
             line = line.removeprefix("$ ")
-            while lines and not _is_whole(line):
+            while lines and not _is_complete(line):
                 line += f"\n{lines.pop(0)}"
             shown: list[str] = []
             while kind == "console" and lines and not lines[0].startswith("$ "):
@@ -51,20 +51,20 @@ def commands(body: str) -> Iterator[Command]:
                 yield Command(line, tuple(shown))
 
 
-def _is_whole(text: str) -> bool:
-    """Whether bash would not wait for more."""
+def _is_complete(text: str) -> bool:
+    """Return whether bash would run this without waiting for more lines."""
     if text.endswith("\\"):
         return False
     return subprocess.run(["bash", "-n", "-c", text], capture_output=True, check=False).returncode == 0
 
 
-def _pattern(line: str) -> str:
-    if line.strip() == _ELSEWHERE:
+def _line_pattern(line: str) -> str:
+    if line.strip() == _ELLIPSIS:
         return r"(?:.*\n)*?"
-    return ".*".join(map(re.escape, _steady(line).split(_ELSEWHERE))) + r"\s*\n"
+    return ".*".join(map(re.escape, _mask_volatile(line).split(_ELLIPSIS))) + r"\s*\n"
 
 
-def _steady(text: str) -> str:
-    for varies, put in _VARIES:
-        text = varies.sub(put, text)
+def _mask_volatile(text: str) -> str:
+    for pattern, placeholder in _VOLATILE:
+        text = pattern.sub(placeholder, text)
     return text

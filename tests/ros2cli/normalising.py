@@ -1,4 +1,4 @@
-"""Takes out of an output what differs from run to run: times, ids, paths, measured figures, the number of samples."""
+"""Masks what differs from run to run in an output: times, ids, paths, measurements, the number of samples."""
 
 from __future__ import annotations
 
@@ -7,39 +7,39 @@ from collections.abc import Mapping
 
 TRACEBACK = "TRACEBACK"
 
-_REPLACED = [
+_VOLATILE = [
     (r"\x1b\[[0-9;]*m", ""),
     (r"\[\d{10}\.\d{9}\]", "[TIME]"),
-    # A workspace that is not built has its package in src, one that is, in install.
+    # The package is in src in an unbuilt workspace, and in install in a built one.
     (r"\$WORKSPACE/(install/my_package/lib/python3\.12/site-packages|src/my_package)/my_package/", "$PACKAGE/"),
     (r"\$WORKSPACE/(install/my_package/lib|src)/my_package/", "$PROGRAMS/"),
     (r"/\S*/ros2-overlay\.\w+/prefix/lib/my_package/", "$PROGRAMS/"),
     (r"(\$WORKSPACE|/\S*/ros2-overlay\.\w+/prefix)/share/my_package\b", "$PACKAGE"),
     (r"\$WORKSPACE/(install/my_package(/share/my_package)?|src/my_package)(?=['\"\s]|$)", "$PACKAGE"),
     (r"searching: \[[^\]]*\]", "searching: [PREFIXES]"),
-    (r"(✓ '<)\S+( object at)", r"\1HANDLER\2"),  # launch's handlers are closures there, objects of ours here
+    (r"(✓ '<)\S+( object at)", r"\1HANDLER\2"),  # the real launch's handlers are closures, ours are objects
     (r"A message was lost!!!\n\s*total count change:\d+\n\s*total count: \d+---\n", ""),
     (r"\b\d{19}\b", "NANOSECONDS"),
     (r"\b(sec|nanosec)(: |=)\d+", r"\1\2N"),
     (r"(publication_sequence_number|reception_sequence_number): (\d+|null)", r"\1: N"),
     (r"('(publication|reception)_sequence_number'): (\d+|None)", r"\1: N"),
     (r"^NANOSECONDS,NANOSECONDS,(\d+|None),(\d+|None),", "NANOSECONDS,NANOSECONDS,N,N,"),  # the same with --csv
-    (r"^1\d{9},\d{1,9},", "N,N,"),  # a stamp
+    (r"^1\d{9},\d{1,9},", "N,N,"),  # a time stamp
     (r"-?\d+\.\d+ °C", "FLOAT °C"),
     (r"\bpid \[\d+\]", "pid [PID]"),
     (r"\[pid \d+", "[pid PID"),
-    # How a node of a launch ends depends on what it is doing when Ctrl+C comes.
+    # How a launched node ends depends on what it is doing when Ctrl+C arrives.
     (r"\[(INFO|ERROR)\] (\[\S+\]: process has) (died|finished cleanly) .*", r"\2 ended"),
     (r"process id \d+", "process id PID"),
     (r"_ros2cli_\w+", "_ros2cli_PID"),
     (r"0x[0-9a-f]{6,}", "ADDRESS"),
     (r"GID: [0-9a-f.]+", "GID: ID"),
-    (r"-?\d+\.\d{4,}(e[+-]?\d+)?", "FLOAT"),  # measured, or drawn at random
-    (r"b(['\"])\\x00\\x01\\x00\\x00.*\1", "b'BYTES'"),  # Python chooses the other quotes where a ' is in it
+    (r"-?\d+\.\d{4,}(e[+-]?\d+)?", "FLOAT"),  # measured or random
+    (r"b(['\"])\\x00\\x01\\x00\\x00.*\1", "b'BYTES'"),  # Python uses double quotes if it contains a '
     (r"All log files can be found below \S+", "All log files can be found below FOLDER"),
     (r"^\s*\^C", ""),
 ]
-_COUNTED = [
+_MEASURED = [
     (r"(average rate|min|max|std dev|window|mean|average delay): -?[\d.]+", r"\1: N"),
     (r"\b[\d.]+ [KM]?B/s from \d+ messages", "N B/s from N messages"),
     (r"(Message size mean|min|max): [\d.]+ [KM]?B", r"\1: N B"),
@@ -47,7 +47,7 @@ _COUNTED = [
     (r"(Hello World: )\d+", r"\1N"),
     (r"Half #N|Hello #N", "PREFIX #N"),
 ]
-_COMMANDS_OF_PLUGINS = frozenset(
+_PLUGIN_COMMANDS = frozenset(
     (
         "bag",
         "component",
@@ -61,32 +61,32 @@ _COMMANDS_OF_PLUGINS = frozenset(
         "wtf",
     )
 )
-"""Commands that an installation has or lacks: each is of a package of its own, or of use to plug-ins only."""
+"""Commands that an installation may lack: each comes in a package of its own, or is useful to plug-ins only."""
 
-_PACKAGES_OF_ONE = re.compile(
+_MISSING_PACKAGES = re.compile(
     r"\s*(ament_copyright|ament_lint|composition_interfaces|launch|launch_\w+|osrf_pycommon|ros2\w+|rosidl_runtime_py)\b"
 )
-"""A line of a list of packages, or of what they have, that begins with a package which the wheels lack."""
+"""Matches a line that starts with a package which the wheels lack, in a list of packages or of their contents."""
 
 _CHOICES = re.compile(r"(?<=\(choose from )[^()]+(?=\))")
 _LISTS = re.compile(r"ros2 (pkg list|interface (list|packages))\b")
 _MEASURES = re.compile(r"ros2 topic (hz|bw|delay)\b")
-_NOT_YET = re.compile(
+_EARLY_WARNING = re.compile(
     r"stdout: WARNING: topic \[\S+\] does not appear to be published yet$|stdout: waiting for service to become"
 )
-_ASKS = "stdout: requester: making request"
+_REQUEST = "stdout: requester: making request"
 
 
 def normalise(text: str, paths: Mapping[str, str], *, streams: bool) -> list[str]:
-    """The lines that must agree.
+    """Return the lines that must agree.
 
-    `paths` maps folders of this machine to the names that they have in the records. Of a command that streams, the
-    number of samples depends on the moment of Ctrl+C, so each different line counts once, where it first came.
+    `paths` maps folders on this machine to their names in the records. How many samples a streaming command prints
+    depends on when Ctrl+C arrives, so only the first of several equal lines is kept.
     """
     for folder, name in sorted(paths.items(), key=lambda item: -len(item[0])):
         text = text.replace(folder, name)
-    for pattern, instead in [*_REPLACED, *_COUNTED]:
-        text = re.sub(pattern, instead, text, flags=re.MULTILINE)
+    for pattern, replacement in [*_VOLATILE, *_MEASURED]:
+        text = re.sub(pattern, replacement, text, flags=re.MULTILINE)
     lines = _fold_usage(_fold_tracebacks(text.replace("\r\n", "\n").split("\n")))
     lines = [line.rstrip() for line in lines]
     while lines and not lines[-1]:
@@ -94,41 +94,41 @@ def normalise(text: str, paths: Mapping[str, str], *, streams: bool) -> list[str
     return list(dict.fromkeys(lines)) if streams else lines
 
 
-def of_both(command: str, lines: list[str]) -> list[str]:
-    """A list of what is installed, without the packages that only one of the two installations has."""
-    return [line for line in lines if not (_LISTS.match(command) and _PACKAGES_OF_ONE.match(line))]
+def drop_missing_packages(command: str, lines: list[str]) -> list[str]:
+    """Drop the packages that only one of the two installations has from a list of what is installed."""
+    return [line for line in lines if not (_LISTS.match(command) and _MISSING_PACKAGES.match(line))]
 
 
-def without_early_warning(command: str, lines: list[str]) -> list[str]:
-    """Of two runs of the real one, one says that a live topic or service is not there yet: not told apart."""
-    goes_on = (_MEASURES.match(command) and len(lines) > 1) or any(line.startswith(_ASKS) for line in lines)
-    return [line for line in lines if not (goes_on and _NOT_YET.match(line))]
+def drop_early_warning(command: str, lines: list[str]) -> list[str]:
+    """Drop the warning that a live topic or service does not exist yet: the real `ros2` prints it in some runs only."""
+    goes_on = (_MEASURES.match(command) and len(lines) > 1) or any(line.startswith(_REQUEST) for line in lines)
+    return [line for line in lines if not (goes_on and _EARLY_WARNING.match(line))]
 
 
 def _fold_tracebacks(lines: list[str]) -> list[str]:
-    """A traceback becomes one word: what its lines say depends on the code that it is of.
+    """Replace each traceback by one word, as its lines depend on the code that raised it.
 
-    Those of several processes of a launch may be mixed; each has its own `[name-1] ` in front.
+    Tracebacks of several launched processes may be interleaved; each process has its own prefix, `[name-1] `.
     """
     folded: list[str] = []
-    within: set[str] = set()
+    open_tracebacks: set[str] = set()
     for line in lines:
         start = re.match(r"((?:\[[\w.]+-\d+\] )?).*Traceback \(most recent call last\):", line)
-        of = re.match(r"\[[\w.]+-\d+\] ", line)
-        prefix = of[0] if of else ""
+        tag = re.match(r"\[[\w.]+-\d+\] ", line)
+        prefix = tag[0] if tag else ""
         if start:
-            within.add(prefix)
+            open_tracebacks.add(prefix)
             folded.append(prefix + TRACEBACK)
-        elif prefix in within:
-            if not line.removeprefix(prefix).startswith(" "):  # the exception's own line ends it
-                within.discard(prefix)
+        elif prefix in open_tracebacks:
+            if not line.removeprefix(prefix).startswith(" "):  # the line of the exception is the last
+                open_tracebacks.discard(prefix)
         else:
             folded.append(line)
     return folded
 
 
 def _fold_usage(lines: list[str]) -> list[str]:
-    """A usage is one line, wherever it was wrapped; the help below it is everyone's own."""
+    """Join a wrapped usage into one line, and drop the help below it, whose wording may differ."""
     folded: list[str] = []
     usage: list[str] = []
     for line in lines:
@@ -143,18 +143,18 @@ def _fold_usage(lines: list[str]) -> list[str]:
             folded.append(line)
     if usage:
         folded.append(re.sub(r"\s+", " ", " ".join(usage)))
-    return _without_help(folded)
+    return _drop_help(folded)
 
 
-def _without_help(lines: list[str]) -> list[str]:
+def _drop_help(lines: list[str]) -> list[str]:
     if "Commands:" in lines and lines[0].startswith("usage: "):
         words = [
             line.split()[0] for line in lines[lines.index("Commands:") + 1 :] if line.startswith("  ") and line.strip()
         ]
-        return [lines[0], "Commands:", *(word for word in words if word not in ("Call", *_COMMANDS_OF_PLUGINS))]
-    return [_CHOICES.sub(_without_plugins, line) for line in lines]
+        return [lines[0], "Commands:", *(word for word in words if word not in ("Call", *_PLUGIN_COMMANDS))]
+    return [_CHOICES.sub(_drop_plugins, line) for line in lines]
 
 
-def _without_plugins(found: re.Match[str]) -> str:
-    names = (name for name in found[0].split(", ") if name.strip("'") not in _COMMANDS_OF_PLUGINS)
+def _drop_plugins(found: re.Match[str]) -> str:
+    names = (name for name in found[0].split(", ") if name.strip("'") not in _PLUGIN_COMMANDS)
     return ", ".join(names)

@@ -1,6 +1,6 @@
-"""Records of what the real `ros2` printed: one file, one command.
+"""Records of what the real `ros2` printed, one file per command.
 
-The form is described in the README beside the records: comment lines, `$ command`, then the sections `stdout`,
+The format is described in the README beside the records: comment lines, `$ command`, then the sections `stdout`,
 `stderr`, `exit code` and `ended`.
 """
 
@@ -23,24 +23,24 @@ class Output:
 
 @dataclass(frozen=True, slots=True)
 class Record:
-    """One command: where, how and with which nodes up it was run, and what it did."""
+    """One command: how it was run, with which nodes up, and its output."""
 
     name: str
     running: str
     command: str
     on_terminal: bool
     stdin: bytes | None
-    interrupt_after_s: float | None  # Ctrl+C was pressed then; None: it ended by itself
+    interrupt_after_s: float | None  # when Ctrl+C was pressed; None if it exited by itself
     output: Output
 
     @property
     def session(self) -> int:
-        """The number before the first underscore: records of one session share their nodes."""
+        """The number before the first underscore of the name; records of one session share their nodes."""
         found = re.match(r"s(\d+)_", self.name)
         return int(found[1]) if found else 0
 
 
-_SHAPE = re.compile(
+_FORMAT = re.compile(
     r"(?P<head>(?:#[^\n]*\n)*)\$ (?P<command>.*?)\n--- stdout\n(?P<stdout>.*?)--- stderr\n(?P<stderr>.*?)"
     r"--- exit code: (?P<code>-?\d+)\n--- ended: (?P<ended>[^\n]*)\n?\Z",
     re.DOTALL,
@@ -48,8 +48,8 @@ _SHAPE = re.compile(
 
 
 def read(file: Path) -> Record:
-    """Parse one file. Raises ValueError where it does not have the form."""
-    found = _SHAPE.match(file.read_text(encoding="utf-8"))
+    """Parse one file. Raise ValueError if it does not have the format."""
+    found = _FORMAT.match(file.read_text(encoding="utf-8"))
     if found is None:
         raise ValueError(f"{file} is not a record of a command")
     head = dict(line.removeprefix("# ").split(": ", 1) for line in found["head"].splitlines() if ": " in line)
@@ -66,5 +66,5 @@ def read(file: Path) -> Record:
 
 
 def read_all(folder: Path) -> list[Record]:
-    """Every record of a folder, in the order in which they were made."""
+    """Read all records in a folder, in the order in which they were made."""
     return sorted((read(file) for file in folder.glob("s*_*.txt")), key=lambda record: (record.session, record.name))

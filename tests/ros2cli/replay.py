@@ -1,9 +1,9 @@
-"""Runs recorded commands against our `ros2` and tells what is the same.
+"""Runs recorded commands with our `ros2` and compares the outputs.
 
     python -m tests.ros2cli.replay FOLDER [--only TEXT] [--session N] [--diff]
 
-prints a line for each record (same, wanted: differs on purpose, not supported, differs), a table, and ends with 1
-where something differs without a reason.
+Prints a line per record ("same", "wanted" for a deliberate difference, "not supported" or "differs") and a table.
+Exits with 1 if anything differs without a reason.
 """
 
 from __future__ import annotations
@@ -27,13 +27,13 @@ from itertools import groupby
 from pathlib import Path
 
 from tests.ros2cli import sessions
-from tests.ros2cli.normalising import TRACEBACK, normalise, of_both, without_early_warning
+from tests.ros2cli.normalising import TRACEBACK, drop_early_warning, drop_missing_packages, normalise
 from tests.ros2cli.records import Output, Record, read_all
 
 LIMIT_S = 60.0
-_WAITS = "stdout: waiting for service to become available..."
+_WAITING = "stdout: waiting for service to become available..."
 SAME, WANTED, UNSUPPORTED, DIFFERS = "same", "wanted", "not supported", "differs"
-_NODES_END = re.compile(rf"\[[\w.]+-\d+\] ({TRACEBACK}|KeyboardInterrupt|Exception ignored in: .*|\S+Error: .*)$")
+_NODE_END = re.compile(rf"\[[\w.]+-\d+\] ({TRACEBACK}|KeyboardInterrupt|Exception ignored in: .*|\S+Error: .*)$")
 _HINT = re.compile(r" \(is it [^()]+\?\)")
 _UNORDERED = re.compile(r"ros2 (launch|interface package) |bash -c")
 _STREAMING = re.compile(r"ros2 (topic (echo|hz|bw|delay|pub)|service (call -r|echo)|run|launch)\b")
@@ -41,7 +41,7 @@ _STREAMING = re.compile(r"ros2 (topic (echo|hz|bw|delay|pub)|service (call -r|ec
 
 @dataclass(frozen=True, slots=True)
 class Result:
-    """How a record came out, why where that needs a reason, and the difference, a line each."""
+    """Outcome of a record: its kind, the reason for a difference if there is one, and the lines of the diff."""
 
     record: Record
     kind: str
@@ -50,26 +50,28 @@ class Result:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Replay a folder of records, and print what came of it."""
+    """Replay a folder of records, and print the results."""
     parser = argparse.ArgumentParser(prog="python -m tests.ros2cli.replay", description=__doc__.split("\n")[0])
     parser.add_argument("folder", type=Path, help="the folder with the records")
-    parser.add_argument("--only", default="", metavar="TEXT", help="only records whose file or command holds TEXT")
+    parser.add_argument(
+        "--only", default="", metavar="TEXT", help="only records whose file name or command contains TEXT"
+    )
     parser.add_argument("--session", type=int, help="only this session")
-    parser.add_argument("--diff", action="store_true", help="print the differences, also the wanted ones")
-    given = parser.parse_args(arguments)
+    parser.add_argument("--diff", action="store_true", help="print all differences, including wanted ones")
+    options = parser.parse_args(arguments)
 
     records = [
         record
-        for record in read_all(given.folder)
-        if (given.only in record.name or given.only in record.command) and given.session in (None, record.session)
+        for record in read_all(options.folder)
+        if (options.only in record.name or options.only in record.command) and options.session in (None, record.session)
     ]
     counts: Counter[str] = Counter()
-    for result in replay(records):  # each as it comes
+    for result in replay(records):  # print each as it completes
         counts[result.kind] += 1
         print(f"{result.kind:13}  {result.record.name[:7].rstrip('_'):7} {result.record.command}", flush=True)
         if result.reason:
             print(f"{'':23} {result.reason}")
-        if result.kind == DIFFERS or given.diff:
+        if result.kind == DIFFERS or options.diff:
             for line in result.diff:
                 print(f"{'':23} {line}")
     total = sum(counts.values())
@@ -81,7 +83,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def replay(records: Sequence[Record]) -> Iterator[Result]:
-    """Run each record among the nodes that were up, and hold what it prints beside what was recorded."""
+    """Run each record's command with the nodes that were up at the time, and compare its output with the record."""
     with tempfile.TemporaryDirectory(prefix="ros2-replay-") as name:
         folder = Path(name)
         workspace = sessions.make_workspace(folder)
@@ -95,14 +97,14 @@ def replay(records: Sequence[Record]) -> Iterator[Result]:
         for file, text in sessions.FILES.items():
             (files / file).write_text(text, encoding="utf-8")
         for running, group in groupby(records, key=lambda record: record.running):
-            with sessions.running(sessions.commands_of(running), env, files):
+            with sessions.running(sessions.start_commands(running), env, files):
                 for record in group:
                     output = run(record, env, files)
-                    yield judge(record, output, {str(workspace): "$WORKSPACE", **_prefixes()})
+                    yield compare(record, output, {str(workspace): "$WORKSPACE", **_prefixes()})
 
 
 def run(record: Record, env: Mapping[str, str], cwd: Path) -> Output:
-    """Run the command as it was run: on a terminal or with pipes, with Ctrl+C at its moment."""
+    """Run the command as recorded: on a terminal or with pipes, and with Ctrl+C after the same time."""
     return _on_terminal(record, env, cwd) if record.on_terminal else _with_pipes(record, env, cwd)
 
 
@@ -112,9 +114,8 @@ def _with_pipes(record: Record, env: Mapping[str, str], cwd: Path) -> Output:
         stdin=subprocess.PIPE if record.stdin is not None else subprocess.DEVNULL,
         stdout=subprocess.PIPE, stderr=subprocess.PIPE,
     )  # fmt: skip
-    given = record.stdin
     try:
-        stdout, stderr = process.communicate(given, timeout=record.interrupt_after_s or LIMIT_S)
+        stdout, stderr = process.communicate(record.stdin, timeout=record.interrupt_after_s or LIMIT_S)
     except subprocess.TimeoutExpired:
         if record.interrupt_after_s is not None:
             os.killpg(process.pid, signal.SIGINT)
@@ -141,7 +142,7 @@ def _on_terminal(record: Record, env: Mapping[str, str], cwd: Path) -> Output:
         if select.select([terminal], [], [], 0.1)[0]:
             try:
                 seen += os.read(terminal, 65536)
-            except OSError:  # the last one that had it open is gone
+            except OSError:  # the last process that had the terminal open is gone
                 break
     else:
         os.kill(pid, signal.SIGKILL)
@@ -150,56 +151,57 @@ def _on_terminal(record: Record, env: Mapping[str, str], cwd: Path) -> Output:
     return Output(seen.decode(errors="replace"), "", os.waitstatus_to_exitcode(status))
 
 
-def judge(record: Record, ours: Output, paths: Mapping[str, str]) -> Result:
-    """Hold ours beside the recorded output, line by line but for what differs from run to run."""
+def compare(record: Record, ours: Output, paths: Mapping[str, str]) -> Result:
+    """Compare our output with the recorded one, line by line and apart from what differs from run to run."""
     recorded, printed = _lines(record, record.output, paths), _lines(record, ours, paths)
     if recorded == printed:
         return Result(record, SAME, "", ())
     diff = tuple(difflib.unified_diff(recorded, printed, "recorded", "ours", lineterm="", n=1))
     if ours.code == 2 and "not supported" in ours.stderr:
         return Result(record, UNSUPPORTED, ours.stderr.strip().splitlines()[-1], diff)
-    reason = _kinder(record, recorded, printed) or _wanted(record.command, recorded, printed)
+    reason = _improvement(record, recorded, printed) or _wanted(record.command, recorded, printed)
     return Result(record, WANTED, reason, diff) if reason else Result(record, DIFFERS, "", diff)
 
 
 def _lines(record: Record, output: Output, paths: Mapping[str, str]) -> list[str]:
     streams = bool(_STREAMING.search(record.command))
-    told = []
+    lines = []
     for name, text in (("stdout", output.stdout), ("stderr", output.stderr)):
         found = normalise(text, paths, streams=streams)
-        if " launch " in record.command:  # how a node ends depends on what it is doing when Ctrl+C comes
-            found = [line for line in found if not _NODES_END.match(line)]
-        found = of_both(record.command, found)
-        told += [f"{name}: {line}" for line in (sorted(found) if _UNORDERED.match(record.command) else found)]
-    return [*without_early_warning(record.command, told), f"exit code: {output.code}"]
+        if " launch " in record.command:  # how a node ends depends on what it is doing when Ctrl+C arrives
+            found = [line for line in found if not _NODE_END.match(line)]
+        found = drop_missing_packages(record.command, found)
+        lines += [f"{name}: {line}" for line in (sorted(found) if _UNORDERED.match(record.command) else found)]
+    return [*drop_early_warning(record.command, lines), f"exit code: {output.code}"]
 
 
-def _kinder(record: Record, recorded: Sequence[str], printed: Sequence[str]) -> str:
-    """Why ours may differ, whatever the command; empty where it may not. The exit code is always the recorded one."""
+def _improvement(record: Record, recorded: Sequence[str], printed: Sequence[str]) -> str:
+    """Return why ours may differ, whatever the command, or "" if it may not. The exit code must always agree."""
     if recorded[-1] != printed[-1]:
         return ""
     if TRACEBACK in " ".join(recorded) and TRACEBACK not in " ".join(printed):
         return "one line instead of a traceback, with the same exit code"
     if list(recorded) == [_HINT.sub("", line) for line in printed]:
-        return "ours adds the name that is much like it"
+        return "ours suggests a similar name"
     rest = iter(printed)
-    told = [line for line in recorded if line != _WAITS]  # ours says so, too, but only where it has to wait
-    if record.interrupt_after_s and all(line in rest for line in told):  # `in` goes on from the line found last
+    needed = [line for line in recorded if line != _WAITING]  # ours prints this too, but only if it has to wait
+    if record.interrupt_after_s and all(line in rest for line in needed):  # `in` resumes after the line found last
         return f"within the {record.interrupt_after_s:g} s until Ctrl+C, ours got further"
     return ""
 
 
 def _wanted(command: str, recorded: Sequence[str], printed: Sequence[str]) -> str:
+    """Return the reason that wanted.toml gives for the difference, or "" if there is none."""
     known = tomllib.loads((Path(__file__).parent / "wanted.toml").read_text(encoding="utf-8"))["wanted"]
     for each in known:
         lacks = [f"stdout: {line}" for line in each.get("lacks", ())]
         if re.fullmatch(each["command"], command):
-            return each["reason"] if not lacks or [it for it in recorded if it not in lacks] == printed else ""
+            return each["reason"] if not lacks or [line for line in recorded if line not in lacks] == printed else ""
     return ""
 
 
 def _prefixes() -> dict[str, str]:
-    """The folders of the bundled ROS, as the records call them."""
+    """Return the folders of the bundled ROS, with their name in the records."""
     site = Path(sys.prefix) / "lib" / f"python3.{sys.version_info[1]}" / "site-packages"
     return {str(site): "$ROS", sys.prefix: "$ROS", str(sessions.ROOT): "$ROS"}
 

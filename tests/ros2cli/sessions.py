@@ -1,4 +1,4 @@
-"""The surroundings of a record: the workspace with our solutions, the nodes that are up, the files beside it."""
+"""The environment of a record: the workspace with our solutions, the running nodes, the files in its folder."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from tutor.ros.environment import detect
 from tutor.workspace import Workspace, domain_of
 
 ROOT = Path(__file__).resolve().parents[2]
-TOOL = str(Path(sys.executable).with_name("ros-tutor"))
+TUTOR = str(Path(sys.executable).with_name("ros-tutor"))
 
 FILES = {
     "bad.yaml": "/parameterized_publisher:\n  ros__parameters:\n    message_prefix: Half\n    publish_rate: -4.0\n",
@@ -32,32 +32,32 @@ FILES = {
 
 
 def make_workspace(folder: Path) -> Path:
-    """A workspace with every solution in my_package, as a learner who has solved everything has it."""
+    """Create a workspace with all solutions in my_package, like that of a learner who has solved everything."""
     workspace = folder / "ws"
     subprocess.run(
-        [TOOL, "--workspace", str(workspace), "start", "i1.1"],
+        [TUTOR, "--workspace", str(workspace), "start", "i1.1"],
         cwd=ROOT, check=True, capture_output=True,
     )  # fmt: skip
     package = workspace / "src" / "my_package"
     for solution in sorted(ROOT.glob("lessons/*/solution/*")):
-        place = package / ("launch" if "launch" in solution.name else "my_package") / solution.name
+        target = package / ("launch" if "launch" in solution.name else "my_package") / solution.name
         if solution.is_file():
-            place.write_bytes(solution.read_bytes())
+            target.write_bytes(solution.read_bytes())
     return workspace
 
 
 def shell_environment(workspace: Path, tools: Path) -> dict[str, str]:
-    """What a command finds in its environment in `ros-tutor shell`; `tools` is to live as long as it is used."""
+    """Return the environment of commands in `ros-tutor shell`. The folder `tools` must exist as long as it is used."""
     return sourced_environment(detect(), workspace, domain_of(Workspace(workspace)), tools)
 
 
-def commands_of(running: str) -> list[str]:
-    """The commands that start what a record says is running."""
+def start_commands(running: str) -> list[str]:
+    """Return the commands that start the nodes a record describes as running."""
     if running.startswith(("no nodes", "nothing")):
         return []
     found = re.search(r"ros2 (run|launch) [^()]*", running)
     if found is None:
-        raise ValueError(f"what is to be started? {running}")
+        raise ValueError(f"no command to start: {running}")
     command = found[0].strip()
     if command.endswith(", twice") or "twice" in running:
         return [command.removesuffix(", twice")] * 2
@@ -69,8 +69,8 @@ def commands_of(running: str) -> list[str]:
 
 @contextlib.contextmanager
 def running(commands: list[str], env: Mapping[str, str], cwd: Path) -> Iterator[None]:
-    """Nodes that are up meanwhile, each ended by Ctrl+C. Raises TimeoutError where they do not come up within 30 s."""
-    before = _nodes(env, cwd) if commands else 0
+    """Keep nodes up during the block, then end each with Ctrl+C. Raise TimeoutError if they are not up within 30 s."""
+    before = _count_nodes(env, cwd) if commands else 0
     started: list[subprocess.Popen[bytes]] = []
     try:
         for command in commands:
@@ -80,10 +80,10 @@ def running(commands: list[str], env: Mapping[str, str], cwd: Path) -> Iterator[
                     stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
                 )
             )  # fmt: skip
-        wanted = before + sum(2 if " launch " in command else 1 for command in commands)
-        limit = time.monotonic() + 30
-        while _nodes(env, cwd) < wanted:
-            if time.monotonic() > limit:
+        expected = before + sum(2 if " launch " in command else 1 for command in commands)
+        deadline = time.monotonic() + 30
+        while _count_nodes(env, cwd) < expected:
+            if time.monotonic() > deadline:
                 raise TimeoutError(f"{commands} did not come up")
         yield
     finally:
@@ -91,13 +91,13 @@ def running(commands: list[str], env: Mapping[str, str], cwd: Path) -> Iterator[
             end(process)
 
 
-def _nodes(env: Mapping[str, str], cwd: Path) -> int:
+def _count_nodes(env: Mapping[str, str], cwd: Path) -> int:
     listed = subprocess.run(["ros2", "node", "list"], env=env, cwd=cwd, capture_output=True, check=False)
     return len(listed.stdout.split())
 
 
 def end(process: subprocess.Popen[bytes]) -> None:
-    """Press Ctrl+C; whatever has not ended after 10 s is killed."""
+    """Press Ctrl+C, and kill whatever has not exited after 10 s."""
     for number in (signal.SIGINT, signal.SIGKILL):
         with contextlib.suppress(ProcessLookupError):
             os.killpg(process.pid, number)

@@ -1,4 +1,4 @@
-"""The grammar of ros2, and how it ends."""
+"""The command-line grammar of ros2, and its exit codes."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def test_help_is_on_stdout(bench: Bench, words: list[str]) -> None:
     assert (ran.stderr, ran.code) == ("", 0)
 
 
-def test_a_wrong_word_is_told_as_ros2cli_does(bench: Bench) -> None:
+def test_wrong_words_are_reported_as_by_ros2cli(bench: Bench) -> None:
     wrong_command, wrong_verb = bench.ros2("topik", "list"), bench.ros2("topic", "frobnicate")
     assert (wrong_command.code, wrong_verb.code) == (2, 2)
     assert wrong_command.stderr.startswith(

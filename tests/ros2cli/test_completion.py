@@ -1,4 +1,4 @@
-"""What Tab offers, asked for as a shell asks: by argcomplete's variables."""
+"""Tab completion, requested as a shell does, through argcomplete's variables."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from tests.ros2cli.bench import Bench, command
 SEPARATOR = "\013"
 
 
-def offers(bench: Bench, line: str) -> list[str]:
-    """What is offered for the last word of a line."""
+def complete(bench: Bench, line: str) -> list[str]:
+    """Return the completions of a line's last word."""
     answer = bench.folder / "offers"
-    asked = {
+    variables = {
         "_ARGCOMPLETE": "1",
         "_ARGCOMPLETE_IFS": SEPARATOR,
         "_ARGCOMPLETE_SHELL": "bash",
@@ -22,11 +22,11 @@ def offers(bench: Bench, line: str) -> list[str]:
         "COMP_POINT": str(len(line)),
         "COMP_TYPE": "9",
     }
-    subprocess.run(command(), env={**bench.env, **asked}, cwd=bench.folder, timeout=60, check=False)
-    return [offer for offer in answer.read_text().split(SEPARATOR) if offer]
+    subprocess.run(command(), env={**bench.env, **variables}, cwd=bench.folder, timeout=60, check=False)
+    return [word for word in answer.read_text().split(SEPARATOR) if word]
 
 
-def test_launch_offers_packages_their_launch_files_and_paths(bench: Bench) -> None:
+def test_launch_completes_packages_launch_files_and_paths(bench: Bench) -> None:
     package = bench.folder / "ws" / "src" / "mine"
     (package / "launch").mkdir(parents=True)
     (package / "package.xml").write_text("<package format='3'><name>mine</name></package>")
@@ -35,13 +35,13 @@ def test_launch_offers_packages_their_launch_files_and_paths(bench: Bench) -> No
     (package / "mine" / "__init__.py").touch()
     for name in ("my_launch.py", "my.launch.xml", "notes.txt"):
         (package / "launch" / name).touch()
-    assert {"mine", "demo_nodes_py"} <= set(offers(bench, "ros2 launch "))
-    assert offers(bench, "ros2 launch min") == ["mine"]
-    assert offers(bench, "ros2 launch mine my") == ["my.launch.xml", "my_launch.py"]
-    assert offers(bench, "ros2 launch nope m") == []
-    assert offers(bench, "ros2 launch ws/src/mine/launch/m") == [
+    assert {"mine", "demo_nodes_py"} <= set(complete(bench, "ros2 launch "))
+    assert complete(bench, "ros2 launch min") == ["mine"]
+    assert complete(bench, "ros2 launch mine my") == ["my.launch.xml", "my_launch.py"]
+    assert complete(bench, "ros2 launch nope m") == []
+    assert complete(bench, "ros2 launch ws/src/mine/launch/m") == [
         "ws/src/mine/launch/my.launch.xml",
         "ws/src/mine/launch/my_launch.py",
     ]
-    assert offers(bench, "ros2 launch ws/sr") == ["ws/src/"]
-    assert all(offer.startswith("-") for offer in offers(bench, "ros2 launch mine my_launch.py "))
+    assert complete(bench, "ros2 launch ws/sr") == ["ws/src/"]
+    assert all(word.startswith("-") for word in complete(bench, "ros2 launch mine my_launch.py "))

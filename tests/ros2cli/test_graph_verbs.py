@@ -28,7 +28,7 @@ def allow(given):
 node.add_on_set_parameters_callback(allow)
 spin(node)
 """
-TELLING_SERVER = SERVER.replace(
+INTROSPECTED_SERVER = SERVER.replace(
     'node.create_service(AddTwoInts, "/add", add)',
     """
 from rclpy.qos import qos_profile_system_default
@@ -49,14 +49,14 @@ def test_nodes_are_listed_and_described(bench: Bench) -> None:
     with bench.node(SERVER), bench.node(TALKER):
         assert bench.ros2("node", "list") == Ran("/math/server\n/talker\n", "", 0)
         assert bench.ros2("node", "list", "-c").stdout == "2\n"
-        told = bench.ros2("node", "info", NODE).stdout.splitlines()
-        assert told[:3] == [NODE, "  Subscribers:", ""]
-        assert "    /add: example_interfaces/srv/AddTwoInts" in told[told.index("  Service Servers:") :]
-        assert told[-4:] == ["  Action Servers:", "", "  Action Clients:", ""]
+        info = bench.ros2("node", "info", NODE).stdout.splitlines()
+        assert info[:3] == [NODE, "  Subscribers:", ""]
+        assert "    /add: example_interfaces/srv/AddTwoInts" in info[info.index("  Service Servers:") :]
+        assert info[-4:] == ["  Action Servers:", "", "  Action Clients:", ""]
         assert bench.ros2("node", "info", "/nope") == Ran("", "Unable to find node '/nope'\n", 1)
 
 
-def test_two_nodes_of_one_name_are_told(bench: Bench) -> None:
+def test_duplicate_node_names_are_reported(bench: Bench) -> None:
     with bench.node(TALKER), bench.node(TALKER):
         listed = bench.ros2("node", "list")
         assert listed.stdout == "/talker\n/talker\n"
@@ -105,13 +105,13 @@ def test_a_wait_for_a_service_says_what_is_missing(bench: Bench) -> None:
         assert waiting.error() == "/add is there, but its type is example_interfaces/srv/AddTwoInts"
 
 
-def test_the_events_of_a_service_are_shown(bench: Bench) -> None:
+def test_service_events_are_echoed(bench: Bench) -> None:
     assert bench.ros2("service", "echo", "/add") == Ran("", "Cannot find type for '/add'\n", 1)
     assert bench.ros2("service", "echo", "/add", "nopkg/srv/X") == Ran(
         "", "The service type 'nopkg/srv/X' is invalid\n", 1
     )
     call = ("service", "call", "-r", "5", "/add", "example_interfaces/srv/AddTwoInts", "{a: 1, b: 2}")
-    with bench.node(TELLING_SERVER), bench.running(*call):
+    with bench.node(INTROSPECTED_SERVER), bench.running(*call):
         with bench.running("service", "echo", "--csv", "/add") as heard:
             assert heard.line().split(",")[0] in ("1", "2")  # REQUEST_RECEIVED, RESPONSE_SENT
         with bench.running("service", "echo", "--flow-style", "/add") as heard:
@@ -162,7 +162,7 @@ def test_a_dump_can_be_loaded(bench: Bench) -> None:
         assert bench.ros2("param", "load", NODE, "nope.yaml").code == 1
 
 
-def test_actions_of_which_there_are_none(bench: Bench) -> None:
+def test_action_verbs_without_any_actions(bench: Bench) -> None:
     assert bench.ros2("action", "list") == Ran("", "", 0)
     assert bench.ros2("action", "list", "-c").stdout == "0\n"
     assert bench.ros2("action", "type", "/x") == Ran("", "", 1)
@@ -173,17 +173,17 @@ def test_actions_of_which_there_are_none(bench: Bench) -> None:
     assert bench.ros2("action", "send_goal", "/x", "nopkg/action/X").stderr == "The passed action type is invalid\n"
 
 
-def test_the_doctor_names_a_topic_that_nobody_hears(bench: Bench) -> None:
+def test_doctor_names_a_topic_without_subscribers(bench: Bench) -> None:
     with users_domain() as domain:
         bench.env["ROS_DOMAIN_ID"] = str(domain)
         with bench.node(TALKER):
-            told = bench.ros2("doctor")
-    assert told == Ran(
+            ran = bench.ros2("doctor")
+    assert ran == Ran(
         "UserWarning: Publisher without subscriber detected on /chatter.\n\nAll 3 checks passed\n\n", "", 0
     )
 
 
-def test_what_a_parameter_holds_steers_no_terminal_and_is_piped_as_it_is(bench: Bench) -> None:
+def test_escape_sequences_in_a_parameter_are_escaped_on_a_terminal_only(bench: Bench) -> None:
     words = ("param", "get", "--hide-type", "/hostile", "a[/]gain")
     with bench.node(HOSTILE):
         with terminal(command(*words), bench.env, bench.folder) as shown:

@@ -1,4 +1,4 @@
-"""Each command of each lesson, as it is written, in `ros-tutor shell` with our solution: it prints what is shown."""
+"""Each command of each lesson, run verbatim in `ros-tutor shell` with our solution, prints what the lesson shows."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ import pytest
 
 from tests.ros.users_domain import users_domain
 from tests.ros2cli.bench import Bench
-from tests.ros2cli.lesson_commands import Command, commands
+from tests.ros2cli.lesson_commands import Command, find_commands
 from tutor.content import load_course
 from tutor.content.model import Lesson
 from tutor.ros.discovery import PROFILE
@@ -25,28 +25,28 @@ from tutor.workspace import Workspace
 
 TUTOR = [sys.executable, "-P", "-c", "import sys; from tutor.cli import main; sys.exit(main())"]
 LIMIT_S = 90.0
-LOOK_EVERY_S = 0.05
+POLL_S = 0.05
 LESSONS = {lesson.id: lesson for lesson in load_course().lessons}
 
 
 class Shell:
-    """`ros-tutor shell` on a domain of its own: command lines are run in its environment, in the learner's folder."""
+    """`ros-tutor shell` on a domain of its own. Command lines run in its environment, in the learner's folder."""
 
     def __init__(self, bench: Bench, workspace: Workspace) -> None:
         profile = bench.folder / "profile.xml"
         profile.write_bytes(PROFILE.read_bytes())
         names = ("PATH", "LANG", "ROS_DOMAIN_ID", "HOME", "TMPDIR", "ROS_AUTOMATIC_DISCOVERY_RANGE", "ROS_TUTOR_GROUP")
-        users = {name: bench.env[name] for name in names if name in bench.env}
-        users |= {name: str(profile) for name, value in bench.env.items() if value == str(PROFILE)}
+        user_env = {name: bench.env[name] for name in names if name in bench.env}
+        user_env |= {name: str(profile) for name, value in bench.env.items() if value == str(PROFILE)}
         self._workspace = workspace
-        self._users = {**users, "SHELL": shutil.which("bash") or "bash"}
+        self._user_env = {**user_env, "SHELL": shutil.which("bash") or "bash"}
         self._outputs = bench.folder / "outputs"
         self._outputs.mkdir()
         self._count = 0
 
     @contextmanager
     def open(self) -> Iterator[None]:
-        """The shell itself, which holds the programs that its command lines need."""
+        """Run the shell itself during the block: it provides the programs that the command lines need."""
         words = [
             *TUTOR,
             "shell",
@@ -55,7 +55,7 @@ class Shell:
             "-c",
             "cat /proc/self/environ; exec sleep 600",
         ]
-        with subprocess.Popen(words, env=self._users, stdout=subprocess.PIPE, process_group=0) as shell:
+        with subprocess.Popen(words, env=self._user_env, stdout=subprocess.PIPE, process_group=0) as shell:
             assert shell.stdout is not None
             read = b""
             while not read.endswith(b"\0"):
@@ -71,17 +71,17 @@ class Shell:
         shutil.rmtree(Path(self.env["PATH"].partition(":")[0]).parent, ignore_errors=True)
 
     @contextmanager
-    def started(self, line: str) -> Iterator[Started]:
-        """A command line, in a process group of its own; Ctrl+C is pressed at the end, where it still runs."""
+    def start(self, line: str) -> Iterator[Started]:
+        """Start a command line in its own process group. After the block, press Ctrl+C if it is still running."""
         self._count += 1
         path = self._outputs / str(self._count)
         folder = self._workspace.path_of("node.py").parent
-        with path.open("wb") as to:
+        with path.open("wb") as output:
             process = subprocess.Popen(
                 ["bash", "-c", line],
                 env=self.env,
                 cwd=folder if folder.is_dir() else self._outputs,
-                stdout=to,
+                stdout=output,
                 stderr=subprocess.STDOUT,
                 process_group=0,
             )
@@ -93,7 +93,7 @@ class Shell:
 
 
 class Started:
-    """A command line that runs, or has run."""
+    """A command line that is running or has finished."""
 
     def __init__(self, line: str, process: subprocess.Popen[bytes], path: Path) -> None:
         self.line = line
@@ -109,60 +109,65 @@ class Started:
         return self._process.poll()
 
     def interrupt(self) -> None:
-        """Press Ctrl+C, and see to it that nothing is left."""
+        """Press Ctrl+C, and kill whatever is left."""
         for number, limit_s in ((signal.SIGINT, 15.0), (signal.SIGKILL, 5.0)):
             with suppress(ProcessLookupError):
                 os.killpg(self._process.pid, number)
             with suppress(subprocess.TimeoutExpired):
                 self._process.wait(limit_s)
 
-    def until(self, command: Command, *, ends: bool = False, prints: bool = False) -> None:
-        """Wait until it shows what the lesson shows; where it `ends`, for its end, where it `prints`, for anything."""
+    def wait_for(self, command: Command, *, ends: bool = False, prints: bool = False) -> None:
+        """Wait until the output matches the lesson; with `ends`, also for the exit; with `prints`, for any output."""
         deadline = time.monotonic() + LIMIT_S
-        while (ends and self.code is None) or (prints and not self.output) or not command.shows(self.output):
-            assert self.code is None or command.shows(self.output), self._told(command)
-            assert time.monotonic() < deadline, self._told(command)
-            time.sleep(LOOK_EVERY_S)
+        while (ends and self.code is None) or (prints and not self.output) or not command.matches(self.output):
+            assert self.code is None or command.matches(self.output), self._mismatch(command)
+            assert time.monotonic() < deadline, self._mismatch(command)
+            time.sleep(POLL_S)
 
-    def _told(self, command: Command) -> str:
+    def _mismatch(self, command: Command) -> str:
         shown = "\n".join(command.shown)
         return f"`{command.line}` is shown as\n{shown}\nbut printed (exit code {self.code})\n{self.output}"
 
 
 @pytest.mark.timeout(600)
 @pytest.mark.parametrize("lesson", LESSONS.values(), ids=lambda lesson: lesson.id)
-def test_each_command_of_a_lesson_does_what_it_shows(bench: Bench, lesson: Lesson) -> None:
+def test_each_command_of_a_lesson_prints_what_the_lesson_shows(bench: Bench, lesson: Lesson) -> None:
     workspace = Workspace(bench.folder / "ws")
     with ExitStack() as nodes:
         bench.env["ROS_DOMAIN_ID"] = str(nodes.enter_context(users_domain()))
         shell = Shell(bench, workspace)
         nodes.enter_context(shell.open())
         running: list[Started] = []
-        for command in commands(lesson.body):
+        for command in find_commands(lesson.body):
             if is_check(command.line):
-                continue  # tests of the checks do that
+                continue  # covered by the tests of the checks
             if is_node(command.line):
-                # As a learner would: a launch, or a program, is ended before it is started again.
-                for other in [each for each in running if program(each.line) == program(command.line)]:
+                # As a learner would, end a program or launch before starting it again.
+                for other in [each for each in running if program_words(each.line) == program_words(command.line)]:
                     other.interrupt()
                     running.remove(other)
                 before = node_names(shell)
-                node = nodes.enter_context(shell.started(command.line))
-                node.until(command)
+                node = nodes.enter_context(shell.start(command.line))
+                node.wait_for(command)
                 await_new_node(shell, before, node)
                 running.append(node)
             else:
-                with shell.started(command.line) as started:
+                with shell.start(command.line) as started:
                     endless = is_endless(command.line)
-                    started.until(command, ends=not endless, prints=endless)
+                    started.wait_for(command, ends=not endless, prints=endless)
                     assert endless or started.code == 0, f"`{command.line}`: {started.code}\n{started.output}"
                     started.interrupt()
                     assert not endless or started.code in (2, -signal.SIGINT), started.output
                     assert "Traceback" not in started.output
             if command.line.startswith("ros-tutor start"):
-                put_solution(lesson, workspace)
-        still = [f"{node.line}\n{node.output}" for node in running if node.code not in (None, 0)]
-        assert not still, still
+                copy_solution(lesson, workspace)
+        failed = [f"{node.line}\n{node.output}" for node in running if node.code not in (None, 0)]
+        assert not failed, failed
+
+
+def split_words(line: str) -> list[str]:
+    """Split a command line like a shell, across continuation lines and without comments."""
+    return shlex.split(line.replace("\\\n", " "), comments=True)
 
 
 def is_check(line: str) -> bool:
@@ -170,7 +175,7 @@ def is_check(line: str) -> bool:
 
 
 def is_node(line: str) -> bool:
-    words = shlex.split(line.replace("\\\n", " "), comments=True)
+    words = split_words(line)
     words = words[1:] if words[0] == "ros-tutor" else words
     if words[0] == "run" or words[:2] == ["ros2", "run"]:
         return True
@@ -179,13 +184,13 @@ def is_node(line: str) -> bool:
     return words[:2] == ["ros2", "launch"] and not {"-s", "--show-args", "--show-arguments", "-p", "--print"} & {*words}
 
 
-def program(line: str) -> tuple[str, ...]:
-    """What tells one node's command from another's: all words but its arguments."""
-    return tuple(shlex.split(line.replace("\\\n", " "), comments=True)[:4])[: 2 if "launch" in line else 4]
+def program_words(line: str) -> tuple[str, ...]:
+    """Return the words that identify a node's command: all but its arguments."""
+    return tuple(split_words(line)[:4])[: 2 if "launch" in line else 4]
 
 
 def is_endless(line: str) -> bool:
-    words = shlex.split(line.replace("\\\n", " "), comments=True)
+    words = split_words(line)
     return words[:2] == ["ros2", "topic"] and words[2] in ("echo", "hz", "bw", "delay") and "--once" not in words
 
 
@@ -197,7 +202,7 @@ def node_names(shell: Shell) -> list[str]:
 
 
 def await_new_node(shell: Shell, before: list[str], node: Started) -> None:
-    """Wait until there are more nodes than before, or the program has done its work."""
+    """Wait until there are more nodes than before, or until the program has exited with 0."""
     deadline = time.monotonic() + LIMIT_S
     while len(node_names(shell)) <= len(before):
         if node.code is not None:
@@ -206,6 +211,6 @@ def await_new_node(shell: Shell, before: list[str], node: Started) -> None:
         assert time.monotonic() < deadline, node.output
 
 
-def put_solution(lesson: Lesson, workspace: Workspace) -> None:
+def copy_solution(lesson: Lesson, workspace: Workspace) -> None:
     for file in lesson.files:
         shutil.copyfile(file.solution, workspace.path_of(file.name))

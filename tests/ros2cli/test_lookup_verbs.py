@@ -1,4 +1,4 @@
-"""ros2 interface and ros2 pkg, which ask no node."""
+"""ros2 interface and ros2 pkg, which need no nodes."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def test_a_definition_is_shown_with_nested_types_below_their_fields(bench: Bench
 
 
 def test_comments_are_left_out_as_by_rosidls_parser(bench: Bench) -> None:
-    # It reads line by line: of a comment behind a field it leaves the sign, and keeps lines that start with spaces.
+    # It works line by line: it leaves the # of a comment after a field, and keeps comment lines that are indented.
     bare = bench.ros2("interface", "show", "--no-comments", "stereo_msgs/msg/DisparityImage").stdout.splitlines()
     assert "float32 f #" in bare
     assert "\tstd_msgs/Header header #" in bare
@@ -40,7 +40,7 @@ def test_comments_are_left_out_as_by_rosidls_parser(bench: Bench) -> None:
     )
 
 
-def test_what_is_not_there_is_named(bench: Bench) -> None:
+def test_missing_interfaces_and_packages_are_reported(bench: Bench) -> None:
     show = ("interface", "show")
     assert bench.ros2(*show, "std_msgs/String").stderr == (
         "Invalid name 'std_msgs/String'. Expected three parts separated by '/'\n"
@@ -70,12 +70,12 @@ def test_types_and_packages_are_listed(bench: Bench) -> None:
     assert "demo_nodes_py talker" in bench.ros2("pkg", "executables", "demo_nodes_py").stdout.splitlines()
 
 
-def test_what_the_doctor_cannot_report_is_refused_in_a_line(capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_unsupported_doctor_option_is_refused_in_one_line(capsys: pytest.CaptureFixture[str]) -> None:
     from tutor.bundled_ros.ros2.doctor import add_arguments, main
 
     parser = argparse.ArgumentParser()
     add_arguments(parser)
     assert main(parser.parse_args(["--report-failed"])) == 2
-    said = capsys.readouterr()
-    assert (said.out, said.err.count("\n")) == ("", 1)
-    assert "--report-failed is not supported" in said.err
+    captured = capsys.readouterr()
+    assert (captured.out, captured.err.count("\n")) == ("", 1)
+    assert "--report-failed is not supported" in captured.err

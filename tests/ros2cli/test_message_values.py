@@ -11,7 +11,7 @@ from tutor.bundled_ros.ros2.message_values import message_from_yaml, set_fields
 from tutor.errors import CommandError
 
 
-def of_text(type_name: str, text: str) -> Any:
+def parse_message(type_name: str, text: str) -> Any:
     from tutor.bundled_ros.ros2.interfaces import find_interface
 
     message = find_interface(type_name, "msg")()
@@ -32,35 +32,35 @@ def of_text(type_name: str, text: str) -> Any:
     ],
 )
 def test_values_are_converted_to_the_type_of_the_field(type_name: str, text: str, field: str, value: object) -> None:
-    found = getattr(of_text(type_name, text), field)
+    found = getattr(parse_message(type_name, text), field)
     assert (list(found) if isinstance(value, list) else found) == value
 
 
 def test_nested_messages_and_lists_of_them() -> None:
-    twist = of_text("geometry_msgs/msg/Twist", "{linear: {x: 2}, angular: {z: 1.8}}")
+    twist = parse_message("geometry_msgs/msg/Twist", "{linear: {x: 2}, angular: {z: 1.8}}")
     assert (twist.linear.x, twist.linear.y, twist.angular.z) == (2.0, 0.0, 1.8)
-    polygon = of_text("geometry_msgs/msg/Polygon", "points: [{x: 1.0}, {y: 2}]")
+    polygon = parse_message("geometry_msgs/msg/Polygon", "points: [{x: 1.0}, {y: 2}]")
     assert [(point.x, point.y) for point in polygon.points] == [(1.0, 0.0), (0.0, 2.0)]
-    pose = of_text("geometry_msgs/msg/PoseWithCovariance", f"covariance: {[0.5] * 36}")
+    pose = parse_message("geometry_msgs/msg/PoseWithCovariance", f"covariance: {[0.5] * 36}")
     assert list(pose.covariance) == [0.5] * 36
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "error"),
     [
         ("dat: hi", "'String' object has no attribute 'dat'"),
         ("hello", "Value 'hello' is expected to be a dictionary but is a str"),
         ("[1, 2]", "Value '[1, 2]' is expected to be a dictionary but is a list"),
     ],
 )
-def test_what_does_not_fit_is_named(text: str, said: str) -> None:
+def test_values_that_do_not_fit_are_reported(text: str, error: str) -> None:
     with pytest.raises((AttributeError, TypeError)) as caught:
-        of_text("std_msgs/msg/String", text)
-    assert str(caught.value) == said
+        parse_message("std_msgs/msg/String", text)
+    assert str(caught.value) == error
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "error"),
     [
         ("{data: null}", "Value 'None' is expected to be a dictionary but is a NoneType"),
         ("{data: [1]}", "Value '[1]' is expected to be a dictionary but is a list"),
@@ -68,15 +68,15 @@ def test_what_does_not_fit_is_named(text: str, said: str) -> None:
         ("{data: ten}", "invalid literal for int() with base 10: 'ten'"),
     ],
 )
-def test_a_number_that_is_none_is_told_as_rosidl_runtime_py_does(text: str, said: str) -> None:
+def test_invalid_numbers_are_reported_as_by_rosidl_runtime_py(text: str, error: str) -> None:
     from std_msgs.msg import Int64
 
     with pytest.raises(CommandError) as caught:
         message_from_yaml(Int64, text, failed="Failed: {}")
-    assert str(caught.value) == f"Failed: {said}"
+    assert str(caught.value) == f"Failed: {error}"
 
 
-def test_a_text_that_is_no_yaml_is_told_in_one_line() -> None:
+def test_invalid_yaml_is_reported_in_one_line() -> None:
     from std_msgs.msg import Int64
 
     with pytest.raises(CommandError, match=r"^The passed value is not YAML: expected ',' or '}'.*$"):

@@ -1,18 +1,18 @@
-"""How the replay tells what is the same, what may differ, and what may not."""
+"""How the replay classifies outputs: the same, different on purpose, or different without a reason."""
 
 from __future__ import annotations
 
 import pytest
 
 from tests.ros2cli.records import Output, Record
-from tests.ros2cli.replay import DIFFERS, SAME, WANTED, judge
+from tests.ros2cli.replay import DIFFERS, SAME, WANTED, compare
 
 PATHS = {"/tmp/x/ws": "$WORKSPACE", "/venv": "$ROS"}
 
 
-def kind(command: str, recorded: Output, ours: Output, *, ctrl_c_after_s: float | None = None) -> str:
+def classify(command: str, recorded: Output, ours: Output, *, ctrl_c_after_s: float | None = None) -> str:
     record = Record("s0_001", "no nodes", command, False, None, ctrl_c_after_s, recorded)
-    return judge(record, ours, PATHS).kind
+    return compare(record, ours, PATHS).kind
 
 
 def out(text: str, *, stderr: str = "", code: int = 0) -> Output:
@@ -68,10 +68,8 @@ def out(text: str, *, stderr: str = "", code: int = 0) -> Output:
         ),
     ],
 )
-def test_what_depends_on_the_installation_or_the_moment_is_the_same(
-    command: str, recorded: Output, ours: Output
-) -> None:
-    assert kind(command, recorded, ours) == SAME
+def test_differences_of_installation_and_timing_are_ignored(command: str, recorded: Output, ours: Output) -> None:
+    assert classify(command, recorded, ours) == SAME
 
 
 @pytest.mark.parametrize(
@@ -84,27 +82,27 @@ def test_what_depends_on_the_installation_or_the_moment_is_the_same(
     ],
 )
 def test_anything_else_differs(command: str, recorded: Output, ours: Output) -> None:
-    assert kind(command, recorded, ours) == DIFFERS
+    assert classify(command, recorded, ours) == DIFFERS
 
 
-def test_ours_may_be_kinder_with_the_same_exit_code() -> None:
+def test_ours_may_be_more_helpful_with_the_same_exit_code() -> None:
     traceback = out("", stderr="Traceback (most recent call last):\n  File x\nRCLError: bad\n", code=1)
-    assert kind("ros2 topic echo 'b d' x", traceback, out("", stderr="bad\n", code=1)) == WANTED
+    assert classify("ros2 topic echo 'b d' x", traceback, out("", stderr="bad\n", code=1)) == WANTED
     unknown = out("", stderr="Package 'my_pakage' not found\n", code=1)
     hint = out("", stderr="Package 'my_pakage' not found (is it my_package?)\n", code=1)
-    assert kind("ros2 run my_pakage x", unknown, hint) == WANTED
+    assert classify("ros2 run my_pakage x", unknown, hint) == WANTED
 
 
-def test_a_wanted_difference_may_be_certain_lines_only() -> None:
+def test_a_wanted_difference_may_be_limited_to_certain_lines() -> None:
     recorded = out("domain_coordinator\nstd_msgs\n")
-    assert kind("ros2 pkg list", recorded, out("std_msgs\n")) == WANTED
-    assert kind("ros2 pkg list", recorded, out("")) == DIFFERS
+    assert classify("ros2 pkg list", recorded, out("std_msgs\n")) == WANTED
+    assert classify("ros2 pkg list", recorded, out("")) == DIFFERS
 
 
-def test_until_ctrl_c_ours_may_get_further_but_not_less_far() -> None:
+def test_ours_may_get_further_until_ctrl_c_but_not_less_far() -> None:
     waits, answers = out("waiting\n", code=2), out("waiting\nrequest\n", code=2)
-    assert kind("ros2 service call /a x", waits, answers, ctrl_c_after_s=2.0) == WANTED
-    assert kind("ros2 service call /a x", answers, waits, ctrl_c_after_s=2.0) == DIFFERS
-    assert kind("ros2 service call /a x", waits, answers) == DIFFERS
+    assert classify("ros2 service call /a x", waits, answers, ctrl_c_after_s=2.0) == WANTED
+    assert classify("ros2 service call /a x", answers, waits, ctrl_c_after_s=2.0) == DIFFERS
+    assert classify("ros2 service call /a x", waits, answers) == DIFFERS
     waited = out("waiting for service to become available...\n", code=2)  # ours found it at once
-    assert kind("ros2 service call /a x", waited, out("request\n", code=2), ctrl_c_after_s=2.0) == WANTED
+    assert classify("ros2 service call /a x", waited, out("request\n", code=2), ctrl_c_after_s=2.0) == WANTED

@@ -28,7 +28,7 @@ if __name__ == "__main__":
 """
 
 
-def users_env(bench: Bench, **more: str) -> dict[str, str]:
+def user_env(bench: Bench, **more: str) -> dict[str, str]:
     """The environment of a user's terminal, on the bench's domain."""
     names = ("PATH", "LANG", "ROS_DOMAIN_ID", "HOME", "TMPDIR")
     kept = {name: bench.env[name] for name in names if name in bench.env}
@@ -40,7 +40,7 @@ def users_env(bench: Bench, **more: str) -> dict[str, str]:
     return {**kept, **discovery, "SHELL": shutil.which("bash") or "", "TERM": "dumb", **more}
 
 
-def tutor(bench: Bench, *words: str, env: dict[str, str]) -> Ran:
+def run_tutor(bench: Bench, *words: str, env: dict[str, str]) -> Ran:
     ran = subprocess.run(
         [*TUTOR, *words], env=env, cwd=bench.folder, capture_output=True, text=True, timeout=60, check=False
     )
@@ -49,31 +49,31 @@ def tutor(bench: Bench, *words: str, env: dict[str, str]) -> Ran:
 
 @pytest.fixture
 def workspace(bench: Bench) -> Iterator[Path]:
-    """A workspace with a node of the learner's, on a domain as users have them.
+    """A workspace with a node of the learner's, on an ordinary ROS domain such as users have.
 
-    It is kept to the test by a DDS profile of the user's.
+    A DDS profile of the user's keeps the traffic within the test.
     """
     with users_domain() as domain:
         bench.env["ROS_DOMAIN_ID"] = str(domain)
-        yield _workspace(bench)
+        yield _make_workspace(bench)
 
 
-def _workspace(bench: Bench) -> Path:
+def _make_workspace(bench: Bench) -> Path:
     profile = bench.folder / "profile.xml"
     profile.write_bytes(PROFILE.read_bytes())
     bench.env |= {name: str(profile) for name, value in bench.env.items() if value == str(PROFILE)}
     root = bench.folder / "ws"
-    assert tutor(bench, "start", "i1.1", "--workspace", str(root), env=users_env(bench)).code == 0
+    assert run_tutor(bench, "start", "i1.1", "--workspace", str(root), env=user_env(bench)).code == 0
     (root / "src/my_package/my_package/mine.py").write_text(NODE)
     return root
 
 
 def test_a_command_line_is_run_as_in_a_sourced_terminal(bench: Bench, workspace: Path) -> None:
-    env = users_env(bench)
+    env = user_env(bench)
     files = sorted(path for path in bench.folder.rglob("*") if "log" not in path.parts)
 
     def shell(line: str) -> Ran:
-        return tutor(bench, "shell", "--workspace", str(workspace), "-c", line, env=env)
+        return run_tutor(bench, "shell", "--workspace", str(workspace), "-c", line, env=env)
 
     with bench.node(TALKER):
         assert shell("ros2 topic type /chatter") == Ran("std_msgs/msg/String\n", "", 0)
@@ -89,20 +89,20 @@ def test_a_command_line_is_run_as_in_a_sourced_terminal(bench: Bench, workspace:
     assert [path for path in new if path not in files and not path.name.startswith("node_")] == []
 
 
-def test_the_domain_is_the_workspaces_where_none_is_set(bench: Bench, workspace: Path) -> None:
-    env = users_env(bench)
+def test_the_workspaces_domain_is_used_if_none_is_set(bench: Bench, workspace: Path) -> None:
+    env = user_env(bench)
     del env["ROS_DOMAIN_ID"]
-    domains = {tutor(bench, "shell", "--workspace", str(workspace), "-c", "echo $ROS_DOMAIN_ID", env=env).stdout}
+    domains = {run_tutor(bench, "shell", "--workspace", str(workspace), "-c", "echo $ROS_DOMAIN_ID", env=env).stdout}
     assert domains == {(workspace / ".ros-tutor/domain").read_text()}
 
 
-def test_a_ros2_that_is_there_is_the_one(bench: Bench, workspace: Path) -> None:
+def test_an_installed_ros2_takes_precedence(bench: Bench, workspace: Path) -> None:
     own = bench.folder / "own"
     own.mkdir()
     (own / "ros2").write_text("#!/bin/sh\necho the real one\n")
     (own / "ros2").chmod(0o755)
-    env = users_env(bench, PATH=f"{own}:{os.environ['PATH']}")
-    assert tutor(bench, "shell", "--workspace", str(workspace), "-c", "ros2", env=env).stdout == "the real one\n"
+    env = user_env(bench, PATH=f"{own}:{os.environ['PATH']}")
+    assert run_tutor(bench, "shell", "--workspace", str(workspace), "-c", "ros2", env=env).stdout == "the real one\n"
 
 
 RC = """
@@ -112,10 +112,10 @@ export AMENT_PREFIX_PATH=/opt/ros/other PATH=/somewhere/else:$PATH ROS_DISTRO=ot
 """
 
 
-def test_it_is_the_users_own_shell(bench: Bench, workspace: Path) -> None:
+def test_the_users_own_shell_is_run(bench: Bench, workspace: Path) -> None:
     (bench.folder / ".bashrc").write_text(RC)
     command = [*TUTOR, "shell", "--workspace", str(workspace)]
-    with bench.node(TALKER), terminal(command, users_env(bench), bench.folder) as shell:
+    with bench.node(TALKER), terminal(command, user_env(bench), bench.folder) as shell:
         shell.until("workspace ")
         shell.until("(ROS 2: ws) users> ")
         shell.type('echo "$FROM_RC, ${ROS_DISTRO-unset}, $?"\n')
@@ -145,10 +145,10 @@ def test_it_is_the_users_own_shell(bench: Bench, workspace: Path) -> None:
 
 
 @pytest.mark.skipif(shutil.which("zsh") is None, reason="zsh is not installed")
-def test_it_is_zsh_where_that_is_the_users(bench: Bench, workspace: Path) -> None:
+def test_zsh_is_run_if_it_is_the_users_shell(bench: Bench, workspace: Path) -> None:
     (bench.folder / ".zshrc").write_text("FROM_RC=read\nPROMPT='users> '\n")
     command = [*TUTOR, "shell", "--workspace", str(workspace)]
-    env = users_env(bench, SHELL=shutil.which("zsh") or "")
+    env = user_env(bench, SHELL=shutil.which("zsh") or "")
     with bench.node(TALKER), terminal(command, env, bench.folder) as shell:
         shell.until("(ROS 2: ws) users> ")
         shell.type('echo "$FROM_RC, ${ZDOTDIR-unset}"\n')
@@ -163,7 +163,7 @@ def test_it_is_zsh_where_that_is_the_users(bench: Bench, workspace: Path) -> Non
         assert shell.end() == 3
 
 
-def test_with_an_installed_ros_its_own_variables_stay(tmp_path: Path) -> None:
+def test_variables_of_an_installed_ros_are_kept(tmp_path: Path) -> None:
     from tutor.bundled_ros.ros2.sourced import setup_file, sourced_environment
     from tutor.ros.environment import RosEnvironment
 
@@ -182,13 +182,13 @@ def test_with_an_installed_ros_its_own_variables_stay(tmp_path: Path) -> None:
     assert setup_file(installed, tmp_path, "bash") == tmp_path / "install/local_setup.bash"
 
 
-@pytest.mark.parametrize("before", [[], ["nohup"]])
-def test_killed_it_takes_its_command_along(bench: Bench, workspace: Path, before: list[str]) -> None:
-    command = [*before, *TUTOR, "shell", "-c", "echo up; exec sleep 600", "--workspace", str(workspace)]
-    shell = subprocess.Popen(command, env=users_env(bench), stdout=subprocess.PIPE)
+@pytest.mark.parametrize("wrapper", [[], ["nohup"]])
+def test_killing_the_shell_kills_its_command(bench: Bench, workspace: Path, wrapper: list[str]) -> None:
+    command = [*wrapper, *TUTOR, "shell", "-c", "echo up; exec sleep 600", "--workspace", str(workspace)]
+    shell = subprocess.Popen(command, env=user_env(bench), stdout=subprocess.PIPE)
     assert shell.stdout is not None
     with shell.stdout:
         assert shell.stdout.readline() == b"up\n"
         shell.kill()
         shell.wait()
-        assert shell.stdout.read() == b""  # the command had it open
+        assert shell.stdout.read() == b""  # EOF: the command, which had the pipe open, is gone

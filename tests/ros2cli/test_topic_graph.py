@@ -22,15 +22,15 @@ spin(node)
 """
 
 
-def test_a_list_is_complete_at_once(bench: Bench) -> None:
+def test_the_topic_list_is_complete_at_once(bench: Bench) -> None:
     with bench.node(MANY):
         for _ in range(3):
             listed = bench.ros2("topic", "list").stdout.splitlines()
-            wanted = [f"/node_{n}/{kind}_{t}" for n in range(6) for kind in ("heard", "topic") for t in range(5)]
-            assert listed == sorted([*wanted, "/parameter_events", "/rosout"])
+            expected = [f"/node_{n}/{kind}_{t}" for n in range(6) for kind in ("heard", "topic") for t in range(5)]
+            assert listed == sorted([*expected, "/parameter_events", "/rosout"])
 
 
-def test_the_forms_of_a_list(bench: Bench) -> None:
+def test_topics_are_listed_found_and_typed(bench: Bench) -> None:
     with bench.node(TALKER):
         assert bench.ros2("topic", "list", "-t").stdout == (
             "/chatter [std_msgs/msg/String]\n"
@@ -53,14 +53,14 @@ def test_the_forms_of_a_list(bench: Bench) -> None:
         assert bench.ros2("topic", "type", "/nothing") == Ran("", "", 1)
 
 
-def test_hidden_topics_are_shown_when_asked_for(bench: Bench) -> None:
+def test_hidden_topics_are_shown_on_request(bench: Bench) -> None:
     with bench.node(HIDDEN):
         assert "/_secret" not in bench.ros2("topic", "list").stdout
         assert "/_secret" in bench.ros2("topic", "list", "--include-hidden-topics").stdout
         assert "/_secret" in bench.ros2("topic", "--include-hidden-topics", "list").stdout
 
 
-def test_what_is_known_of_a_topic(bench: Bench) -> None:
+def test_topic_info(bench: Bench) -> None:
     with bench.node(TALKER):
         brief = bench.ros2("topic", "info", "/chatter")
         assert brief == Ran("Type: std_msgs/msg/String\nPublisher count: 1\nSubscription count: 0\n", "", 0)

@@ -23,7 +23,7 @@ spin(node)
 SPREAD = r"\tmin: (\d\.\d{3})s max: \d\.\d{3}s std dev: \d\.\d{5}s window: (\d+)"
 
 
-def test_the_rate_of_a_topic(bench: Bench) -> None:
+def test_hz_prints_the_rate(bench: Bench) -> None:
     with bench.node(TALKER), bench.running("topic", "hz", "/chatter") as hz:
         rate = re.fullmatch(r"average rate: (\d+\.\d{3})", hz.line())
         spread = re.fullmatch(SPREAD, hz.line())
@@ -34,7 +34,7 @@ def test_the_rate_of_a_topic(bench: Bench) -> None:
     assert (ran.stdout, ran.stderr, ran.code) == ("", "", 2)
 
 
-def test_a_topic_that_is_not_there_yet_is_waited_for(bench: Bench) -> None:
+def test_hz_waits_for_a_topic(bench: Bench) -> None:
     with bench.running("topic", "hz", "/chatter") as hz:
         assert hz.line() == "WARNING: topic [/chatter] does not appear to be published yet"
         with bench.node(TALKER):
@@ -42,7 +42,7 @@ def test_a_topic_that_is_not_there_yet_is_waited_for(bench: Bench) -> None:
         assert hz.interrupt().code == 2
 
 
-def test_the_bytes_of_a_topic(bench: Bench) -> None:
+def test_bw_prints_the_bandwidth(bench: Bench) -> None:
     with bench.node(TALKER), bench.running("topic", "bw", "/chatter") as bw:
         assert bw.line() == "Subscribed to [/chatter]"
         assert re.fullmatch(r"\d+ B/s from \d+ messages", bw.line())
@@ -50,7 +50,7 @@ def test_the_bytes_of_a_topic(bench: Bench) -> None:
         assert bw.interrupt().code == 2
 
 
-def test_the_age_of_messages(bench: Bench) -> None:
+def test_delay_prints_the_age_of_messages(bench: Bench) -> None:
     with bench.node(STAMPED), bench.running("topic", "delay", "/point") as delay:
         assert re.fullmatch(r"average delay: \d+\.\d{3}", delay.line())
         assert re.fullmatch(SPREAD, delay.line())
@@ -60,14 +60,14 @@ def test_the_age_of_messages(bench: Bench) -> None:
     assert (ran.stdout, ran.stderr, ran.code) == ("", "msg does not have header\n", 1)
 
 
-def test_a_rate_is_told_a_quarter_of_a_second_after_the_second_message_and_once_a_second_then() -> None:
+def test_rate_is_printed_a_quarter_second_after_the_second_message_then_every_second() -> None:
     rate, quarter = Rate(100), 250_000_000
-    told = [rate.add(1_000 + quarter * number) for number in range(11)]
-    assert [number for number, text in enumerate(told) if text is not None] == [2, 6, 10]
-    assert told[2] == "average rate: 4.000\n\tmin: 0.250s max: 0.250s std dev: 0.00000s window: 2"
+    printed = [rate.add(1_000 + quarter * number) for number in range(11)]
+    assert [number for number, text in enumerate(printed) if text is not None] == [2, 6, 10]
+    assert printed[2] == "average rate: 4.000\n\tmin: 0.250s max: 0.250s std dev: 0.00000s window: 2"
 
 
-def test_a_clock_that_goes_back_begins_again() -> None:
+def test_a_clock_jump_backwards_resets_the_rate() -> None:
     rate = Rate(3)
     for second in (10, 11, 12, 1, 2):
         rate.add(second * 1_000_000_000)
@@ -75,6 +75,6 @@ def test_a_clock_that_goes_back_begins_again() -> None:
     assert rate.add(0) == "time has reset, resetting counters"
 
 
-@pytest.mark.parametrize(("count", "wanted"), [(12.4, "12 B"), (1500, "1.50 KB"), (2_340_000, "2.34 MB")])
-def test_bytes_are_told_in_a_unit_that_suits(count: float, wanted: str) -> None:
-    assert size(count, count) == wanted
+@pytest.mark.parametrize(("count", "expected"), [(12.4, "12 B"), (1500, "1.50 KB"), (2_340_000, "2.34 MB")])
+def test_sizes_are_printed_in_a_suitable_unit(count: float, expected: str) -> None:
+    assert size(count, count) == expected

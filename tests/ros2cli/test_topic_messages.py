@@ -48,17 +48,17 @@ spin(node)
 """
 
 
-def test_echo_goes_on_until_ctrl_c(bench: Bench) -> None:
+def test_echo_runs_until_ctrl_c(bench: Bench) -> None:
     with bench.node(TALKER), bench.running("topic", "echo", "/chatter") as echo:
         lines = [echo.line() for _ in range(6)]
         ran = echo.interrupt()
     number = int(lines[0].removeprefix("data: 'Hello World: ").removesuffix("'"))
-    wanted = [line for n in range(3) for line in (f"data: 'Hello World: {number + n}'", "---")]
-    assert lines == wanted
+    expected = [line for n in range(3) for line in (f"data: 'Hello World: {number + n}'", "---")]
+    assert lines == expected
     assert (ran.stderr, ran.code) == ("", 2)
 
 
-def test_echo_once_in_its_forms(bench: Bench) -> None:
+def test_echo_once_with_each_option(bench: Bench) -> None:
     with bench.node(SCANNER):
         whole = bench.ros2("topic", "echo", "--once", "/scan")
         assert whole.code == 0
@@ -75,8 +75,8 @@ def test_echo_once_in_its_forms(bench: Bench) -> None:
             ("--raw",): "b'\\x00\\x01",
             ("-i",): "reception_sequence_number: null\nsource_timestamp: ",
         }
-        for options, wanted in forms.items():
-            assert wanted in bench.ros2("topic", "echo", "--once", "scan", *options).stdout, options
+        for options, expected in forms.items():
+            assert expected in bench.ros2("topic", "echo", "--once", "scan", *options).stdout, options
 
 
 def test_echo_filters(bench: Bench) -> None:
@@ -92,7 +92,7 @@ def test_echo_filters(bench: Bench) -> None:
         assert wrong.code == 1
 
 
-def test_echo_asks_for_what_the_publishers_offer(bench: Bench) -> None:
+def test_echo_adapts_its_qos_to_the_publishers(bench: Bench) -> None:
     with bench.node(LATCHED):
         assert bench.ros2("topic", "echo", "--once", "/map") == Ran("data: kept\n---\n", "", 0)
     with bench.node(MIXED):
@@ -103,7 +103,7 @@ def test_echo_asks_for_what_the_publishers_offer(bench: Bench) -> None:
         )
 
 
-def test_echo_of_what_does_not_fit_tells_so(bench: Bench) -> None:
+def test_echo_warns_of_incompatible_qos(bench: Bench) -> None:
     with bench.node(TALKER):
         words = ["topic", "echo", "--qos-durability", "transient_local", "--once", "--timeout", "2", "/chatter"]
         ran = bench.ros2(*words)
@@ -112,7 +112,7 @@ def test_echo_of_what_does_not_fit_tells_so(bench: Bench) -> None:
 
 
 @pytest.mark.parametrize(
-    ("words", "wanted"),
+    ("words", "expected"),
     [
         (
             ["/nothing"],
@@ -129,11 +129,11 @@ def test_echo_of_what_does_not_fit_tells_so(bench: Bench) -> None:
         (["--field", ".", "/nothing"], Ran("", "Invalid field value '.'\n", 1)),
     ],
 )
-def test_what_cannot_be_echoed(bench: Bench, words: list[str], wanted: Ran) -> None:
-    assert bench.ros2("topic", "echo", *words) == wanted
+def test_errors_of_echo(bench: Bench, words: list[str], expected: Ran) -> None:
+    assert bench.ros2("topic", "echo", *words) == expected
 
 
-def test_no_message_steers_a_terminal(bench: Bench) -> None:
+def test_escape_sequences_in_a_message_are_escaped_on_a_terminal_only(bench: Bench) -> None:
     with bench.node(ESCAPES):
         words = command("topic", "echo", "--once", "--field", "data", "/chatter")
         with terminal(words, bench.env, bench.folder) as echo:
@@ -142,7 +142,7 @@ def test_no_message_steers_a_terminal(bench: Bench) -> None:
         assert piped.stdout == "\x1b[2Jred\n---\n"
 
 
-def test_a_bad_name_takes_a_line_or_two_and_no_traceback(bench: Bench) -> None:
+def test_a_bad_topic_name_is_reported_without_a_traceback(bench: Bench) -> None:
     for words in (["echo", "bad name"], ["pub", "bad name"]):
         ran = bench.ros2("topic", *words, "std_msgs/msg/String")
         assert "Traceback" not in ran.stderr
@@ -150,7 +150,7 @@ def test_a_bad_name_takes_a_line_or_two_and_no_traceback(bench: Bench) -> None:
         assert ran.code == 1
 
 
-def test_pub_once_waits_for_who_listens(bench: Bench) -> None:
+def test_pub_once_waits_for_a_subscription(bench: Bench) -> None:
     with bench.node(LISTENER) as listener:
         ran = bench.ros2("topic", "pub", "--once", "/chatter", "std_msgs/msg/String", "{data: hi}")
         assert listener.line() == "hi"
@@ -162,7 +162,7 @@ def test_pub_once_waits_for_who_listens(bench: Bench) -> None:
         assert ran.stdout.endswith("loop\npublishing #2: std_msgs.msg.String(data='there')\n\n")
 
 
-def test_pub_goes_on_until_ctrl_c(bench: Bench) -> None:
+def test_pub_runs_until_ctrl_c(bench: Bench) -> None:
     with bench.node(LISTENER) as listener:
         with bench.running("topic", "pub", "-r", "20", "/chatter", "std_msgs/msg/String", "data: 5") as pub:
             assert listener.line() == "5"
@@ -171,7 +171,7 @@ def test_pub_goes_on_until_ctrl_c(bench: Bench) -> None:
 
 
 @pytest.mark.parametrize(
-    ("words", "wanted"),
+    ("words", "expected"),
     [
         (["std_msgs/msg/Float64", "data: 1"], "publishing #1: std_msgs.msg.Float64(data=1.0)\n\n"),
         (["std_msgs/msg/Int32", "data: 1.5"], "publishing #1: std_msgs.msg.Int32(data=1)\n\n"),
@@ -189,10 +189,10 @@ def test_pub_goes_on_until_ctrl_c(bench: Bench) -> None:
         ),
     ],
 )
-def test_values_become_what_the_fields_make_of_them(bench: Bench, words: list[str], wanted: str) -> None:
+def test_pub_converts_values_to_the_types_of_the_fields(bench: Bench, words: list[str], expected: str) -> None:
     ran = bench.ros2("topic", "pub", "--once", "-w", "0", "/t", *words)
     assert ran.stdout.startswith("publisher: beginning loop\n")
-    assert ran.stdout.endswith(wanted)
+    assert ran.stdout.endswith(expected)
     assert (ran.stderr, ran.code) == ("", 0)
 
 
@@ -210,13 +210,13 @@ def test_values_become_what_the_fields_make_of_them(bench: Bench, words: list[st
         ),
     ],
 )
-def test_what_cannot_be_published(bench: Bench, words: list[str], message: str) -> None:
+def test_errors_of_pub(bench: Bench, words: list[str], message: str) -> None:
     ran = bench.ros2("topic", "pub", "/t", *words)
     assert ran.stderr == f"{message}\n"
     assert ran.code == 1
 
 
-def test_a_rate_of_zero_is_wrong_usage(bench: Bench) -> None:
+def test_pub_with_a_rate_of_zero_is_a_usage_error(bench: Bench) -> None:
     ran = bench.ros2("topic", "pub", "-r", "0", "/t", "std_msgs/msg/Bool", "data: true")
     assert ran.stderr == (
         "usage: ros2 topic pub [-h] [--stdin] [-r N] [-p N] [-1 | -t TIMES]\n"

@@ -1,4 +1,4 @@
-"""A message's YAML, quickly written, is PyYAML's."""
+"""The fast YAML writer for messages prints the same as PyYAML."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ from tutor.ros.fast_yaml import dump_plain
 from tutor.ros.yaml_format import _Dumper, to_csv
 
 
-class Made:
-    """What rclpy's messages have that matters here."""
+class FakeMessage:
+    """Stands in for an rclpy message."""
 
     def __init__(self, **fields: Any) -> None:
         self.__dict__.update(fields)
@@ -24,17 +24,17 @@ class Made:
     def get_fields_and_field_types(self) -> dict[str, str]:
         return self._names
 
-    def plain(self) -> dict[str, Any]:
-        return {name: self._of(getattr(self, name)) for name in self._names}
+    def to_dict(self) -> dict[str, Any]:
+        return {name: self._to_plain(getattr(self, name)) for name in self._names}
 
-    def _of(self, value: Any) -> Any:
-        if isinstance(value, Made):
-            return value.plain()
+    def _to_plain(self, value: Any) -> Any:
+        if isinstance(value, FakeMessage):
+            return value.to_dict()
         return list(value) if isinstance(value, array.array) else value
 
 
-def by_pyyaml(message: Made) -> str:
-    return yaml.dump(message.plain(), Dumper=_Dumper, allow_unicode=True, width=2**60, sort_keys=False)
+def dump_with_pyyaml(message: FakeMessage) -> str:
+    return yaml.dump(message.to_dict(), Dumper=_Dumper, allow_unicode=True, width=2**60, sort_keys=False)
 
 
 scalars = st.one_of(
@@ -50,21 +50,21 @@ scalars = st.one_of(
 
 
 @given(scalars, st.lists(scalars, max_size=4), st.lists(st.floats(width=32), max_size=4))
-def test_it_is_what_pyyaml_writes(one: Any, several: list[Any], numbers: list[float]) -> None:
-    message = Made(data=one, several=several, nested=Made(x=one, numbers=array.array("d", numbers)))
+def test_output_equals_that_of_pyyaml(one: Any, several: list[Any], numbers: list[float]) -> None:
+    message = FakeMessage(data=one, several=several, nested=FakeMessage(x=one, numbers=array.array("d", numbers)))
     if (written := dump_plain(message, None)) is not None:
-        assert written == by_pyyaml(message)
+        assert written == dump_with_pyyaml(message)
 
 
 @pytest.mark.parametrize("text", ["Hello World: 3", "it's so: yes", "map", "base_link", "a b", "robot1/chatter"])
-def test_the_usual_needs_no_pyyaml(text: str) -> None:
-    message = Made(data=text, nested=Made(x=0.5, y=-3, on_time=True))
+def test_common_messages_need_no_pyyaml(text: str) -> None:
+    message = FakeMessage(data=text, nested=FakeMessage(x=0.5, y=-3, on_time=True))
     written = dump_plain(message, 128)
     assert written is not None
-    assert written == by_pyyaml(message)
+    assert written == dump_with_pyyaml(message)
 
 
-def test_cells_that_are_empty_are_separated_as_by_rosidl_runtime_py() -> None:
+def test_empty_csv_cells_are_separated_as_by_rosidl_runtime_py() -> None:
     from rcl_interfaces.msg import LoggerLevel
     from std_msgs.msg import Int8MultiArray
 

@@ -1,4 +1,4 @@
-"""A program on a terminal of its own, at which is typed."""
+"""A program on a pseudo-terminal of its own, at which a test types."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ LIMIT_S = 60.0
 
 
 class Terminal:
-    """What the program shows, in order; `seen` holds what no `until` has passed yet."""
+    """A program and its terminal. `seen` is the output after the last match of `until`."""
 
     def __init__(self, master: int, process: subprocess.Popen[bytes]) -> None:
         self._master = master
@@ -28,7 +28,7 @@ class Terminal:
         os.write(self._master, text.encode())
 
     def until(self, text: str) -> str:
-        """Wait until the program shows `text`; all up to and with it."""
+        """Wait until the program prints `text`. Return the output up to and including it."""
         deadline = time.monotonic() + LIMIT_S
         while text not in self.seen:
             left = deadline - time.monotonic()
@@ -42,13 +42,13 @@ class Terminal:
         return before + found
 
     def end(self) -> int:
-        """Wait for the program's end; its exit code."""
+        """Wait for the program to exit. Return its exit code."""
         return self.process.wait(LIMIT_S)
 
 
 @contextmanager
 def terminal(command: list[str], env: Mapping[str, str], cwd: Path) -> Iterator[Terminal]:
-    """Run a program as from a terminal; it is gone after the block."""
+    """Run a program on a terminal, which hangs up after the block; the program is killed if it does not exit then."""
     master, slave = pty.openpty()
     process = subprocess.Popen(
         ["setsid", "--ctty", "--wait", *command], env=env, cwd=cwd, stdin=slave, stdout=slave, stderr=slave

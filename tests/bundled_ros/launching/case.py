@@ -1,4 +1,4 @@
-"""A case of the table: a launch file, and what the real launch makes of it."""
+"""A test case: a launch file, and what the real launch does with it."""
 
 from __future__ import annotations
 
@@ -26,11 +26,12 @@ from launch.actions import Shutdown, TimerAction
 
 @dataclass(frozen=True)
 class Case:
-    """`actions` are the launch description's; `before` is code in front of it.
+    """`actions` are the entities of the launch description; `before` is code in front of its function.
 
-    `says`: for each process, by its name in the messages, all that it prints. `log`: messages of the launch that come
-    in this order; others may come between. `absent`: texts that none of these holds. `files`: more files beside the
-    launch file. $DIR is the folder of the launch file, $PREFIX that of the package `demo`; numbers of processes are N.
+    `printed`: everything that each process prints, by the name of the process in the log. `log`: messages of the
+    launch in this order, possibly with others between them; `*` matches anything. `absent`: texts that occur neither in
+    the log nor in the output of processes. `files`: more files beside the launch file. $DIR stands for the launch
+    file's folder, $PREFIX for the prefix of the package `demo`, and N for process ids.
     """
 
     id: str
@@ -38,14 +39,14 @@ class Case:
     actions: str
     before: str = ""
     arguments: tuple[str, ...] = ()
-    says: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    printed: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     log: tuple[str, ...] = ()
     absent: tuple[str, ...] = ()
     code: int = 0
     files: Mapping[str, str] = field(default_factory=dict)
     environment: Mapping[str, str] = field(default_factory=dict)
     interrupt_at: str = ""
-    """Ctrl+C as soon as a line holds this text."""
+    """Press Ctrl+C at the first line that contains this text."""
 
     @property
     def text(self) -> str:
@@ -53,5 +54,5 @@ class Case:
 
 
 def launch_file(actions: str, before: str = "") -> str:
-    """The text of a launch file with these actions."""
+    """Return the text of a launch file with these actions."""
     return f"{IMPORTS}{before}\ndef generate_launch_description():\n    return LaunchDescription([{actions}])\n"

@@ -1,4 +1,4 @@
-"""Runs a launch file in a process of its own, with ours or with the real launch, in a folder with a package `demo`."""
+"""Runs launch files as processes, with our launch or the real one, in a folder with a package `demo`."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ options, arguments = sys.argv[2].split(), sys.argv[3:]
 sys.exit(run(sys.argv[1], arguments, "show" in options, noninteractive="terminal" not in options))
 """
 
-SHOW = """\
+PRINT_ARGV = """\
 #!/bin/sh
 line=argv
 for word; do
@@ -39,8 +39,8 @@ for file in $files; do sed 's/ !!python.tuple//; s/^/param /' "$file"; done
 LOOP = "echo ready\nwhile :; do sleep 0.05; done\n"
 
 PROGRAMS = {
-    "talker": SHOW,
-    "listener": SHOW,
+    "talker": PRINT_ARGV,
+    "listener": PRINT_ARGV,
     "waiter": f"#!/bin/sh\ntrap 'echo interrupted; exit 0' INT\ntrap 'echo terminated; exit 0' TERM\n{LOOP}",
     "stubborn": f"#!/bin/sh\ntrap '' INT\ntrap 'echo terminated; exit 0' TERM\n{LOOP}",
     "immortal": f"#!/bin/sh\ntrap '' INT TERM\n{LOOP}",
@@ -48,26 +48,26 @@ PROGRAMS = {
 }
 
 LIMIT_S = 60.0
-LEFT_AFTER_S = 5.0
+ORPHAN_GRACE_S = 5.0
 
 
 @dataclass(frozen=True)
 class Ran:
-    """All lines, those of stderr among them, with numbers and folders by their signs."""
+    """The exit code and output of a launch. `lines` include stderr, with placeholders for pids and folders."""
 
     code: int
     lines: tuple[str, ...]
-    left: bool
-    """Whether a process that it started was still there a while after its end."""
+    has_orphans: bool
+    """Whether a process that it started was still alive ORPHAN_GRACE_S after its exit."""
 
     @property
-    def says(self) -> dict[str, tuple[str, ...]]:
-        """What each process printed, by its name."""
-        said: dict[str, tuple[str, ...]] = {}
+    def printed(self) -> dict[str, tuple[str, ...]]:
+        """The lines that each process printed, by the name of the process."""
+        printed: dict[str, tuple[str, ...]] = {}
         for line in self.lines:
             if found := re.match(r"\[([\w.+-]+-\d+)\] (.*)", line):
-                said[found[1]] = (*said.get(found[1], ()), found[2])
-        return said
+                printed[found[1]] = (*printed.get(found[1], ()), found[2])
+        return printed
 
     @property
     def log(self) -> tuple[str, ...]:
@@ -76,7 +76,7 @@ class Ran:
 
 
 class Launcher:
-    """A folder with a prefix that has the package `demo`."""
+    """A folder with an ament prefix that contains the package `demo`."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
@@ -94,7 +94,7 @@ class Launcher:
         return path
 
     def run_case(self, case: Case, python_path: str) -> Ran:
-        """Run it; `python_path` is where the launch comes from, if it is not to be ours."""
+        """Run a case. `python_path` is where to import the real launch from; empty for ours."""
         path = self._write("main.launch.py", case.text)
         for name, text in case.files.items():
             self._write(name, text)
@@ -121,8 +121,8 @@ class Launcher:
     ) -> Ran:
         """Run a launch file.
 
-        At the first line that holds `interrupt_at`, the signals are sent: to the launch alone, or `to_all` of its
-        process group, as a terminal does. `ignoring_sigint`: started as a shell starts what is in the background.
+        At the first line that contains `interrupt_at`, send the signals: to the launch alone, or with `to_all` to its
+        whole process group, as a terminal does. `ignoring_sigint` starts it as a shell starts background jobs.
         """
         environ = {
             **{name: value for name, value in os.environ.items() if not name.startswith(("ROS_", "OVERRIDE_LAUNCH"))},
@@ -144,8 +144,8 @@ class Launcher:
             start_new_session=True,
             preexec_fn=(lambda: signal.signal(signal.SIGINT, signal.SIG_IGN)) if ignoring_sigint else None,
         )
-        give_up = threading.Timer(LIMIT_S, os.killpg, (process.pid, signal.SIGKILL))
-        give_up.start()
+        watchdog = threading.Timer(LIMIT_S, os.killpg, (process.pid, signal.SIGKILL))
+        watchdog.start()
         lines = []
         assert process.stdout is not None
         with process.stdout:
@@ -156,21 +156,21 @@ class Launcher:
                     for number in signals:
                         (os.killpg if to_all else os.kill)(process.pid, number)
         code = process.wait()
-        give_up.cancel()
-        return Ran(code, tuple(self._plain(line) for line in lines), is_left(process.pid))
+        watchdog.cancel()
+        return Ran(code, tuple(self._mask(line) for line in lines), has_orphans(process.pid))
 
-    def _plain(self, line: str) -> str:
-        for folder, sign in ((self.prefix, "$PREFIX"), (self.folder, "$DIR")):
-            line = line.replace(str(folder), sign)
+    def _mask(self, line: str) -> str:
+        for folder, placeholder in ((self.prefix, "$PREFIX"), (self.folder, "$DIR")):
+            line = line.replace(str(folder), placeholder)
         line = re.sub(r"\bpid \[\d+\]", "pid [N]", line)
         return re.sub(r"\[pid \d+", "[pid N", line)
 
 
-def is_left(group: int) -> bool:
-    """Whether a process of this group is still there, a while after the end of the first."""
-    deadline = time.monotonic() + LEFT_AFTER_S
+def has_orphans(group: int) -> bool:
+    """Return whether a process of this group outlives its leader by ORPHAN_GRACE_S; if so, kill the group."""
+    deadline = time.monotonic() + ORPHAN_GRACE_S
     while time.monotonic() < deadline:
-        # One that has ended may wait to be reaped by the tests, where they have become the parent of orphans.
+        # Zombies do not count: where the tests are the new parent of orphans, nothing has reaped these yet.
         if not any(each.alive for each in processes().values() if each.group == group):
             return False
         time.sleep(0.01)

@@ -1,8 +1,8 @@
 """Lists the public names of the real launch packages: `python -m tests.bundled_ros.launching.list_names DIR...`.
 
-Each DIR holds one of the packages, as a folder of its name. Only import statements, definitions and assignments at the
-top of the modules are read; nothing is run. A line of the list is a module, or below it NAME ORIGIN. ORIGIN is
-MODULE:NAME of an imported name, MODULE: of an imported module, and nothing of what the module itself defines.
+Each DIR is the folder of one package. Only import statements, definitions and assignments at the top level of modules
+are read; nothing is run. The list has a line for each module, and below it a line NAME ORIGIN for each name: ORIGIN is
+MODULE:NAME for an imported name, MODULE: for an imported module, and empty for what the module itself defines.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ def _names(body: list[ast.stmt], module: str, is_package: bool) -> Iterator[tupl
                 origin = _absolute(source or "", level, module, is_package)
                 for alias in names:
                     if alias.name == "*":
-                        raise ValueError(f"{module}: a star import is not read")
+                        raise ValueError(f"{module}: star imports are not supported")
                     yield alias.asname or alias.name, f"{origin}:{alias.name}"
             case ast.Import(names=names):
                 for alias in names:

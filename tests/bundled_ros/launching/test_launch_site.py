@@ -1,4 +1,4 @@
-"""The substitutes: where they can be imported, what they refuse, and what they tell of a fault in a launch file."""
+"""Our substitutes for launch: where they can be imported, what they refuse, how they report faults in launch files."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def write(launcher: Launcher, text: str, name: str = "main.launch.py") -> Path:
 # --- where they can be imported
 
 
-def test_nothing_of_them_can_be_imported_elsewhere() -> None:
+def test_substitutes_cannot_be_imported_elsewhere() -> None:
     code = (
         "import importlib.util, tutor.bundled_ros.launching as l; l.runner; print(importlib.util.find_spec('launch'))"
     )
@@ -41,7 +41,7 @@ def test_nothing_of_them_can_be_imported_elsewhere() -> None:
     assert ran.stdout.strip() == "None"
 
 
-def test_nothing_of_ours_is_imported_by_them(launcher: Launcher) -> None:
+def test_substitutes_import_neither_tutor_nor_rclpy(launcher: Launcher) -> None:
     site = Path(importlib.util.find_spec("tutor.bundled_ros.launching").origin).parent / "site"  # type: ignore[union-attr, arg-type]
     code = "import sys, launch, launch_ros; print({'tutor', 'rclpy'} & {name.split('.')[0] for name in sys.modules})"
     ran = subprocess.run(
@@ -55,7 +55,7 @@ def test_nothing_of_ours_is_imported_by_them(launcher: Launcher) -> None:
     assert ran.stdout.strip() == "set()"
 
 
-def test_a_real_launch_goes_first(launcher: Launcher) -> None:
+def test_a_real_launch_takes_precedence(launcher: Launcher) -> None:
     real = launcher.folder / "real"
     for name, text in {
         "__init__.py": "print('the real one')\nclass LaunchDescription:\n    def __init__(self, entities): ...\n"
@@ -75,7 +75,7 @@ def test_a_real_launch_goes_first(launcher: Launcher) -> None:
 
 
 def test_a_folder_named_launch_is_not_a_real_launch(launcher: Launcher) -> None:
-    # A package's own launch/ is often in a folder that is on the path.
+    # A package's folder is often on the path, and often has a launch/ folder of its own.
     (launcher.folder / "package" / "launch").mkdir(parents=True)
     assert launcher.run(write(launcher, EMPTY), python_path=str(launcher.folder / "package")).code == 0
 
@@ -83,7 +83,7 @@ def test_a_folder_named_launch_is_not_a_real_launch(launcher: Launcher) -> None:
 # --- what they refuse
 
 
-NAMED_ELSEWHERE = """\
+CHECK_NAMES = """\
 import importlib
 from launch import _real_names
 for module, (is_package, names) in _real_names._modules().items():
@@ -95,13 +95,13 @@ for module, (is_package, names) in _real_names._modules().items():
 """
 
 
-def test_every_name_of_the_real_ones_can_be_imported_from_every_module_that_has_it(launcher: Launcher) -> None:
-    ran = launcher.run(write(launcher, f"{NAMED_ELSEWHERE}{EMPTY}"))
+def test_every_name_of_the_real_packages_can_be_imported_from_all_its_modules(launcher: Launcher) -> None:
+    ran = launcher.run(write(launcher, f"{CHECK_NAMES}{EMPTY}"))
     assert ran.lines[2:] == ()
     assert ran.code == 0
 
 
-ALIASED = """\
+CHECK_ALIASES = """\
 import importlib, inspect, pickle, sys
 from launch import _aliases
 import launch.actions.opaque_function as module
@@ -122,8 +122,8 @@ for home, packages in _aliases.MODULES.items():
 """
 
 
-def test_a_module_without_a_file_of_its_own_is_one_all_the_same(launcher: Launcher) -> None:
-    ran = launcher.run(write(launcher, f"{ALIASED}{EMPTY}"))
+def test_modules_without_a_file_behave_like_real_ones(launcher: Launcher) -> None:
+    ran = launcher.run(write(launcher, f"{CHECK_ALIASES}{EMPTY}"))
     assert ran.lines[2:] == (
         "True True",
         "launch.actions.opaque_function True",
@@ -132,7 +132,7 @@ def test_a_module_without_a_file_of_its_own_is_one_all_the_same(launcher: Launch
     assert ran.code == 0
 
 
-IMPORTED = """\
+IMPORTS = """\
 from launch.launch_description import DeclareLaunchArgument
 from launch import LaunchIntrospector
 from launch_ros.actions import ComposableNodeContainer, LifecycleNode, ROSTimer
@@ -146,15 +146,15 @@ from launch_ros.events.lifecycle import ChangeState
 """
 
 
-def test_a_name_is_one_thing_wherever_it_is_imported_from(launcher: Launcher) -> None:
-    says = [
+def test_a_name_is_the_same_object_in_every_module(launcher: Launcher) -> None:
+    statements = [
         "import launch.actions, typing",
         "from launch.launch_context import Dict",
         "print(DeclareLaunchArgument is launch.actions.DeclareLaunchArgument, ComposableNodeContainer is Same,"
         " Dict is typing.Dict)",
         "def made() -> ComposableNodeContainer | None: ...",
     ]
-    ran = launcher.run(write(launcher, "\n".join([IMPORTED, *says, EMPTY])))
+    ran = launcher.run(write(launcher, "\n".join([IMPORTS, *statements, EMPTY])))
     assert "True True True" in ran.lines, ran.lines
     assert ran.code == 0
 
@@ -180,7 +180,7 @@ def test_a_name_is_one_thing_wherever_it_is_imported_from(launcher: Launcher) ->
         ),
     ],
 )
-def test_what_only_the_real_one_has_is_named_when_it_is_used(launcher: Launcher, statement: str, named: str) -> None:
+def test_a_name_only_the_real_launch_supports_fails_when_used(launcher: Launcher, statement: str, named: str) -> None:
     ran = launcher.run(write(launcher, f"{statement}\n{EMPTY}"))
     errors = [line for line in ran.log if line.startswith("[ERROR]")]
     assert errors == [
@@ -197,7 +197,7 @@ LOAD = """<launch><load_composable_node target="c">
 
 
 @pytest.mark.parametrize("included", [False, True])
-def test_what_a_tag_cannot_do_is_named(launcher: Launcher, included: bool) -> None:
+def test_an_unsupported_tag_is_reported(launcher: Launcher, included: bool) -> None:
     path = write(launcher, LOAD, "main.launch.xml")
     if included:
         path = write(launcher, launch_file(f"IncludeLaunchDescription('{path}')"))
@@ -221,25 +221,25 @@ def test_what_a_tag_cannot_do_is_named(launcher: Launcher, included: bool) -> No
         ("a.launch.yaml", "- log\n", "ValueError: Expected only one root"),
     ],
 )
-def test_a_fault_in_xml_or_yaml_is_named(launcher: Launcher, name: str, text: str, fault: str) -> None:
+def test_a_fault_in_xml_or_yaml_is_reported(launcher: Launcher, name: str, text: str, fault: str) -> None:
     ran = launcher.run(write(launcher, text, name))
     assert any(fault in line for line in ran.lines), ran.lines
     assert ran.code == 1
 
 
-def test_an_included_file_that_cannot_be_read_is_told_where_arguments_are_listed(launcher: Launcher) -> None:
+def test_show_args_reports_an_included_file_that_cannot_be_read(launcher: Launcher) -> None:
     write(launcher, "import nowhere\n", "inner.launch.py")
     actions = (
         f"DeclareLaunchArgument('x', default_value='1'), IncludeLaunchDescription('{launcher.folder}/inner.launch.py')"
     )
     ran = launcher.run(write(launcher, launch_file(actions)), options="show")
     assert "    'x':" in ran.lines
-    told = "the arguments of $DIR/inner.launch.py are missing: ModuleNotFoundError: No module named 'nowhere'"
-    assert told in ran.lines
+    warning = "the arguments of $DIR/inner.launch.py are missing: ModuleNotFoundError: No module named 'nowhere'"
+    assert warning in ran.lines
     assert ran.code == 0
 
 
-def test_a_name_that_the_real_one_has_not_either_is_not_a_question_of_support(launcher: Launcher) -> None:
+def test_a_name_unknown_to_the_real_launch_is_a_plain_import_error(launcher: Launcher) -> None:
     ran = launcher.run(write(launcher, f"from launch_ros.actions import Nood\n{EMPTY}"))
     shown = "\n".join(ran.lines)
     assert "cannot import name 'Nood' from 'launch_ros.actions'" in shown
@@ -247,7 +247,7 @@ def test_a_name_that_the_real_one_has_not_either_is_not_a_question_of_support(la
     assert ran.code == 1
 
 
-# --- what they tell of a fault
+# --- how they report faults
 
 
 FAULTS = {
@@ -288,7 +288,7 @@ FAULTS = {
     ),
 }
 
-SEEN_ONLY_WHEN_IT_RUNS = ("in an opaque function", "in a substitution", "in a package's name")
+RUNTIME_FAULTS = ("in an opaque function", "in a substitution", "in a package's name")
 
 
 @pytest.mark.parametrize("fault", FAULTS)
@@ -296,7 +296,7 @@ SEEN_ONLY_WHEN_IT_RUNS = ("in an opaque function", "in a substitution", "in a pa
 def test_a_fault_is_shown_with_the_learners_own_line(launcher: Launcher, fault: str, options: str) -> None:
     text, line, error = FAULTS[fault]
     ran = launcher.run(write(launcher, text), options=options)
-    if options == "show" and fault in SEEN_ONLY_WHEN_IT_RUNS:
+    if options == "show" and fault in RUNTIME_FAULTS:
         assert ran.code == 0
         return
     shown = "\n".join(ran.lines)
@@ -306,7 +306,7 @@ def test_a_fault_is_shown_with_the_learners_own_line(launcher: Launcher, fault: 
     assert ran.code == 1
 
 
-def test_a_file_without_the_function_is_told(launcher: Launcher) -> None:
+def test_a_file_without_the_function_is_reported(launcher: Launcher) -> None:
     ran = launcher.run(write(launcher, "x = 1\n"))
     assert any(
         line.endswith("does not contain the required function 'generate_launch_description()'") for line in ran.lines
@@ -314,14 +314,14 @@ def test_a_file_without_the_function_is_told(launcher: Launcher) -> None:
     assert ran.code == 1
 
 
-def test_a_missing_file_is_told(launcher: Launcher) -> None:
+def test_a_missing_file_is_reported(launcher: Launcher) -> None:
     ran = launcher.run("nowhere.launch.py")
     assert any("No such file or directory: 'nowhere.launch.py'" in line for line in ran.lines)
     assert ran.code == 1
 
 
 @pytest.mark.parametrize("argument", ["x=1", ":=1", "x:=", "x"])
-def test_a_malformed_argument_is_told(launcher: Launcher, argument: str) -> None:
+def test_a_malformed_argument_is_reported(launcher: Launcher, argument: str) -> None:
     ran = launcher.run(write(launcher, EMPTY), [argument])
     assert ran.lines == (f"malformed launch argument '{argument}', expected format '<name>:=<value>'",)
     assert ran.code == 1
@@ -366,6 +366,6 @@ def test_show_args_lists_the_arguments(launcher: Launcher) -> None:
     assert ran.code == 0
 
 
-def test_show_args_without_any(launcher: Launcher) -> None:
+def test_show_args_without_arguments(launcher: Launcher) -> None:
     ran = launcher.run(write(launcher, EMPTY), options="show")
     assert ran.lines == ("Arguments (pass arguments as '<name>:=<value>'):", "", "  No arguments.")

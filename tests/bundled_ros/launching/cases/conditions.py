@@ -40,7 +40,7 @@ CASES = (
         actions="Node(package='demo', executable='talker', output='screen', "
         "condition=IfCondition(LaunchConfiguration('two'"
         "))), Node(package='demo', executable='listener', output='screen')",
-        says={"listener-1": ("argv <--ros-args>",)},
+        printed={"listener-1": ("argv <--ros-args>",)},
     ),
     Case(
         id="condition-on-a-group",
@@ -95,7 +95,7 @@ CASES = (
         actions="ExecuteProcess(cmd=[FindExecutable(name='sh'), '-c', 'echo found'], output='screen', name='shell'), "
         "ExecuteProcess(cmd=[[FindExecutable(name='sh'), ' -c \"echo ', 'joined', '\"']], shell=True, "
         "output='both', name='s')",
-        says={"shell-1": ("found",), "s-2": ("joined",)},
+        printed={"shell-1": ("found",), "s-2": ("joined",)},
     ),
     Case(
         id="find-executable-missing",

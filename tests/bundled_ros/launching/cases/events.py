@@ -1,10 +1,10 @@
-"""Processes, events, timers and ends: what comes in which order."""
+"""Processes, events, timers and shutdown, and their order."""
 
 from tests.bundled_ros.launching.case import Case
 
 
 def echo(text: str, options: str = "output='screen'") -> str:
-    """A process that prints."""
+    """Return an ExecuteProcess action that prints the text."""
     return f"ExecuteProcess(cmd=['echo', '{text}'], {options})"
 
 
@@ -13,7 +13,7 @@ WAITER = "Node(package='demo', executable='waiter', output='screen')"
 CASES = (
     Case(
         id="one-is-wrong-nothing-is-started",
-        source="launch 3.4.11: processes that are visited together with what raises are not started",
+        source="launch 3.4.11: processes visited together with an action that raises are not started",
         actions="ExecuteProcess(cmd=['echo', 'one'], output='screen'), TimerAction(period=0.01, actions=["
         "LogInfo(msg='timer')]), Node(package='nowhere', executable='talker')",
         log=("[ERROR] [launch]: Caught exception in launch (see debug for traceback): *package 'nowhere' not found*",),
@@ -33,14 +33,14 @@ CASES = (
         source="launch: actions/execute_local.py, __execute_process",
         actions=echo("hello"),
         log=("[INFO] [echo-1]: process started with pid [N]", "[INFO] [echo-1]: process has finished cleanly [pid N]"),
-        says={"echo-1": ("hello",)},
+        printed={"echo-1": ("hello",)},
     ),
     Case(
         id="process-dies",
         source="launch: actions/execute_local.py, __execute_process",
         actions="ExecuteProcess(cmd=['sh', '-c', 'echo last words; exit 7'], output='screen')",
         log=("[ERROR] [sh-1]: process has died [pid N, exit code 7, cmd 'sh -c echo last words; exit 7'].",),
-        says={"sh-1": ("last words",)},
+        printed={"sh-1": ("last words",)},
     ),
     Case(
         id="process-killed",
@@ -59,21 +59,21 @@ CASES = (
         id="output-log-shows-stderr-only",
         source="launch: logging/__init__.py, get_output_loggers; actions/execute_local.py, docstring of output",
         actions="ExecuteProcess(cmd=['sh', '-c', 'echo out; echo err >&2'])",
-        says={"sh-1": ("err",)},
+        printed={"sh-1": ("err",)},
     ),
     Case(
         id="output-by-stream",
         source="launch: test_execute_local.py, test_execute_process_with_output_dictionary",
         actions="ExecuteProcess(cmd=['sh', '-c', 'echo out; echo err >&2'], output={'stdout': 'screen', "
         "'stderr': 'log'})",
-        says={"sh-1": ("out",)},
+        printed={"sh-1": ("out",)},
     ),
     Case(
         id="output-own-log",
         source="launch: logging/__init__.py, _normalize_output_configuration; test_logging.py",
         actions="ExecuteProcess(cmd=['sh', '-c', 'echo out; echo err >&2'], output='own_log')",
         log=("[INFO] [sh-1]: process has finished cleanly [pid N]",),
-        says={},
+        printed={},
     ),
     Case(
         id="output-unknown",
@@ -91,27 +91,27 @@ CASES = (
         source="launch: actions/execute_local.py, docstring of output (OVERRIDE_LAUNCH_PROCESS_OUTPUT)",
         environment={"OVERRIDE_LAUNCH_PROCESS_OUTPUT": "both"},
         actions=echo("shown", "output='log'"),
-        says={"echo-1": ("shown",)},
+        printed={"echo-1": ("shown",)},
     ),
     Case(
         id="last-line-without-an-end",
         source="launch: actions/execute_local.py, __flush_buffers",
         actions="ExecuteProcess(cmd=['printf', 'one\\ntwo'], output='screen')",
-        says={"printf-1": ("one", "two")},
+        printed={"printf-1": ("one", "two")},
     ),
     Case(
         id="cwd-and-log-cmd",
         source="launch: descriptions/executable.py, prepare; actions/execute_local.py, log_cmd",
         actions="ExecuteProcess(cmd=['pwd'], cwd=[ThisLaunchFileDir(), '/prefix'], output='screen', log_cmd=True)",
         log=("[INFO] [pwd-1]: process details: cmd='pwd', cwd='$PREFIX', custom_env?=True",),
-        says={"pwd-1": ("$PREFIX",)},
+        printed={"pwd-1": ("$PREFIX",)},
     ),
     Case(
         id="emulate-tty",
         source="launch: test_emulate_tty.py",
         actions="ExecuteProcess(cmd=['sh', '-c', 'test -t 1 && test -t 2 && echo terminal'], output='screen', "
         "emulate_tty=True), ExecuteProcess(cmd=['sh', '-c', 'test -t 1 || echo none'], output='screen')",
-        says={"sh-1": ("terminal",), "sh-2": ("none",)},
+        printed={"sh-1": ("terminal",), "sh-2": ("none",)},
     ),
     Case(
         id="on-process-start",
@@ -128,7 +128,7 @@ CASES = (
             "[INFO] [echo-2]: process has finished cleanly [pid N]",
             "[INFO] [sleep-1]: process has finished cleanly [pid N]",
         ),
-        says={"echo-2": ("after",)},
+        printed={"echo-2": ("after",)},
     ),
     Case(
         id="on-process-exit-chain",
@@ -169,7 +169,7 @@ CASES = (
         before="def printed(event):\n    return LogInfo(msg='it said ' + event.text.decode().strip())\n",
         actions="RegisterEventHandler(OnProcessIO(on_stdout=printed)), " + echo("hello"),
         log=("[INFO] [launch.user]: it said hello",),
-        says={"echo-1": ("hello",)},
+        printed={"echo-1": ("hello",)},
     ),
     Case(
         id="on-execution-complete",
@@ -219,7 +219,7 @@ CASES = (
             "[INFO] [waiter-1]: sending signal 'SIGINT' to process[waiter-1]",
             "[INFO] [waiter-1]: process has finished cleanly [pid N]",
         ),
-        says={"waiter-1": ("ready", "interrupted")},
+        printed={"waiter-1": ("ready", "interrupted")},
     ),
     Case(
         id="shutdown-by-a-timer",
@@ -255,7 +255,7 @@ CASES = (
         actions="RegisterEventHandler(OnShutdown(on_shutdown=[LogInfo(msg=['because ', "
         "LocalSubstitution('event.reason')])]))," + echo("hello"),
         log=("[INFO] [echo-1]: process has finished cleanly [pid N]", "[INFO] [launch.user]: because idle"),
-        says={"echo-1": ("hello",)},
+        printed={"echo-1": ("hello",)},
     ),
     Case(
         id="nothing-starts-after-shutdown",
@@ -279,7 +279,7 @@ CASES = (
             "[INFO] [waiter-1]: process has finished cleanly [pid N]",
             "[INFO] [launch.user]: gone",
         ),
-        says={"waiter-1": ("ready", "interrupted")},
+        printed={"waiter-1": ("ready", "interrupted")},
     ),
     Case(
         id="escalation-to-sigterm",
@@ -295,7 +295,7 @@ CASES = (
             "[INFO] [stubborn-1]: sending signal 'SIGTERM' to process[stubborn-1]",
             "[INFO] [stubborn-1]: process has finished cleanly [pid N]",
         ),
-        says={"stubborn-1": ("ready", "terminated")},
+        printed={"stubborn-1": ("ready", "terminated")},
     ),
     Case(
         id="escalation-to-sigkill",
@@ -326,7 +326,7 @@ CASES = (
             "[INFO] [waiter-1]: process has finished cleanly [pid N]",
             "[INFO] [launch.user]: exit",
         ),
-        says={"waiter-1": ("ready", "interrupted")},
+        printed={"waiter-1": ("ready", "interrupted")},
     ),
     Case(
         id="respawn",
@@ -335,7 +335,7 @@ CASES = (
         "respawn_max_retries=2)",
         log=("[INFO] [echo-1]: process started with pid [N]", "[INFO] [echo-1]: process has finished cleanly [pid N]")
         * 3,
-        says={"echo-1": ("again", "again", "again")},
+        printed={"echo-1": ("again", "again", "again")},
     ),
     Case(
         id="opaque-function",

@@ -28,7 +28,7 @@ CASES = (
             '<remap from="chatter" to="$(var ns)_chat"/><param name="rate" value="2.5"/><param name="deep">'
             '<param name="on" value="true"/><param name="word" value="12" type="str"/></param></node>'
         ),
-        says={
+        printed={
             "talker-1": (
                 "argv <-x> <a b> <robot> <--ros-args> <-r> <__node:=t> <-r> <__ns:=/robot/a> <--params-file> <params>"
                 " <--params-file> <params> <-r> <chatter:=robot_chat>",
@@ -71,7 +71,7 @@ CASES = (
             '<set_env name="COLOUR" value="red"/><executable cmd="echo $(env COLOUR)" output="screen" name="painter"/>'
             '<timer period="0.1"><log message="later"/></timer>'
         ),
-        says={
+        printed={
             "talker-1": ("argv <--ros-args> <-r> <__ns:=/in> <-p> <p:=7> <-r> <a:=b>",),
             "painter-2": ("red",),
         },
@@ -106,7 +106,7 @@ CASES = (
             "    - name: deep\n      param:\n      - {name: 'on', value: false}\n"
             "    env:\n    - {name: A, value: b}\n"
         ),
-        says={
+        printed={
             "talker-1": (
                 "argv <--ros-args> <-r> <__node:=t> <-r> <__ns:=/n> <--params-file> <params> <--params-file> <params>"
                 " <--params-file> <params> <-r> <chatter:=/chat>",
@@ -134,7 +134,7 @@ CASES = (
             "- log: {message: 'x is $(var x)'}\n"
             "- executable:\n    cmd: echo one 'two three'\n    output: screen\n    name: e\n"
         ),
-        says={"talker-1": ("argv <--ros-args> <-r> <__ns:=/in>",), "e-2": ("one two three",)},
+        printed={"talker-1": ("argv <--ros-args> <-r> <__ns:=/in>",), "e-2": ("one two three",)},
         log=("[INFO] [launch.user]: x is set",),
     ),
     Case(
@@ -159,7 +159,7 @@ CASES = (
             ),
             "p.yaml": "/**:\n  ros__parameters:\n    rate: $(var rate)\n",
         },
-        says={
+        printed={
             "talker-1": (
                 "argv <--ros-args> <--params-file> <params>",
                 "param /**:",

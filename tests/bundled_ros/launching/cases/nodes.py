@@ -4,7 +4,7 @@ from tests.bundled_ros.launching.case import Case, launch_file
 
 
 def node(options: str = "", executable: str = "talker") -> str:
-    """A node of the package, its output on the screen."""
+    """Return a Node action for the package `demo`, with its output on the screen."""
     return f"Node(package='demo', executable='{executable}', output='screen'{', ' if options else ''}{options})"
 
 
@@ -28,31 +28,31 @@ CASES = (
             "[INFO] [launch.user]: other",
             "[INFO] [launch.user]: other",
         ),
-        says={"echo-1": ("f",)},
+        printed={"echo-1": ("f",)},
     ),
     Case(
         id="node-plain",
         source="launch_ros: actions/node.py, __init__; test_node.py, test_launch_node",
         actions=node(),
-        says={"talker-1": ("argv <--ros-args>",)},
+        printed={"talker-1": ("argv <--ros-args>",)},
     ),
     Case(
         id="node-name-and-namespace",
         source="launch_ros: actions/node.py, _perform_substitutions; test_node.py, test_node_name",
         actions=node("name='n1', namespace='robot1'"),
-        says={"talker-1": ("argv <--ros-args> <-r> <__node:=n1> <-r> <__ns:=/robot1>",)},
+        printed={"talker-1": ("argv <--ros-args> <-r> <__node:=n1> <-r> <__ns:=/robot1>",)},
     ),
     Case(
         id="node-namespace-alone",
         source="launch_ros: actions/node.py, _perform_substitutions; test_node.py, test_node_name",
         actions=node("namespace=['/', LaunchConfiguration('ns', default='r'), '/arm/']"),
-        says={"talker-1": ("argv <--ros-args> <-r> <__ns:=/r/arm>",)},
+        printed={"talker-1": ("argv <--ros-args> <-r> <__ns:=/r/arm>",)},
     ),
     Case(
         id="node-namespace-empty",
         source="launch_ros: utilities/namespace_utils.py, prefix_namespace, make_namespace_absolute",
         actions=node("namespace=''"),
-        says={"talker-1": ("argv <--ros-args> <-r> <__ns:=/>",)},
+        printed={"talker-1": ("argv <--ros-args> <-r> <__ns:=/>",)},
     ),
     Case(
         id="node-name-invalid",
@@ -68,7 +68,7 @@ CASES = (
         actions=node(
             "remappings=[('chatter', LaunchConfiguration('topic')), (['a', 'b'], ['c/', LaunchConfiguration('topic')])]"
         ),
-        says={"talker-1": ("argv <--ros-args> <-r> <chatter:=talk> <-r> <ab:=c/talk>",)},
+        printed={"talker-1": ("argv <--ros-args> <-r> <chatter:=talk> <-r> <ab:=c/talk>",)},
     ),
     Case(
         id="node-remapping-invalid",
@@ -84,7 +84,7 @@ CASES = (
         id="node-arguments-before-ros-args",
         source="launch_ros: actions/node.py, __init__; test_node.py, test_launch_node_with_ros_arguments",
         actions=node("name='n', arguments=['--x', ['a', 'b']], ros_arguments=['--log-level', 'debug']"),
-        says={"talker-1": ("argv <--x> <ab> <--ros-args> <--log-level> <debug> <--ros-args> <-r> <__node:=n>",)},
+        printed={"talker-1": ("argv <--x> <ab> <--ros-args> <--log-level> <debug> <--ros-args> <-r> <__node:=n>",)},
     ),
     Case(
         id="node-parameters",
@@ -96,7 +96,7 @@ CASES = (
             "'in': {'side': 'x'}, "
             "'text': ParameterValue(LaunchConfiguration('text'), value_type=str), 'mixed': [1, 2.5]}]"
         ),
-        says={
+        printed={
             "talker-1": (
                 "argv <--ros-args> <--params-file> <params>",
                 "param /**:",
@@ -119,7 +119,7 @@ CASES = (
         id="node-parameters-of-a-full-name",
         source="launch_ros: actions/node.py, _create_params_file_from_dict, is_node_name_fully_specified",
         actions=node("name='n', namespace='/r', parameters=[{'a': 1}, {'b': 'c'}]"),
-        says={
+        printed={
             "talker-1": (
                 "argv <--ros-args> <-r> <__node:=n> <-r> <__ns:=/r> <--params-file> <params> <--params-file> <params>",
                 "param /r/n:",
@@ -138,7 +138,7 @@ CASES = (
         actions=node(
             "parameters=[PathJoinSubstitution([ThisLaunchFileDir(), 'p.yaml']), ParameterFile('p.yaml'), 'none.yaml']"
         ),
-        says={"talker-1": ("argv <--ros-args> <--params-file> <$DIR/p.yaml> <--params-file> <p.yaml>",)},
+        printed={"talker-1": ("argv <--ros-args> <--params-file> <$DIR/p.yaml> <--params-file> <p.yaml>",)},
         log=("[WARNING] [launch_ros.actions.node]: Parameter file path is not a file: none.yaml",),
     ),
     Case(
@@ -163,7 +163,7 @@ CASES = (
         actions=f"GroupAction([PushRosNamespace('robot1'), "
         f"PushROSNamespace('arm'), {node()}, {node("namespace='hand'")}, "
         f"{node("namespace='/alone'")}]), {node()}",
-        says={
+        printed={
             "talker-1": ("argv <--ros-args> <-r> <__ns:=/robot1/arm>",),
             "talker-2": ("argv <--ros-args> <-r> <__ns:=/robot1/arm/hand>",),
             "talker-3": ("argv <--ros-args> <-r> <__ns:=/alone>",),
@@ -174,7 +174,7 @@ CASES = (
         id="push-namespace-empty",
         source="launch_ros: test_push_ros_namespace.py (an empty namespace); utilities/namespace_utils.py",
         actions=f"DeclareLaunchArgument('ns', default_value=''), PushRosNamespace(LaunchConfiguration('ns')), {node()}",
-        says={"talker-1": ("argv <--ros-args> <-r> <__ns:=/>",)},
+        printed={"talker-1": ("argv <--ros-args> <-r> <__ns:=/>",)},
     ),
     Case(
         id="push-namespace-with-a-condition",
@@ -182,7 +182,7 @@ CASES = (
         arguments=("ns:=robot1",),
         actions="PushRosNamespace(LaunchConfiguration('ns'), condition=IfCondition(PythonExpression(["
         f"\"'\", LaunchConfiguration('ns'), \"' != ''\"]))), {node()}",
-        says={"talker-1": ("argv <--ros-args> <-r> <__ns:=/robot1>",)},
+        printed={"talker-1": ("argv <--ros-args> <-r> <__ns:=/robot1>",)},
     ),
     Case(
         id="push-namespace-invalid",
@@ -199,7 +199,7 @@ CASES = (
         id="set-remap",
         source="launch_ros: test_set_remap.py, test_set_remap_with_node",
         actions=f"GroupAction([SetRemap('chatter', 'one'), {node("remappings=[('chatter', 'two')]")}]), {node()}",
-        says={
+        printed={
             "talker-1": ("argv <--ros-args> <-r> <chatter:=one> <-r> <chatter:=two>",),
             "talker-2": ("argv <--ros-args>",),
         },
@@ -208,14 +208,17 @@ CASES = (
         id="set-parameter",
         source="launch_ros: test_set_parameter.py, test_set_param_with_node",
         actions=f"GroupAction([SetParameter('rate', 5.0), SetParameter(name='on', value=True), {node()}]), {node()}",
-        says={"talker-1": ("argv <--ros-args> <-p> <rate:=5.0> <-p> <on:=True>",), "talker-2": ("argv <--ros-args>",)},
+        printed={
+            "talker-1": ("argv <--ros-args> <-p> <rate:=5.0> <-p> <on:=True>",),
+            "talker-2": ("argv <--ros-args>",),
+        },
     ),
     Case(
         id="set-parameters-from-file",
         source="launch_ros: test_set_parameters_from_file.py",
         files={"p.yaml": "/**:\n  ros__parameters:\n    a: 1\n"},
         actions=f"SetParametersFromFile('p.yaml'), {node("parameters=[{'b': 2}]")}",
-        says={
+        printed={
             "talker-1": (
                 "argv <--ros-args> <--params-file> <$DIR/p.yaml> <--params-file> <params>",
                 "param /**:",
@@ -229,7 +232,7 @@ CASES = (
         source="launch_ros: actions/node.py, _perform_substitutions (namespace, parameters, remappings)",
         actions=f"PushRosNamespace('g'), SetRemap('a', 'b'), SetParameter('p', 1), "
         f"{node("name='n', namespace='s', remappings=[('c', 'd')], ros_arguments=['--disable-rosout-logs']")}",
-        says={
+        printed={
             "talker-1": (
                 "argv <--ros-args> <--disable-rosout-logs> <--ros-args> <-r> <__node:=n> <-r> <__ns:=/g/s> <-p> <p:=1> "
                 "<-r> <a:=b> <-r> <c:=d>",
@@ -266,7 +269,7 @@ CASES = (
             "[INFO] [talker-1]: process started with pid [N]",
             "[INFO] [talker-2]: process started with pid [N]",
         ),
-        says={name: ("argv <--ros-args> <-r> <__node:=n> <-r> <__ns:=/r>",) for name in ("talker-1", "talker-2")},
+        printed={name: ("argv <--ros-args> <-r> <__node:=n> <-r> <__ns:=/r>",) for name in ("talker-1", "talker-2")},
     ),
     Case(
         id="node-environment",
@@ -275,7 +278,7 @@ CASES = (
         actions="Node(executable='/bin/sh', arguments=['-c', 'echo $CASE_X $CASE_Y'], output='screen', "
         "additional_env={'CASE_Y': 'added'}), Node(executable='/bin/sh', arguments=['-c', 'echo $CASE_X $CASE_Y'], "
         "output='screen', exec_name='bare', env={'CASE_Y': ['on', 'ly']})",
-        says={"sh-1": ("outer added",), "bare-2": ("only",)},
+        printed={"sh-1": ("outer added",), "bare-2": ("only",)},
     ),
     Case(
         id="node-prefix",
@@ -283,6 +286,6 @@ CASES = (
         "test_execute_process_prefix_filter_match",
         actions=node("prefix='env CASE_X=1'"),
         log=("[INFO] [env-1]: process started with pid [N]",),
-        says={"env-1": ("argv <--ros-args>",)},
+        printed={"env-1": ("argv <--ros-args>",)},
     ),
 )

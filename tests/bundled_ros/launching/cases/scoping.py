@@ -1,4 +1,4 @@
-"""Groups, includes and what they leave behind."""
+"""Groups and includes, and which settings outlive them."""
 
 from tests.bundled_ros.launching.case import Case, launch_file
 
@@ -46,7 +46,7 @@ CASES = (
     ),
     Case(
         id="group-not-forwarding-with-a-list",
-        source="launch 3.4.11: a list is kept as it is, and is not a text when it is used",
+        source="launch 3.4.11: a list is stored as it is, and is not a string when it is used",
         arguments=("x:=one",),
         actions="GroupAction([LogInfo(msg=['y is ', LaunchConfiguration('y')])], forwarding=False, "
         "launch_configurations={'y': [LaunchConfiguration('x'), '!']})",
@@ -132,7 +132,7 @@ CASES = (
         id="include-without-a-required-argument",
         source="launch: test_include_launch_description.py, test_include_launch_description_launch_arguments",
         files={"inner.launch.py": launch_file("DeclareLaunchArgument('needed')")},
-        # How the file is found is known only when it runs: the outer one cannot tell before.
+        # The path is known only at run time, so the outer file cannot check the arguments beforehand.
         actions=f"{INCLUDE}, launch_arguments=[('other', '1')])",
         log=(
             "[ERROR] [launch]: Caught exception in launch (see debug for traceback): Included launch "
@@ -148,7 +148,7 @@ CASES = (
         "[FindPackageShare('demo'), 'launch', 'inner.launch.py']))), LogInfo(msg=['outside, ', ThisLaunchFileDir()])",
         log=(
             "[INFO] [launch.user]: in the package, $PREFIX/share/demo/launch",
-            # The last file that was included stays the current one.
+            # The last included file stays the current one.
             "[INFO] [launch.user]: outside, $PREFIX/share/demo/launch",
         ),
     ),
@@ -167,6 +167,6 @@ CASES = (
         "ExecuteProcess(cmd=['sh', '-c', 'echo $CASE_X'], output='screen'), UnsetEnvironmentVariable('CASE_X'), "
         + SHOW_ENV,
         log=("[INFO] [launch.user]: env is c/a:b", "[INFO] [launch.user]: env is nothing"),
-        says={"sh-1": ("c/a:b",)},
+        printed={"sh-1": ("c/a:b",)},
     ),
 )

@@ -1,4 +1,4 @@
-"""What is seen of a greeter."""
+"""The facts gathered from a greeter."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Greeting:
-    """The first text; None where none came within `limit_s` seconds."""
+    """The first text, or None if none arrived within `limit_s` seconds."""
 
     text: str | None
     limit_s: float

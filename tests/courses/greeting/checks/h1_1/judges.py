@@ -1,4 +1,4 @@
-"""What must have been seen of a greeter."""
+"""The verdicts, from the facts of a greeter."""
 
 from __future__ import annotations
 

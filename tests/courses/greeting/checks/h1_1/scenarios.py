@@ -1,4 +1,4 @@
-"""What is done to a greeter: it is started, and listened to."""
+"""The scenario: start the greeter and listen to it."""
 
 from __future__ import annotations
 
